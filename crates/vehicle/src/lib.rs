@@ -1,0 +1,10 @@
+//! What a multirotor is, and the quantities of its rotors.
+//!
+//! Nothing here knows of sound. The estimator (`hovertone`) and the simulator (`hovertone-sim`) both build on this
+//! crate and on nothing else of each other, so that recovering a simulated flight proves something.
+
+mod estimate;
+mod speed;
+
+pub use estimate::{Ending, Estimate};
+pub use speed::{Gear, Order, QuantityError, RotorSpeed};

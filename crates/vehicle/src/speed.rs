@@ -1,0 +1,166 @@
+//! Shaft speed and order: the two quantities that are silently mixed up when both are plain numbers of hertz.
+
+use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+use std::fmt;
+
+/// A quantity that is not what its name says.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name} = {value}, must be {must_be}")]
+pub struct QuantityError {
+    /// Name of the quantity, as in files and flags.
+    pub name: &'static str,
+    /// The value that was given.
+    pub value: f64,
+    /// What is allowed.
+    pub must_be: &'static str,
+}
+
+/// Lines per turn of the rotor's shaft: 2 for the blade pass of a two-bladed propeller, 69 for the gear mesh of a
+/// 69-tooth wheel on the shaft. A tone at `f` Hz means a shaft at `f / order` turns per second.
+///
+/// The paper's `n·r` in eq 6 is this number: 8 pinion teeth times the ratio 8.625 gives 69.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "f64")]
+pub struct Order(f64);
+
+impl Order {
+    /// An order from the lines per turn, a positive finite number. It need not be whole: the shaft of a geared motor
+    /// turns 8.625 times for each turn of the rotor.
+    pub fn new(lines_per_turn: f64) -> Result<Self, QuantityError> {
+        if lines_per_turn.is_finite() && lines_per_turn > 0.0 {
+            Ok(Self(lines_per_turn))
+        } else {
+            Err(QuantityError { name: "order", value: lines_per_turn, must_be: "a number above 0" })
+        }
+    }
+
+    /// Blade pass of a propeller: as many lines per turn as it has blades.
+    pub fn from_blades(blade_count: u32) -> Result<Self, QuantityError> {
+        Self::new(f64::from(blade_count)).map_err(|error| QuantityError { name: "blades", ..error })
+    }
+
+    /// Lines per turn of the shaft.
+    pub fn lines_per_turn(self) -> f64 {
+        self.0
+    }
+
+    /// The order of the `number`-th harmonic of this tone; the first is the tone itself.
+    pub fn harmonic(self, number: u32) -> Self {
+        Self(self.0 * f64::from(number))
+    }
+}
+
+impl TryFrom<f64> for Order {
+    type Error = QuantityError;
+    fn try_from(lines_per_turn: f64) -> Result<Self, QuantityError> {
+        Self::new(lines_per_turn)
+    }
+}
+
+impl From<Order> for f64 {
+    fn from(order: Order) -> f64 {
+        order.0
+    }
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// A gear between motor and rotor: the pinion sits on the motor, the wheel on the rotor's shaft.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gear {
+    /// Teeth of the motor's pinion.
+    pub pinion: u32,
+    /// Teeth of the wheel on the rotor's shaft.
+    pub wheel: u32,
+}
+
+impl Gear {
+    /// Motor turns per rotor turn.
+    pub fn ratio(self) -> f64 {
+        f64::from(self.wheel) / f64::from(self.pinion)
+    }
+
+    /// Order of the mesh tone: the wheel's teeth meet the pinion once each per turn of the rotor.
+    pub fn mesh_order(self) -> Result<Order, QuantityError> {
+        Order::new(f64::from(self.wheel)).map_err(|error| QuantityError { name: "gear wheel", ..error })
+    }
+}
+
+/// Speed of a rotor's shaft, kept in rad/s. Not the frequency of any tone it makes.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct RotorSpeed {
+    rad_s: f64,
+}
+
+impl RotorSpeed {
+    /// From radians per second.
+    pub fn from_rad_s(rad_s: f64) -> Self {
+        Self { rad_s }
+    }
+
+    /// From turns per second.
+    pub fn from_rev_s(rev_s: f64) -> Self {
+        Self { rad_s: TAU * rev_s }
+    }
+
+    /// From turns per minute.
+    pub fn from_rpm(rpm: f64) -> Self {
+        Self::from_rev_s(rpm / 60.0)
+    }
+
+    /// From the frequency of a tone of known order: the paper's eq 6, N = 60 ζ / order in rpm.
+    pub fn from_tone_hz(tone_hz: f64, order: Order) -> Self {
+        Self::from_rev_s(tone_hz / order.lines_per_turn())
+    }
+
+    /// Radians per second.
+    pub fn rad_s(self) -> f64 {
+        self.rad_s
+    }
+
+    /// Turns per second.
+    pub fn rev_s(self) -> f64 {
+        self.rad_s / TAU
+    }
+
+    /// Turns per minute.
+    pub fn rpm(self) -> f64 {
+        60.0 * self.rev_s()
+    }
+
+    /// Frequency of the tone of that order.
+    pub fn tone_hz(self, order: Order) -> f64 {
+        self.rev_s() * order.lines_per_turn()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_papers_tone_is_the_gear_mesh_of_its_printed_speed() {
+        let order = Gear { pinion: 8, wheel: 69 }.mesh_order().unwrap();
+        let speed = RotorSpeed::from_rpm(3610.3438);
+        assert!((speed.tone_hz(order) - 4151.895).abs() < 5e-4);
+        assert!((speed.rad_s() - 378.0743).abs() < 5e-5);
+        assert!((RotorSpeed::from_tone_hz(speed.tone_hz(order), order).rpm() - 3610.3438).abs() < 1e-9);
+        assert_eq!(Gear { pinion: 8, wheel: 69 }.ratio(), 8.625);
+    }
+
+    #[test]
+    fn an_order_must_be_a_positive_number() {
+        for lines_per_turn in [0.0, -2.0, f64::NAN, f64::INFINITY] {
+            assert!(Order::new(lines_per_turn).is_err(), "{lines_per_turn}");
+        }
+        assert_eq!(Order::from_blades(0).unwrap_err().name, "blades");
+        assert_eq!(Order::new(2.0).unwrap().harmonic(3).to_string(), "6");
+    }
+}

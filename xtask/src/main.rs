@@ -1,0 +1,2 @@
+//! What CI does and a person types.
+fn main() {}
