@@ -4,7 +4,11 @@
 //! crate and on nothing else of each other, so that recovering a simulated flight proves something.
 
 mod estimate;
+mod presets;
 mod speed;
+mod vehicle;
 
 pub use estimate::{Ending, Estimate};
+pub use presets::{find_preset, presets};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};
+pub use vehicle::{ShaftSpeedRange, Sourced, Vehicle};
