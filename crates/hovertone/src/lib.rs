@@ -2,6 +2,41 @@
 //!
 //! Pure: no files, clock, threads, environment or printing. Sound comes in through [`SignalSource`].
 
+mod config;
+mod error;
+mod experiment;
+mod hover;
+mod pipeline;
+mod ridge;
+mod sample;
 mod signal;
+mod span;
+mod spectrogram;
+mod speed;
+mod statistics;
+mod stream;
+mod thrust;
+mod tone;
+mod verdict;
+mod warning;
 
+pub use config::{Config, HoverConfig, Method, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
+pub use error::{ConfigError, Error};
+pub use experiment::{
+    Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, ToneSection, VehicleSection,
+};
+pub use hover::{Cut, CutReason, Hover};
+pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
+pub use ridge::{Peak, Ridge, RidgeFrame, peak_offset_bins};
 pub use signal::{Signal, SignalSource, SourceError};
+pub use span::Span;
+pub use spectrogram::{Frame, Stft, Window};
+pub use speed::{HarmonicSpeed, SpeedEstimate, TrackPoint};
+pub use stream::Progress;
+pub use thrust::{
+    Air, Force, GRAVITY_STANDARD_M_S2, LoadSpeeds, LoadThrust, SampleSpeed, SampleThrust, ThrustCoefficients,
+    ThrustTable, TrialSpeeds, TrialThrust, gravity_m_s2, thrust_constant_n_s2, thrust_from_loads,
+};
+pub use tone::Band;
+pub use verdict::NoTone;
+pub use warning::Warning;

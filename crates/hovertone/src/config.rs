@@ -1,0 +1,315 @@
+//! Settings: every default stands here once, with its unit and its reason.
+
+use crate::error::ConfigError;
+use crate::spectrogram::Window;
+use hovertone_vehicle::{Order, RotorSpeed};
+use serde::{Deserialize, Serialize};
+
+/// All settings of an analysis. `Default` holds the recommended values; the tone's order has none and must be said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Config {
+    /// Which tone of the rotor is followed.
+    pub tone: ToneConfig,
+    /// Which part of the recording is used.
+    pub span: SpanConfig,
+    /// How hovering is told from the rest.
+    pub hover: HoverConfig,
+    /// How a hover is cut into samples.
+    pub samples: SampleConfig,
+    /// Frames and their spectra.
+    pub spectrogram: SpectrogramConfig,
+    /// How a ridge is drawn and when it counts as a tone.
+    pub ridge: RidgeConfig,
+    /// Which of the estimators gives the speed.
+    pub method: Method,
+}
+
+impl Config {
+    /// The recommended settings for a tone.
+    pub fn for_tone(tone: ToneConfig) -> Self {
+        Self {
+            tone,
+            span: SpanConfig::default(),
+            hover: HoverConfig::default(),
+            samples: SampleConfig::default(),
+            spectrogram: SpectrogramConfig::default(),
+            ridge: RidgeConfig::default(),
+            method: Method::MaximumTrace,
+        }
+    }
+
+    /// Refuses settings that mean nothing, by name, value and limit.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        self.tone.check()?;
+        self.span.check()?;
+        self.hover.check()?;
+        self.samples.check()?;
+        self.spectrogram.check()?;
+        self.ridge.check()
+    }
+}
+
+fn check_range(name: &'static str, value: f64, min: f64, max: f64) -> Result<(), ConfigError> {
+    if (min..=max).contains(&value) { Ok(()) } else { Err(ConfigError::OutOfRange { name, value, min, max }) }
+}
+
+/// How the frequency of a ridge is read from each frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Method {
+    /// The loudest frequency of each frame (paper, section 4.1).
+    #[default]
+    MaximumTrace,
+    /// The centre of the Gaussian through all that reaches a share of the loudest (paper, section 4.2).
+    Gaussian,
+}
+
+impl Method {
+    /// All methods, in the paper's order.
+    pub const ALL: [Self; 2] = [Self::MaximumTrace, Self::Gaussian];
+
+    /// Name in files and flags.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::MaximumTrace => "maximum_trace",
+            Self::Gaussian => "gaussian",
+        }
+    }
+}
+
+/// Which tone of the rotor is followed, and where it is looked for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ToneConfig {
+    /// Order of the tone: lines per turn of the shaft.
+    pub order: Order,
+    /// How many harmonics are followed, the tone itself counted as the first. The paper follows three.
+    pub harmonics: u32,
+    /// Blades of the rotor, where they are known beside a gear: their lines help to find the shaft speed.
+    pub blades: Option<u32>,
+    /// Band of the first harmonic, in Hz; found from the recording where absent.
+    pub band_hz: Option<(f64, f64)>,
+    /// Half width of a found band as a share of its middle. Holds ±4 standard deviations of the paper's 1.2 % wander and
+    /// rotors a few per cent apart, and keeps the bands of three harmonics from overlapping.
+    pub band_half_width_share: f64,
+    /// Slowest shaft that is looked for.
+    pub speed_min: RotorSpeed,
+    /// Fastest shaft that is looked for.
+    pub speed_max: RotorSpeed,
+}
+
+impl ToneConfig {
+    /// The recommended settings for a tone of that order.
+    pub fn of_order(order: Order) -> Self {
+        Self {
+            order,
+            harmonics: 3,
+            blades: None,
+            band_hz: None,
+            band_half_width_share: 0.08,
+            speed_min: RotorSpeed::from_rev_s(15.0), // below the 30 rev/s of the largest multirotors' propellers
+            speed_max: RotorSpeed::from_rev_s(800.0), // above the 670 rev/s of the smallest racers' propellers
+        }
+    }
+
+    fn check(&self) -> Result<(), ConfigError> {
+        check_range("harmonics", f64::from(self.harmonics), 1.0, 20.0)?;
+        check_range("band_half_width_share", self.band_half_width_share, 0.005, 0.3)?;
+        check_range("speed_min_rev_s", self.speed_min.rev_s(), 0.1, 1e4)?;
+        check_range("speed_max_rev_s", self.speed_max.rev_s(), self.speed_min.rev_s(), 1e4)?;
+        if let Some((low_hz, high_hz)) = self.band_hz {
+            check_range("band_hz_low", low_hz, 1.0, 1e6)?;
+            if high_hz.is_nan() || high_hz <= low_hz {
+                return Err(ConfigError::EmptyBand { low_hz, high_hz });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which part of the recording is used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct SpanConfig {
+    /// Start of the part to use, on the recording's clock. Where a start or end is given, all between is used and
+    /// nothing is cut away as not hovering.
+    pub from_s: Option<f64>,
+    /// End of the part to use.
+    pub to_s: Option<f64>,
+}
+
+impl SpanConfig {
+    /// Whether the user says what to use.
+    pub fn is_given(&self) -> bool {
+        self.from_s.is_some() || self.to_s.is_some()
+    }
+
+    fn check(&self) -> Result<(), ConfigError> {
+        let (from_s, to_s) = (self.from_s.unwrap_or(0.0), self.to_s.unwrap_or(f64::INFINITY));
+        if from_s < to_s { Ok(()) } else { Err(ConfigError::EmptySpan { from_s, to_s }) }
+    }
+}
+
+/// How hovering is told from silence, handling noise, take-off and landing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct HoverConfig {
+    /// Frame of the survey: resolves 5 Hz, enough to find lines, short enough for their wander.
+    pub survey_window_s: f64,
+    /// Time step of the survey: cuts are made to this.
+    pub survey_row_s: f64,
+    /// Rows kept at most; a longer recording gets longer rows, so that memory does not grow with its length.
+    pub survey_rows_max: usize,
+    /// Rows this much quieter than the typical row of the hover are not hover.
+    pub quieter_db: f64,
+    /// Rows this much louder are handling noise.
+    pub louder_db: f64,
+    /// A row's comb must reach this share of the hover's typical comb to count as hover.
+    pub comb_share_min: f64,
+    /// Shorter hovers are not used: they hold too few frames to tell a tone from noise.
+    pub length_s_min: f64,
+}
+
+impl Default for HoverConfig {
+    fn default() -> Self {
+        Self {
+            survey_window_s: 0.2,
+            survey_row_s: 0.5,
+            survey_rows_max: 256,
+            quieter_db: 12.0,
+            louder_db: 12.0,
+            comb_share_min: 0.35,
+            length_s_min: 1.0,
+        }
+    }
+}
+
+impl HoverConfig {
+    fn check(&self) -> Result<(), ConfigError> {
+        check_range("survey_window_s", self.survey_window_s, 0.02, 5.0)?;
+        check_range("survey_row_s", self.survey_row_s, self.survey_window_s, 60.0)?;
+        check_range("survey_rows_max", self.survey_rows_max as f64, 8.0, 1e5)?;
+        check_range("quieter_db", self.quieter_db, 1.0, 100.0)?;
+        check_range("louder_db", self.louder_db, 1.0, 100.0)?;
+        check_range("comb_share_min", self.comb_share_min, 0.0, 1.0)?;
+        check_range("length_s_min", self.length_s_min, 0.1, 1e4)
+    }
+}
+
+/// How a hover is cut into samples, the paper's database (figure 5).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SampleConfig {
+    /// Length of a sample. The paper says "approximately 5 s".
+    pub length_s: f64,
+    /// Share of a sample that the next one repeats. 40 % gives two samples of 5 s in a trial of 10 s.
+    pub overlap: f64,
+}
+
+impl Default for SampleConfig {
+    fn default() -> Self {
+        Self { length_s: 5.0, overlap: 0.4 }
+    }
+}
+
+impl SampleConfig {
+    fn check(&self) -> Result<(), ConfigError> {
+        check_range("length_s", self.length_s, 0.5, 1e4)?;
+        check_range("overlap", self.overlap, 0.0, 0.95)
+    }
+}
+
+/// Frames and their spectra (paper, eq 5).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpectrogramConfig {
+    /// Length of a frame. Where absent, the clearest of 0.0125 to 0.4 s is taken: a wandering high order wants short
+    /// frames, a steady low one long frames.
+    pub window_s: Option<f64>,
+    /// Step between frames as a share of their length. At one half, Hann frames use every sample of the sound equally.
+    pub hop_share: f64,
+    /// Shape of the window.
+    pub window: Window,
+    /// Length of the transform in windows: 2 brings the bias of the interpolated peak to 0.003 of a window's bin.
+    pub zero_pad_factor: u32,
+}
+
+/// Frame lengths that are tried where none is given.
+const WINDOW_LADDER_S: [f64; 6] = [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4];
+/// A main lobe (half width: 2 cells of Hann) must fit in the band on either side of the tone; in a shorter frame noise
+/// of the band's width would look like a line.
+const CELLS_IN_HALF_BAND_MIN: f64 = 2.0;
+
+impl Default for SpectrogramConfig {
+    fn default() -> Self {
+        Self { window_s: None, hop_share: 0.5, window: Window::Hann, zero_pad_factor: 2 }
+    }
+}
+
+impl SpectrogramConfig {
+    fn check(&self) -> Result<(), ConfigError> {
+        if let Some(window_s) = self.window_s {
+            check_range("window_s", window_s, 0.005, 5.0)?;
+        }
+        check_range("hop_share", self.hop_share, 0.02, 1.0)?;
+        check_range("zero_pad_factor", f64::from(self.zero_pad_factor), 1.0, 16.0)
+    }
+
+    /// The frame lengths in which to look for lines of a tone whose first band is this wide.
+    pub(crate) fn ladder_s(band_width_hz: f64) -> Vec<f64> {
+        let window_s_min = CELLS_IN_HALF_BAND_MIN / (band_width_hz / 2.0);
+        let longest_s = WINDOW_LADDER_S[WINDOW_LADDER_S.len() - 1];
+        WINDOW_LADDER_S.into_iter().filter(|&s| s >= window_s_min || s == longest_s).collect()
+    }
+}
+
+/// How a ridge is drawn and when it counts as a tone.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RidgeConfig {
+    /// Share of a frame's peak that takes part in the Gaussian (paper: 0.8, remark 5: 0.5 to 0.9 change little).
+    pub gaussian_threshold_share: f64,
+    /// Chance that noise alone puts a point on the ridge of a frame.
+    pub false_point_chance: f64,
+    /// A peak is a line when it stands this far above the median of its surroundings. Noise reaches it in one frame of
+    /// a hundred; the lines of real hovers in 60 to 100 % of frames.
+    pub line_over_sides_db: f64,
+    /// Share of frames in which the clearest harmonic must be a line. Rotors recorded in flight give 0.64 to 1.00,
+    /// machinery and traffic that only resembles a rotor up to 0.45.
+    pub line_share_min: f64,
+    /// Share of frames in which a second harmonic must be a line too …
+    pub company_share_min: f64,
+    /// … unless the clearest is one in this share of frames.
+    pub lonely_line_share_min: f64,
+    /// Share of frames with a point below which a ridge is not used.
+    pub point_share_min: f64,
+    /// Harmonics whose mean differs from the clearest one's by more than this share are left out.
+    pub harmonic_disagreement_share_max: f64,
+}
+
+impl Default for RidgeConfig {
+    fn default() -> Self {
+        Self {
+            gaussian_threshold_share: 0.8,
+            false_point_chance: 1e-3,
+            line_over_sides_db: 16.0,
+            line_share_min: 0.5,
+            company_share_min: 0.1,
+            lonely_line_share_min: 0.85,
+            point_share_min: 0.3,
+            harmonic_disagreement_share_max: 0.01,
+        }
+    }
+}
+
+impl RidgeConfig {
+    fn check(&self) -> Result<(), ConfigError> {
+        check_range("gaussian_threshold_share", self.gaussian_threshold_share, 0.3, 0.99)?;
+        check_range("false_point_chance", self.false_point_chance, 1e-12, 0.5)?;
+        check_range("line_over_sides_db", self.line_over_sides_db, 3.0, 60.0)?;
+        check_range("line_share_min", self.line_share_min, 0.0, 1.0)?;
+        check_range("company_share_min", self.company_share_min, 0.0, 1.0)?;
+        check_range("lonely_line_share_min", self.lonely_line_share_min, 0.0, 1.0)?;
+        check_range("point_share_min", self.point_share_min, 0.0, 1.0)?;
+        check_range("harmonic_disagreement_share_max", self.harmonic_disagreement_share_max, 0.0, 0.2)
+    }
+}

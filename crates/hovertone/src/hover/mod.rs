@@ -1,0 +1,195 @@
+//! Survey → hover: which stretches are steady flight, and why the rest was cut away.
+
+mod survey;
+
+pub(crate) use survey::{Survey, SurveyBuilder};
+
+use crate::config::{HoverConfig, ToneConfig};
+use crate::span::Span;
+use crate::statistics::median;
+use crate::tone::CombMap;
+use serde::Serialize;
+use std::fmt;
+
+/// A stretch that was not used, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cut {
+    /// When.
+    #[serde(flatten)]
+    pub span: Span,
+    /// Why.
+    pub reason: CutReason,
+}
+
+/// Why a stretch is not hover.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum CutReason {
+    /// Much quieter than the hover.
+    Silence,
+    /// Much louder than the hover: handling, wind, speech at the microphone.
+    HandlingNoise,
+    /// The rotors turn, but not at the hover's speed: take-off, landing, another load.
+    OtherSpeed {
+        /// Shaft speed that is heard there.
+        speed_rev_s: f64,
+    },
+    /// No rotor is heard.
+    NoTone,
+    /// Between hover and not: the edge of a change.
+    Edge,
+    /// Steady, but too short to use.
+    TooShort,
+}
+
+impl fmt::Display for CutReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Silence => f.write_str("silence"),
+            Self::HandlingNoise => f.write_str("handling noise"),
+            Self::OtherSpeed { speed_rev_s } => {
+                write!(f, "take-off, landing or another speed ({speed_rev_s:.1} rev/s)")
+            }
+            Self::NoTone => f.write_str("no rotor heard"),
+            Self::Edge => f.write_str("edge of the hover"),
+            Self::TooShort => f.write_str("too short to use"),
+        }
+    }
+}
+
+/// The steady stretches of a recording and what lies between them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Hover {
+    /// What is used.
+    pub segments: Vec<Span>,
+    /// What is not.
+    pub cuts: Vec<Cut>,
+}
+
+impl Hover {
+    /// All of a span, because the user says so.
+    pub(crate) fn whole(span: Span) -> Self {
+        Self { segments: vec![span], cuts: Vec::new() }
+    }
+
+    /// How much is used.
+    pub fn length_s(&self) -> f64 {
+        self.segments.iter().map(Span::length_s).sum()
+    }
+}
+
+/// Finds the stretches in which the rotors turn within a band around `speed_rev_s`, at the level of the hover.
+pub(crate) fn hover_from_survey(
+    survey: &Survey,
+    map: &CombMap,
+    speed_rev_s: f64,
+    tone: &ToneConfig,
+    config: &HoverConfig,
+) -> Hover {
+    let verdicts = verdicts_of_rows(survey, map, speed_rev_s, tone, config);
+    let mut hover = Hover::default();
+    let mut row = 0;
+    while row < verdicts.len() {
+        let end = row + verdicts[row..].iter().take_while(|verdict| verdict.is_same_kind(&verdicts[row])).count();
+        let span = Span { from_s: survey.rows[row].span.from_s, to_s: survey.rows[end - 1].span.to_s };
+        match verdicts[row].reason() {
+            None => {
+                trim_into(&mut hover, span, row > 0, end < verdicts.len(), survey.rows[row].span.length_s(), config)
+            }
+            Some(reason) => hover.cuts.push(Cut { span, reason }),
+        }
+        row = end;
+    }
+    hover
+}
+
+/// Takes a steady span into the hover, less the edges where it meets something else.
+fn trim_into(hover: &mut Hover, span: Span, is_cut_before: bool, is_cut_after: bool, row_s: f64, config: &HoverConfig) {
+    let edge_s = |is_cut: bool| if is_cut { row_s.min(0.2 * span.length_s()) } else { 0.0 };
+    let kept = Span { from_s: span.from_s + edge_s(is_cut_before), to_s: span.to_s - edge_s(is_cut_after) };
+    if kept.length_s() < config.length_s_min {
+        hover.cuts.push(Cut { span, reason: CutReason::TooShort });
+        return;
+    }
+    let edges = [Span { to_s: kept.from_s, ..span }, Span { from_s: kept.to_s, ..span }];
+    hover.cuts.extend(
+        edges.into_iter().filter(|edge| edge.length_s() > 0.0).map(|span| Cut { span, reason: CutReason::Edge }),
+    );
+    hover.segments.push(kept);
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Verdict {
+    Hover,
+    Not(CutReason),
+}
+
+impl Verdict {
+    fn reason(self) -> Option<CutReason> {
+        match self {
+            Self::Hover => None,
+            Self::Not(reason) => Some(reason),
+        }
+    }
+
+    fn is_same_kind(self, other: &Self) -> bool {
+        match (self, other) {
+            (
+                Self::Not(CutReason::OtherSpeed { speed_rev_s: a }),
+                Self::Not(CutReason::OtherSpeed { speed_rev_s: b }),
+            ) => (a / b - 1.0).abs() < 0.1,
+            (a, b) => a == *b,
+        }
+    }
+}
+
+fn verdicts_of_rows(
+    survey: &Survey,
+    map: &CombMap,
+    speed_rev_s: f64,
+    tone: &ToneConfig,
+    config: &HoverConfig,
+) -> Vec<Verdict> {
+    let rows = 0..survey.rows.len();
+    let near_db: Vec<f64> = rows
+        .clone()
+        .map(|row| map.best_near(row, speed_rev_s, tone.band_half_width_share).map_or(0.0, |(_, score)| score.max(0.0)))
+        .collect();
+    // the score of the rows that carry the tone, however few they are: a mean in which rows count by their square
+    let (cubes, squares) = near_db.iter().fold((0.0, 0.0), |(c, s), d| (c + d.powi(3), s + d.powi(2)));
+    let score_db_min = if squares > 0.0 { config.comb_share_min * cubes / squares } else { f64::INFINITY };
+    let level_db: Vec<f64> = survey.rows.iter().map(|row| row.level_db(survey.bin_hz)).collect();
+    let with_tone: Vec<f64> =
+        rows.clone().filter(|&row| near_db[row] >= score_db_min).map(|row| level_db[row]).collect();
+    let Some(hover_level_db) = median(&with_tone) else {
+        return vec![Verdict::Not(CutReason::Silence); survey.rows.len()];
+    };
+    let mut verdicts: Vec<Verdict> = rows
+        .map(|row| {
+            let is_quiet = level_db[row] < hover_level_db - config.quieter_db;
+            let is_loud = level_db[row] > hover_level_db + config.louder_db;
+            let is_near = near_db[row] >= score_db_min;
+            let other = map.best_of_row(row).filter(|&(_, score)| score >= score_db_min && !is_near);
+            match (is_near, is_quiet, is_loud, other) {
+                (true, false, false, _) => Verdict::Hover,
+                (_, _, true, _) => Verdict::Not(CutReason::HandlingNoise),
+                (_, _, _, Some((speed_rev_s, _))) => Verdict::Not(CutReason::OtherSpeed { speed_rev_s }),
+                (_, true, _, None) => Verdict::Not(CutReason::Silence),
+                (_, _, _, None) => Verdict::Not(CutReason::NoTone),
+            }
+        })
+        .collect();
+    bridge_single_rows(&mut verdicts);
+    verdicts
+}
+
+/// A single weak row inside a hover is a fading tone, not a landing: the ridge shows it as a gap.
+fn bridge_single_rows(verdicts: &mut [Verdict]) {
+    for middle in 1..verdicts.len().saturating_sub(1) {
+        let is_faded = matches!(verdicts[middle], Verdict::Not(CutReason::NoTone | CutReason::OtherSpeed { .. }));
+        if is_faded && verdicts[middle - 1] == Verdict::Hover && verdicts[middle + 1] == Verdict::Hover {
+            verdicts[middle] = Verdict::Hover;
+        }
+    }
+}

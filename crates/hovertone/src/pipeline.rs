@@ -1,0 +1,172 @@
+//! The whole flow on one screen: source → survey → hover → bands → ridges → samples → speed. No arithmetic here.
+
+use crate::config::{Config, Method, SpectrogramConfig};
+use crate::error::Error;
+use crate::hover::{Hover, Survey, SurveyBuilder, hover_from_survey};
+use crate::ridge::{Ridge, RidgeTracer};
+use crate::sample::samples_from_hover;
+use crate::signal::SignalSource;
+use crate::span::Span;
+use crate::speed::{HarmonicWeights, SpeedEstimate, TrackPoint};
+use crate::stream::{Piece, Progress, for_each_piece};
+use crate::tone::{Band, CombMap, bands_around};
+use crate::verdict::{NoTone, clearest_ridges, no_tone_reason, warnings_of_hover, warnings_of_speed};
+use crate::warning::Warning;
+use serde::Serialize;
+
+const PASS_COUNT: u32 = 2;
+
+/// What a recording says of its rotors.
+#[derive(Clone, Debug, Serialize)]
+pub struct SpeedAnalysis {
+    /// What was listened to, on the recording's clock.
+    pub heard: Span,
+    /// What was used of it, and what was cut away and why.
+    pub hover: Hover,
+    /// The speeds, or why there are none.
+    pub outcome: Outcome,
+    /// What weakens the result.
+    pub warnings: Vec<Warning>,
+}
+
+/// The answer: speeds, or that there is no rotor tone.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "status", rename_all = "snake_case")]
+#[allow(clippy::large_enum_variant)] // one per recording, never in a hot collection
+pub enum Outcome {
+    /// A rotor was heard.
+    Ok(RotorTone),
+    /// No rotor was heard, and why.
+    NoRotorTone {
+        /// Why.
+        reason: NoTone,
+    },
+}
+
+/// A rotor's tone and the speeds it means.
+#[derive(Clone, Debug, Serialize)]
+pub struct RotorTone {
+    /// Where the ridges were looked for.
+    pub bands: Vec<Band>,
+    /// Length of the frames.
+    pub window_s: f64,
+    /// One ridge for each band.
+    pub ridges: Vec<Ridge>,
+    /// Mean over all of the hover, one for each method in the order of [`Method::ALL`].
+    pub speeds: Vec<SpeedEstimate>,
+    /// Speed of each frame, by the configured method.
+    pub track: Vec<TrackPoint>,
+    /// The paper's samples, each with one speed for each method.
+    pub samples: Vec<SampleSpeeds>,
+}
+
+/// One sample of a hover.
+#[derive(Clone, Debug, Serialize)]
+pub struct SampleSpeeds {
+    /// When.
+    pub span: Span,
+    /// Its speed by each method in the order of [`Method::ALL`].
+    pub speeds: Vec<SpeedEstimate>,
+}
+
+impl RotorTone {
+    /// The mean over the hover by one method.
+    pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
+        self.speeds.iter().find(|speed| speed.method == method)
+    }
+}
+
+/// From a recording to the speed of its rotors. Reads the source twice; memory does not grow with its length, but for
+/// the ridge itself (a few hundred bytes a second).
+///
+/// # Errors
+/// Settings that mean nothing, a source that fails, a band above half the sample rate. That there is no rotor tone is
+/// no error but [`Outcome::NoRotorTone`].
+pub fn speed_from_source(
+    source: &mut dyn SignalSource,
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<SpeedAnalysis, Error> {
+    config.check()?;
+    let mut warnings = Vec::new();
+    let (survey, heard) = survey_from_source(source, config, on_progress)?;
+    let map = CombMap::from_survey(&survey, &config.tone);
+    let Some(speed_rev_s) = map.leading_speed_rev_s() else {
+        return Ok(nothing_heard(heard, Hover::default(), NoTone::Silence, warnings));
+    };
+    let hover = if config.span.is_given() {
+        Hover::whole(heard)
+    } else {
+        hover_from_survey(&survey, &map, speed_rev_s, &config.tone, &config.hover)
+    };
+    let bands = bands_around(speed_rev_s, &config.tone, source.sample_rate_hz(), &mut warnings)?;
+    let mut ladder = ridges_from_source(source, &hover, &bands, config, on_progress)?;
+    let chosen = config.spectrogram.window_s.and_then(|_| ladder.pop());
+    let Some(clearest) = clearest_ridges(&ladder) else {
+        return Ok(nothing_heard(heard, hover, NoTone::NoHover, warnings));
+    };
+    if let Some(reason) = no_tone_reason(clearest, &config.ridge) {
+        return Ok(nothing_heard(heard, hover, reason, warnings));
+    }
+    let ridges = chosen.unwrap_or_else(|| clearest.clone());
+    let weights = HarmonicWeights::from_ridges(&ridges, &config.ridge, &mut warnings);
+    let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
+        Method::ALL.iter().filter_map(|&method| weights.speed_in(span, method, config.tone.order)).collect()
+    };
+    let samples = samples_from_hover(&hover, &config.samples, &mut warnings)
+        .into_iter()
+        .map(|span| SampleSpeeds { speeds: speeds_in(Some(&span)), span })
+        .filter(|sample| !sample.speeds.is_empty())
+        .collect();
+    let speeds = speeds_in(None);
+    let track = weights.track(config.method, config.tone.order).collect();
+    warnings.extend(warnings_of_hover(&hover));
+    warnings.extend(warnings_of_speed(&ridges, &speeds));
+    let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);
+    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, samples, ridges });
+    Ok(SpeedAnalysis { heard, hover, outcome, warnings })
+}
+
+fn nothing_heard(heard: Span, hover: Hover, reason: NoTone, warnings: Vec<Warning>) -> SpeedAnalysis {
+    SpeedAnalysis { heard, hover, outcome: Outcome::NoRotorTone { reason }, warnings }
+}
+
+/// First reading: the whole recording in coarse rows.
+fn survey_from_source(
+    source: &mut dyn SignalSource,
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<(Survey, Span), Error> {
+    let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(source.start_s());
+    let span = Span { from_s, to_s: config.span.to_s.unwrap_or(f64::INFINITY) };
+    let mut builder = SurveyBuilder::new(&config.hover, source.sample_rate_hz(), from_s);
+    let to_s = for_each_piece(source, &[span], |piece| match piece {
+        Piece::Start(time_s) => from_s = time_s,
+        Piece::Samples(samples) => builder.push(samples),
+        Piece::Heard(time_s) => on_progress(Progress { pass: 1, pass_count: PASS_COUNT, time_s }),
+    })?;
+    Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))
+}
+
+/// Second reading: the ridges of the hover at every frame length that is tried, the one that the user wants last.
+fn ridges_from_source(
+    source: &mut dyn SignalSource,
+    hover: &Hover,
+    bands: &[Band],
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<Vec<Ridge>>, Error> {
+    let sample_rate_hz = source.sample_rate_hz();
+    let ladder_s = SpectrogramConfig::ladder_s(bands.first().map_or(0.0, Band::width_hz));
+    let mut tracers: Vec<RidgeTracer> = ladder_s
+        .into_iter()
+        .chain(config.spectrogram.window_s)
+        .map(|window_s| RidgeTracer::new(window_s, bands, sample_rate_hz, &config.spectrogram, &config.ridge))
+        .collect();
+    for_each_piece(source, &hover.segments, |piece| match piece {
+        Piece::Start(time_s) => tracers.iter_mut().for_each(|tracer| tracer.restart(time_s)),
+        Piece::Samples(samples) => tracers.iter_mut().for_each(|tracer| tracer.push(samples)),
+        Piece::Heard(time_s) => on_progress(Progress { pass: 2, pass_count: PASS_COUNT, time_s }),
+    })?;
+    Ok(tracers.into_iter().map(RidgeTracer::finish).collect())
+}

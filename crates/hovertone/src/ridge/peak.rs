@@ -1,0 +1,87 @@
+//! The peak of a band, finer than its bins, and how far it stands out.
+
+use crate::statistics::median;
+
+/// A peak must stand out of what lies this many resolution cells away on either side: beyond its own main lobe, near
+/// enough that the noise has the same colour.
+const SIDE_CELLS: (f64, f64) = (2.5, 7.5);
+
+/// Offset of a tone from the middle bin, by a parabola through three log powers.
+///
+/// δ = (a − c) / (2 (a − 2b + c)) with the levels a, b, c of bins k−1, k, k+1.
+///
+/// - Units: powers in any unit, result in bins, within ±0.5.
+/// - Bias with a Hann window, in bins of the unpadded frame: at most 0.016 without padding, 0.0017 with a transform of
+///   two windows (measured by `the_interpolated_peak_has_the_stated_bias`).
+/// - Reference: J. O. Smith, *Spectral Audio Signal Processing*, section on quadratic interpolation.
+/// - `None` when the middle bin is not a strict maximum.
+pub fn peak_offset_bins(before: f64, middle: f64, after: f64) -> Option<f64> {
+    if !(middle > before && middle > after) {
+        return None;
+    }
+    let smallest = middle * 1e-12; // keeps the logarithm of an empty neighbour finite
+    let (a, b, c) = (before.max(smallest).ln(), middle.ln(), after.max(smallest).ln());
+    Some((a - c) / (2.0 * (a - 2.0 * b + c)))
+}
+
+/// Index of the loudest bin of a band that is a maximum of its neighbourhood; `None` where the band only slopes.
+pub(super) fn loudest_bin(power: &[f64], first: usize, last: usize) -> Option<usize> {
+    let (first, last) = (first.max(1), last.min(power.len().saturating_sub(2)));
+    (first..=last)
+        .filter(|&bin| power[bin] > power[bin - 1] && power[bin] >= power[bin + 1])
+        .max_by(|&a, &b| power[a].total_cmp(&power[b]))
+}
+
+/// Power ratio of a peak over the median of its surroundings. `None` where the surroundings are empty or silent.
+pub(super) fn over_sides(power: &[f64], peak: usize, cell_bins: f64, scratch: &mut Vec<f64>) -> Option<f64> {
+    let (near, far) = ((SIDE_CELLS.0 * cell_bins).round() as usize, (SIDE_CELLS.1 * cell_bins).round() as usize);
+    scratch.clear();
+    // bin 0 holds the offset of the sound card, not sound
+    scratch
+        .extend_from_slice(power.get(peak.saturating_sub(far).max(1)..peak.saturating_sub(near)).unwrap_or_default());
+    scratch.extend_from_slice(power.get(peak + near + 1..(peak + far + 1).min(power.len())).unwrap_or_default());
+    median(scratch).filter(|&floor| floor > 0.0).map(|floor| power[peak] / floor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spectrogram::{Stft, Window};
+    use std::f64::consts::TAU;
+
+    fn bias_cells(zero_pad_factor: u32) -> f64 {
+        let (rate, window_s) = (8000.0, 0.1);
+        (0..200)
+            .map(|step| {
+                let hz = 1000.0 + 10.0 * f64::from(step) / 200.0;
+                let signal: Vec<f32> = (0..800).map(|n| (TAU * hz * f64::from(n) / rate).cos() as f32).collect();
+                let mut stft = Stft::new(rate, Window::Hann, window_s, window_s, zero_pad_factor);
+                let mut error = f64::NAN;
+                stft.push(&signal, |frame| {
+                    let bin = loudest_bin(frame.power, 0, frame.power.len()).unwrap();
+                    let offset =
+                        peak_offset_bins(frame.power[bin - 1], frame.power[bin], frame.power[bin + 1]).unwrap_or(0.0);
+                    error = ((bin as f64 + offset) * frame.bin_hz - hz).abs() * window_s;
+                });
+                assert!(error.is_finite());
+                error
+            })
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_interpolated_peak_has_the_stated_bias() {
+        let (plain, padded) = (bias_cells(1), bias_cells(2));
+        assert!((0.012..0.017).contains(&plain), "{plain}");
+        assert!(padded < 0.0017, "{padded}");
+    }
+
+    #[test]
+    fn a_slope_has_no_peak() {
+        assert_eq!(peak_offset_bins(1.0, 2.0, 3.0), None);
+        assert_eq!(peak_offset_bins(2.0, 2.0, 2.0), None);
+        assert_eq!(loudest_bin(&[5.0, 4.0, 3.0, 2.0, 1.0], 0, 4), None);
+        assert_eq!(loudest_bin(&[], 0, 4), None);
+        assert_eq!(peak_offset_bins(1.0, 4.0, 1.0), Some(0.0));
+    }
+}

@@ -1,0 +1,24 @@
+//! Stretches of time on the recording's clock.
+
+use serde::{Deserialize, Serialize};
+
+/// A stretch of time, half open: `[from_s, to_s)`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Span {
+    /// Its start.
+    pub from_s: f64,
+    /// Its end.
+    pub to_s: f64,
+}
+
+impl Span {
+    /// How long it lasts.
+    pub fn length_s(&self) -> f64 {
+        self.to_s - self.from_s
+    }
+
+    /// Whether the time lies in it.
+    pub fn contains(&self, time_s: f64) -> bool {
+        (self.from_s..self.to_s).contains(&time_s)
+    }
+}

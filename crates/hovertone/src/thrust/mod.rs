@@ -1,0 +1,180 @@
+//! Speeds and known forces → thrust constant: per sample, per trial, per load and over all, as the paper averages.
+
+mod balance;
+mod fit;
+#[cfg(test)]
+mod tests;
+
+pub use balance::{Air, GRAVITY_STANDARD_M_S2, ThrustCoefficients, gravity_m_s2, thrust_constant_n_s2};
+pub use fit::thrust_from_loads;
+
+use crate::config::Method;
+use crate::span::Span;
+use crate::warning::Warning;
+use hovertone_vehicle::{Estimate, RotorSpeed};
+use serde::Serialize;
+
+/// The force that the running rotors balance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Force {
+    /// A hover: the weight of vehicle and payload.
+    Weight {
+        /// Mass of the vehicle, weighed once for all loads.
+        vehicle_mass_kg: f64,
+        /// Mass that this load adds.
+        added_mass_kg: f64,
+        /// Standard uncertainty of a weighing.
+        mass_std_kg: f64,
+        /// Local gravity.
+        gravity_m_s2: f64,
+    },
+    /// A bench run: thrust read from a scale.
+    Thrust {
+        /// Thrust of all rotors that run.
+        thrust_n: f64,
+        /// Its standard uncertainty.
+        thrust_std_n: f64,
+    },
+}
+
+impl Force {
+    /// The force itself.
+    pub fn newtons(&self) -> f64 {
+        match *self {
+            Self::Weight { vehicle_mass_kg, added_mass_kg, gravity_m_s2, .. } => {
+                (vehicle_mass_kg + added_mass_kg) * gravity_m_s2
+            }
+            Self::Thrust { thrust_n, .. } => thrust_n,
+        }
+    }
+
+    /// Mass that is lifted; none on a bench.
+    pub fn mass_kg(&self) -> Option<f64> {
+        match *self {
+            Self::Weight { vehicle_mass_kg, added_mass_kg, .. } => Some(vehicle_mass_kg + added_mass_kg),
+            Self::Thrust { .. } => None,
+        }
+    }
+
+    /// Relative standard uncertainty that this load has alone, and the one it shares with the others.
+    fn relative_std(&self) -> (f64, f64) {
+        match *self {
+            Self::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, .. } => {
+                let shared = mass_std_kg / (vehicle_mass_kg + added_mass_kg);
+                (if added_mass_kg == 0.0 { 0.0 } else { shared }, shared)
+            }
+            Self::Thrust { thrust_n, thrust_std_n } => (thrust_std_n / thrust_n, 0.0),
+        }
+    }
+}
+
+/// One load: a known force and the trials flown with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadSpeeds {
+    /// Its name.
+    pub name: String,
+    /// What the rotors balance.
+    pub force: Force,
+    /// How many rotors balance it.
+    pub rotors_running: u32,
+    /// Its trials.
+    pub trials: Vec<TrialSpeeds>,
+}
+
+/// One trial: a recording and the speeds of its samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrialSpeeds {
+    /// Name of the recording.
+    pub recording: String,
+    /// Its samples.
+    pub samples: Vec<SampleSpeed>,
+}
+
+/// Speed in one sample.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SampleSpeed {
+    /// When.
+    #[serde(flatten)]
+    pub span: Span,
+    /// Mean shaft speed.
+    #[serde(rename = "speed_rad_s")]
+    pub speed: RotorSpeed,
+    /// Standard uncertainty of the mean.
+    pub std_uncertainty_rev_s: Option<f64>,
+    /// Standard deviation over the frames.
+    pub spread_rev_s: Option<f64>,
+    /// Frames in it.
+    pub frame_count: usize,
+}
+
+/// The thrust constant by one method: the paper's table, and the answer under it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ThrustTable {
+    /// How the ridges were read.
+    pub method: Method,
+    /// Rotors of the vehicle.
+    pub rotor_count: u32,
+    /// One row for each load.
+    pub loads: Vec<LoadThrust>,
+    /// Constant of the whole vehicle, the plain mean over the loads as in the paper; absent where nothing was heard.
+    pub thrust_constant_total_n_s2: Option<Estimate>,
+    /// Constant of one rotor: the total over the number of rotors.
+    pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    /// What weakens the result.
+    pub warnings: Vec<Warning>,
+}
+
+/// One row of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LoadThrust {
+    /// Name of the load.
+    pub name: String,
+    /// Mass that is lifted; none on a bench.
+    pub mass_kg: Option<f64>,
+    /// Force that the rotors balance.
+    pub force_n: f64,
+    /// How many rotors balance it.
+    pub rotors_running: u32,
+    /// Mean shaft speed over all samples of all trials; absent where nothing was heard.
+    #[serde(rename = "speed_rad_s")]
+    pub speed: Option<RotorSpeed>,
+    /// Its standard uncertainty, from the scatter of the trials.
+    pub std_uncertainty_rad_s: Option<f64>,
+    /// Standard deviation of the speed over all frames: the paper's STD column.
+    pub spread_rad_s: Option<f64>,
+    /// Constant of the whole vehicle from this load alone.
+    pub thrust_constant_total_n_s2: Option<Estimate>,
+    /// Constant of one rotor from this load alone.
+    pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    /// Whether it agrees with the other loads; absent where there is nothing to compare.
+    pub fits: Option<bool>,
+    /// Mass that would agree with the other loads.
+    pub mass_that_fits_kg: Option<f64>,
+    /// Its trials.
+    pub trials: Vec<TrialThrust>,
+}
+
+/// One trial of a load.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TrialThrust {
+    /// Name of the recording.
+    pub recording: String,
+    /// Mean shaft speed over its samples.
+    #[serde(rename = "speed_rad_s")]
+    pub speed: Option<RotorSpeed>,
+    /// Constant of the whole vehicle from this trial alone.
+    pub thrust_constant_total_n_s2: Option<f64>,
+    /// Its samples.
+    pub samples: Vec<SampleThrust>,
+}
+
+/// One sample of a trial.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SampleThrust {
+    /// Speed of the sample.
+    #[serde(flatten)]
+    pub speed: SampleSpeed,
+    /// Constant of the whole vehicle from this sample alone.
+    pub thrust_constant_total_n_s2: f64,
+}

@@ -1,0 +1,88 @@
+//! Shaft speed → one search band for each harmonic of the tone.
+
+use crate::config::ToneConfig;
+use crate::error::Error;
+use crate::warning::Warning;
+use hovertone_vehicle::Order;
+use serde::Serialize;
+
+/// Sound above this share of half the sample rate is inside the recorder's own filter.
+const USABLE_NYQUIST_SHARE: f64 = 0.98;
+
+/// Where the ridge of one harmonic is looked for: the paper's band-pass (figure 7), as a cut of the spectrum. An ideal
+/// band-pass before the transform and a search inside the band after it find the same peak.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Band {
+    /// Number of the harmonic: 1 for the tone itself.
+    pub harmonic: u32,
+    /// Order of this harmonic.
+    pub order: Order,
+    /// Lower edge.
+    pub band_hz_low: f64,
+    /// Upper edge.
+    pub band_hz_high: f64,
+}
+
+impl Band {
+    /// Width of the band.
+    pub fn width_hz(&self) -> f64 {
+        self.band_hz_high - self.band_hz_low
+    }
+}
+
+/// The bands around a shaft speed, as many harmonics as the recording can hold.
+pub(crate) fn bands_around(
+    speed_rev_s: f64,
+    tone: &ToneConfig,
+    sample_rate_hz: f64,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Band>, Error> {
+    let tone_hz = speed_rev_s * tone.order.lines_per_turn();
+    let found_hz = (tone_hz * (1.0 - tone.band_half_width_share), tone_hz * (1.0 + tone.band_half_width_share));
+    let (low_hz, high_hz) = tone.band_hz.unwrap_or(found_hz);
+    let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
+    let mut bands = Vec::new();
+    for harmonic in 1..=tone.harmonics {
+        let times = f64::from(harmonic);
+        if times * high_hz <= hz_max {
+            bands.push(Band {
+                harmonic,
+                order: tone.order.harmonic(harmonic),
+                band_hz_low: times * low_hz,
+                band_hz_high: times * high_hz,
+            });
+        } else if harmonic == 1 {
+            return Err(Error::BandAboveNyquist { low_hz, sample_rate_hz });
+        } else {
+            let reason = format!("its band reaches {:.0} Hz, the recording ends at {hz_max:.0} Hz", times * high_hz);
+            warnings.push(Warning::HarmonicLeftOut { harmonic, reason });
+        }
+    }
+    Ok(bands)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh() -> ToneConfig {
+        ToneConfig::of_order(Order::new(69.0).unwrap())
+    }
+
+    #[test]
+    fn three_harmonics_have_three_bands_that_do_not_touch() {
+        let bands = bands_around(60.17, &mesh(), 48000.0, &mut Vec::new()).unwrap();
+        assert_eq!(bands.len(), 3);
+        assert_eq!(bands[2].order.lines_per_turn(), 207.0);
+        assert!(bands.windows(2).all(|pair| pair[0].band_hz_high < pair[1].band_hz_low));
+        assert!(bands[0].band_hz_low < 4151.7 && bands[0].band_hz_high > 4151.7);
+    }
+
+    #[test]
+    fn harmonics_above_the_recording_are_left_out_and_said() {
+        let mut warnings = Vec::new();
+        assert_eq!(bands_around(60.17, &mesh(), 22050.0, &mut warnings).unwrap().len(), 2);
+        assert!(matches!(warnings[..], [Warning::HarmonicLeftOut { harmonic: 3, .. }]));
+        assert!(bands_around(60.17, &mesh(), 8000.0, &mut Vec::new()).is_err());
+    }
+}

@@ -1,0 +1,190 @@
+//! Survey → shaft speed: which speed explains the lines, as a comb over the whitened spectrum.
+
+use crate::config::ToneConfig;
+use crate::hover::Survey;
+use crate::spectrogram::whitened_db;
+
+/// Distance of neighbouring speeds on the search grid, as a share.
+const GRID_STEP_SHARE: f64 = 0.003;
+/// A line counts up to this level, so that one strong line does not outweigh a series.
+const LEVEL_DB_MAX: f64 = 40.0;
+/// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors.
+const BLADE_PASS_HARMONICS: u32 = 8;
+/// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already.
+const GEAR_MESH_HARMONICS: u32 = 3;
+/// An order up to this is a number of blades; above, a number of teeth.
+const BLADES_MAX: f64 = 12.0;
+/// Speeds this near count as the same when rows are pooled: a hover wanders.
+const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
+/// Every other (or third) line stronger by this on average means that the lines between are shaft lines, and the blade
+/// pass is twice (or three times) higher. True series of small multirotors show at most 2 dB, halved ones at least 6.
+const ALTERNATION_DB: f64 = 4.5;
+
+/// A line that a rotor is expected to make.
+#[derive(Clone, Copy, Debug)]
+struct Tooth {
+    order: f64,
+    weight: f64,
+}
+
+/// The lines of a rotor that turns once a second, and the places between, where it can have none.
+#[derive(Clone, Debug)]
+pub(crate) struct Comb {
+    teeth: Vec<Tooth>,
+    gaps: Vec<Tooth>,
+    blades: Option<f64>,
+}
+
+impl Comb {
+    pub(crate) fn for_tone(tone: &ToneConfig) -> Self {
+        let order = tone.order.lines_per_turn();
+        let is_blade_pass = order <= BLADES_MAX;
+        let blades = tone.blades.map(f64::from).or(is_blade_pass.then_some(order));
+        let mut teeth = Vec::new();
+        let mut gaps = Vec::new();
+        if let Some(blades) = blades {
+            teeth.extend(series(blades, BLADE_PASS_HARMONICS));
+            // a shaft makes lines at whole orders only: what sounds at half orders belongs to a slower shaft
+            if blades.fract() == 0.0 {
+                let total: f64 = teeth.iter().map(|tooth: &Tooth| tooth.weight).sum();
+                gaps = (1..=(4 * blades as u32))
+                    .map(|j| Tooth { order: f64::from(j) - 0.5, weight: f64::from(j).powf(-0.5) })
+                    .collect();
+                scale(&mut gaps, total);
+            }
+        }
+        if !is_blade_pass {
+            teeth.extend(series(order, GEAR_MESH_HARMONICS));
+        }
+        Self { teeth, gaps, blades }
+    }
+
+    /// Mean level of the lines of a shaft at `speed_rev_s` over the floor, less that of the places between, in dB.
+    fn score_db(&self, whitened: &[f64], bin_hz: f64, speed_rev_s: f64) -> f64 {
+        let sum = |teeth: &[Tooth]| -> f64 {
+            teeth.iter().map(|tooth| tooth.weight * level_db(whitened, tooth.order * speed_rev_s / bin_hz)).sum()
+        };
+        let total: f64 = self.teeth.iter().map(|tooth| tooth.weight).sum();
+        (sum(&self.teeth) - sum(&self.gaps)) / total
+    }
+}
+
+/// A tone and its harmonics, each counting less than the one before.
+fn series(order: f64, harmonics: u32) -> Vec<Tooth> {
+    (1..=harmonics).map(f64::from).map(|k| Tooth { order: k * order, weight: k.powf(-0.5) }).collect()
+}
+
+fn scale(teeth: &mut [Tooth], total: f64) {
+    let sum: f64 = teeth.iter().map(|tooth| tooth.weight).sum();
+    teeth.iter_mut().for_each(|tooth| tooth.weight *= total / sum);
+}
+
+/// Level over the floor at a place between bins: the highest within the grid's step, 0 beyond the spectrum.
+fn level_db(whitened: &[f64], place: f64) -> f64 {
+    let half = place * GRID_STEP_SHARE / 2.0;
+    let (first, last) = ((place - half).round() as usize, (place + half).round() as usize);
+    let highest = whitened.get(first..=last).map_or(0.0, |levels| levels.iter().copied().fold(0.0, f64::max));
+    highest.min(LEVEL_DB_MAX)
+}
+
+/// How well each speed explains each row of a survey.
+pub(crate) struct CombMap {
+    speeds_rev_s: Vec<f64>,
+    /// One row of scores for each row of the survey.
+    scores_db: Vec<Vec<f64>>,
+    comb: Comb,
+    pooled_db: Vec<f64>,
+    bin_hz: f64,
+}
+
+impl CombMap {
+    /// Scores every speed of the search range in every row.
+    pub(crate) fn from_survey(survey: &Survey, tone: &ToneConfig) -> Self {
+        let comb = Comb::for_tone(tone);
+        let (low, high) = search_range_rev_s(tone);
+        let count = ((high / low).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
+        let speeds_rev_s: Vec<f64> = (0..count).map(|i| low * (GRID_STEP_SHARE * i as f64).exp()).collect();
+        let mut pooled_db = vec![0.0; survey.rows.first().map_or(0, |row| row.power.len())];
+        let scores_db = survey
+            .rows
+            .iter()
+            .map(|row| {
+                let whitened = whitened_db(&row.power);
+                pooled_db.iter_mut().zip(&whitened).for_each(|(sum, level)| *sum += level / survey.rows.len() as f64);
+                speeds_rev_s.iter().map(|&speed| comb.score_db(&whitened, survey.bin_hz, speed)).collect()
+            })
+            .collect();
+        Self { speeds_rev_s, scores_db, comb, pooled_db, bin_hz: survey.bin_hz }
+    }
+
+    /// The speed that explains most of the recording. Squares count strong rows more than many weak ones.
+    pub(crate) fn leading_speed_rev_s(&self) -> Option<f64> {
+        let reach = (POOL_HALF_WIDTH_SHARE / GRID_STEP_SHARE).round() as usize;
+        let pooled = |i: usize| -> f64 {
+            let window = i.saturating_sub(reach)..(i + reach + 1).min(self.speeds_rev_s.len());
+            self.scores_db.iter().map(|row| row[window.clone()].iter().copied().fold(0.0, f64::max).powi(2)).sum()
+        };
+        let (best, support) = (0..self.speeds_rev_s.len())
+            .map(|i| (i, pooled(i)))
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .filter(|&(_, support)| support > 0.0)?;
+        // the pooled maximum is flat over its reach: take the middle of what supports it as much
+        let plateau: Vec<usize> = (best..(best + 2 * reach + 1).min(self.speeds_rev_s.len()))
+            .take_while(|&i| pooled(i) >= 0.999 * support)
+            .collect();
+        let middle = plateau.get(plateau.len() / 2).copied().unwrap_or(best);
+        Some(self.without_alternation(self.speeds_rev_s[middle]))
+    }
+
+    /// Doubles (or triples) a speed whose every other (or third) line is much the strongest.
+    fn without_alternation(&self, speed_rev_s: f64) -> f64 {
+        let Some(blades) = self.comb.blades else { return speed_rev_s };
+        let line_db = |k: u32| {
+            let place = f64::from(k) * blades * speed_rev_s / self.bin_hz;
+            let (first, last) = ((0.985 * place - 1.0) as usize, (1.015 * place + 1.0) as usize);
+            self.pooled_db.get(first..=last).map(|levels| levels.iter().copied().fold(f64::MIN, f64::max))
+        };
+        for multiple in [2, 3] {
+            let mean_of = |is_wanted: &dyn Fn(u32) -> bool| {
+                let levels: Vec<f64> = (1..=3 * multiple + 2).filter(|&k| is_wanted(k)).filter_map(line_db).collect();
+                crate::statistics::mean(&levels)
+            };
+            let (on, off) = (mean_of(&|k| k % multiple == 0), mean_of(&|k| k % multiple != 0));
+            if let (Some(on), Some(off)) = (on, off)
+                && on - off > ALTERNATION_DB
+                && f64::from(multiple) * speed_rev_s <= self.speeds_rev_s.last().copied().unwrap_or(0.0)
+            {
+                return f64::from(multiple) * speed_rev_s;
+            }
+        }
+        speed_rev_s
+    }
+
+    /// Best speed of a row within a share of `speed_rev_s`, and its score.
+    pub(crate) fn best_near(&self, row: usize, speed_rev_s: f64, half_width_share: f64) -> Option<(f64, f64)> {
+        self.best(row, |speed| (speed / speed_rev_s - 1.0).abs() <= half_width_share)
+    }
+
+    /// Best speed of a row over the whole search, and its score.
+    pub(crate) fn best_of_row(&self, row: usize) -> Option<(f64, f64)> {
+        self.best(row, |_| true)
+    }
+
+    fn best(&self, row: usize, is_wanted: impl Fn(f64) -> bool) -> Option<(f64, f64)> {
+        let scores = self.scores_db.get(row)?;
+        self.speeds_rev_s
+            .iter()
+            .copied()
+            .zip(scores.iter().copied())
+            .filter(|&(speed, _)| is_wanted(speed))
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Where to look for the shaft speed: the configured range, or what a given band allows.
+fn search_range_rev_s(tone: &ToneConfig) -> (f64, f64) {
+    match tone.band_hz {
+        Some((low_hz, high_hz)) => (low_hz / tone.order.lines_per_turn(), high_hz / tone.order.lines_per_turn()),
+        None => (tone.speed_min.rev_s(), tone.speed_max.rev_s()),
+    }
+}

@@ -1,0 +1,145 @@
+//! Whether the ridges show a rotor at all, and what weakens what they show.
+
+use crate::config::{Method, RidgeConfig};
+use crate::hover::{CutReason, Hover};
+use crate::ridge::Ridge;
+use crate::speed::SpeedEstimate;
+use crate::statistics::mean;
+use crate::warning::Warning;
+use serde::Serialize;
+use std::fmt;
+
+/// A frame length must show lines in this much more of the frames to be preferred to a shorter one: in short frames the
+/// lines of several rotors melt into their mean, in long ones the loudest wins.
+const CLEARER_SHARE: f64 = 0.03;
+/// A ridge on the edge of its band in more frames than this is not in its band.
+const EDGE_SHARE: f64 = 0.2;
+/// More gaps than this are said.
+const GAP_SHARE: f64 = 0.3;
+/// A spread of twice the paper's (1.2 to 1.3 %) means more than one line.
+const SPREAD_SHARE: f64 = 0.025;
+/// Another speed is worth a warning when it lasts this share of the hover.
+const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
+
+/// Why no rotor tone was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum NoTone {
+    /// Nothing sounds.
+    Silence,
+    /// No stretch is steady for long enough.
+    NoHover,
+    /// What looks like a rotor series is not made of lines.
+    NotALine {
+        /// Where the strongest candidate is.
+        tone_hz: f64,
+        /// Share of its frames that show a line.
+        line_share: f64,
+        /// Share that is asked for.
+        line_share_min: f64,
+    },
+    /// A line that comes and goes, without any of its harmonics.
+    LonelyLine {
+        /// Where it is.
+        tone_hz: f64,
+        /// Share of its frames that show a line.
+        line_share: f64,
+    },
+}
+
+impl fmt::Display for NoTone {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Silence => f.write_str("nothing sounds"),
+            Self::NoHover => f.write_str("no stretch holds a steady tone for long enough"),
+            Self::NotALine { tone_hz, line_share, line_share_min } => write!(
+                f,
+                "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames; a rotor is one in clearly \
+                 more than {:.0} %",
+                100.0 * line_share,
+                100.0 * line_share_min
+            ),
+            Self::LonelyLine { tone_hz, line_share } => write!(
+                f,
+                "the best candidate, near {tone_hz:.0} Hz, is a line in only {:.0} % of its frames and none of its \
+                 harmonics is heard",
+                100.0 * line_share
+            ),
+        }
+    }
+}
+
+/// The ridges of the frame length that shows lines in most frames; among equals, of the shortest.
+pub(crate) fn clearest_ridges(ladder: &[Vec<Ridge>]) -> Option<&Vec<Ridge>> {
+    let clarity = |ridges: &[Ridge]| {
+        let shares: Vec<f64> = ridges.iter().map(|ridge| ridge.line_share).collect();
+        mean(&shares).unwrap_or_default()
+    };
+    ladder
+        .iter()
+        .filter(|ridges| ridges.iter().any(|ridge| !ridge.frames.is_empty()))
+        .reduce(|best, longer| if clarity(longer) > clarity(best) + CLEARER_SHARE { longer } else { best })
+}
+
+/// Why these ridges are no rotor; `None` when they are one.
+///
+/// The clearest harmonic must be a line in `line_share_min` of its frames, also when the share is one standard
+/// deviation lower than counted (few frames prove little), and another harmonic must be heard with it unless it is
+/// nearly always a line.
+pub(crate) fn no_tone_reason(ridges: &[Ridge], config: &RidgeConfig) -> Option<NoTone> {
+    let mut by_clarity: Vec<&Ridge> = ridges.iter().collect();
+    by_clarity.sort_by(|a, b| b.line_share.total_cmp(&a.line_share));
+    let clearest = by_clarity.first()?;
+    let line_share = clearest.line_share;
+    // neighbouring frames share half of their sound
+    let independent_frames = (clearest.frames.len() as f64 / 2.0).max(1.0);
+    let line_share_std = (line_share * (1.0 - line_share) / independent_frames).sqrt();
+    let tone_hz = mean(&clearest.points_hz(Method::MaximumTrace))
+        .unwrap_or((clearest.band.band_hz_low + clearest.band.band_hz_high) / 2.0);
+    if line_share - line_share_std < config.line_share_min {
+        return Some(NoTone::NotALine { tone_hz, line_share, line_share_min: config.line_share_min });
+    }
+    let has_company = by_clarity.get(1).is_none_or(|second| second.line_share >= config.company_share_min);
+    (!has_company && line_share < config.lonely_line_share_min).then_some(NoTone::LonelyLine { tone_hz, line_share })
+}
+
+/// What the cuts say against the speed.
+pub(crate) fn warnings_of_hover(hover: &Hover) -> Vec<Warning> {
+    let length_s_min = OTHER_SPEED_LENGTH_SHARE * hover.length_s();
+    hover
+        .cuts
+        .iter()
+        .filter(|cut| cut.span.length_s() >= length_s_min)
+        .filter_map(|cut| match cut.reason {
+            CutReason::OtherSpeed { speed_rev_s } => {
+                Some(Warning::OtherSteadySpeed { speed_rev_s, from_s: cut.span.from_s, to_s: cut.span.to_s })
+            }
+            _ => None,
+        })
+        .collect()
+}
+
+/// What the ridges say against the speed.
+pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> Vec<Warning> {
+    let used =
+        |ridge: &&Ridge| speeds.iter().any(|speed| speed.harmonics.iter().any(|h| h.harmonic == ridge.band.harmonic));
+    let mut warnings = Vec::new();
+    for ridge in ridges.iter().filter(used) {
+        let peaks = || ridge.frames.iter().filter_map(|frame| frame.peak);
+        let frames_share = peaks().filter(|peak| peak.is_on_edge).count() as f64 / (peaks().count().max(1)) as f64;
+        if frames_share > EDGE_SHARE {
+            warnings.push(Warning::RidgeOnBandEdge { harmonic: ridge.band.harmonic, frames_share });
+        }
+    }
+    let gap_share = ridges.iter().filter(used).map(|ridge| 1.0 - ridge.point_share()).fold(1.0, f64::min);
+    if gap_share > GAP_SHARE {
+        warnings.push(Warning::ManyGaps { gap_share });
+    }
+    let spread_share =
+        speeds.iter().filter_map(|speed| Some(speed.spread_rev_s? / speed.speed.rev_s())).fold(0.0, f64::max);
+    if spread_share > SPREAD_SHARE {
+        warnings.push(Warning::SeveralLines { spread_share });
+    }
+    warnings
+}

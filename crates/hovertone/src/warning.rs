@@ -1,0 +1,115 @@
+//! What weakens a number, with what to do about it. Values, not print-outs.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Something that weakens a result.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Warning {
+    /// The ridge leaves its band.
+    RidgeOnBandEdge {
+        /// Number of the harmonic, 1 for the tone itself.
+        harmonic: u32,
+        /// Share of the frames whose peak is at an edge of the band.
+        frames_share: f64,
+    },
+    /// A harmonic was not used.
+    HarmonicLeftOut {
+        /// Number of the harmonic.
+        harmonic: u32,
+        /// Why.
+        reason: String,
+    },
+    /// Other steady speeds were heard for as long as the one that is reported.
+    OtherSteadySpeed {
+        /// The other shaft speed.
+        speed_rev_s: f64,
+        /// When it is heard.
+        from_s: f64,
+        /// Until when.
+        to_s: f64,
+    },
+    /// The hover is shorter than one sample.
+    HoverShorterThanSample {
+        /// Length of the hover.
+        hover_s: f64,
+        /// Length of a sample as set.
+        length_s: f64,
+    },
+    /// Many frames have no point.
+    ManyGaps {
+        /// Share of the frames without a point on the ridge.
+        gap_share: f64,
+    },
+    /// The ridge jumps between lines.
+    SeveralLines {
+        /// Spread of the ridge as a share of its mean.
+        spread_share: f64,
+    },
+    /// A load disagrees with the others.
+    LoadDoesNotFit {
+        /// Its name.
+        name: String,
+        /// Mass that would agree; absent for a bench run.
+        mass_that_fits_kg: Option<f64>,
+    },
+    /// Several rotors run, and one ridge follows the loudest.
+    LoudestRotor,
+}
+
+impl Warning {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
+            Self::HarmonicLeftOut { .. } => "nothing to do when the others agree; --harmonics 1 follows the tone alone",
+            Self::OtherSteadySpeed { .. } => "choose the part you mean with --from and --to",
+            Self::HoverShorterThanSample { .. } => "record a longer hover, or shorten the samples (length_s)",
+            Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
+            Self::SeveralLines { .. } => {
+                "the rotors turn at different speeds and the loudest wins; a narrower --band follows one line"
+            }
+            Self::LoadDoesNotFit { .. } => "weigh that load again, and check that it does not disturb the rotors' air",
+            Self::LoudestRotor => {
+                "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %, and its uncertainty does not show it"
+            }
+        }
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::RidgeOnBandEdge { harmonic, frames_share } => {
+                write!(
+                    f,
+                    "harmonic {harmonic} sits on the edge of its band in {:.0} % of the frames",
+                    100.0 * frames_share
+                )
+            }
+            Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is left out: {reason}"),
+            Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
+                write!(f, "another steady speed, {speed_rev_s:.1} rev/s, is heard from {from_s:.1} s to {to_s:.1} s")
+            }
+            Self::HoverShorterThanSample { hover_s, length_s } => {
+                write!(
+                    f,
+                    "the hover lasts {hover_s:.1} s, less than one sample of {length_s:.1} s: it is used as one sample"
+                )
+            }
+            Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
+            Self::SeveralLines { spread_share } => {
+                write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
+            }
+            Self::LoadDoesNotFit { name, mass_that_fits_kg: Some(mass_kg) } => {
+                write!(f, "load \"{name}\" does not fit the others; {:.1} g would", 1e3 * mass_kg)
+            }
+            Self::LoadDoesNotFit { name, mass_that_fits_kg: None } => {
+                write!(f, "load \"{name}\" does not fit the others")
+            }
+            Self::LoudestRotor => f.write_str("one ridge stands for all rotors: it follows whichever is loudest"),
+        }
+    }
+}
