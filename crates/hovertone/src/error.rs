@@ -58,13 +58,15 @@ pub enum Error {
     },
     /// A band above what the recording can hold.
     #[error(
-        "the band starts at {low_hz:.0} Hz, but sound sampled at {sample_rate_hz:.0} Hz holds nothing above {:.0} Hz; \
-         record at a higher rate, or follow a tone of lower order",
+        "the band {low_hz:.0} to {high_hz:.0} Hz cannot be heard: sound sampled at {sample_rate_hz:.0} Hz holds nothing \
+         above {:.0} Hz; record at a higher rate, or follow a tone of lower order",
         sample_rate_hz / 2.0
     )]
     BandAboveNyquist {
         /// Lower edge of the band.
         low_hz: f64,
+        /// Upper edge.
+        high_hz: f64,
         /// Rate of the recording.
         sample_rate_hz: f64,
     },

@@ -9,7 +9,7 @@ use crate::signal::SignalSource;
 use crate::span::Span;
 use crate::speed::{HarmonicWeights, SpeedEstimate, TrackPoint};
 use crate::stream::{Piece, Progress, for_each_piece};
-use crate::tone::{Band, CombMap, bands_around};
+use crate::tone::{Band, CombMap, bands_around, check_band};
 use crate::verdict::{NoTone, clearest_ridges, no_tone_reason, warnings_of_hover, warnings_of_speed};
 use crate::warning::Warning;
 use serde::Serialize;
@@ -88,6 +88,7 @@ pub fn speed_from_source(
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<SpeedAnalysis, Error> {
     config.check()?;
+    check_band(&config.tone, source.sample_rate_hz())?;
     let mut warnings = Vec::new();
     let (survey, heard) = survey_from_source(source, config, on_progress)?;
     let map = CombMap::from_survey(&survey, &config.tone);

@@ -30,6 +30,16 @@ impl Band {
     }
 }
 
+/// Refuses a band that the recording cannot hold, before anything is looked for in it.
+pub(crate) fn check_band(tone: &ToneConfig, sample_rate_hz: f64) -> Result<(), Error> {
+    match tone.band_hz {
+        Some((low_hz, high_hz)) if high_hz > USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0 => {
+            Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz })
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The bands around a shaft speed, as many harmonics as the recording can hold.
 pub(crate) fn bands_around(
     speed_rev_s: f64,
@@ -52,7 +62,7 @@ pub(crate) fn bands_around(
                 band_hz_high: times * high_hz,
             });
         } else if harmonic == 1 {
-            return Err(Error::BandAboveNyquist { low_hz, sample_rate_hz });
+            return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
         } else {
             let reason = format!("its band reaches {:.0} Hz, the recording ends at {hz_max:.0} Hz", times * high_hz);
             warnings.push(Warning::HarmonicLeftOut { harmonic, reason });
