@@ -1,2 +1,42 @@
-//! What CI does and a person types.
-fn main() {}
+//! What CI does and a person types: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask bench`.
+
+#![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
+
+mod bench;
+mod ci;
+mod tidy;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const HELP: &str = "cargo xtask <task>
+
+  ci      all that continuous integration checks: tidy, format, clippy, tests, documentation
+  tidy    rules of the house that no compiler knows
+  bench   speed and memory of decoding and of `hovertone speed` on 30-minute files, as ratios
+          [--minutes N] for shorter ones
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words.as_slice() {
+        ["ci"] => ci::run(&root()),
+        ["tidy"] => tidy::run(&root()),
+        ["bench", options @ ..] => bench::run(&root(), options),
+        [bench::DECODE_TASK, file] => bench::decode(Path::new(file)),
+        _ => Err(HELP.to_owned()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The root of the workspace.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+}

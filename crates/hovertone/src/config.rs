@@ -227,6 +227,9 @@ pub struct SpectrogramConfig {
     pub window_s: Option<f64>,
     /// Step between frames as a share of their length. At one half, Hann frames use every sample of the sound equally.
     pub hop_share: f64,
+    /// Frames of a ridge at most. On a hover so long that the step above would give more, the step grows, so that memory
+    /// does not grow with the length of a recording. 12 000 frames cover 75 s in the shortest frames without a gap.
+    pub frames_max: u32,
     /// Shape of the window.
     pub window: Window,
     /// Length of the transform in windows: 2 brings the bias of the interpolated peak to 0.003 of a window's bin.
@@ -241,7 +244,7 @@ const CELLS_IN_HALF_BAND_MIN: f64 = 2.0;
 
 impl Default for SpectrogramConfig {
     fn default() -> Self {
-        Self { window_s: None, hop_share: 0.5, window: Window::Hann, zero_pad_factor: 2 }
+        Self { window_s: None, hop_share: 0.5, frames_max: 12_000, window: Window::Hann, zero_pad_factor: 2 }
     }
 }
 
@@ -251,7 +254,13 @@ impl SpectrogramConfig {
             check_range("window_s", window_s, 0.005, 5.0)?;
         }
         check_range("hop_share", self.hop_share, 0.02, 1.0)?;
+        check_range("frames_max", f64::from(self.frames_max), 100.0, 1e8)?;
         check_range("zero_pad_factor", f64::from(self.zero_pad_factor), 1.0, 16.0)
+    }
+
+    /// Step between frames of a length in a hover of a length.
+    pub(crate) fn hop_s(&self, window_s: f64, hover_s: f64) -> f64 {
+        (self.hop_share * window_s).max(hover_s / f64::from(self.frames_max))
     }
 
     /// The frame lengths in which to look for lines of a tone whose first band is this wide.

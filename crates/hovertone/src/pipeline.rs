@@ -76,8 +76,7 @@ impl RotorTone {
     }
 }
 
-/// From a recording to the speed of its rotors. Reads the source twice; memory does not grow with its length, but for
-/// the ridge itself (a few hundred bytes a second).
+/// From a recording to the speed of its rotors. Reads the source twice; memory does not grow with its length.
 ///
 /// # Errors
 /// Settings that mean nothing, a source that fails, a band above half the sample rate. That there is no rotor tone is
@@ -162,7 +161,7 @@ fn ridges_from_source(
     let mut tracers: Vec<RidgeTracer> = ladder_s
         .into_iter()
         .chain(config.spectrogram.window_s)
-        .map(|window_s| RidgeTracer::new(window_s, bands, sample_rate_hz, &config.spectrogram, &config.ridge))
+        .map(|s| RidgeTracer::new((s, hover.length_s()), bands, sample_rate_hz, &config.spectrogram, &config.ridge))
         .collect();
     for_each_piece(source, &hover.segments, |piece| match piece {
         Piece::Start(time_s) => tracers.iter_mut().for_each(|tracer| tracer.restart(time_s)),

@@ -130,3 +130,15 @@ fn samples_cover_the_hover_as_set() {
         assert!((sample.speeds[0].speed.rev_s() - 90.0).abs() < 0.02);
     }
 }
+
+#[test]
+fn a_long_hover_has_no_more_frames_than_asked_for() {
+    let mut config = config(2.0);
+    config.spectrogram.frames_max = 100;
+    let analysis = analyse(steady(90.0, 60.0, 0.01), &config);
+    let tone = tone(&analysis);
+    assert!(tone.ridges.iter().all(|ridge| (90..=101).contains(&ridge.frames.len())));
+    let last_s = tone.track.last().map_or(0.0, |point| point.time_s);
+    assert!(last_s > 58.0, "the frames still span the hover: {last_s}");
+    assert!((tone.speeds[0].speed.rev_s() - 90.0).abs() < 0.01);
+}

@@ -85,13 +85,13 @@ pub(crate) struct RidgeTracer {
 
 impl RidgeTracer {
     pub(crate) fn new(
-        window_s: f64,
+        (window_s, hover_s): (f64, f64),
         bands: &[Band],
         sample_rate_hz: f64,
         spectrogram: &SpectrogramConfig,
         config: &RidgeConfig,
     ) -> Self {
-        let hop_s = spectrogram.hop_share * window_s;
+        let hop_s = spectrogram.hop_s(window_s, hover_s);
         Self {
             stft: Stft::new(sample_rate_hz, spectrogram.window, window_s, hop_s, spectrogram.zero_pad_factor),
             window_s,
