@@ -1,0 +1,60 @@
+//! Which of several audio tracks to hear: the first with a sound in it.
+
+use std::path::Path;
+
+use crate::error::MediaError;
+use crate::frames::Incidents;
+use crate::plan::Plan;
+use crate::tracks::Tracks;
+
+/// One step of 16-bit sound: what never exceeds it is silence, however it was coded.
+const SILENCE_MAX: f32 = 1.0 / 32_768.0;
+
+/// The chosen track.
+pub(crate) struct Choice {
+    /// Counted from 0.
+    pub(crate) index: usize,
+    pub(crate) plan: Plan,
+    /// Tracks before it that are silent, counted from 1.
+    pub(crate) silent: Vec<usize>,
+}
+
+/// Listens to the tracks in order, up to the first sound. Where there is none, the first that decodes is chosen.
+pub(crate) fn first_audible_track(path: &Path, tracks: &Tracks<'_>) -> Result<Choice, MediaError> {
+    let mut silent = Vec::new();
+    let mut first_silent = None;
+    let mut first_error = None;
+    for index in 0..tracks.count() {
+        let heard = tracks.plan(index).and_then(|plan| Ok((is_audible(path, &plan)?, plan)));
+        match heard {
+            Ok((true, plan)) => return Ok(Choice { index, plan, silent }),
+            Ok((false, plan)) => {
+                silent.push(index + 1);
+                first_silent.get_or_insert((index, plan));
+            }
+            Err(error) => {
+                first_error.get_or_insert(error);
+            }
+        }
+    }
+    match (first_silent, first_error) {
+        (Some((index, plan)), _) => Ok(Choice { index, plan, silent: Vec::new() }),
+        (None, Some(error)) => Err(error),
+        (None, None) => Err(MediaError::NoSuchTrack { asked: 1, count: 0 }),
+    }
+}
+
+fn is_audible(path: &Path, plan: &Plan) -> Result<bool, MediaError> {
+    let mut frames = plan.open(path)?;
+    let mut interleaved = Vec::new();
+    let mut incidents = Incidents::default();
+    loop {
+        let has_more = frames.next_frames(&mut interleaved, &mut incidents).map_err(MediaError::Read)?;
+        if interleaved.iter().any(|sample| sample.abs() > SILENCE_MAX) {
+            return Ok(true);
+        }
+        if !has_more {
+            return Ok(false);
+        }
+    }
+}

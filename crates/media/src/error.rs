@@ -1,0 +1,124 @@
+//! Why a recording cannot be heard: what happened, why, and what to do about it.
+
+use std::io;
+
+use thiserror::Error;
+
+use crate::container::Container;
+
+/// A file that gives no sound. The message has three parts (what, why, what to do) and leaves the file's name to the
+/// caller.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MediaError {
+    /// The file cannot be opened.
+    #[error("the file cannot be opened: {0}; check the name and your right to read it")]
+    CannotOpen(#[source] io::Error),
+
+    /// A directory, pipe or device.
+    #[error(
+        "this is not a regular file: the sound is read twice, so it must be able to seek; give a recording on disk"
+    )]
+    NotAFile,
+
+    /// Not one byte.
+    #[error("the file is empty (0 bytes): copying it probably failed; copy it again")]
+    Empty,
+
+    /// No signature that this crate knows.
+    #[error(
+        "the file is no recording that hovertone knows: its content matches no audio or video format \
+         (it begins {first_bytes}); give a video or audio file"
+    )]
+    UnknownFormat {
+        /// The first bytes, as hexadecimal numbers.
+        first_bytes: String,
+    },
+
+    /// A picture without sound.
+    #[error("the {container} has no audio track: there is nothing to hear; record again with the microphone on")]
+    NoAudioTrack {
+        /// The container.
+        container: Container,
+    },
+
+    /// The asked-for track is not there.
+    #[error("audio track {asked} does not exist: the file has {count}, counted from 1; choose one of these")]
+    NoSuchTrack {
+        /// As people count, from 1.
+        asked: usize,
+        /// Audio tracks in the file.
+        count: usize,
+    },
+
+    /// The asked-for channel is not there.
+    #[error("channel {asked} does not exist: the audio track has {count}, counted from 1; choose one of these")]
+    NoSuchChannel {
+        /// As people count, from 1.
+        asked: usize,
+        /// Channels in the track.
+        count: usize,
+    },
+
+    /// Only ffmpeg reads this, and there is none.
+    #[error(
+        "the {container} holds {codec}, which needs the program ffmpeg: hovertone has no decoder of its own for it, and \
+         {why}; install ffmpeg, or convert the sound to WAV or FLAC"
+    )]
+    NeedsFfmpeg {
+        /// The container.
+        container: Container,
+        /// The codec, as people call it.
+        codec: String,
+        /// Why ffmpeg was not used.
+        why: String,
+    },
+
+    /// ffmpeg was there and failed.
+    #[error(
+        "the {container} holds {codec}, which could not be decoded: ffmpeg said \u{201c}{message}\u{201d}; check that the file plays"
+    )]
+    FfmpegFailed {
+        /// The container.
+        container: Container,
+        /// The codec, as people call it.
+        codec: String,
+        /// Its first complaint.
+        message: String,
+    },
+
+    /// The structure is broken before any sound.
+    #[error("the {container} is damaged: {why}; copy it again from the camera or recorder, or try to repair it")]
+    Damaged {
+        /// The container.
+        container: Container,
+        /// What is wrong.
+        why: String,
+    },
+
+    /// A header field with an impossible value.
+    #[error("the {container}'s header is nonsense: {field} is {value}, and it must be {limit}; export the file again")]
+    BadHeader {
+        /// The container.
+        container: Container,
+        /// The field.
+        field: &'static str,
+        /// Its value.
+        value: u64,
+        /// What it may be.
+        limit: &'static str,
+    },
+
+    /// A good header with no sound after it.
+    #[error("the {container} holds no sound: {why}; copy it again, or record again")]
+    NoSamples {
+        /// The container.
+        container: Container,
+        /// What was found.
+        why: String,
+    },
+
+    /// Reading the disk failed.
+    #[error("the file could not be read on: {0}; check the disk or the connection")]
+    Read(#[source] io::Error),
+}

@@ -1,0 +1,33 @@
+//! Interleaved channels to one, finite.
+
+/// Takes one channel, or the mean of all.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mix {
+    pub(crate) channel_count: usize,
+    /// Counted from 0; `None`: the mean of all.
+    pub(crate) channel: Option<usize>,
+}
+
+impl Mix {
+    /// Appends one sample for each frame of `interleaved`; returns how many were not finite and became 0.
+    pub(crate) fn append(&self, interleaved: &[f32], mono: &mut Vec<f32>) -> u64 {
+        let first = mono.len();
+        match (self.channel, self.channel_count) {
+            (_, 0 | 1) => mono.extend_from_slice(interleaved),
+            (Some(channel), count) => mono.extend(interleaved.iter().skip(channel).step_by(count)),
+            (None, 2) => mono.extend(interleaved.as_chunks::<2>().0.iter().map(|[a, b]| 0.5 * a + 0.5 * b)),
+            (None, count) => mono.extend(interleaved.chunks_exact(count).map(|frame| {
+                let sum: f64 = frame.iter().map(|sample| f64::from(*sample)).sum();
+                (sum / count as f64) as f32
+            })),
+        }
+        let mut replaced = 0;
+        for sample in &mut mono[first..] {
+            if !sample.is_finite() {
+                *sample = 0.0;
+                replaced += 1;
+            }
+        }
+        replaced
+    }
+}

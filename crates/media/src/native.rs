@@ -1,0 +1,338 @@
+//! Packets to frames with Symphonia's demuxers and decoders, and our adapter for Opus.
+
+use std::io;
+use std::path::Path;
+
+use symphonia::core::codecs::CodecParameters;
+use symphonia::core::codecs::audio::{AudioCodecId, AudioCodecParameters};
+use symphonia::core::errors::Error as SymphoniaError;
+use symphonia::core::formats::probe::{Hint, Probe};
+use symphonia::core::formats::{FormatOptions, FormatReader, Track};
+use symphonia::core::meta::MetadataOptions;
+use symphonia::core::packet::Packet;
+use symphonia::core::units::TimeBase;
+use symphonia::default::formats::{
+    AdtsReader, AiffReader, CafReader, FlacReader, IsoMp4Reader, MkvReader, MpaReader, OggReader,
+};
+
+use crate::codec::{Decoder, PACKET_FRAMES_MAX, decoder_for};
+use crate::container::Container;
+use crate::frames::{Frames, Incidents};
+use crate::guard::{PANICKED, guarded};
+use crate::iso::{self, TablePackets};
+use crate::opus::{OPUS_RATE_HZ, packet_frames};
+use crate::quicktime::AudioTrack;
+use crate::source::{FileView, Patch};
+use crate::wave::{WaveLayout, WavePackets};
+
+/// Demuxers resynchronise after an error; one that fails this often in a row has no more to give.
+const DEMUXER_ERRORS_IN_A_ROW_MAX: u32 = 64;
+
+/// A longer jump in time is a damaged time and not lost sound.
+const GAP_S_MAX: f64 = 10.0;
+
+/// Opens the demuxer for a container: this one and no other, so that nothing is guessed from damaged content.
+pub(crate) fn open_demuxer(
+    path: &Path,
+    container: Container,
+    base: u64,
+    patches: &[Patch],
+) -> Result<Box<dyn FormatReader>, SymphoniaError> {
+    let mut probe = Probe::new();
+    match container {
+        Container::Aiff => probe.register_format::<AiffReader<'_>>(),
+        Container::Caf => probe.register_format::<CafReader<'_>>(),
+        Container::Flac => probe.register_format::<FlacReader<'_>>(),
+        Container::Mp3 => probe.register_format::<MpaReader<'_>>(),
+        Container::Adts => probe.register_format::<AdtsReader<'_>>(),
+        Container::Ogg => probe.register_format::<OggReader<'_>>(),
+        Container::Mov | Container::Mp4 | Container::ThreeGp => probe.register_format::<IsoMp4Reader<'_>>(),
+        Container::Matroska | Container::WebM => probe.register_format::<MkvReader<'_>>(),
+        _ => return Err(SymphoniaError::Unsupported("no native demuxer for this container")),
+    }
+    let stream = FileView::open(path, base, patches)?.into_stream();
+    guarded(|| probe.probe(&Hint::new(), stream, FormatOptions::default(), MetadataOptions::default()))
+}
+
+/// The audio parameters of a track, where it is audio.
+pub(crate) fn audio_parameters(track: &Track) -> Option<&AudioCodecParameters> {
+    match &track.codec_params {
+        Some(CodecParameters::Audio(parameters)) => Some(parameters),
+        _ => None,
+    }
+}
+
+/// One track, packet by packet.
+pub(crate) struct NativeFrames {
+    packets: Packets,
+    decoder: Decoder,
+    time_base: Option<TimeBase>,
+    sample_rate_hz: u32,
+    channel_count: usize,
+    demuxer_errors: u32,
+    decoded: Vec<f32>,
+    /// Jumps of the packets' times from here on are lost sound; `None`: their times are not to be relied on.
+    gap_s_min: Option<f64>,
+    /// When the last packet ended by its time and its frames.
+    last_end_s: Option<f64>,
+    /// A packet that waits until the gap before it is filled.
+    held: Option<Packet>,
+}
+
+enum Packets {
+    Demuxer { reader: Box<dyn FormatReader>, track_id: u32 },
+    Wave(WavePackets),
+    IsoTable(TablePackets),
+}
+
+impl NativeFrames {
+    /// A track of a demuxer. `has_gapless_packets`: whether the demuxer's own trims are to be believed.
+    pub(crate) fn from_demuxer(
+        reader: Box<dyn FormatReader>,
+        track_id: u32,
+        has_gapless_packets: bool,
+    ) -> Result<Self, SymphoniaError> {
+        let track = reader.tracks().iter().find(|track| track.id == track_id);
+        let track = track.ok_or(SymphoniaError::Unsupported("the demuxer does not know the track"))?;
+        let parameters = audio_parameters(track).ok_or(SymphoniaError::Unsupported("unsupported audio codec"))?;
+        let time_base = track.time_base;
+        let (decoder, sample_rate_hz, channel_count) = decoder_for(parameters, has_gapless_packets)?;
+        Ok(Self {
+            decoder,
+            time_base,
+            sample_rate_hz,
+            channel_count,
+            packets: Packets::Demuxer { track_id, reader },
+            demuxer_errors: 0,
+            decoded: Vec::new(),
+            gap_s_min: None,
+            last_end_s: None,
+            held: None,
+        })
+    }
+
+    /// Fills jumps in time of at least this with silence.
+    pub(crate) fn with_gap_s_min(self, gap_s_min: Option<f64>) -> Self {
+        Self { gap_s_min, ..self }
+    }
+
+    /// The samples of a WAVE file.
+    pub(crate) fn from_wave(path: &Path, layout: &WaveLayout, codec: AudioCodecId) -> Result<Self, SymphoniaError> {
+        let parameters = layout.codec_parameters(codec);
+        let (decoder, sample_rate_hz, channel_count) = decoder_for(&parameters, false)?;
+        Ok(Self {
+            decoder,
+            time_base: TimeBase::try_from_recip(sample_rate_hz),
+            sample_rate_hz,
+            channel_count,
+            packets: Packets::Wave(WavePackets::open(path, layout.clone())?),
+            demuxer_errors: 0,
+            decoded: Vec::new(),
+            gap_s_min: None,
+            last_end_s: None,
+            held: None,
+        })
+    }
+
+    /// A compressed track of MP4 or MOV, read by its table of packets.
+    pub(crate) fn from_iso_table(path: &Path, track: &AudioTrack) -> Result<Self, SymphoniaError> {
+        let parameters = iso::codec_parameters(track).ok_or(SymphoniaError::Unsupported("unsupported audio codec"))?;
+        let (decoder, sample_rate_hz, channel_count) = decoder_for(&parameters, false)?;
+        Ok(Self {
+            decoder,
+            time_base: TimeBase::try_from_recip(track.timescale_hz),
+            sample_rate_hz,
+            channel_count,
+            packets: Packets::IsoTable(TablePackets::open(path, track)?),
+            demuxer_errors: 0,
+            decoded: Vec::new(),
+            gap_s_min: None,
+            last_end_s: None,
+            held: None,
+        })
+    }
+
+    fn next_packet(&mut self, incidents: &mut Incidents) -> io::Result<Option<Packet>> {
+        let (reader, track_id) = match &mut self.packets {
+            Packets::Wave(packets) => return packets.next_packet(),
+            Packets::IsoTable(packets) => return packets.next_packet(),
+            Packets::Demuxer { reader, track_id } => (reader, *track_id),
+        };
+        loop {
+            match guarded(|| reader.next_packet()) {
+                Ok(Some(packet)) => {
+                    self.demuxer_errors = 0;
+                    if packet.track_id == track_id {
+                        return Ok(Some(packet));
+                    }
+                }
+                Ok(None) => return Ok(None),
+                Err(SymphoniaError::IoError(error)) if error.kind() == io::ErrorKind::UnexpectedEof => {
+                    incidents.is_cut_off = true;
+                    return Ok(None);
+                }
+                Err(SymphoniaError::IoError(error)) if !is_about_content(&error) => return Err(error),
+                Err(SymphoniaError::ResetRequired) => {
+                    incidents.format_changed = true;
+                    return Ok(None);
+                }
+                Err(error) => {
+                    self.demuxer_errors += 1;
+                    let has_panicked = matches!(error, SymphoniaError::DecodeError(PANICKED));
+                    if has_panicked || self.demuxer_errors > DEMUXER_ERRORS_IN_A_ROW_MAX {
+                        incidents.is_cut_off = true;
+                        return Ok(None);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Decodes into `self.decoded`; `false` where the packet is damaged or its format is another.
+    fn decode(&mut self, packet: &Packet, incidents: &mut Incidents) -> bool {
+        match &mut self.decoder {
+            Decoder::Opus(opus) => {
+                let is_good = guarded(|| {
+                    opus.decode(&packet.data, &mut self.decoded)
+                        .map_err(|_| SymphoniaError::DecodeError("opus: a damaged packet"))
+                })
+                .is_ok();
+                if is_good {
+                    // Only the end: the pre-skip at the beginning is the plan's (Symphonia's Ogg reader leaves it out).
+                    let frames = self.decoded.len() / self.channel_count;
+                    let in_frames = |ticks: u64| {
+                        usize::try_from(frames_from_ticks(ticks, self.time_base, OPUS_RATE_HZ)).unwrap_or(usize::MAX)
+                    };
+                    let kept = frames.saturating_sub(in_frames(packet.trim_end.get()));
+                    self.decoded.truncate(kept * self.channel_count);
+                }
+                is_good
+            }
+            Decoder::Symphonia(decoder) => match guarded(|| decoder.decode(packet)) {
+                Ok(buffer) => {
+                    let spec = buffer.spec();
+                    if spec.rate() != self.sample_rate_hz || spec.channels().count() != self.channel_count {
+                        incidents.format_changed = true;
+                        return false;
+                    }
+                    self.decoded.resize(buffer.samples_interleaved(), 0.0);
+                    buffer.copy_to_slice_interleaved(&mut self.decoded[..]);
+                    true
+                }
+                Err(_) => {
+                    decoder.reset();
+                    false
+                }
+            },
+        }
+    }
+
+    /// Frames lost before a packet of this time.
+    fn gap_before(&self, at_s: f64) -> Option<u64> {
+        let gap_s = at_s - self.last_end_s?;
+        let is_gap = gap_s >= self.gap_s_min? && gap_s <= GAP_S_MAX;
+        is_gap.then(|| (gap_s * f64::from(self.sample_rate_hz)).round() as u64)
+    }
+
+    fn silence_for(&self, packet: &Packet) -> u64 {
+        let frames = match &self.decoder {
+            Decoder::Opus(_) => packet_frames(&packet.data),
+            Decoder::Symphonia(_) => frames_from_ticks(packet.block_dur().get(), self.time_base, self.sample_rate_hz),
+        };
+        frames.min(PACKET_FRAMES_MAX)
+    }
+
+    /// Reads on until a packet decodes and the decoder has told its true format, about which a header may be silent or
+    /// wrong (HE-AAC). Gives the time of the first packet; `None` where nothing decodes.
+    pub(crate) fn settle_format(&mut self, packets_max: u32) -> io::Result<Option<f64>> {
+        let mut incidents = Incidents::default();
+        let mut first_s = None;
+        for _ in 0..packets_max {
+            let Some(packet) = self.next_packet(&mut incidents)? else { return Ok(None) };
+            let packet_s = *first_s.get_or_insert_with(|| seconds_from_ticks(packet.pts.get(), self.time_base));
+            let is_settled = match &mut self.decoder {
+                Decoder::Opus(_) => self.decode(&packet, &mut incidents),
+                Decoder::Symphonia(decoder) => match guarded(|| decoder.decode(&packet)) {
+                    Ok(buffer) => {
+                        let (rate, channel_count) = (buffer.spec().rate(), buffer.spec().channels().count());
+                        let is_settled = rate > 0 && channel_count > 0 && buffer.frames() > 0;
+                        if is_settled {
+                            (self.sample_rate_hz, self.channel_count) = (rate, channel_count);
+                        }
+                        is_settled
+                    }
+                    Err(_) => false,
+                },
+            };
+            if is_settled {
+                return Ok(Some(packet_s));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Replaces the format told by the header.
+    pub(crate) fn with_format(self, sample_rate_hz: u32, channel_count: usize) -> Self {
+        Self { sample_rate_hz, channel_count, ..self }
+    }
+
+    pub(crate) fn format(&self) -> (u32, usize) {
+        (self.sample_rate_hz, self.channel_count)
+    }
+}
+
+impl Frames for NativeFrames {
+    fn sample_rate_hz(&self) -> f64 {
+        f64::from(self.sample_rate_hz)
+    }
+
+    fn channel_count(&self) -> usize {
+        self.channel_count
+    }
+
+    fn next_frames(&mut self, out: &mut Vec<f32>, incidents: &mut Incidents) -> io::Result<bool> {
+        out.clear();
+        let held = self.held.take();
+        let is_held = held.is_some();
+        let Some(packet) = held.map_or_else(|| self.next_packet(incidents), |packet| Ok(Some(packet)))? else {
+            return Ok(false);
+        };
+        let at_s = seconds_from_ticks(packet.pts.get(), self.time_base);
+        if !is_held && let Some(gap_frames) = self.gap_before(at_s) {
+            out.resize(gap_frames as usize * self.channel_count, 0.0);
+            incidents.corrupt_packets += 1;
+            incidents.silence_frames += gap_frames;
+            self.held = Some(packet);
+            return Ok(true);
+        }
+        if self.decode(&packet, incidents) {
+            std::mem::swap(out, &mut self.decoded);
+        } else if incidents.format_changed {
+            return Ok(false);
+        } else {
+            let silence_frames = self.silence_for(&packet);
+            out.resize(silence_frames as usize * self.channel_count, 0.0);
+            incidents.corrupt_packets += 1;
+            incidents.silence_frames += silence_frames;
+        }
+        let frames = out.len() / self.channel_count.max(1);
+        self.last_end_s = Some(at_s + frames as f64 / f64::from(self.sample_rate_hz));
+        Ok(true)
+    }
+}
+
+/// Symphonia reports some damage as an I/O error of these kinds; others come from the disk.
+fn is_about_content(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::Other | io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput)
+        && error.raw_os_error().is_none()
+}
+
+fn seconds_from_ticks(ticks: i64, time_base: Option<TimeBase>) -> f64 {
+    time_base.map_or(0.0, |base| ticks as f64 * f64::from(base.numer.get()) / f64::from(base.denom.get()))
+}
+
+fn frames_from_ticks(ticks: u64, time_base: Option<TimeBase>, sample_rate_hz: u32) -> u64 {
+    let Some(base) = time_base else { return 0 };
+    let frames = u128::from(ticks) * u128::from(base.numer.get()) * u128::from(sample_rate_hz);
+    u64::try_from((frames + u128::from(base.denom.get()) / 2) / u128::from(base.denom.get())).unwrap_or(u64::MAX)
+}

@@ -1,0 +1,177 @@
+//! How one audio track of a file is decoded: worked out once when a file is opened, followed each time it is heard.
+
+use std::path::{Path, PathBuf};
+
+use symphonia::core::codecs::audio::AudioCodecId;
+use symphonia::core::errors::Error as SymphoniaError;
+
+use crate::container::Container;
+use crate::error::MediaError;
+use crate::ffmpeg::{FfmpegError, FfmpegFrames};
+use crate::frames::{Frames, Trim};
+use crate::iso::PcmFrames;
+use crate::native::{self, NativeFrames};
+use crate::quicktime::AudioTrack;
+use crate::source::Patch;
+use crate::warning::MediaWarning;
+use crate::wave::WaveLayout;
+
+/// Packets at the beginning that may fail to decode before a track counts as damaged.
+const BAD_PACKETS_AT_START_MAX: u32 = 200;
+
+/// How to decode one track.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    pub(crate) container: Container,
+    pub(crate) codec: String,
+    pub(crate) route: Route,
+    /// Rate and channels, where decoding has told them better than the header.
+    pub(crate) format: Option<(u32, usize)>,
+    pub(crate) trim: Trim,
+    /// Of the first frame that is kept.
+    pub(crate) start_s: f64,
+    /// Length of what is kept, where the file promises one.
+    pub(crate) declared_s: Option<f64>,
+    /// About how long the sound is, where the file only knows about (its picture, its last page).
+    pub(crate) approximate_s: Option<f64>,
+    /// How far the promise may be missed by a whole file.
+    pub(crate) declared_slack_s: f64,
+    /// The container's own sizes say that the end is missing.
+    pub(crate) is_cut_off: bool,
+    /// The container does not say where it ends: that the file ends is no sign of damage.
+    pub(crate) has_open_end: bool,
+    pub(crate) warnings: Vec<MediaWarning>,
+}
+
+/// The way through the decoders.
+#[derive(Clone, Debug)]
+pub(crate) enum Route {
+    Wave { layout: WaveLayout, codec: AudioCodecId },
+    IsoPcm(Box<AudioTrack>),
+    IsoTable(Box<AudioTrack>),
+    Demuxer { base: u64, patches: Vec<Patch>, track_id: u32, has_gapless_packets: bool },
+    Ffmpeg { program: PathBuf, audio_index: usize },
+}
+
+impl Plan {
+    /// A plan without trims and promises.
+    pub(crate) fn new(container: Container, codec: impl Into<String>, route: Route) -> Self {
+        Self {
+            container,
+            codec: codec.into(),
+            route,
+            format: None,
+            trim: Trim::default(),
+            start_s: 0.0,
+            declared_s: None,
+            approximate_s: None,
+            declared_slack_s: 0.0,
+            is_cut_off: false,
+            has_open_end: false,
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Opens the track at its beginning.
+    pub(crate) fn open(&self, path: &Path) -> Result<Box<dyn Frames>, MediaError> {
+        Ok(match &self.route {
+            Route::IsoPcm(track) => Box::new(PcmFrames::open(path, track).map_err(MediaError::Read)?),
+            Route::Ffmpeg { program, audio_index } => {
+                Box::new(FfmpegFrames::spawn(program, path, *audio_index).map_err(|error| self.ffmpeg_error(error))?)
+            }
+            route => {
+                let frames = native_frames(path, self.container, route);
+                let frames = frames.map_err(|error| native_error(error, self.container))?;
+                Box::new(match self.format {
+                    Some((sample_rate_hz, channel_count)) => frames.with_format(sample_rate_hz, channel_count),
+                    None => frames,
+                })
+            }
+        })
+    }
+
+    fn ffmpeg_error(&self, error: FfmpegError) -> MediaError {
+        let (container, codec) = (self.container, self.codec.clone());
+        match error {
+            FfmpegError::NotFound(error) => {
+                MediaError::NeedsFfmpeg { container, codec, why: format!("ffmpeg could not be started ({error})") }
+            }
+            FfmpegError::Failed(message) => MediaError::FfmpegFailed { container, codec, message },
+        }
+    }
+}
+
+fn native_frames(path: &Path, container: Container, route: &Route) -> Result<NativeFrames, SymphoniaError> {
+    match route {
+        Route::Wave { layout, codec } => NativeFrames::from_wave(path, layout, *codec),
+        Route::IsoTable(track) => NativeFrames::from_iso_table(path, track),
+        Route::Demuxer { base, patches, track_id, has_gapless_packets } => {
+            let reader = native::open_demuxer(path, container, *base, patches)?;
+            let frames = NativeFrames::from_demuxer(reader, *track_id, *has_gapless_packets)?;
+            Ok(frames.with_gap_s_min(gap_s_min(container)))
+        }
+        Route::IsoPcm(_) | Route::Ffmpeg { .. } => Err(SymphoniaError::Unsupported("not a route of packets")),
+    }
+}
+
+/// From what jump of the packets' times on sound is missing. FLAC numbers its frames; Matroska's times are rounded to
+/// milliseconds, and live recorders let them jitter by a packet or two; elsewhere they are made up by the demuxer.
+fn gap_s_min(container: Container) -> Option<f64> {
+    match container {
+        Container::Flac => Some(0.001),
+        Container::Matroska | Container::WebM => Some(0.15),
+        _ => None,
+    }
+}
+
+/// A plan whose first packets are known to decode, and when the first of them begins.
+pub(crate) struct Settled {
+    pub(crate) plan: Plan,
+    pub(crate) sample_rate_hz: f64,
+    pub(crate) first_packet_s: f64,
+}
+
+/// Tries the first packets of a track, so that what the plan says of its format is true.
+pub(crate) fn settle(path: &Path, plan: Plan) -> Result<Settled, NotNative> {
+    let container = plan.container;
+    let mut frames =
+        native_frames(path, container, &plan.route).map_err(|error| NotNative::from_symphonia(error, container))?;
+    let first_packet_s = frames
+        .settle_format(BAD_PACKETS_AT_START_MAX)
+        .map_err(|error| NotNative::Error(MediaError::Read(error)))?
+        .ok_or_else(|| {
+            let why = "not one of the first pieces of its sound can be decoded".to_owned();
+            NotNative::Error(MediaError::NoSamples { container, why })
+        })?;
+    let format = Some(frames.format());
+    Ok(Settled { plan: Plan { format, ..plan }, sample_rate_hz: frames.sample_rate_hz(), first_packet_s })
+}
+
+/// Why a track is not decoded by hovertone itself.
+#[derive(Debug)]
+pub(crate) enum NotNative {
+    /// No decoder: ffmpeg may have one.
+    Unsupported,
+    /// Damaged, or worse.
+    Error(MediaError),
+}
+
+impl NotNative {
+    pub(crate) fn from_symphonia(error: SymphoniaError, container: Container) -> Self {
+        match error {
+            SymphoniaError::Unsupported(_) => Self::Unsupported,
+            error => Self::Error(native_error(error, container)),
+        }
+    }
+}
+
+pub(crate) fn native_error(error: SymphoniaError, container: Container) -> MediaError {
+    let why = match error {
+        SymphoniaError::IoError(error) if error.raw_os_error().is_some() => return MediaError::Read(error),
+        SymphoniaError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            "it ends within its header".to_owned()
+        }
+        error => error.to_string(),
+    };
+    MediaError::Damaged { container, why }
+}

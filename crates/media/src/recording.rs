@@ -1,0 +1,311 @@
+//! A recording as a stream of mono samples: open, choose a track, listen, rewind.
+
+use std::fmt;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+use hovertone::{SignalSource, SourceError};
+
+use crate::choose;
+use crate::codec::CHANNEL_COUNT_MAX;
+use crate::container::{self, Container, Sniffed};
+use crate::error::MediaError;
+use crate::ffmpeg::FfmpegUse;
+use crate::frames::{Frames, Incidents, Trim};
+use crate::mix::Mix;
+use crate::plan::{Plan, Route};
+use crate::tracks::Tracks;
+use crate::warning::{MediaWarning, Warnings};
+
+/// Blocks are at least this long, but for the last: small packets are joined, and memory stays flat.
+const BLOCK_FRAMES_MIN: usize = 4096;
+
+/// What to hear of a file.
+#[derive(Clone, Debug, Default)]
+pub struct OpenOptions {
+    /// The audio track, counted from 1 as people do. `None`: the first that is not silent.
+    pub audio_track: Option<usize>,
+    /// The channel, counted from 1 as people do. `None`: the mean of all.
+    pub channel: Option<usize>,
+    /// Which ffmpeg decodes what this crate cannot.
+    pub ffmpeg: FfmpegUse,
+}
+
+/// Who decodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Decoder {
+    /// This crate.
+    Native,
+    /// An ffmpeg beside it.
+    Ffmpeg,
+}
+
+/// What is known of a recording before it is heard.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct RecordingInfo {
+    /// Told by the content.
+    pub container: Container,
+    /// As people call it.
+    pub codec: String,
+    /// Samples per second, as recorded.
+    pub sample_rate_hz: f64,
+    /// Channels of the track.
+    pub channel_count: usize,
+    /// The channel that is heard, counted from 1; `None`: the mean of all.
+    pub channel: Option<usize>,
+    /// The track that is heard, counted from 1.
+    pub audio_track: usize,
+    /// Audio tracks in the file.
+    pub audio_track_count: usize,
+    /// Length of the sound by the header, where it tells: not to be relied on.
+    pub declared_duration_s: Option<f64>,
+    /// When the first sample sounds on the recording's own clock.
+    pub start_s: f64,
+    /// Who decodes.
+    pub decoder: Decoder,
+}
+
+/// An open recording. It reads the file block by block: memory does not grow with its length.
+pub struct Recording {
+    path: PathBuf,
+    plan: Plan,
+    info: RecordingInfo,
+    warnings: Warnings,
+    mix: Mix,
+    pass: Pass,
+    block: Vec<f32>,
+    is_prefix: bool,
+}
+
+/// One time through the sound.
+struct Pass {
+    frames: Box<dyn Frames>,
+    trim: Trim,
+    interleaved: Vec<f32>,
+    incidents: Incidents,
+    non_finite_samples: u64,
+    heard_frames: u64,
+    has_ended: bool,
+    /// The block was decoded ahead, to know that there is one.
+    is_block_ahead: bool,
+}
+
+impl Recording {
+    /// Opens a file, chooses its track and decodes its first block.
+    ///
+    /// # Errors
+    /// Everything that leaves nothing to hear; see [`MediaError`].
+    pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, MediaError> {
+        let sniffed = sniffed_from_file(path, &options.ffmpeg)?;
+        let tracks = Tracks::of(path, &sniffed, &options.ffmpeg)?;
+        let audio_track_count = tracks.count();
+        let mut warnings = Warnings::default();
+        if let Some(extension) = path.extension().and_then(|extension| extension.to_str())
+            && !sniffed.container.fits_extension(extension)
+        {
+            let (extension, container) = (extension.to_owned(), sniffed.container);
+            warnings.put(MediaWarning::WrongExtension { extension, container });
+        }
+        let (index, plan) = match options.audio_track {
+            Some(asked) => match asked.checked_sub(1).filter(|index| *index < audio_track_count) {
+                Some(index) => (index, tracks.plan(index)?),
+                None => return Err(MediaError::NoSuchTrack { asked, count: audio_track_count }),
+            },
+            None if audio_track_count == 1 => (0, tracks.plan(0)?),
+            None => {
+                let choice = choose::first_audible_track(path, &tracks)?;
+                let (chosen, count, silent) = (choice.index + 1, audio_track_count, choice.silent);
+                warnings.put(MediaWarning::SeveralAudioTracks { chosen, count, silent });
+                (choice.index, choice.plan)
+            }
+        };
+        plan.warnings.iter().cloned().for_each(|warning| warnings.put(warning));
+        Self::start(path, plan, index, audio_track_count, options.channel, warnings)
+    }
+
+    fn start(
+        path: &Path,
+        plan: Plan,
+        index: usize,
+        audio_track_count: usize,
+        channel: Option<usize>,
+        warnings: Warnings,
+    ) -> Result<Self, MediaError> {
+        let pass = Pass::start(path, &plan)?;
+        let (sample_rate_hz, channel_count) = (pass.frames.sample_rate_hz(), pass.frames.channel_count());
+        let container = plan.container;
+        if !(sample_rate_hz.is_finite() && sample_rate_hz >= 1.0) {
+            let (field, limit) = ("the sample rate", "at least 1 Hz");
+            return Err(MediaError::BadHeader { container, field, value: sample_rate_hz as u64, limit });
+        }
+        if channel_count == 0 || channel_count > CHANNEL_COUNT_MAX {
+            let (field, limit) = ("the number of channels", "1 to 256");
+            return Err(MediaError::BadHeader { container, field, value: channel_count as u64, limit });
+        }
+        if let Some(asked) = channel
+            && !(1..=channel_count).contains(&asked)
+        {
+            return Err(MediaError::NoSuchChannel { asked, count: channel_count });
+        }
+        let info = RecordingInfo {
+            container,
+            codec: plan.codec.clone(),
+            sample_rate_hz,
+            channel_count,
+            channel,
+            audio_track: index + 1,
+            audio_track_count,
+            declared_duration_s: plan.declared_s.or(plan.approximate_s),
+            start_s: plan.start_s,
+            decoder: if matches!(plan.route, Route::Ffmpeg { .. }) { Decoder::Ffmpeg } else { Decoder::Native },
+        };
+        let mix = Mix { channel_count, channel: channel.map(|channel| channel - 1) };
+        let path = path.to_owned();
+        let mut recording = Self { path, plan, info, warnings, mix, pass, block: Vec::new(), is_prefix: false };
+        recording.fill_block().map_err(MediaError::Read)?;
+        if recording.block.is_empty() {
+            return Err(recording.nothing_heard());
+        }
+        recording.pass.is_block_ahead = true;
+        Ok(recording)
+    }
+
+    /// What is known of it.
+    pub fn info(&self) -> &RecordingInfo {
+        &self.info
+    }
+
+    /// What was odd so far. More may come while it is heard; hearing it again changes nothing.
+    pub fn warnings(&self) -> &[MediaWarning] {
+        self.warnings.as_slice()
+    }
+
+    /// Whether the file ended before its sound did: known once all of it was heard.
+    pub fn is_prefix(&self) -> bool {
+        self.is_prefix
+    }
+
+    fn nothing_heard(&self) -> MediaError {
+        let container = self.plan.container;
+        match (&self.plan.route, &self.pass.incidents.ffmpeg_message) {
+            (Route::Ffmpeg { .. }, Some(message)) => {
+                MediaError::FfmpegFailed { container, codec: self.plan.codec.clone(), message: message.clone() }
+            }
+            _ => MediaError::NoSamples { container, why: "its header is followed by no sample".to_owned() },
+        }
+    }
+
+    /// Decodes until the block is long enough or the sound ends.
+    fn fill_block(&mut self) -> std::io::Result<()> {
+        self.block.clear();
+        let pass = &mut self.pass;
+        while !pass.has_ended && self.block.len() < BLOCK_FRAMES_MIN {
+            let has_more = pass.frames.next_frames(&mut pass.interleaved, &mut pass.incidents)?;
+            let wants_more = pass.trim.apply(&mut pass.interleaved, self.mix.channel_count);
+            pass.non_finite_samples += self.mix.append(&pass.interleaved, &mut self.block);
+            pass.has_ended = !(has_more && wants_more);
+        }
+        pass.heard_frames += self.block.len() as u64;
+        self.note_incidents();
+        Ok(())
+    }
+
+    fn note_incidents(&mut self) {
+        let rate = self.info.sample_rate_hz;
+        let Pass { incidents, non_finite_samples, heard_frames, has_ended, .. } = &self.pass;
+        if *non_finite_samples > 0 {
+            self.warnings.put_larger(MediaWarning::NonFiniteSamples { count: *non_finite_samples });
+        }
+        if incidents.corrupt_packets > 0 {
+            let silence_s = incidents.silence_frames as f64 / rate;
+            self.warnings.put_larger(MediaWarning::CorruptPackets { count: incidents.corrupt_packets, silence_s });
+        }
+        if incidents.format_changed {
+            self.warnings.put(MediaWarning::FormatChange { at_s: *heard_frames as f64 / rate });
+        }
+        if let Some(message) = &incidents.ffmpeg_message {
+            self.warnings.put(MediaWarning::Ffmpeg { message: message.clone() });
+        }
+        if *has_ended {
+            let decoded_s = *heard_frames as f64 / rate;
+            let declared_s = self.plan.declared_s;
+            let is_short =
+                declared_s.is_some_and(|declared| decoded_s + self.plan.declared_slack_s + 0.5 / rate < declared);
+            let ended_early = incidents.is_cut_off && !self.plan.has_open_end;
+            let is_cut_off = declared_s.is_none() && (ended_early || self.plan.is_cut_off);
+            self.is_prefix = is_short || is_cut_off || incidents.format_changed;
+            if is_short || is_cut_off {
+                self.warnings.put(MediaWarning::Truncated { decoded_s, declared_s });
+            }
+        }
+    }
+}
+
+impl fmt::Debug for Recording {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recording").field("path", &self.path).field("info", &self.info).finish_non_exhaustive()
+    }
+}
+
+impl SignalSource for Recording {
+    fn sample_rate_hz(&self) -> f64 {
+        self.info.sample_rate_hz
+    }
+
+    fn start_s(&self) -> f64 {
+        self.info.start_s
+    }
+
+    fn next_block(&mut self) -> Result<Option<&[f32]>, SourceError> {
+        if !std::mem::take(&mut self.pass.is_block_ahead) {
+            self.fill_block().map_err(|error| SourceError::new(MediaError::Read(error)))?;
+        }
+        Ok((!self.block.is_empty()).then_some(self.block.as_slice()))
+    }
+
+    fn rewind(&mut self) -> Result<(), SourceError> {
+        self.pass = Pass::start(&self.path, &self.plan).map_err(SourceError::new)?;
+        self.block.clear();
+        Ok(())
+    }
+}
+
+impl Pass {
+    fn start(path: &Path, plan: &Plan) -> Result<Self, MediaError> {
+        Ok(Self {
+            frames: plan.open(path)?,
+            trim: plan.trim,
+            interleaved: Vec::new(),
+            incidents: Incidents::default(),
+            non_finite_samples: 0,
+            heard_frames: 0,
+            has_ended: false,
+            is_block_ahead: false,
+        })
+    }
+}
+
+fn sniffed_from_file(path: &Path, ffmpeg: &FfmpegUse) -> Result<Sniffed, MediaError> {
+    let metadata = std::fs::metadata(path).map_err(MediaError::CannotOpen)?;
+    if !metadata.is_file() {
+        return Err(MediaError::NotAFile);
+    }
+    if metadata.len() == 0 {
+        return Err(MediaError::Empty);
+    }
+    let mut file = BufReader::new(File::open(path).map_err(MediaError::CannotOpen)?);
+    if let Some(sniffed) = container::container_from_content(&mut file).map_err(MediaError::Read)? {
+        return Ok(sniffed);
+    }
+    // ffmpeg knows more formats; but it takes rubbish for MP3 where the name says so, and admits that it guessed.
+    let inspection = ffmpeg.program().and_then(|program| crate::ffmpeg::inspect(&program, path, 0).ok());
+    match inspection {
+        Some(found) if found.has_input && !found.is_guess && !found.audio_codecs.is_empty() => {
+            Ok(Sniffed { container: Container::Other, base: 0, mpeg: None })
+        }
+        _ => Err(MediaError::UnknownFormat { first_bytes: container::first_bytes_in_hex(&mut file) }),
+    }
+}
