@@ -74,8 +74,8 @@ pub struct TrackPoint {
 ///
 /// - Harmonics that agree frame by frame come from one shaft. Then noise of density Φ is what limits them, and the
 ///   weight is o² A² / Φ (Whittle).
-/// - Harmonics that disagree come from several rotors, and what limits them is which rotor wins. High orders part the
-///   rotors most and so miss their mean by most, which takes the o² away: the weight is A² / Φ.
+/// - Harmonics that disagree come from several rotors, and what limits them is which rotor wins. The rotors' lines are
+///   parted in proportion to the order, and so grows that variance: the weight is A² / (Φ o).
 #[derive(Clone, Debug)]
 pub(crate) struct HarmonicWeights<'a> {
     used: Vec<(&'a Ridge, f64)>,
@@ -108,7 +108,7 @@ impl<'a> HarmonicWeights<'a> {
             };
             warnings.push(Warning::HarmonicLeftOut { harmonic: ridge.band.harmonic, reason });
         }
-        let order_power = if used.iter().all(|ridge| is_of_one_shaft(clearest, ridge)) { 2 } else { 0 };
+        let order_power = if used.iter().all(|ridge| is_of_one_shaft(clearest, ridge)) { 2 } else { -1 };
         let weight = |ridge: &Ridge| ridge.band.order.lines_per_turn().powi(order_power) * typical_over_sides(ridge);
         let total: f64 = used.iter().map(|ridge| weight(ridge)).sum();
         Self { used: used.into_iter().map(|ridge| (ridge, weight(ridge) / total)).collect() }

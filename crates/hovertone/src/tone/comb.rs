@@ -3,6 +3,7 @@
 use crate::config::ToneConfig;
 use crate::hover::Survey;
 use crate::spectrogram::whitened_db;
+use crate::statistics::mean;
 
 /// Distance of neighbouring speeds on the search grid, as a share.
 const GRID_STEP_SHARE: f64 = 0.003;
@@ -16,9 +17,12 @@ const GEAR_MESH_HARMONICS: u32 = 3;
 const BLADES_MAX: f64 = 12.0;
 /// Speeds this near count as the same when rows are pooled: a hover wanders.
 const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
-/// Every other (or third) line stronger by this on average means that the lines between are shaft lines, and the blade
-/// pass is twice (or three times) higher. True series of small multirotors show at most 2 dB, halved ones at least 6.
-const ALTERNATION_DB: f64 = 4.5;
+/// Every other (or third …) line stronger by this on average means that the lines between are shaft lines, and the blade
+/// pass is twice (or three times …) higher. True series of small multirotors recorded so far show at most 2 dB; halved ones
+/// 6 dB once and 8 dB or more in all other cases. Levels that scatter by 4 dB from line to line reach 7 dB once in 150.
+const ALTERNATION_DB: f64 = 7.0;
+/// How many lines of a series are looked at for that.
+const ALTERNATION_HARMONICS: u32 = 9;
 
 /// A line that a rotor is expected to make.
 #[derive(Clone, Copy, Debug)]
@@ -136,28 +140,36 @@ impl CombMap {
         Some(self.without_alternation(self.speeds_rev_s[middle]))
     }
 
-    /// Doubles (or triples) a speed whose every other (or third) line is much the strongest.
+    /// Multiplies a speed whose every other (or third …) line is much the strongest, when the lines between can be
+    /// those of a faster shaft: for two blades a factor 2, for three blades 3, for six 2 and 3.
     fn without_alternation(&self, speed_rev_s: f64) -> f64 {
-        let Some(blades) = self.comb.blades else { return speed_rev_s };
+        let Some(blades) = self.comb.blades.filter(|blades| blades.fract() == 0.0) else { return speed_rev_s };
+        let speed_rev_s_max = self.speeds_rev_s.last().copied().unwrap_or(0.0);
+        [2u32, 3, 5]
+            .into_iter()
+            .filter(|&factor| (blades as u32).is_multiple_of(factor))
+            .find(|&factor| {
+                f64::from(factor) * speed_rev_s <= speed_rev_s_max && self.is_alternating(blades * speed_rev_s, factor)
+            })
+            .map_or(speed_rev_s, |factor| f64::from(factor) * speed_rev_s)
+    }
+
+    /// Whether the `factor`-th, 2 `factor`-th … line of a series stand out of the lines beside them: on average by far,
+    /// and most of them each.
+    fn is_alternating(&self, tone_hz: f64, factor: u32) -> bool {
         let line_db = |k: u32| {
-            let place = f64::from(k) * blades * speed_rev_s / self.bin_hz;
+            let place = f64::from(k) * tone_hz / self.bin_hz;
             let (first, last) = ((0.985 * place - 1.0) as usize, (1.015 * place + 1.0) as usize);
             self.pooled_db.get(first..=last).map(|levels| levels.iter().copied().fold(f64::MIN, f64::max))
         };
-        for multiple in [2, 3] {
-            let mean_of = |is_wanted: &dyn Fn(u32) -> bool| {
-                let levels: Vec<f64> = (1..=3 * multiple + 2).filter(|&k| is_wanted(k)).filter_map(line_db).collect();
-                crate::statistics::mean(&levels)
-            };
-            let (on, off) = (mean_of(&|k| k % multiple == 0), mean_of(&|k| k % multiple != 0));
-            if let (Some(on), Some(off)) = (on, off)
-                && on - off > ALTERNATION_DB
-                && f64::from(multiple) * speed_rev_s <= self.speeds_rev_s.last().copied().unwrap_or(0.0)
-            {
-                return f64::from(multiple) * speed_rev_s;
-            }
-        }
-        speed_rev_s
+        let over_neighbours_db: Vec<(f64, f64)> = (1..=ALTERNATION_HARMONICS / factor)
+            .map(|index| index * factor)
+            .filter_map(|k| Some((line_db(k)?, line_db(k - 1)?, line_db(k + 1)?)))
+            .map(|(line, before, after)| (line - (before + after) / 2.0, line - before.max(after)))
+            .collect();
+        let over_mean_db: Vec<f64> = over_neighbours_db.iter().map(|over| over.0).collect();
+        let over_both = over_neighbours_db.iter().filter(|over| over.1 > 0.0).count();
+        mean(&over_mean_db).is_some_and(|over| over > ALTERNATION_DB) && 3 * over_both >= 2 * over_neighbours_db.len()
     }
 
     /// Best speed of a row within a share of `speed_rev_s`, and its score.
