@@ -9,9 +9,9 @@ use crate::warning::Warning;
 use serde::Serialize;
 use std::fmt;
 
-/// A frame length must show lines in this much more of the frames to be preferred to a shorter one: in short frames the
-/// lines of several rotors melt into their mean, in long ones the loudest wins.
-const CLEARER_SHARE: f64 = 0.03;
+/// Frame lengths whose share of lines differs by less than this are equally clear, and the longest, which resolves most,
+/// is taken. Where rotors part or wander, lines get fewer with length, so that clarity itself keeps frames short.
+const EQUALLY_CLEAR_SHARE: f64 = 0.01;
 /// A ridge on the edge of its band in more frames than this is not in its band.
 const EDGE_SHARE: f64 = 0.2;
 /// More gaps than this are said.
@@ -70,7 +70,7 @@ impl fmt::Display for NoTone {
     }
 }
 
-/// The ridges of the frame length that shows lines in most frames; among equals, of the shortest.
+/// The ridges of the frame length that shows lines in most frames; among equals, of the longest.
 pub(crate) fn clearest_ridges(ladder: &[Vec<Ridge>]) -> Option<&Vec<Ridge>> {
     let clarity = |ridges: &[Ridge]| {
         let shares: Vec<f64> = ridges.iter().map(|ridge| ridge.line_share).collect();
@@ -79,7 +79,7 @@ pub(crate) fn clearest_ridges(ladder: &[Vec<Ridge>]) -> Option<&Vec<Ridge>> {
     ladder
         .iter()
         .filter(|ridges| ridges.iter().any(|ridge| !ridge.frames.is_empty()))
-        .reduce(|best, longer| if clarity(longer) > clarity(best) + CLEARER_SHARE { longer } else { best })
+        .reduce(|best, longer| if clarity(longer) + EQUALLY_CLEAR_SHARE > clarity(best) { longer } else { best })
 }
 
 /// Why these ridges are no rotor; `None` when they are one.
