@@ -93,8 +93,10 @@ pub struct ToneConfig {
     /// rotors a few per cent apart, and keeps the bands of three harmonics from overlapping.
     pub band_half_width_share: f64,
     /// Slowest shaft that is looked for.
+    #[serde(rename = "speed_rad_s_min")]
     pub speed_min: RotorSpeed,
     /// Fastest shaft that is looked for.
+    #[serde(rename = "speed_rad_s_max")]
     pub speed_max: RotorSpeed,
 }
 

@@ -18,12 +18,13 @@ pub struct Cut {
     #[serde(flatten)]
     pub span: Span,
     /// Why.
+    #[serde(flatten)]
     pub reason: CutReason,
 }
 
 /// Why a stretch is not hover.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(tag = "reason", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum CutReason {
     /// Much quieter than the hover.
