@@ -1,2 +1,41 @@
-//! placeholder
-fn main() {}
+//! `hovertone`: hears a multirotor hover and tells its rotor speeds and its thrust constant.
+//!
+//! Each command goes the same way: what was typed (`args`), what it means (the command's `resolve`), the run. Data goes
+//! to stdout and to files, everything for people to stderr.
+
+mod args;
+mod demo;
+mod failure;
+mod files;
+mod identify;
+mod nearest;
+mod progress;
+mod recording;
+mod speed;
+mod terminal;
+mod vehicles;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use failure::Failure;
+use std::process::ExitCode;
+use terminal::Terminal;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let mut terminal = Terminal::new();
+    let ending = match &arguments.command {
+        Command::Speed(arguments) => speed::run(arguments, &mut terminal),
+        Command::Identify(arguments) => identify::run(arguments, &mut terminal),
+        Command::Demo(arguments) => demo::run(arguments, &mut terminal),
+        Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),
+    };
+    match ending.and_then(|ending| terminal.flush().map(|()| ending)) {
+        Ok(ending) => ending.exit_code(),
+        Err(Failure::StdoutClosed) => ExitCode::SUCCESS,
+        Err(failure) => {
+            terminal.failure(&failure);
+            failure.exit_code()
+        }
+    }
+}

@@ -1,1 +1,35 @@
-//! placeholder
+//! Results as tables, CSV and JSON. Pure functions from results to text: where the text goes is the caller's business.
+//!
+//! ```text
+//! number      digits that follow the uncertainty          text_table   aligned columns
+//! notice      a warning with its hint                     cuts         what was not used, on one line
+//! recording   what one recording said                     speed        its table row, its JSON, its track
+//! thrust      the paper's tables, any vehicle             results      results.json, samples.csv
+//! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
+//! ```
+
+mod comparison;
+mod cuts;
+mod notice;
+mod number;
+mod recording;
+mod results;
+mod samples;
+mod speed;
+mod text_table;
+mod thrust;
+mod vehicles;
+
+pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
+pub use cuts::cuts_in_words;
+pub use notice::Notice;
+pub use recording::{Answer, RecordingFacts, SpeedRecord};
+pub use results::{Identification, InputRecord, results_json};
+pub use samples::samples_csv;
+pub use speed::{speed_json, speed_table, track_csv};
+pub use text_table::wrapped;
+pub use thrust::{method_title, thrust_summary, thrust_table};
+pub use vehicles::{vehicles_json, vehicles_text};
+
+/// Version of the program that made an output.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");

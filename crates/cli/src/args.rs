@@ -1,0 +1,270 @@
+//! What was typed. What it means is found out by each command's `resolve`.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use hovertone::Method;
+use hovertone_vehicle::Gear;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Examples:
+  hovertone demo                              the paper's experiment, from simulated sound
+  hovertone speed --blades 2 hover.mp4        rotor speed of a recording
+  hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
+  hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
+  hovertone vehicles                          the vehicles it knows, with sources
+
+Exit codes:
+  0  done
+  1  a file could not be read or written
+  2  wrong use
+  3  done, but something is missing: no rotor tone, or a file that ends early
+
+Data goes to stdout and to files, everything else to stderr.";
+
+/// hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant
+#[derive(Debug, Parser)]
+#[command(name = "hovertone", version, after_help = EXAMPLES, max_term_width = 100)]
+#[command(long_about = "hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant.
+
+From ordinary video or audio of hovering flights with known masses it finds the rotor tones, turns them into rotor \
+speeds, and identifies C_f in F = C_f ω², with its uncertainty.")]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Speed(Box<SpeedArguments>),
+    Identify(IdentifyArguments),
+    Demo(DemoArguments),
+    Vehicles(VehiclesArguments),
+}
+
+const SPEED_EXAMPLES: &str = "\
+Which tone is heard: --order wins, then --gear, then --blades, then --vehicle. One of the four is needed.
+
+Examples:
+  hovertone speed --blades 2 hover.mp4
+  hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
+  hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
+  hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
+
+/// Rotor speed of recordings: mean, uncertainty and spread
+///
+/// Any video or audio file will do. Silence, handling noise, take-off and landing are cut away by themselves, and what
+/// was cut is said on stderr; --from and --to overrule that.
+#[derive(Args, Debug)]
+#[command(after_help = SPEED_EXAMPLES)]
+pub(crate) struct SpeedArguments {
+    /// Recordings: video or audio files
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) tone: ToneArguments,
+    #[command(flatten)]
+    pub(crate) analysis: AnalysisArguments,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print one JSON object per line and file, in the order given
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// Write the speed of every frame as CSV; with several recordings the first column is the file
+    #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
+    pub(crate) track: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Which tone")]
+pub(crate) struct ToneArguments {
+    /// Blades of each propeller: the tone is the blade pass
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub(crate) blades: Option<u32>,
+    /// Teeth of the motor's pinion and the rotor's wheel (the wheel alone will do): the tone is the gear mesh
+    #[arg(long, value_name = "P:W", value_parser = gear)]
+    pub(crate) gear: Option<Gear>,
+    /// Lines per turn of the shaft, of whichever tone
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub(crate) order: Option<f64>,
+    /// A known vehicle: its gear mesh or blade pass (see `hovertone vehicles`)
+    #[arg(long, value_name = "ID")]
+    pub(crate) vehicle: Option<String>,
+    /// Where the tone itself lies, in Hz; found by itself where not given
+    #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
+    pub(crate) band: Option<(f64, f64)>,
+    /// Harmonics to follow, the tone itself counted [default: 3]
+    #[arg(long, value_name = "N")]
+    pub(crate) harmonics: Option<u32>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "How it is analysed")]
+pub(crate) struct AnalysisArguments {
+    /// How the frequency is read from each frame [default: maximum_trace]
+    #[arg(long, value_parser = method_parser())]
+    pub(crate) method: Option<Method>,
+    /// Use the recording from here, and cut nothing away
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) from: Option<f64>,
+    /// Use the recording up to here, and cut nothing away
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) to: Option<f64>,
+    /// Length of a frame in seconds; the clearest of 0.0125 to 0.4 where not given
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) window_s: Option<f64>,
+    /// Step between frames as a share of their length [default: 0.5]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub(crate) hop_share: Option<f64>,
+    /// Share of a frame's peak that takes part in the Gaussian [default: 0.8]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub(crate) gaussian_threshold_share: Option<f64>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Reading files")]
+pub(crate) struct HearingArguments {
+    /// Audio track to hear, counted from 1 [default: the first that is not silent]
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub(crate) audio_track: Option<usize>,
+    /// Channel to hear, counted from 1 [default: the mean of all]
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub(crate) channel: Option<usize>,
+    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    #[arg(long)]
+    pub(crate) no_progress: bool,
+}
+
+const IDENTIFY_EXAMPLES: &str = "\
+An experiment file:
+  [vehicle]
+  preset = \"ardrone\"          # or rotors, blades, gear = { pinion = 8, wheel = 69 }
+  mass_kg = 0.413             # ready to fly, from a kitchen scale
+
+  [tone]
+  order = 69                  # lines per turn: blades, or the gear's wheel; \"auto\" takes the vehicle's
+
+  [[load]]
+  name = \"no hull\"
+  recordings = [\"no_hull/*.mov\"]
+
+  [[load]]
+  name = \"small hull\"
+  added_mass_kg = 0.031
+  recordings = [\"small_hull/*.mov\"]
+
+  [[load]]                    # or a bench run: thrust from a scale
+  name = \"bench\"
+  thrust_n = 0.099
+  rotors_running = 1
+  recordings = [\"48000.wav\"]
+
+`hovertone demo` writes a complete one, with its recordings.
+
+Examples:
+  hovertone identify experiment.toml
+  hovertone identify experiment.toml -o results
+  hovertone identify examples/crazyflie-bench.toml --data-root DIR";
+
+/// Thrust constant from recordings of hovers with known masses, or of bench runs
+///
+/// Prints tables like the paper's, by both of its methods, and the constant of the whole vehicle and of one rotor.
+#[derive(Args, Debug)]
+#[command(after_help = IDENTIFY_EXAMPLES)]
+pub(crate) struct IdentifyArguments {
+    /// What was flown, with which masses, and where the recordings are
+    #[arg(value_name = "EXPERIMENT.toml")]
+    pub(crate) experiment: PathBuf,
+    /// Write results.json and samples.csv there
+    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print results.json instead of the tables
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// Folder that the names of the recordings start from [default: the folder of the experiment file]
+    #[arg(long, value_name = "DIR", help_heading = "Reading files")]
+    pub(crate) data_root: Option<PathBuf>,
+    /// The method whose constant is reported; both are computed [default: maximum_trace]
+    #[arg(long, value_parser = method_parser())]
+    pub(crate) method: Option<Method>,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+}
+
+/// The paper's experiment from simulated sound: three loads, five trials each, identified like anybody's recordings
+///
+/// Writes the recordings as WAV files, the experiment file, and the truth about every rotor; identifies the files; and
+/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth.
+#[derive(Args, Debug)]
+#[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
+pub(crate) struct DemoArguments {
+    /// Where to write; must be empty, new, or an earlier demo
+    #[arg(short, long, value_name = "DIR", default_value = "demo")]
+    pub(crate) output: PathBuf,
+    /// Everything random comes from here
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    #[arg(long)]
+    pub(crate) no_progress: bool,
+}
+
+/// The vehicles that hovertone knows: every number with the document it was read in
+#[derive(Args, Debug)]
+pub(crate) struct VehiclesArguments {
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn method_parser() -> impl TypedValueParser<Value = Method> {
+    let named = |name: String| Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method");
+    PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(named)
+}
+
+fn from_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("it is counted from 1".to_owned()),
+        Ok(number) => Ok(number),
+        Err(_) => Err("a whole number is needed, counted from 1".to_owned()),
+    }
+}
+
+/// "8:69", or the wheel alone. A pinion that was not said makes no difference to the tone; it is taken as 1.
+fn gear(text: &str) -> Result<Gear, String> {
+    let teeth = |text: &str| match text.trim().parse::<u32>() {
+        Ok(teeth @ 1..=1000) => Ok(teeth),
+        _ => Err("write the teeth as PINION:WHEEL, such as 8:69, or the wheel's alone".to_owned()),
+    };
+    match text.split_once(':') {
+        Some((pinion, wheel)) => Ok(Gear { pinion: teeth(pinion)?, wheel: teeth(wheel)? }),
+        None => Ok(Gear { pinion: 1, wheel: teeth(text)? }),
+    }
+}
+
+/// "100:200".
+fn band(text: &str) -> Result<(f64, f64), String> {
+    let edge = |text: &str| text.trim().parse::<f64>().ok().filter(|edge_hz| edge_hz.is_finite());
+    let edges = text.split_once(':').and_then(|(low, high)| Some((edge(low)?, edge(high)?)));
+    edges.ok_or_else(|| "write the band as LOW:HIGH in Hz, such as 4000:4300".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn gears_and_bands_are_read() {
+        assert_eq!(gear("8:69"), Ok(Gear { pinion: 8, wheel: 69 }));
+        assert_eq!(gear("69").map(|gear| gear.wheel), Ok(69));
+        assert!(gear("8:").is_err() && gear("0").is_err() && gear("8:69:1").is_err());
+        assert_eq!(band("4000:4300.5"), Ok((4000.0, 4300.5)));
+        assert!(band("4000").is_err() && band("a:b").is_err() && band("1:inf").is_err());
+    }
+}

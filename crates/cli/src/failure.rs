@@ -1,0 +1,65 @@
+//! How a run ends.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// How a run that could be made ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Ending {
+    /// All was done.
+    Done,
+    /// Done, but something is missing: no rotor tone, or only the beginning of a recording.
+    Incomplete,
+    /// A file could not be read; the others were done.
+    FilesFailed,
+}
+
+impl Ending {
+    pub(crate) fn exit_code(self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Done => 0,
+            Self::FilesFailed => 1,
+            Self::Incomplete => 3,
+        })
+    }
+}
+
+/// Why a run could not be made: what happened and why, what to do, and where.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The command line or the experiment file means nothing.
+    Usage { what: String, hint: String, path: Option<PathBuf> },
+    /// Something could not be read or written.
+    Failed { what: String, hint: String, path: Option<PathBuf> },
+    /// Whoever read our output has had enough.
+    StdoutClosed,
+}
+
+impl Failure {
+    pub(crate) fn usage(what: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self::Usage { what: what.into(), hint: hint.into(), path: None }
+    }
+
+    pub(crate) fn failed(what: impl Into<String>, hint: impl Into<String>, path: &Path) -> Self {
+        Self::Failed { what: what.into(), hint: hint.into(), path: Some(path.to_owned()) }
+    }
+
+    pub(crate) fn cannot_write(error: &io::Error, path: &Path) -> Self {
+        Self::failed(format!("cannot write: {error}"), "choose another place, or check your rights and the disk", path)
+    }
+
+    /// For what cannot happen, but must not be a panic if it does.
+    pub(crate) fn internal(error: impl std::fmt::Display) -> Self {
+        let hint = "this is a bug of hovertone: please report it".to_owned();
+        Self::Failed { what: error.to_string(), hint, path: None }
+    }
+
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        ExitCode::from(match self {
+            Self::Usage { .. } => 2,
+            Self::Failed { .. } => 1,
+            Self::StdoutClosed => 0,
+        })
+    }
+}

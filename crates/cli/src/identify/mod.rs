@@ -1,0 +1,184 @@
+//! `hovertone identify`: the thrust constant from an experiment file and its recordings.
+
+mod experiment_file;
+mod recordings;
+
+pub(crate) use experiment_file::ExperimentSource;
+
+use crate::args::{HearingArguments, IdentifyArguments};
+use crate::failure::{Ending, Failure};
+use crate::progress::Progress;
+use crate::recording::{Hearing, hear_all};
+use crate::speed::ending_of;
+use crate::terminal::Terminal;
+use hovertone::{Experiment, LoadSpeeds, Method, SampleSpeed, ThrustTable, TrialSpeeds, thrust_from_loads};
+use hovertone_report::{
+    Identification, InputRecord, Notice, SpeedRecord, method_title, results_json, samples_csv, thrust_summary,
+    thrust_table,
+};
+use recordings::jobs_of;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// An experiment, what its recordings said, and what follows from it.
+pub(crate) struct Identified {
+    source: ExperimentSource,
+    method: Method,
+    inputs: Vec<InputRecord>,
+    tables: Vec<ThrustTable>,
+}
+
+/// Identifies the experiment and prints its tables.
+pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let source = ExperimentSource::read(&arguments.experiment)?;
+    let hearing = hearing_of(&arguments.hearing, arguments.json || arguments.output.is_some());
+    let method = arguments.method.unwrap_or_default();
+    let data_root = arguments.data_root.as_deref();
+    let identified = identify(source, data_root, hearing, method, !arguments.hearing.no_progress)?;
+    if arguments.json {
+        terminal.data(&results_json(&identified.identification()).map_err(Failure::internal)?)?;
+    } else {
+        terminal.data(&identified.in_words())?;
+    }
+    terminal.flush()?;
+    identified.say_notes(terminal);
+    match &arguments.output {
+        Some(folder) => {
+            let written = identified.write(folder)?;
+            terminal.say(&format!("written: {}", written.join(", ")));
+        }
+        None if !arguments.json => {
+            terminal.say("nothing was written; -o DIR writes results.json and samples.csv there");
+        }
+        None => {}
+    }
+    Ok(identified.ending())
+}
+
+fn hearing_of(arguments: &HearingArguments, wants_hash: bool) -> Hearing {
+    Hearing { audio_track: arguments.audio_track, channel: arguments.channel, wants_hash, wants_samples: true }
+}
+
+/// Hears all recordings of an experiment and fits its loads by every method.
+pub(crate) fn identify(
+    source: ExperimentSource,
+    data_root: Option<&Path>,
+    hearing: Hearing,
+    method: Method,
+    shows_progress: bool,
+) -> Result<Identified, Failure> {
+    let (jobs, loads) = jobs_of(&source, data_root)?.into_iter().unzip::<_, _, Vec<_>, Vec<_>>();
+    let progress = Progress::new("listening to", jobs.len(), shows_progress);
+    let records = hear_all(&jobs, hearing, &progress);
+    progress.finish();
+    let inputs: Vec<InputRecord> =
+        loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
+    let experiment = &source.experiment;
+    let tables = Method::ALL
+        .iter()
+        .map(|&method| thrust_from_loads(&loads_of(experiment, &inputs, method), method, experiment.rotor_count))
+        .collect();
+    Ok(Identified { source, method, inputs, tables })
+}
+
+/// The speeds of all loads by one method. A recording without a rotor tone is no trial.
+fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> Vec<LoadSpeeds> {
+    experiment
+        .loads
+        .iter()
+        .map(|load| LoadSpeeds {
+            name: load.name.clone(),
+            force: load.force,
+            rotors_running: load.rotors_running,
+            trials: inputs
+                .iter()
+                .filter(|input| input.load == load.name)
+                .filter_map(|input| trial_of(&input.record, method))
+                .collect(),
+        })
+        .collect()
+}
+
+fn trial_of(record: &SpeedRecord, method: Method) -> Option<TrialSpeeds> {
+    let samples = &record.tone()?.samples;
+    let speed_of = |sample: &hovertone::SampleSpeeds| {
+        let speed = sample.speeds.iter().find(|speed| speed.method == method)?;
+        Some(SampleSpeed {
+            span: sample.span,
+            speed: speed.speed,
+            std_uncertainty_rev_s: speed.std_uncertainty_rev_s,
+            spread_rev_s: speed.spread_rev_s,
+            frame_count: speed.frame_count,
+        })
+    };
+    Some(TrialSpeeds { recording: record.file.clone(), samples: samples.iter().filter_map(speed_of).collect() })
+}
+
+impl Identified {
+    /// One table for each method.
+    pub(crate) fn tables(&self) -> &[ThrustTable] {
+        &self.tables
+    }
+
+    pub(crate) fn ending(&self) -> Ending {
+        ending_of(self.inputs.iter().map(|input| &input.record))
+    }
+
+    /// For the report.
+    pub(crate) fn identification(&self) -> Identification<'_> {
+        Identification {
+            file: &self.source.name,
+            sha256: &self.source.sha256,
+            experiment: &self.source.experiment,
+            method: self.method,
+            tables: &self.tables,
+            inputs: &self.inputs,
+        }
+    }
+
+    /// The answer under the tables.
+    pub(crate) fn summary(&self) -> String {
+        let experiment = &self.source.experiment;
+        thrust_summary(&self.tables, self.method, experiment.air, experiment.propeller_diameter_m)
+    }
+
+    fn in_words(&self) -> String {
+        let experiment = &self.source.experiment;
+        let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
+        let mut text = format!(
+            "{}: {} rotors, tone of order {}\n{} loads, {} recordings, {heard} of them with a rotor tone\n",
+            experiment.vehicle_name,
+            experiment.rotor_count,
+            experiment.config.tone.order,
+            experiment.loads.len(),
+            self.inputs.len(),
+        );
+        for table in &self.tables {
+            text += &format!("\n{}\n{}", method_title(table.method), thrust_table(table));
+        }
+        text + "\n" + &self.summary()
+    }
+
+    /// What was cut away, and what weakens the result.
+    pub(crate) fn say_notes(&self, terminal: &mut Terminal) {
+        terminal.notes(&self.inputs.iter().map(|input| &input.record).collect::<Vec<_>>());
+        for warning in self.identification().reported().map_or(&[][..], |table| &table.warnings) {
+            terminal.warning(&Notice::from(warning), "");
+        }
+    }
+
+    /// Writes `results.json` and `samples.csv`; gives back where.
+    pub(crate) fn write(&self, folder: &Path) -> Result<Vec<String>, Failure> {
+        fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
+        let contents = [
+            ("results.json", results_json(&self.identification()).map_err(Failure::internal)?),
+            ("samples.csv", samples_csv(&self.tables).map_err(Failure::internal)?),
+        ];
+        contents.into_iter().map(|(name, text)| write_text(&folder.join(name), &text)).collect()
+    }
+}
+
+fn write_text(path: &PathBuf, text: &str) -> Result<String, Failure> {
+    fs::write(path, text).map_err(|error| Failure::cannot_write(&error, path))?;
+    Ok(path.display().to_string())
+}

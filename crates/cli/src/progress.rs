@@ -1,0 +1,66 @@
+//! How far the listening has come, on stderr, when somebody is looking.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{self, IsTerminal};
+use std::time::Duration;
+
+/// Steps of the bar for each recording.
+const STEPS: u64 = 1000;
+const TICK: Duration = Duration::from_millis(120);
+const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {eta} left";
+
+/// A bar over all recordings together.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// A bar for so many recordings, hidden unless it is wanted and stderr is a terminal.
+    pub(crate) fn new(verb: &str, recording_count: usize, is_wanted: bool) -> Self {
+        let is_seen = is_wanted && io::stderr().is_terminal();
+        let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(STEPS * recording_count as u64), target);
+        if let Ok(style) = ProgressStyle::with_template(BAR) {
+            bar.set_style(style);
+        }
+        let things = if recording_count == 1 { "recording" } else { "recordings" };
+        bar.set_message(format!("{verb} {recording_count} {things}"));
+        if is_seen {
+            bar.enable_steady_tick(TICK);
+        }
+        Self { bar }
+    }
+
+    /// The part of the bar that belongs to one recording.
+    pub(crate) fn recording(&self) -> Share<'_> {
+        Share { bar: &self.bar, steps_done: 0 }
+    }
+
+    /// Takes the bar away, so that nothing is written through it.
+    pub(crate) fn finish(self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// The part of the bar that belongs to one recording. It fills up by itself when the recording is done with.
+pub(crate) struct Share<'a> {
+    bar: &'a ProgressBar,
+    steps_done: u64,
+}
+
+impl Share<'_> {
+    /// Sets how much of the recording is done; never goes back.
+    pub(crate) fn set(&mut self, share: f64) {
+        let steps = (share.clamp(0.0, 1.0) * STEPS as f64) as u64;
+        if steps > self.steps_done {
+            self.bar.inc(steps - self.steps_done);
+            self.steps_done = steps;
+        }
+    }
+}
+
+impl Drop for Share<'_> {
+    fn drop(&mut self) {
+        self.set(1.0);
+    }
+}

@@ -1,0 +1,116 @@
+//! `hovertone speed`: rotor speeds of recordings.
+
+use crate::args::{SpeedArguments, ToneArguments};
+use crate::failure::{Ending, Failure};
+use crate::files::files_of;
+use crate::progress::Progress;
+use crate::recording::{Hearing, Job, hear_all};
+use crate::terminal::Terminal;
+use crate::vehicles::preset;
+use hovertone::{Config, ToneConfig};
+use hovertone_report::{SpeedRecord, speed_json, speed_table, track_csv};
+use hovertone_vehicle::Order;
+use std::path::PathBuf;
+
+/// What the arguments mean.
+struct Plan {
+    jobs: Vec<Job>,
+    hearing: Hearing,
+    track: Option<PathBuf>,
+}
+
+/// Hears all files and prints their speeds.
+pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let plan = resolve(arguments)?;
+    let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
+    let records = hear_all(&plan.jobs, plan.hearing, &progress);
+    progress.finish();
+    if arguments.json {
+        for record in &records {
+            terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;
+        }
+    } else {
+        terminal.data(&speed_table(&records))?;
+    }
+    terminal.flush()?;
+    terminal.notes(&records.iter().collect::<Vec<_>>());
+    if let Some(path) = plan.track {
+        let track = track_csv(&records).map_err(Failure::internal)?;
+        std::fs::write(&path, track).map_err(|error| Failure::cannot_write(&error, &path))?;
+    }
+    Ok(ending_of(&records))
+}
+
+/// How a run over these recordings ended.
+pub(crate) fn ending_of<'a>(records: impl IntoIterator<Item = &'a SpeedRecord>) -> Ending {
+    let ending = |record: &SpeedRecord| match record {
+        record if record.has_failed() => Ending::FilesFailed,
+        record if record.is_incomplete() => Ending::Incomplete,
+        _ => Ending::Done,
+    };
+    records.into_iter().map(ending).max().unwrap_or(Ending::Done)
+}
+
+fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
+    let config = config_of(arguments)?;
+    let mut jobs = Vec::new();
+    for name in &arguments.files {
+        let files = files_of(name);
+        // a pattern without files stays in the list, so that its failure has a place in the output
+        let files = if files.is_empty() { vec![name.clone()] } else { files };
+        jobs.extend(files.into_iter().map(|path| Job {
+            name: path.display().to_string(),
+            path,
+            config: config.clone(),
+        }));
+    }
+    let hearing = Hearing {
+        audio_track: arguments.hearing.audio_track,
+        channel: arguments.hearing.channel,
+        wants_hash: arguments.json,
+        wants_samples: false,
+    };
+    Ok(Plan { jobs, hearing, track: arguments.track.clone() })
+}
+
+fn config_of(arguments: &SpeedArguments) -> Result<Config, Failure> {
+    let mut config = Config::for_tone(tone_of(&arguments.tone)?);
+    let analysis = &arguments.analysis;
+    config.method = analysis.method.unwrap_or_default();
+    config.span.from_s = analysis.from;
+    config.span.to_s = analysis.to;
+    config.spectrogram.window_s = analysis.window_s;
+    config.spectrogram.hop_share = analysis.hop_share.unwrap_or(config.spectrogram.hop_share);
+    let threshold_share = analysis.gaussian_threshold_share;
+    config.ridge.gaussian_threshold_share = threshold_share.unwrap_or(config.ridge.gaussian_threshold_share);
+    config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    Ok(config)
+}
+
+/// The tone that is meant: `--order` wins, then the gear, then the blades, then the vehicle. Blades that are known
+/// beside a gear help to find its tone.
+fn tone_of(arguments: &ToneArguments) -> Result<ToneConfig, Failure> {
+    let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
+    let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
+    let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {
+        (Some(lines_per_turn), ..) => Order::new(lines_per_turn),
+        (None, Some(gear), ..) => gear.mesh_order(),
+        (None, None, Some(blades), _) => Order::from_blades(blades),
+        (None, None, None, Some(vehicle)) => Ok(vehicle.tone_order().ok_or_else(|| {
+            let what = format!("the blades of the {} are not known, so neither is its tone", vehicle.name);
+            Failure::usage(what, "count them and add --blades N")
+        })?),
+        (None, None, None, None) => {
+            return Err(Failure::usage(
+                "which tone is the rotor's? One of --blades, --gear, --order and --vehicle is needed",
+                "for most drones count the blades of one propeller: hovertone speed --blades 2 FILE",
+            ));
+        }
+    };
+    let order = order.map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    let mut tone = ToneConfig::of_order(order);
+    tone.blades = blades;
+    tone.band_hz = arguments.band;
+    tone.harmonics = arguments.harmonics.unwrap_or(tone.harmonics);
+    Ok(tone)
+}

@@ -1,0 +1,32 @@
+//! `hovertone vehicles`: the presets and where their numbers come from.
+
+use crate::args::VehiclesArguments;
+use crate::failure::{Ending, Failure};
+use crate::nearest::nearest;
+use crate::terminal::Terminal;
+use hovertone_report::{vehicles_json, vehicles_text};
+use hovertone_vehicle::{Vehicle, find_preset, presets};
+
+/// Prints all presets.
+pub(crate) fn run(arguments: &VehiclesArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let text = if arguments.json {
+        vehicles_json(presets()).map_err(Failure::internal)?
+    } else {
+        vehicles_text(presets(), terminal.width())
+    };
+    terminal.data(&text)?;
+    Ok(Ending::Done)
+}
+
+/// The preset of that name; the nearest name is in the hint where there is none.
+pub(crate) fn preset(id: &str) -> Result<&'static Vehicle, Failure> {
+    find_preset(id).ok_or_else(|| Failure::usage(format!("there is no vehicle preset \"{id}\""), preset_hint(id)))
+}
+
+/// What to do about a preset that does not exist.
+pub(crate) fn preset_hint(id: &str) -> String {
+    match nearest(id, presets().iter().map(|vehicle| vehicle.id)) {
+        Some(name) => format!("did you mean \"{name}\"? `hovertone vehicles` lists all"),
+        None => "`hovertone vehicles` lists all".to_owned(),
+    }
+}

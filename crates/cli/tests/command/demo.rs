@@ -1,0 +1,73 @@
+//! `hovertone demo`: the whole way, with the truth known.
+
+use crate::testkit::{hovertone, text};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+/// What the issue asks for, in every load by both methods.
+const ERROR_SHARE_MAX: f64 = 0.005;
+
+#[test]
+fn both_methods_find_the_truth_in_every_load_and_a_seed_repeats() {
+    let folder = tempfile::tempdir().unwrap();
+    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
+    let run = hovertone(&["demo", "-o", text(&first)]).ends_with(0);
+    for words in ["table 1", "table 2", "paper", "truth", "3610.3", "2.8903", "seed 1"] {
+        assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
+    }
+    let results = fs::read_to_string(first.join("results.json")).unwrap();
+    let parsed: Value = serde_json::from_str(&results).unwrap();
+    let truths = truth_of_loads(&first);
+    for method in ["maximum_trace", "gaussian"] {
+        let loads = parsed["methods"][method]["loads"].as_array().unwrap();
+        assert_eq!(loads.len(), 3);
+        for load in loads {
+            let (name, mass_kg) = (load["name"].as_str().unwrap(), load["mass_kg"].as_f64().unwrap());
+            let truth = 4.0 * mass_kg * 9.80 / truths[name];
+            let value = load["thrust_constant_total_n_s2"]["value"].as_f64().unwrap();
+            assert!((value / truth - 1.0).abs() < ERROR_SHARE_MAX, "{method}, {name}: {value}, truth {truth}");
+        }
+    }
+    // the same seed once more, over an earlier demo
+    hovertone(&["demo", "-o", text(&second), "--seed", "2"]).ends_with(0);
+    assert_ne!(fs::read_to_string(second.join("results.json")).unwrap(), results);
+    let again = hovertone(&["demo", "-o", text(&second), "--seed", "1"]).ends_with(0);
+    assert_eq!(again.stdout, run.stdout);
+    for name in
+        ["results.json", "samples.csv", "truth.csv", "truth_tracks.csv", "experiment.toml", "no_hull/trial_1.wav"]
+    {
+        assert_eq!(fs::read(first.join(name)).unwrap(), fs::read(second.join(name)).unwrap(), "{name}");
+    }
+    // what the demo wrote is an experiment like any other
+    let experiment = first.join("experiment.toml");
+    let identified = hovertone(&["identify", text(&experiment), "--json"]).ends_with(0).stdout;
+    assert_eq!(identified, results);
+}
+
+/// Mean over the trials of each load of the mean of Σω², from the file.
+fn truth_of_loads(folder: &Path) -> BTreeMap<String, f64> {
+    let mut table = csv::Reader::from_path(folder.join("truth.csv")).unwrap();
+    let head = table.headers().unwrap().clone();
+    let column = |name: &str| head.iter().position(|known| known == name).unwrap();
+    let (load, squares) = (column("load"), column("mean_sum_of_squares_rad2_s2"));
+    let mut of_loads: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+    for row in table.records() {
+        let row = row.unwrap();
+        of_loads.entry(row[load].to_owned()).or_default().push(row[squares].parse().unwrap());
+    }
+    assert!(of_loads.len() == 3 && of_loads.values().all(|trials| trials.len() == 5), "{of_loads:?}");
+    of_loads.into_iter().map(|(name, trials)| (name, trials.iter().sum::<f64>() / 5.0)).collect()
+}
+
+#[test]
+fn a_folder_that_is_no_demo_is_left_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("thesis.txt"), "precious").unwrap();
+    let run = hovertone(&["demo", "-o", text(folder.path())]).ends_with(1);
+    assert!(run.stderr.contains("not empty") && run.stderr.contains("-o DIR"), "{}", run.stderr);
+    fs::write(folder.path().join("experiment.toml"), "[vehicle]\npreset = \"ardrone\"\n").unwrap();
+    hovertone(&["demo", "-o", text(folder.path())]).ends_with(1);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
+}

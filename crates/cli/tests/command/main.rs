@@ -1,0 +1,11 @@
+//! The command as a person runs it: what it prints, what it writes, how it ends.
+
+// The lints know tests by their attribute, and what tests share has none.
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+mod demo;
+mod identify;
+mod real_recordings;
+mod speed;
+mod testkit;
+mod usage;

@@ -1,0 +1,170 @@
+//! `hovertone speed` on sound with a known speed.
+
+use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};
+use hovertone_sim::SpeedProfile;
+use hovertone_vehicle::RotorSpeed;
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// Bias of an interpolated peak (Hann, two-fold zero padding), with room for noise, in bins of the frame.
+const PEAK_BIAS_BINS: f64 = 0.01;
+
+struct Folder {
+    folder: tempfile::TempDir,
+}
+
+impl Folder {
+    fn new() -> Self {
+        Self { folder: tempfile::tempdir().unwrap() }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// A two-bladed rotor at 100 turns a second.
+    fn hover(&self) -> PathBuf {
+        let path = self.path("hover.wav");
+        write_hover(&path, steady_hover("crazyflie", RotorSpeed::from_rev_s(100.0), 4.0));
+        path
+    }
+
+    fn noise(&self) -> PathBuf {
+        let path = self.path("noise.wav");
+        write_noise(&path, 3.0);
+        path
+    }
+}
+
+fn keys(object: &Value) -> Vec<&str> {
+    object.as_object().unwrap().keys().map(String::as_str).collect()
+}
+
+#[test]
+fn json_has_the_fixed_names_and_the_right_speed() {
+    let folder = Folder::new();
+    let path = folder.hover();
+    let run = hovertone(&["speed", "--blades", "2", "--json", text(&path)]).ends_with(0);
+    let lines = run.json_lines();
+    let [line] = &lines[..] else { panic!("{}", run.stdout) };
+    let fixed = "file status method order tone_hz speed_rev_s speed_rpm speed_rad_s std_uncertainty_rev_s spread_rev_s \
+                 from_s to_s warnings reason version settings recording hover";
+    for name in fixed.split_whitespace() {
+        assert!(keys(line).contains(&name), "{name} is not in {:?}", keys(line));
+    }
+    assert!(!keys(line).contains(&"rotors"));
+    assert_eq!((&line["file"], &line["status"]), (&Value::from(text(&path)), &Value::from("ok")));
+    assert_eq!((&line["method"], line["order"].as_f64()), (&Value::from("maximum_trace"), Some(2.0)));
+    assert_eq!(line["recording"]["sha256"].as_str().unwrap().len(), 64);
+    let number = |name: &str| line[name].as_f64().unwrap();
+    let tolerance_rev_s = PEAK_BIAS_BINS / number("window_s") / 2.0;
+    assert!((number("speed_rev_s") - 100.0).abs() < tolerance_rev_s, "{} ± {tolerance_rev_s}", number("speed_rev_s"));
+    assert!((number("speed_rpm") / number("speed_rev_s") - 60.0).abs() < 1e-9);
+    assert!((number("speed_rad_s") / number("speed_rev_s") - std::f64::consts::TAU).abs() < 1e-9);
+    assert!((number("tone_hz") / number("speed_rev_s") - 2.0).abs() < 1e-9);
+    assert!((0.0..0.1).contains(&number("std_uncertainty_rev_s")));
+    assert!(number("from_s") >= 0.0 && number("to_s") <= 4.0 && number("to_s") - number("from_s") > 3.0);
+}
+
+#[test]
+fn all_ways_to_name_the_tone_hear_the_same_rotor() {
+    let folder = Folder::new();
+    let path = folder.path("geared.wav");
+    write_hover(&path, steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), 4.0));
+    let ways: [&[&str]; 6] = [
+        &["--vehicle", "ardrone"],
+        &["--gear", "8:69"],
+        &["--gear", "69", "--blades", "2"],
+        &["--order", "69"],
+        &["--order", "69", "--vehicle", "ardrone", "--method", "gaussian"],
+        &["--order", "69", "--band", "4000:4300"],
+    ];
+    for way in ways {
+        let run = hovertone(&[&["speed", "--json", text(&path)], way].concat()).ends_with(0);
+        let line = &run.json_lines()[0];
+        let (speed_rev_s, window_s) = (line["speed_rev_s"].as_f64().unwrap(), line["window_s"].as_f64().unwrap());
+        assert!((speed_rev_s - 60.0).abs() < PEAK_BIAS_BINS / window_s / 69.0, "{way:?}: {speed_rev_s}");
+        assert_eq!(line["order"].as_f64(), Some(69.0), "{way:?}");
+    }
+}
+
+#[test]
+fn noise_has_no_rotor_tone_and_ends_with_3() {
+    let folder = Folder::new();
+    let path = folder.noise();
+    let run = hovertone(&["speed", "--blades", "2", "--json", text(&path)]).ends_with(3);
+    let line = &run.json_lines()[0];
+    assert_eq!(line["status"], "no_rotor_tone");
+    assert!(line["reason"].as_str().is_some_and(|reason| !reason.is_empty()));
+    for name in ["tone_hz", "speed_rev_s", "speed_rpm", "speed_rad_s", "std_uncertainty_rev_s", "spread_rev_s"] {
+        assert!(line[name].is_null(), "{name}");
+    }
+    let table = hovertone(&["speed", "--blades", "2", text(&path)]).ends_with(3);
+    assert!(table.stdout.contains("no rotor tone"), "{}", table.stdout);
+    assert!(table.stderr.contains("no rotor tone:"), "{}", table.stderr);
+}
+
+#[test]
+fn a_missing_file_ends_with_1_and_the_others_are_done_in_order() {
+    let folder = Folder::new();
+    let (hover, noise, missing) = (folder.hover(), folder.noise(), folder.path("missing.wav"));
+    let pattern = folder.path("*.flac");
+    let files = [text(&missing), text(&noise), text(&hover), text(&pattern), text(folder.folder.path())];
+    let run = hovertone(&[&["speed", "--blades", "2", "--json"], &files[..]].concat()).ends_with(1);
+    let lines = run.json_lines();
+    let statuses: Vec<_> = lines.iter().map(|line| line["status"].as_str().unwrap()).collect();
+    assert_eq!(statuses, ["error", "no_rotor_tone", "ok", "error", "error"]);
+    let names: Vec<_> = lines.iter().map(|line| line["file"].as_str().unwrap()).collect();
+    assert_eq!(names, files);
+    // the path stands last, on a line of its own
+    assert!(run.stderr.contains(&format!("\n  {}\n", missing.display())), "{}", run.stderr);
+    assert!(run.stderr.contains("no file matches") && run.stderr.contains("this is a folder"), "{}", run.stderr);
+}
+
+#[test]
+fn take_off_and_landing_are_cut_away_and_said() {
+    let folder = Folder::new();
+    let path = folder.path("flight.wav");
+    let profile = SpeedProfile { silence_before_s: 1.5, spin_up_s: 1.5, spin_down_s: 1.5, silence_after_s: 1.5 };
+    let hover = steady_hover("crazyflie", RotorSpeed::from_rev_s(100.0), 14.0);
+    write_hover(&path, hovertone_sim::HoverSettings { profile, ..hover });
+    let run = hovertone(&["speed", "--blades", "2", "--json", text(&path)]).ends_with(0);
+    let line = &run.json_lines()[0];
+    let (from_s, to_s) = (line["from_s"].as_f64().unwrap(), line["to_s"].as_f64().unwrap());
+    // the hover is 3 to 11 s, and a cut is made to two rows of half a second
+    assert!((2.5..4.0).contains(&from_s) && (10.0..11.5).contains(&to_s), "{from_s} {to_s}");
+    assert!(run.stderr.contains("cut 0.0–"), "{}", run.stderr);
+    let all = hovertone(&["speed", "--blades", "2", "--json", "--from", "4", "--to", "9.5", text(&path)]).ends_with(0);
+    let line = &all.json_lines()[0];
+    assert_eq!((line["from_s"].as_f64(), line["to_s"].as_f64()), (Some(4.0), Some(9.5)));
+    assert!(!all.stderr.contains("cut"), "{}", all.stderr);
+}
+
+#[test]
+fn the_track_is_a_table_of_frames() {
+    let folder = Folder::new();
+    let (hover, track) = (folder.hover(), folder.path("track.csv"));
+    hovertone(&["speed", "--blades", "2", "--track", text(&track), text(&hover)]).ends_with(0);
+    let mut table = csv::Reader::from_path(&track).unwrap();
+    let head: Vec<String> = table.headers().unwrap().iter().map(str::to_owned).collect();
+    assert_eq!(head, ["time_s", "tone_hz", "speed_rev_s", "std_uncertainty_rev_s", "level_db"]);
+    let rows: Vec<Vec<f64>> =
+        table.records().map(|row| row.unwrap().iter().map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert!(rows.len() > 10, "{} frames", rows.len());
+    assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]), "time goes on");
+    assert!(rows.iter().all(|row| (row[1] / row[2] - 2.0).abs() < 1e-9 && row[4] < 0.0));
+    hovertone(&["speed", "--blades", "2", "--track", text(&track), text(&hover), text(&hover)]).ends_with(0);
+    let mut table = csv::Reader::from_path(&track).unwrap();
+    assert_eq!(table.headers().unwrap().get(0), Some("file"));
+    assert_eq!(table.records().count(), 2 * rows.len());
+}
+
+#[test]
+fn the_same_command_gives_the_same_bytes() {
+    let folder = Folder::new();
+    let (hover, noise) = (folder.hover(), folder.noise());
+    let arguments = ["speed", "--blades", "2", "--json", text(&hover), text(&noise), text(&hover)];
+    let (first, second) = (hovertone(&arguments), hovertone(&arguments));
+    assert!(first.stdout.len() > 100);
+    assert_eq!((first.stdout, first.stderr), (second.stdout, second.stderr));
+}

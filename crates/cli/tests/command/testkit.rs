@@ -1,0 +1,113 @@
+//! Running the command, sound for it to hear, and where the real recordings are.
+
+use hovertone_sim::{HoverSettings, HoverSound, RotorSound};
+use hovertone_vehicle::{RotorSpeed, find_preset};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What a run of the command left behind.
+pub(crate) struct Run {
+    pub(crate) code: i32,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
+}
+
+impl Run {
+    /// Every line of stdout as JSON.
+    pub(crate) fn json_lines(&self) -> Vec<Value> {
+        self.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    }
+
+    /// Asserts how the run ended; on failure shows what it said.
+    pub(crate) fn ends_with(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "stdout:\n{}\nstderr:\n{}", self.stdout, self.stderr);
+        self
+    }
+}
+
+/// Runs `hovertone` and waits.
+pub(crate) fn hovertone(arguments: &[&str]) -> Run {
+    hovertone_with(arguments, |command| command)
+}
+
+/// Runs `hovertone` in an environment of its own.
+pub(crate) fn hovertone_with(arguments: &[&str], set_up: impl FnOnce(&mut Command) -> &mut Command) -> Run {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hovertone"));
+    let output = set_up(command.args(arguments)).output().unwrap();
+    Run {
+        code: output.status.code().unwrap_or(-1),
+        stdout: String::from_utf8(output.stdout).unwrap(),
+        stderr: String::from_utf8(output.stderr).unwrap(),
+    }
+}
+
+/// A path as an argument.
+pub(crate) fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// The sound of a preset's rotors, all at one steady speed.
+pub(crate) fn steady_hover(preset: &str, speed: RotorSpeed, duration_s: f64) -> HoverSettings {
+    let settings = HoverSettings::for_vehicle(find_preset(preset).unwrap(), speed);
+    let rotors = vec![RotorSound::steady(speed); settings.rotors.len()];
+    HoverSettings { duration_s, rotors, ..settings }
+}
+
+/// Renders a sound into a 16-bit WAV file.
+pub(crate) fn write_hover(path: &Path, settings: HoverSettings) {
+    let rate_hz = settings.sample_rate_hz;
+    let (samples, _) = HoverSound::new(settings).unwrap().render_all();
+    write_wav(path, &samples, rate_hz);
+}
+
+/// White noise, the same at every run: SplitMix64.
+pub(crate) fn write_noise(path: &Path, duration_s: f64) {
+    let rate_hz = 44_100;
+    let mut state = 1_u64;
+    let samples: Vec<f32> = (0..(duration_s * f64::from(rate_hz)) as usize)
+        .map(|_| {
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((mixed >> 40) as f32 / 8_388_608.0 - 1.0) * 0.1
+        })
+        .collect();
+    write_wav(path, &samples, rate_hz);
+}
+
+fn write_wav(path: &Path, samples: &[f32], sample_rate: u32) {
+    let spec =
+        hound::WavSpec { channels: 1, sample_rate, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
+    let mut writer = hound::WavWriter::create(path, spec).unwrap();
+    for sample in samples {
+        writer.write_sample((sample * 32_767.0).round() as i16).unwrap();
+    }
+    writer.finalize().unwrap();
+}
+
+/// The root of the repository.
+pub(crate) fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
+}
+
+/// A folder of the real recordings; where there is none, says so on a line that the run's summary counts.
+pub(crate) fn recordings(folder: &str) -> Option<PathBuf> {
+    let named = std::env::var_os("HOVERTONE_TEST_DATA").map(PathBuf::from);
+    let root = named.unwrap_or_else(|| repository().join("../shared/data"));
+    let path = root.join(folder);
+    if path.is_dir() {
+        return Some(path);
+    }
+    println!("skipped: no test recordings at {} (set HOVERTONE_TEST_DATA)", path.display());
+    None
+}
+
+/// The files of a folder with an ending, in order of their names; at least one.
+pub(crate) fn files_in(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<PathBuf> = entries.filter(|path| text(path).ends_with(ending)).collect();
+    files.sort();
+    assert!(!files.is_empty(), "nothing ends in {ending} in {}", folder.display());
+    files
+}

@@ -1,0 +1,83 @@
+//! Wrong use ends with 2 and says what to do.
+
+use crate::testkit::{hovertone, text};
+
+fn refuses(arguments: &[&str], words: &[&str]) {
+    let run = hovertone(arguments).ends_with(2);
+    assert!(run.stdout.is_empty(), "{arguments:?} printed data: {}", run.stdout);
+    for word in words {
+        assert!(run.stderr.contains(word), "{arguments:?} does not say {word:?}:\n{}", run.stderr);
+    }
+    assert!(!run.stderr.contains('\x1b'), "colours without a terminal");
+}
+
+#[test]
+fn a_tone_must_be_named_and_all_four_ways_are_told() {
+    refuses(&["speed", "a.wav"], &["--blades", "--gear", "--order", "--vehicle", "hint:"]);
+}
+
+#[test]
+fn settings_without_meaning_are_refused_by_name() {
+    refuses(&["speed", "a.wav", "--blades", "2", "--band", "200:100"], &["200:100"]);
+    refuses(&["speed", "a.wav", "--blades", "2", "--band", "200"], &["LOW:HIGH"]);
+    refuses(&["speed", "a.wav", "--blades", "0"], &["--blades"]);
+    refuses(&["speed", "a.wav", "--order", "-1"], &["order"]);
+    refuses(&["speed", "a.wav", "--order", "NaN"], &["order"]);
+    refuses(&["speed", "a.wav", "--gear", "8-69"], &["8:69"]);
+    refuses(&["speed", "a.wav", "--blades", "2", "--harmonics", "99"], &["harmonics", "99", "20"]);
+    refuses(&["speed", "a.wav", "--blades", "2", "--from", "5", "--to", "3"], &["5 s", "3 s"]);
+    refuses(&["speed", "a.wav", "--blades", "2", "--channel", "0"], &["counted from 1"]);
+    refuses(&["speed", "a.wav", "--blades", "2", "--method", "guess"], &["maximum_trace", "gaussian"]);
+}
+
+#[test]
+fn a_vehicle_that_does_not_exist_has_a_nearest_name() {
+    refuses(&["speed", "a.wav", "--vehicle", "crazyfly"], &["crazyfly", "did you mean \"crazyflie\""]);
+    refuses(&["speed", "a.wav", "--vehicle", "iris"], &["blades", "--blades"]);
+}
+
+#[test]
+fn an_unknown_key_is_underlined_and_has_a_nearest_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("experiment.toml");
+    let write = |text: &str| std::fs::write(&path, text).unwrap();
+    write("[vehicle]\npreset = \"ardrone\"\nmas_kg = 0.4\n");
+    refuses(
+        &["identify", text(&path)],
+        &["mas_kg", "did you mean \"mass_kg\"", "3 | mas_kg = 0.4", "^^^^^^", "experiment.toml:3:1"],
+    );
+    write("[vehicle]\npreset = \"ardrne\"\n[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n");
+    refuses(&["identify", text(&path)], &["ardrne", "did you mean \"ardrone\"", "experiment.toml"]);
+    write("[vehicle]\npreset = \"ardrone\"\n[[lode]]\nname = \"a\"\n");
+    refuses(&["identify", text(&path)], &["did you mean \"load\""]);
+    write("[vehicle]\npreset = \"ardrone\"\nmass_kg = \"heavy\"\n");
+    refuses(&["identify", text(&path)], &["expected a number", "3 | mass_kg"]);
+    let load = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
+    write(&format!("[vehicle]\npreset = \"ardrone\"\n{load}{load}"));
+    refuses(&["identify", text(&path)], &["two loads", "\"a\""]);
+}
+
+#[test]
+fn help_and_version_are_data() {
+    let version = hovertone(&["--version"]).ends_with(0);
+    assert_eq!(version.stdout.trim_end(), format!("hovertone {}", env!("CARGO_PKG_VERSION")));
+    let help = hovertone(&["--help"]).ends_with(0).stdout;
+    for command in ["speed", "identify", "demo", "vehicles", "Exit codes"] {
+        assert!(help.contains(command), "{command}");
+    }
+    for command in ["speed", "identify", "demo", "vehicles"] {
+        let help = hovertone(&[command, "--help"]).ends_with(0).stdout;
+        assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+    }
+}
+
+#[test]
+fn vehicles_are_listed_with_their_sources() {
+    let table = hovertone(&["vehicles"]).ends_with(0).stdout;
+    for words in ["ardrone", "8:69", "derived, not found in print", "crazyflie", "413 g"] {
+        assert!(table.contains(words), "{words}");
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&hovertone(&["vehicles", "--json"]).ends_with(0).stdout).unwrap();
+    assert!(json.as_array().unwrap().iter().any(|vehicle| vehicle["id"] == "ardrone"));
+}

@@ -1,0 +1,40 @@
+//! A warning as it is told: what it is, and what to do about it.
+
+use hovertone::Warning;
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// A warning and its hint, from whichever part of the program it came.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// What weakens the result.
+    pub text: String,
+    /// What to do about it.
+    pub hint: String,
+}
+
+impl Notice {
+    /// From a text and a hint.
+    pub fn new(text: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { text: text.into(), hint: hint.into() }
+    }
+}
+
+impl From<&Warning> for Notice {
+    fn from(warning: &Warning) -> Self {
+        Self::new(warning.to_string(), warning.hint())
+    }
+}
+
+/// On one line, hint included.
+impl fmt::Display for Notice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} (hint: {})", self.text, self.hint)
+    }
+}
+
+impl Serialize for Notice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}

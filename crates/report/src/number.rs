@@ -1,0 +1,109 @@
+//! Numbers for people: as many digits as the uncertainty is worth. The one place where digits are decided.
+
+/// Digits of a value whose uncertainty nobody knows.
+const DIGITS_WITHOUT_UNCERTAINTY: usize = 6;
+/// More decimals than this tell nobody anything.
+const DECIMALS_MAX: i32 = 9;
+
+/// Power of ten of the first digit of a number once it is rounded to `digits` digits.
+fn exponent(value: f64, digits: usize) -> i32 {
+    let scientific = format!("{:.*e}", digits.saturating_sub(1), value.abs());
+    scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
+}
+
+/// Decimals that show two digits of the uncertainty; `None` where it is no scale for anything.
+fn decimals(std_uncertainty: Option<f64>) -> Option<usize> {
+    let std_uncertainty = std_uncertainty.filter(|u| u.is_finite() && *u > 0.0)?;
+    Some((1 - exponent(std_uncertainty, 2)).clamp(0, DECIMALS_MAX) as usize)
+}
+
+/// A value with so many digits, where its uncertainty is told elsewhere.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    let decimals = (digits as i32 - 1 - exponent(value, digits)).clamp(0, DECIMALS_MAX) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// A value, rounded to the second digit of its standard uncertainty.
+pub(crate) fn rounded(value: f64, std_uncertainty: Option<f64>) -> String {
+    match decimals(std_uncertainty) {
+        Some(decimals) => format!("{value:.decimals$}"),
+        None => significant(value, DIGITS_WITHOUT_UNCERTAINTY),
+    }
+}
+
+/// An uncertainty with two digits; a dash where there is none.
+pub(crate) fn uncertainty(std_uncertainty: Option<f64>) -> String {
+    match (std_uncertainty, decimals(std_uncertainty)) {
+        (Some(std_uncertainty), Some(decimals)) => format!("{std_uncertainty:.decimals$}"),
+        _ => DASH.to_owned(),
+    }
+}
+
+/// "2.8315 ± 0.0035".
+pub(crate) fn with_uncertainty(value: f64, std_uncertainty: Option<f64>) -> String {
+    match decimals(std_uncertainty) {
+        Some(_) => format!("{} ± {}", rounded(value, std_uncertainty), uncertainty(std_uncertainty)),
+        None => rounded(value, None),
+    }
+}
+
+/// What stands where there is no number.
+pub(crate) const DASH: &str = "–";
+
+/// A power of ten that brings a column to one digit before the point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PowerOfTen(i32);
+
+impl PowerOfTen {
+    /// The one for the largest of the values.
+    pub(crate) fn of(values: impl IntoIterator<Item = f64>) -> Self {
+        let largest = values.into_iter().filter(|value| value.is_finite()).fold(0.0, |a: f64, b| a.max(b.abs()));
+        Self(if largest > 0.0 { exponent(largest, 6) } else { 0 })
+    }
+
+    /// That power itself.
+    pub(crate) const fn exact(exponent: i32) -> Self {
+        Self(exponent)
+    }
+
+    /// The value in this unit. Dividing by a whole power keeps one rounding where multiplying by 1e-5 has two.
+    pub(crate) fn scale(self, value: f64) -> f64 {
+        value / 10f64.powi(self.0)
+    }
+
+    /// The unit, as "1e-5 N s²".
+    pub(crate) fn unit(self, unit: &str) -> String {
+        if self.0 == 0 { unit.to_owned() } else { format!("1e{} {unit}", self.0) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_follow_the_uncertainty() {
+        for (value, std_uncertainty, expected) in [
+            (720.213_45, Some(0.0321), "720.213 ± 0.032"),
+            (720.213_45, Some(3.21), "720.2 ± 3.2"),
+            (21_606.4, Some(321.0), "21606 ± 321"),
+            (720.0, Some(0.0996), "720.00 ± 0.10"),
+            (720.213_45, Some(0.0), "720.213"),
+            (720.213_45, None, "720.213"),
+            (2.831_534, None, "2.83153"),
+        ] {
+            assert_eq!(with_uncertainty(value, std_uncertainty), expected);
+        }
+        assert_eq!((significant(0.078, 4), significant(0.109_57, 4)), ("0.07800".to_owned(), "0.1096".to_owned()));
+        assert_eq!((uncertainty(None), uncertainty(Some(0.0996))), (DASH.to_owned(), "0.10".to_owned()));
+    }
+
+    #[test]
+    fn a_column_gets_the_unit_of_its_largest_value() {
+        let unit = PowerOfTen::of([2.8315e-5, 9.9e-6]);
+        assert_eq!(unit.unit("N s²"), "1e-5 N s²");
+        assert!((unit.scale(2.8315e-5) - 2.8315).abs() < 1e-12);
+        assert_eq!(PowerOfTen::of([]).unit("N s²"), "N s²");
+        assert_eq!(PowerOfTen::of([7.0]).unit("N s²"), "N s²");
+    }
+}

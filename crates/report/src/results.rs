@@ -1,0 +1,169 @@
+//! `results.json`: the answer at the top, and below it everything that it rests on.
+
+use crate::VERSION;
+use crate::notice::Notice;
+use crate::recording::{RecordingFacts, SpeedRecord};
+use crate::thrust::coefficients_of;
+use hovertone::{Experiment, Hover, Method, ThrustCoefficients, ThrustTable};
+use hovertone_vehicle::{Estimate, RotorSpeed};
+use serde::{Serialize, Serializer};
+
+/// An identified experiment.
+#[derive(Clone, Copy, Debug)]
+pub struct Identification<'a> {
+    /// Name of the experiment file.
+    pub file: &'a str,
+    /// SHA-256 of its bytes, in hexadecimal.
+    pub sha256: &'a str,
+    /// What it says, settled.
+    pub experiment: &'a Experiment,
+    /// The method whose constant is reported.
+    pub method: Method,
+    /// One table for each method.
+    pub tables: &'a [ThrustTable],
+    /// All recordings, load by load.
+    pub inputs: &'a [InputRecord],
+}
+
+/// One recording of a load.
+#[derive(Clone, Debug)]
+pub struct InputRecord {
+    /// Name of the load.
+    pub load: String,
+    /// What the recording said.
+    pub record: SpeedRecord,
+}
+
+impl Identification<'_> {
+    /// The reported method's table.
+    pub fn reported(&self) -> Option<&ThrustTable> {
+        self.tables.iter().find(|table| table.method == self.method)
+    }
+}
+
+#[derive(Serialize)]
+struct Results<'a> {
+    thrust_constant_total_n_s2: Option<Estimate>,
+    thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    method: Method,
+    thrust_coefficients: Option<ThrustCoefficients>,
+    #[serde(serialize_with = "by_method")]
+    methods: &'a [ThrustTable],
+    loads: Vec<Load<'a>>,
+    warnings: Vec<Notice>,
+    inputs: Vec<Input<'a>>,
+    settings: Settings<'a>,
+    version: &'static str,
+}
+
+#[derive(Serialize)]
+struct MethodResults<'a> {
+    thrust_constant_total_n_s2: Option<Estimate>,
+    thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    loads: Vec<Load<'a>>,
+}
+
+#[derive(Serialize)]
+struct Load<'a> {
+    name: &'a str,
+    mass_kg: Option<f64>,
+    force_n: f64,
+    rotors_running: u32,
+    trial_count: usize,
+    speed_rad_s: Option<f64>,
+    speed_rpm: Option<f64>,
+    std_uncertainty_rad_s: Option<f64>,
+    spread_rad_s: Option<f64>,
+    thrust_constant_total_n_s2: Option<Estimate>,
+    thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    fits: Option<bool>,
+    mass_that_fits_kg: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Input<'a> {
+    load: &'a str,
+    file: &'a str,
+    status: &'static str,
+    reason: Option<String>,
+    hover: Option<&'a Hover>,
+    window_s: Option<f64>,
+    warnings: &'a [Notice],
+    recording: Option<&'a RecordingFacts>,
+}
+
+#[derive(Serialize)]
+struct Settings<'a> {
+    file: &'a str,
+    sha256: &'a str,
+    experiment: &'a Experiment,
+}
+
+fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(tables.iter().map(|table| {
+        let results = MethodResults {
+            thrust_constant_total_n_s2: table.thrust_constant_total_n_s2,
+            thrust_constant_per_rotor_n_s2: table.thrust_constant_per_rotor_n_s2,
+            loads: loads_of(table),
+        };
+        (table.method.name(), results)
+    }))
+}
+
+fn loads_of(table: &ThrustTable) -> Vec<Load<'_>> {
+    table
+        .loads
+        .iter()
+        .map(|row| Load {
+            name: &row.name,
+            mass_kg: row.mass_kg,
+            force_n: row.force_n,
+            rotors_running: row.rotors_running,
+            trial_count: row.trials.len(),
+            speed_rad_s: row.speed.map(RotorSpeed::rad_s),
+            speed_rpm: row.speed.map(RotorSpeed::rpm),
+            std_uncertainty_rad_s: row.std_uncertainty_rad_s,
+            spread_rad_s: row.spread_rad_s,
+            thrust_constant_total_n_s2: row.thrust_constant_total_n_s2,
+            thrust_constant_per_rotor_n_s2: row.thrust_constant_per_rotor_n_s2,
+            fits: row.fits,
+            mass_that_fits_kg: row.mass_that_fits_kg,
+        })
+        .collect()
+}
+
+/// `results.json`, ending with a line feed. Same input, same bytes.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn results_json(identification: &Identification<'_>) -> Result<String, serde_json::Error> {
+    let Identification { experiment, method, tables, .. } = *identification;
+    let reported = identification.reported();
+    let results = Results {
+        thrust_constant_total_n_s2: reported.and_then(|table| table.thrust_constant_total_n_s2),
+        thrust_constant_per_rotor_n_s2: reported.and_then(|table| table.thrust_constant_per_rotor_n_s2),
+        method,
+        thrust_coefficients: coefficients_of(tables, method, experiment.air, experiment.propeller_diameter_m),
+        methods: tables,
+        loads: reported.map(loads_of).unwrap_or_default(),
+        warnings: reported.map(|table| table.warnings.iter().map(Notice::from).collect()).unwrap_or_default(),
+        inputs: identification.inputs.iter().map(input_of).collect(),
+        settings: Settings { file: identification.file, sha256: identification.sha256, experiment },
+        version: VERSION,
+    };
+    Ok(serde_json::to_string_pretty(&results)? + "\n")
+}
+
+fn input_of(input: &InputRecord) -> Input<'_> {
+    let record = &input.record;
+    Input {
+        load: &input.load,
+        file: &record.file,
+        status: record.status(),
+        reason: record.reason(),
+        hover: record.analysis().map(|analysis| &analysis.hover),
+        window_s: record.tone().map(|tone| tone.window_s),
+        warnings: &record.notices,
+        recording: record.recording.as_ref(),
+    }
+}

@@ -1,0 +1,132 @@
+//! Rotor speeds of recordings: a table for people, a JSON line and a track for programs.
+
+use crate::VERSION;
+use crate::notice::Notice;
+use crate::number::{DASH, rounded, uncertainty};
+use crate::recording::{RecordingFacts, SpeedRecord};
+use crate::text_table::{Column, TextTable};
+use hovertone::{Config, Hover, Method, SpeedEstimate, TrackPoint};
+use hovertone_vehicle::{Order, RotorSpeed};
+use serde::Serialize;
+
+/// The speeds of all recordings, one row each.
+pub fn speed_table(records: &[SpeedRecord]) -> String {
+    let mut table = TextTable::new(vec![
+        Column::words("file"),
+        Column::numbers("tone", "Hz"),
+        Column::numbers("speed", "rev/s"),
+        Column::numbers("±", "rev/s"),
+        Column::numbers("spread", "rev/s"),
+        Column::numbers("speed", "rpm"),
+        Column::numbers("speed", "rad/s"),
+        Column::numbers("used", "s"),
+    ]);
+    for record in records {
+        match record.speed() {
+            Some(speed) => table.push(cells_of_speed(record, speed)),
+            None if record.has_failed() => table.push_words(record.file.clone(), "could not be heard".to_owned()),
+            None => table.push_words(record.file.clone(), "no rotor tone".to_owned()),
+        }
+    }
+    table.render()
+}
+
+fn cells_of_speed(record: &SpeedRecord, estimate: &SpeedEstimate) -> Vec<String> {
+    let (speed, std_rev_s) = (estimate.speed, estimate.std_uncertainty_rev_s);
+    let std = std_rev_s.map(RotorSpeed::from_rev_s);
+    vec![
+        record.file.clone(),
+        rounded(speed.tone_hz(estimate.order), std.map(|std| std.tone_hz(estimate.order))),
+        rounded(speed.rev_s(), std_rev_s),
+        uncertainty(std_rev_s),
+        uncertainty(estimate.spread_rev_s),
+        rounded(speed.rpm(), std.map(RotorSpeed::rpm)),
+        rounded(speed.rad_s(), std.map(RotorSpeed::rad_s)),
+        record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s)),
+    ]
+}
+
+/// The fixed names of the machine output, and after them what else is known.
+#[derive(Serialize)]
+struct SpeedLine<'a> {
+    file: &'a str,
+    status: &'static str,
+    method: Method,
+    order: Order,
+    tone_hz: Option<f64>,
+    speed_rev_s: Option<f64>,
+    speed_rpm: Option<f64>,
+    speed_rad_s: Option<f64>,
+    std_uncertainty_rev_s: Option<f64>,
+    spread_rev_s: Option<f64>,
+    from_s: Option<f64>,
+    to_s: Option<f64>,
+    warnings: &'a [Notice],
+    reason: Option<String>,
+    frame_count: Option<usize>,
+    window_s: Option<f64>,
+    hover: Option<&'a Hover>,
+    recording: Option<&'a RecordingFacts>,
+    settings: &'a Config,
+    version: &'static str,
+}
+
+/// A recording as one line of JSON, without the line feed.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
+    let (estimate, used) = (record.speed(), record.used());
+    let speed = estimate.map(|estimate| estimate.speed);
+    serde_json::to_string(&SpeedLine {
+        file: &record.file,
+        status: record.status(),
+        method: record.config.method,
+        order: record.config.tone.order,
+        tone_hz: estimate.map(|estimate| estimate.speed.tone_hz(estimate.order)),
+        speed_rev_s: speed.map(RotorSpeed::rev_s),
+        speed_rpm: speed.map(RotorSpeed::rpm),
+        speed_rad_s: speed.map(RotorSpeed::rad_s),
+        std_uncertainty_rev_s: estimate.and_then(|estimate| estimate.std_uncertainty_rev_s),
+        spread_rev_s: estimate.and_then(|estimate| estimate.spread_rev_s),
+        from_s: used.map(|used| used.from_s),
+        to_s: used.map(|used| used.to_s),
+        warnings: &record.notices,
+        reason: record.reason(),
+        frame_count: estimate.map(|estimate| estimate.frame_count),
+        window_s: record.tone().map(|tone| tone.window_s),
+        hover: record.analysis().map(|analysis| &analysis.hover),
+        recording: record.recording.as_ref(),
+        settings: &record.config,
+        version: VERSION,
+    })
+}
+
+/// The track of every recording as CSV; with more than one, the file is the first column. A recording without a rotor
+/// tone has no line.
+///
+/// # Errors
+/// None that is known of: memory is written to.
+pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
+    #[derive(Serialize)]
+    struct Line<'a> {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        file: Option<&'a str>,
+        time_s: f64,
+        tone_hz: f64,
+        speed_rev_s: f64,
+        std_uncertainty_rev_s: f64,
+        level_db: f64,
+    }
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+    let columns = ["file", "time_s", "tone_hz", "speed_rev_s", "std_uncertainty_rev_s", "level_db"];
+    writer.write_record(&columns[usize::from(records.len() == 1)..])?;
+    for record in records {
+        let file = (records.len() != 1).then_some(record.file.as_str());
+        for point in record.tone().map_or(&[][..], |tone| &tone.track) {
+            let &TrackPoint { time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db } = point;
+            writer.serialize(Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db })?;
+        }
+    }
+    crate::samples::text_of(writer)
+}

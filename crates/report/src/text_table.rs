@@ -1,0 +1,159 @@
+//! Aligned columns of text.
+
+use std::iter::zip;
+
+/// Between two columns.
+const GAP: &str = "  ";
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// Head of a column.
+pub(crate) struct Column {
+    title: String,
+    unit: String,
+    side: Side,
+}
+
+impl Column {
+    /// A column of words.
+    pub(crate) fn words(title: &str) -> Self {
+        Self { title: title.to_owned(), unit: String::new(), side: Side::Left }
+    }
+
+    /// A column of numbers in a unit.
+    pub(crate) fn numbers(title: &str, unit: &str) -> Self {
+        Self { title: title.to_owned(), unit: unit.to_owned(), side: Side::Right }
+    }
+}
+
+/// A line of a table.
+enum Row {
+    Cells(Vec<String>),
+    /// The first cell, and words across all the others.
+    Words(String, String),
+}
+
+/// A table that is printed with spaces.
+pub(crate) struct TextTable {
+    columns: Vec<Column>,
+    rows: Vec<Row>,
+}
+
+impl TextTable {
+    pub(crate) fn new(columns: Vec<Column>) -> Self {
+        Self { columns, rows: Vec::new() }
+    }
+
+    /// A row with one cell for each column.
+    pub(crate) fn push(&mut self, cells: Vec<String>) {
+        self.rows.push(Row::Cells(cells));
+    }
+
+    /// A row that has no numbers but words.
+    pub(crate) fn push_words(&mut self, first: String, words: String) {
+        self.rows.push(Row::Words(first, words));
+    }
+
+    /// Title, units, a rule and the rows, each line ending with a line feed and none with a space.
+    pub(crate) fn render(&self) -> String {
+        let widths = self.widths();
+        let line = |cells: Vec<&str>| -> String {
+            let padded: Vec<String> = zip(zip(&self.columns, &widths), cells)
+                .map(|((column, &width), cell)| {
+                    let space = " ".repeat(width.saturating_sub(width_of(cell)));
+                    if column.side == Side::Left { format!("{cell}{space}") } else { format!("{space}{cell}") }
+                })
+                .collect();
+            format!("{}\n", padded.join(GAP).trim_end())
+        };
+        let mut text = line(self.columns.iter().map(|column| column.title.as_str()).collect());
+        if self.columns.iter().any(|column| !column.unit.is_empty()) {
+            text += &line(self.columns.iter().map(|column| column.unit.as_str()).collect());
+        }
+        let total = widths.iter().sum::<usize>() + GAP.len() * widths.len().saturating_sub(1);
+        text += &format!("{}\n", "─".repeat(total));
+        for row in &self.rows {
+            text += &match row {
+                Row::Cells(cells) => line(cells.iter().map(String::as_str).collect()),
+                Row::Words(first, words) => {
+                    let space = " ".repeat(widths.first().map_or(0, |width| width.saturating_sub(width_of(first))));
+                    format!("{first}{space}{GAP}{words}\n")
+                }
+            };
+        }
+        text
+    }
+
+    fn widths(&self) -> Vec<usize> {
+        let mut widths: Vec<usize> =
+            self.columns.iter().map(|column| width_of(&column.title).max(width_of(&column.unit))).collect();
+        for row in &self.rows {
+            match row {
+                Row::Cells(cells) => {
+                    for (width, cell) in zip(&mut widths, cells) {
+                        *width = (*width).max(width_of(cell));
+                    }
+                }
+                Row::Words(first, _) => {
+                    if let Some(width) = widths.first_mut() {
+                        *width = (*width).max(width_of(first));
+                    }
+                }
+            }
+        }
+        widths
+    }
+}
+
+/// Characters, which is what all the letters we print take on a terminal; wide ones in file names shift their row.
+pub(crate) fn width_of(text: &str) -> usize {
+    text.chars().count()
+}
+
+/// Words in lines of at most `width` characters; a longer word has a line for itself.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width_of(line) + 1 + width_of(word) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_aligned_and_lines_end_without_spaces() {
+        let mut table = TextTable::new(vec![Column::words("file"), Column::numbers("speed", "rev/s")]);
+        table.push(vec!["a.wav".to_owned(), "60.17".to_owned()]);
+        table.push(vec!["long name.wav".to_owned(), "1.5 ± 0.2".to_owned()]);
+        table.push_words("b.wav".to_owned(), "no rotor tone".to_owned());
+        let expected = "\
+file               speed
+                   rev/s
+────────────────────────
+a.wav              60.17
+long name.wav  1.5 ± 0.2
+b.wav          no rotor tone
+";
+        assert_eq!(table.render(), expected);
+    }
+
+    #[test]
+    fn words_are_wrapped_and_none_is_lost() {
+        assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrapped("unbreakable a", 3), ["unbreakable", "a"]);
+        assert!(wrapped(" ", 10).is_empty());
+    }
+}

@@ -1,0 +1,146 @@
+//! The thrust constant as the paper's tables have it, with units that are right and uncertainties.
+
+use crate::number::{DASH, PowerOfTen, rounded, significant, uncertainty, with_uncertainty};
+use crate::text_table::{Column, TextTable};
+use hovertone::{Air, LoadThrust, Method, ThrustCoefficients, ThrustTable};
+use hovertone_vehicle::{Estimate, RotorSpeed};
+
+/// Unit of every thrust constant: newton per (rad/s)².
+pub(crate) const CONSTANT_UNIT: &str = "N s²";
+
+/// A method as people call it.
+pub fn method_title(method: Method) -> &'static str {
+    match method {
+        Method::MaximumTrace => "Maximum trace",
+        Method::Gaussian => "Gaussian approximation",
+        _ => method.name(),
+    }
+}
+
+/// One method's table: a row for each load, like the paper's tables 1 and 2.
+pub fn thrust_table(table: &ThrustTable) -> String {
+    let has_mass = table.loads.iter().any(|load| load.mass_kg.is_some());
+    let has_bench = table.loads.iter().any(|load| load.mass_kg.is_none());
+    let has_verdict = table.loads.iter().any(|load| load.fits.is_some());
+    let (total_unit, rotor_unit) = units_of(table);
+    let mut columns = vec![Column::words("load")];
+    columns.extend(has_mass.then(|| Column::numbers("mass", "g")));
+    columns.extend(has_bench.then(|| Column::numbers("thrust", "N")));
+    columns.extend([
+        Column::numbers("speed", "rpm"),
+        Column::numbers("STD", "rpm"),
+        Column::numbers("ω", "rad/s"),
+        Column::numbers("C_f, vehicle", &total_unit.unit(CONSTANT_UNIT)),
+        Column::numbers("C_f, one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
+    ]);
+    columns.extend(has_verdict.then(|| Column::numbers("fits", "")));
+    let mut text = TextTable::new(columns);
+    for load in &table.loads {
+        let mut cells = vec![load.name.clone()];
+        cells.extend(has_mass.then(|| load.mass_kg.map_or(DASH.to_owned(), grams)));
+        cells.extend(
+            has_bench.then(|| if load.mass_kg.is_none() { significant(load.force_n, 4) } else { DASH.to_owned() }),
+        );
+        if load.speed.is_none() {
+            text.push_words(load.name.clone(), "no rotor tone in any of its recordings".to_owned());
+            continue;
+        }
+        cells.extend(speed_cells(load));
+        cells.push(constant_cell(load.thrust_constant_total_n_s2, total_unit));
+        cells.push(constant_cell(load.thrust_constant_per_rotor_n_s2, rotor_unit));
+        cells.extend(has_verdict.then(|| verdict(load.fits)));
+        text.push(cells);
+    }
+    text.render()
+}
+
+/// Speed in rpm, its spread, and the speed in rad/s.
+pub(crate) fn speed_cells(load: &LoadThrust) -> [String; 3] {
+    let std = load.std_uncertainty_rad_s.map(RotorSpeed::from_rad_s);
+    let spread = load.spread_rad_s.map(RotorSpeed::from_rad_s);
+    [
+        load.speed.map_or(DASH.to_owned(), |speed| rounded(speed.rpm(), std.map(RotorSpeed::rpm))),
+        uncertainty(spread.map(RotorSpeed::rpm)),
+        load.speed.map_or(DASH.to_owned(), |speed| rounded(speed.rad_s(), std.map(RotorSpeed::rad_s))),
+    ]
+}
+
+/// A mass, to a tenth of a gram.
+pub(crate) fn grams(mass_kg: f64) -> String {
+    format!("{:.1}", 1e3 * mass_kg)
+}
+
+/// A thrust constant in a power of ten.
+pub(crate) fn constant_cell(constant_n_s2: Option<Estimate>, unit: PowerOfTen) -> String {
+    constant_n_s2.map_or(DASH.to_owned(), |constant| {
+        with_uncertainty(unit.scale(constant.value), constant.std_uncertainty.map(|std| unit.scale(std)))
+    })
+}
+
+fn verdict(fits: Option<bool>) -> String {
+    match fits {
+        Some(true) => "yes",
+        Some(false) => "NO",
+        None => DASH,
+    }
+    .to_owned()
+}
+
+fn units_of(table: &ThrustTable) -> (PowerOfTen, PowerOfTen) {
+    let values = |constant: &dyn Fn(&LoadThrust) -> Option<Estimate>| -> Vec<f64> {
+        table.loads.iter().filter_map(|load| Some(constant(load)?.value)).collect()
+    };
+    (
+        PowerOfTen::of(values(&|load| load.thrust_constant_total_n_s2)),
+        PowerOfTen::of(values(&|load| load.thrust_constant_per_rotor_n_s2)),
+    )
+}
+
+/// The answer: the constant of the whole vehicle and of one rotor by every method, and which of them is reported.
+/// Where the air and the propeller's diameter are known, C_T in both conventions follows.
+pub fn thrust_summary(
+    tables: &[ThrustTable],
+    reported: Method,
+    air: Option<Air>,
+    propeller_diameter_m: Option<f64>,
+) -> String {
+    let values = |constant: &dyn Fn(&ThrustTable) -> Option<Estimate>| -> PowerOfTen {
+        PowerOfTen::of(tables.iter().filter_map(|table| Some(constant(table)?.value)))
+    };
+    let total_unit = values(&|table| table.thrust_constant_total_n_s2);
+    let rotor_unit = values(&|table| table.thrust_constant_per_rotor_n_s2);
+    let mut text = TextTable::new(vec![
+        Column::words("thrust constant C_f = F/ω²"),
+        Column::numbers("whole vehicle", &total_unit.unit(CONSTANT_UNIT)),
+        Column::numbers("one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
+    ]);
+    for table in tables {
+        let mark = if table.method == reported { " (reported)" } else { "" };
+        text.push(vec![
+            format!("{}{mark}", method_title(table.method)),
+            constant_cell(table.thrust_constant_total_n_s2, total_unit),
+            constant_cell(table.thrust_constant_per_rotor_n_s2, rotor_unit),
+        ]);
+    }
+    let coefficients = coefficients_of(tables, reported, air, propeller_diameter_m);
+    let coefficients = coefficients.map_or(String::new(), |both| {
+        format!(
+            "\nC_T of one rotor: {} = T/(ρ n² D⁴), or {} = T/(ρ A (ωR)²); air {} kg/m³\n",
+            significant(both.propeller, 4),
+            significant(both.rotorcraft, 4),
+            significant(both.density_kg_m3, 4),
+        )
+    });
+    text.render() + &coefficients
+}
+
+/// C_T of one rotor by the reported method.
+pub(crate) fn coefficients_of(
+    tables: &[ThrustTable],
+    reported: Method,
+    air: Option<Air>,
+    propeller_diameter_m: Option<f64>,
+) -> Option<ThrustCoefficients> {
+    let constant = tables.iter().find(|table| table.method == reported)?.thrust_constant_per_rotor_n_s2?;
+    Some(ThrustCoefficients::of_rotor(constant.value, propeller_diameter_m?, air?.density_kg_m3()))
+}

@@ -1,0 +1,105 @@
+//! The vehicle presets, every number with its source.
+
+use crate::text_table::{width_of, wrapped};
+use hovertone_vehicle::{Sourced, Vehicle};
+use std::fmt::Write;
+
+/// What stands where no source was found.
+const UNKNOWN: &str = "not known";
+/// Direct drive, or nothing was found: a vehicle does not tell which.
+const NO_GEAR: &str = "none known";
+/// A source gets at least this much of a line, however narrow the terminal.
+const SOURCE_WIDTH_MIN: usize = 30;
+
+/// All presets for people, in lines of at most `width` characters where that is possible.
+pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
+    let id_width = vehicles.iter().map(|vehicle| vehicle.id.len()).max().unwrap_or(0);
+    let rows: Vec<Vec<Row>> = vehicles.iter().map(rows_of).collect();
+    let all = || rows.iter().flatten();
+    let name_width = all().map(|row| width_of(row.name)).max().unwrap_or(0);
+    let value_width = all().map(|row| width_of(&row.value)).max().unwrap_or(0);
+    let indent = 2 + name_width + 2 + value_width + 2;
+    let source_width = width.saturating_sub(indent).max(SOURCE_WIDTH_MIN);
+    let mut text = String::new();
+    for (vehicle, rows) in vehicles.iter().zip(&rows) {
+        // writing to a string does not fail
+        let _ = writeln!(text, "{:id_width$}  {}", vehicle.id, vehicle.name);
+        for Row { name, value, source } in rows {
+            let space = |text: &str, width: usize| " ".repeat(width.saturating_sub(width_of(text)));
+            let head = format!("  {name}{}  {value}{}", space(name, name_width), space(value, value_width));
+            let sources = wrapped(source, source_width);
+            let first = sources.first().map_or("", String::as_str);
+            let _ = writeln!(text, "{}", format!("{head}  {first}").trim_end());
+            for line in sources.iter().skip(1) {
+                let _ = writeln!(text, "{:indent$}{line}", "");
+            }
+        }
+        text.push('\n');
+    }
+    text
+}
+
+struct Row {
+    name: &'static str,
+    value: String,
+    source: &'static str,
+}
+
+fn rows_of(vehicle: &Vehicle) -> Vec<Row> {
+    let tone = match (vehicle.tone_order(), vehicle.gear_mesh_order()) {
+        (Some(order), Some(_)) => format!("{order} (gear mesh)"),
+        (Some(order), None) => format!("{order} (blade pass)"),
+        (None, _) => "say --blades".to_owned(),
+    };
+    let gear = vehicle.gear.map_or(NO_GEAR.to_owned(), |gear| format!("{}:{}", gear.value.pinion, gear.value.wheel));
+    vec![
+        Row { name: "tone order", value: tone, source: "" },
+        row("rotors", Some(vehicle.rotor_count), |count| count.to_string()),
+        row("blades", vehicle.blade_count, |count| count.to_string()),
+        Row { value: gear, ..row("gear", vehicle.gear, |_| String::new()) },
+        row("propeller", vehicle.propeller_diameter_m, |diameter_m| format!("{:.1} mm", 1e3 * diameter_m)),
+        row("mass", vehicle.mass_kg, |mass_kg| format!("{} g", (1e6 * mass_kg).round() / 1e3)),
+        row("shaft speed", vehicle.shaft_speed, |range| format!("{}–{} rev/s", range.rev_s_low, range.rev_s_high)),
+    ]
+}
+
+fn row<T>(name: &'static str, number: Option<Sourced<T>>, in_words: impl Fn(T) -> String) -> Row {
+    match number {
+        Some(Sourced { value, source }) => Row { name, value: in_words(value), source },
+        None => Row { name, value: UNKNOWN.to_owned(), source: "" },
+    }
+}
+
+/// All presets as JSON, ending with a line feed.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn vehicles_json(vehicles: &[Vehicle]) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string_pretty(vehicles)? + "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hovertone_vehicle::presets;
+
+    #[test]
+    fn every_number_is_shown_with_its_source_and_lines_are_not_too_long() {
+        let text = vehicles_text(presets(), 100);
+        for vehicle in presets() {
+            assert!(text.contains(vehicle.name), "{}", vehicle.name);
+        }
+        assert!(text.contains("8:69") && text.contains("413 g") && text.contains("69 (gear mesh)"));
+        let longest = text.lines().map(width_of).max().unwrap();
+        assert!((90..=100).contains(&longest), "{longest}");
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("tooth counts derived"), "{words}");
+    }
+
+    #[test]
+    fn json_has_every_preset() {
+        let parsed: serde_json::Value = serde_json::from_str(&vehicles_json(presets()).unwrap()).unwrap();
+        assert_eq!(parsed.as_array().unwrap().len(), presets().len());
+        assert_eq!(parsed[0]["gear"]["value"]["wheel"], 69);
+    }
+}
