@@ -90,6 +90,9 @@ pub fn speed_from_source(
     check_band(&config.tone, source.sample_rate_hz())?;
     let mut warnings = Vec::new();
     let (survey, heard) = survey_from_source(source, config, on_progress)?;
+    if config.span.is_given() && heard.length_s() <= 0.0 {
+        return Ok(nothing_heard(heard, Hover::default(), NoTone::OutsideRecording, warnings));
+    }
     let map = CombMap::from_survey(&survey, &config.tone);
     let Some(speed_rev_s) = map.leading_speed_rev_s() else {
         return Ok(nothing_heard(heard, Hover::default(), NoTone::Silence, warnings));

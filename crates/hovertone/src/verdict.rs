@@ -26,6 +26,8 @@ const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoTone {
+    /// The span that was asked for lies outside the recording.
+    OutsideRecording,
     /// Nothing sounds.
     Silence,
     /// No stretch is steady for long enough.
@@ -51,6 +53,7 @@ pub enum NoTone {
 impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::OutsideRecording => f.write_str("the recording has nothing between the times asked for"),
             Self::Silence => f.write_str("nothing sounds"),
             Self::NoHover => f.write_str("no stretch holds a steady tone for long enough"),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(

@@ -71,7 +71,10 @@ impl Warning {
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds and the loudest wins; a narrower --band follows one line"
             }
-            Self::LoadDoesNotFit { .. } => "weigh that load again, and check that it does not disturb the rotors' air",
+            Self::LoadDoesNotFit { mass_that_fits_kg: Some(_), .. } => {
+                "weigh that load again, and check that it does not disturb the rotors' air"
+            }
+            Self::LoadDoesNotFit { mass_that_fits_kg: None, .. } => "check the thrust and the recordings of that load",
             Self::LoudestRotor => {
                 "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %, and its uncertainty does not show it"
             }

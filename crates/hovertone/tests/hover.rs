@@ -3,7 +3,7 @@
 
 mod testkit;
 
-use hovertone::{CutReason, Error, Outcome, Signal, Warning, speed_from_source};
+use hovertone::{CutReason, Error, NoTone, Outcome, Signal, Warning, speed_from_source};
 use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, hears_nothing, sound, steady, tone};
 
 /// Silence 0-2 s, run-up 2-4 s, hover 4-12 s at 90 rev/s, run-down 12-14 s, silence to 16 s.
@@ -74,7 +74,12 @@ fn from_and_to_overrule() {
     (config.span.from_s, config.span.to_s) = (Some(0.0), Some(1.5));
     assert!(hears_nothing(&analyse(flight(), &config)));
     (config.span.from_s, config.span.to_s) = (Some(100.0), None);
-    assert!(hears_nothing(&analyse(flight(), &config)), "beyond the end");
+    let beyond = analyse(flight(), &config);
+    assert!(
+        matches!(beyond.outcome, Outcome::NoRotorTone { reason: NoTone::OutsideRecording }),
+        "{:?}",
+        beyond.outcome
+    );
     (config.span.from_s, config.span.to_s) = (Some(5.0), Some(5.0));
     let error = speed_from_source(&mut Signal::new(flight(), SAMPLE_RATE_HZ), &config, &mut |_| {}).unwrap_err();
     assert!(matches!(error, Error::Config(_)), "{error}");

@@ -81,7 +81,7 @@ impl MediaWarning {
             }
             Self::CorruptPackets { .. } => "leave the damaged part out, or copy the file again",
             Self::NonFiniteSamples { .. } => "look at the program that wrote the file; a hover needs a clean stretch",
-            Self::SeveralAudioTracks { .. } => "choose another with the audio-track option",
+            Self::SeveralAudioTracks { .. } => "choose another with --audio-track N",
             Self::HalfRateAac { .. } => {
                 "tones above half the rate are missing; record as AAC-LC or PCM if you need them"
             }

@@ -44,7 +44,7 @@ order = {TONE_ORDER}                # teeth of the rotor's gear wheel: the paper
 harmonics = 3
 
 [samples]
-length_s = 5.0
+length_s = 2.94           # five samples of a trial, 25 of a load, as in the paper; its 5 s would give two
 overlap = 0.4
 ",
         version = env!("CARGO_PKG_VERSION"),
