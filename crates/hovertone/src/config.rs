@@ -2,7 +2,7 @@
 
 use crate::error::ConfigError;
 use crate::spectrogram::Window;
-use hovertone_vehicle::{Order, RotorSpeed};
+use hovertone_vehicle::{Order, RotorSpeed, ShaftSpeedRange};
 use serde::{Deserialize, Serialize};
 
 /// All settings of an analysis. `Default` holds the recommended values; the tone's order has none and must be said.
@@ -92,13 +92,16 @@ pub struct ToneConfig {
     /// Half width of a found band as a share of its middle. Holds ±4 standard deviations of the paper's 1.2 % wander and
     /// rotors a few per cent apart, and keeps the bands of three harmonics from overlapping.
     pub band_half_width_share: f64,
-    /// Slowest shaft that is looked for.
+    /// Slowest shaft that is looked for, rad/s.
     #[serde(rename = "speed_rad_s_min")]
     pub speed_min: RotorSpeed,
-    /// Fastest shaft that is looked for.
+    /// Fastest shaft that is looked for, rad/s.
     #[serde(rename = "speed_rad_s_max")]
     pub speed_max: RotorSpeed,
 }
+
+/// A shaft may turn this much slower or faster than the vehicle's known range before it is not looked for.
+const KNOWN_RANGE_MARGIN: f64 = 1.5;
 
 impl ToneConfig {
     /// The recommended settings for a tone of that order.
@@ -114,11 +117,23 @@ impl ToneConfig {
         }
     }
 
+    /// The same tone, looked for only where the vehicle's rotors are known to turn (and half as far again beyond).
+    #[must_use]
+    pub fn within(self, known: &ShaftSpeedRange) -> Self {
+        Self {
+            speed_min: RotorSpeed::from_rev_s(known.rev_s_low / KNOWN_RANGE_MARGIN),
+            speed_max: RotorSpeed::from_rev_s(known.rev_s_high * KNOWN_RANGE_MARGIN),
+            ..self
+        }
+    }
+
     fn check(&self) -> Result<(), ConfigError> {
+        check_range("order", self.order.lines_per_turn(), 0.1, 1e4)?;
         check_range("harmonics", f64::from(self.harmonics), 1.0, 20.0)?;
+        check_range("blades", f64::from(self.blades.unwrap_or(1)), 1.0, 20.0)?;
         check_range("band_half_width_share", self.band_half_width_share, 0.005, 0.3)?;
-        check_range("speed_min_rev_s", self.speed_min.rev_s(), 0.1, 1e4)?;
-        check_range("speed_max_rev_s", self.speed_max.rev_s(), self.speed_min.rev_s(), 1e4)?;
+        check_range("speed_rad_s_min", self.speed_min.rad_s(), 1.0, 1e5)?;
+        check_range("speed_rad_s_max", self.speed_max.rad_s(), self.speed_min.rad_s(), 1e5)?;
         if let Some((low_hz, high_hz)) = self.band_hz {
             check_range("band_hz_low", low_hz, 1.0, 1e6)?;
             if high_hz.is_nan() || high_hz <= low_hz {
@@ -145,7 +160,7 @@ impl SpanConfig {
         self.from_s.is_some() || self.to_s.is_some()
     }
 
-    fn check(&self) -> Result<(), ConfigError> {
+    pub(crate) fn check(&self) -> Result<(), ConfigError> {
         let (from_s, to_s) = (self.from_s.unwrap_or(0.0), self.to_s.unwrap_or(f64::INFINITY));
         if from_s < to_s { Ok(()) } else { Err(ConfigError::EmptySpan { from_s, to_s }) }
     }
@@ -187,9 +202,9 @@ impl Default for HoverConfig {
 
 impl HoverConfig {
     fn check(&self) -> Result<(), ConfigError> {
-        check_range("survey_window_s", self.survey_window_s, 0.02, 5.0)?;
+        check_range("survey_window_s", self.survey_window_s, 0.02, 1.0)?;
         check_range("survey_row_s", self.survey_row_s, self.survey_window_s, 60.0)?;
-        check_range("survey_rows_max", self.survey_rows_max as f64, 8.0, 1e5)?;
+        check_range("survey_rows_max", self.survey_rows_max as f64, 8.0, 4096.0)?;
         check_range("quieter_db", self.quieter_db, 1.0, 100.0)?;
         check_range("louder_db", self.louder_db, 1.0, 100.0)?;
         check_range("comb_share_min", self.comb_share_min, 0.0, 1.0)?;
@@ -234,15 +249,12 @@ pub struct SpectrogramConfig {
     pub frames_max: u32,
     /// Shape of the window.
     pub window: Window,
-    /// Length of the transform in windows: 2 brings the bias of the interpolated peak to 0.003 of a window's bin.
+    /// Length of the transform in windows: 2 brings the bias of the interpolated peak to 0.0017 of a window's bin.
     pub zero_pad_factor: u32,
 }
 
 /// Frame lengths that are tried where none is given.
 const WINDOW_LADDER_S: [f64; 6] = [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4];
-/// A main lobe (half width: 2 cells of Hann) must fit in the band on either side of the tone; in a shorter frame noise
-/// of the band's width would look like a line.
-const CELLS_IN_HALF_BAND_MIN: f64 = 2.0;
 
 impl Default for SpectrogramConfig {
     fn default() -> Self {
@@ -253,11 +265,11 @@ impl Default for SpectrogramConfig {
 impl SpectrogramConfig {
     fn check(&self) -> Result<(), ConfigError> {
         if let Some(window_s) = self.window_s {
-            check_range("window_s", window_s, 0.005, 5.0)?;
+            check_range("window_s", window_s, 0.005, 2.0)?;
         }
         check_range("hop_share", self.hop_share, 0.02, 1.0)?;
-        check_range("frames_max", f64::from(self.frames_max), 100.0, 1e8)?;
-        check_range("zero_pad_factor", f64::from(self.zero_pad_factor), 1.0, 16.0)
+        check_range("frames_max", f64::from(self.frames_max), 100.0, 1e5)?;
+        check_range("zero_pad_factor", f64::from(self.zero_pad_factor), 1.0, 8.0)
     }
 
     /// Step between frames of a length in a hover of a length.
@@ -265,9 +277,10 @@ impl SpectrogramConfig {
         (self.hop_share * window_s).max(hover_s / f64::from(self.frames_max))
     }
 
-    /// The frame lengths in which to look for lines of a tone whose first band is this wide.
-    pub(crate) fn ladder_s(band_width_hz: f64) -> Vec<f64> {
-        let window_s_min = CELLS_IN_HALF_BAND_MIN / (band_width_hz / 2.0);
+    /// The frame lengths in which to look for lines of a tone whose first band is this wide. The main lobe must fit in the
+    /// band on either side of the tone: in a shorter frame noise of the band's width would look like a line.
+    pub(crate) fn ladder_s(&self, band_width_hz: f64) -> Vec<f64> {
+        let window_s_min = self.window.main_lobe_half_bins() / (band_width_hz / 2.0);
         let longest_s = WINDOW_LADDER_S[WINDOW_LADDER_S.len() - 1];
         WINDOW_LADDER_S.into_iter().filter(|&s| s >= window_s_min || s == longest_s).collect()
     }
@@ -279,7 +292,8 @@ impl SpectrogramConfig {
 pub struct RidgeConfig {
     /// Share of a frame's peak that takes part in the Gaussian (paper: 0.8, remark 5: 0.5 to 0.9 change little).
     pub gaussian_threshold_share: f64,
-    /// Chance that noise alone puts a point on the ridge of a frame.
+    /// Chance that noise alone puts a point on the ridge of a frame. A frame with the tone has its point there; among the
+    /// frames without, one in fifty then has one somewhere in the band.
     pub false_point_chance: f64,
     /// A peak is a line when it stands this far above the median of its surroundings. Noise reaches it in one frame of
     /// a hundred; the lines of real hovers in 60 to 100 % of frames.
@@ -301,7 +315,7 @@ impl Default for RidgeConfig {
     fn default() -> Self {
         Self {
             gaussian_threshold_share: 0.8,
-            false_point_chance: 1e-3,
+            false_point_chance: 0.02,
             line_over_sides_db: 16.0,
             line_share_min: 0.5,
             company_share_min: 0.1,
@@ -314,8 +328,8 @@ impl Default for RidgeConfig {
 
 impl RidgeConfig {
     fn check(&self) -> Result<(), ConfigError> {
-        check_range("gaussian_threshold_share", self.gaussian_threshold_share, 0.3, 0.99)?;
-        check_range("false_point_chance", self.false_point_chance, 1e-12, 0.5)?;
+        check_range("gaussian_threshold_share", self.gaussian_threshold_share, 0.3, 0.95)?;
+        check_range("false_point_chance", self.false_point_chance, 1e-9, 0.5)?;
         check_range("line_over_sides_db", self.line_over_sides_db, 3.0, 60.0)?;
         check_range("line_share_min", self.line_share_min, 0.0, 1.0)?;
         check_range("company_share_min", self.company_share_min, 0.0, 1.0)?;

@@ -1,7 +1,7 @@
 //! What can go wrong. "No rotor tone here" is not among it: that is an answer.
 
 use crate::signal::SourceError;
-use hovertone_vehicle::QuantityError;
+use hovertone_vehicle::{Order, QuantityError};
 
 /// A setting that means nothing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -67,6 +67,18 @@ pub enum Error {
         low_hz: f64,
         /// Upper edge.
         high_hz: f64,
+        /// Rate of the recording.
+        sample_rate_hz: f64,
+    },
+    /// A tone that no rotor could make low enough for the recording.
+    #[error(
+        "a tone of order {order} cannot be heard: sound sampled at {sample_rate_hz:.0} Hz holds nothing above {:.0} Hz; \
+         record at a higher rate, or follow a tone of lower order",
+        sample_rate_hz / 2.0
+    )]
+    ToneAboveNyquist {
+        /// Order of the tone.
+        order: Order,
         /// Rate of the recording.
         sample_rate_hz: f64,
     },

@@ -1,16 +1,18 @@
 //! The whole flow on one screen: source → survey → hover → bands → ridges → samples → speed. No arithmetic here.
 
-use crate::config::{Config, Method, SpectrogramConfig};
+use crate::config::{Config, Method};
 use crate::error::Error;
 use crate::hover::{Hover, Survey, SurveyBuilder, hover_from_survey};
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
 use crate::span::Span;
-use crate::speed::{HarmonicWeights, SpeedEstimate, TrackPoint};
-use crate::stream::{Piece, Progress, for_each_piece};
-use crate::tone::{Band, CombMap, bands_around, check_band};
-use crate::verdict::{NoTone, clearest_ridges, no_tone_reason, warnings_of_hover, warnings_of_speed};
+use crate::speed::{HarmonicWeights, SpeedEstimate, Track, TrackPoint};
+use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
+use crate::tone::{Band, CombMap, bands_around, search_range_rev_s};
+use crate::verdict::{
+    NoTone, clearest_ridges, no_tone_reason, warning_of_samples, warnings_of_hover, warnings_of_speed,
+};
 use crate::warning::Warning;
 use serde::Serialize;
 
@@ -69,6 +71,13 @@ pub struct SampleSpeeds {
     pub speeds: Vec<SpeedEstimate>,
 }
 
+impl SampleSpeeds {
+    /// The sample's speed by one method.
+    pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
+        self.speeds.iter().find(|speed| speed.method == method)
+    }
+}
+
 impl RotorTone {
     /// The mean over the hover by one method.
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
@@ -76,7 +85,8 @@ impl RotorTone {
     }
 }
 
-/// From a recording to the speed of its rotors. Reads the source twice; memory does not grow with its length.
+/// From a recording to the speed of its rotors. Reads the source twice; memory does not grow with its length, but for
+/// the list of samples.
 ///
 /// # Errors
 /// Settings that mean nothing, a source that fails, a band above half the sample rate. That there is no rotor tone is
@@ -87,22 +97,26 @@ pub fn speed_from_source(
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<SpeedAnalysis, Error> {
     config.check()?;
-    check_band(&config.tone, source.sample_rate_hz())?;
+    let sample_rate_hz = checked_rate_hz(source)?;
+    let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     let mut warnings = Vec::new();
     let (survey, heard) = survey_from_source(source, config, on_progress)?;
     if config.span.is_given() && heard.length_s() <= 0.0 {
         return Ok(nothing_heard(heard, Hover::default(), NoTone::OutsideRecording, warnings));
     }
-    let map = CombMap::from_survey(&survey, &config.tone);
+    if let Some(reason) = survey.why_nothing(heard.length_s()) {
+        return Ok(nothing_heard(heard, Hover::default(), reason, warnings));
+    }
+    let map = CombMap::from_survey(&survey, &config.tone, search_rev_s);
     let Some(speed_rev_s) = map.leading_speed_rev_s() else {
-        return Ok(nothing_heard(heard, Hover::default(), NoTone::Silence, warnings));
+        return Ok(nothing_heard(heard, Hover::default(), NoTone::NoSeries, warnings));
     };
     let hover = if config.span.is_given() {
         Hover::whole(heard)
     } else {
         hover_from_survey(&survey, &map, speed_rev_s, &config.tone, &config.hover)
     };
-    let bands = bands_around(speed_rev_s, &config.tone, source.sample_rate_hz(), &mut warnings)?;
+    let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
     let mut ladder = ridges_from_source(source, &hover, &bands, config, on_progress)?;
     let chosen = config.spectrogram.window_s.and_then(|_| ladder.pop());
     let Some(clearest) = clearest_ridges(&ladder) else {
@@ -113,19 +127,26 @@ pub fn speed_from_source(
     }
     let ridges = chosen.unwrap_or_else(|| clearest.clone());
     let weights = HarmonicWeights::from_ridges(&ridges, &config.ridge, &mut warnings);
+    let tracks: Vec<Track> = Method::ALL.iter().map(|&method| weights.track(method, config.tone.order)).collect();
     let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
-        Method::ALL.iter().filter_map(|&method| weights.speed_in(span, method, config.tone.order)).collect()
+        tracks.iter().filter_map(|track| weights.speed_in(span, track)).collect()
     };
-    let samples = samples_from_hover(&hover, &config.samples, &mut warnings)
+    let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);
+    let speeds = speeds_in(None);
+    if speeds.is_empty() {
+        let reason = NoTone::NoFrame { window_s, hover_s: hover.length_s() };
+        return Ok(nothing_heard(heard, hover, reason, warnings));
+    }
+    let samples: Vec<SampleSpeeds> = samples_from_hover(&hover, &config.samples, &mut warnings)
         .into_iter()
         .map(|span| SampleSpeeds { speeds: speeds_in(Some(&span)), span })
         .filter(|sample| !sample.speeds.is_empty())
         .collect();
-    let speeds = speeds_in(None);
-    let track = weights.track(config.method, config.tone.order).collect();
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&ridges, &speeds));
-    let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);
+    warnings.extend(warning_of_samples(&samples));
+    let track =
+        tracks.into_iter().find(|track| track.method == config.method).map_or_else(Vec::new, |track| track.points);
     let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
@@ -160,7 +181,7 @@ fn ridges_from_source(
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<Vec<Vec<Ridge>>, Error> {
     let sample_rate_hz = source.sample_rate_hz();
-    let ladder_s = SpectrogramConfig::ladder_s(bands.first().map_or(0.0, Band::width_hz));
+    let ladder_s = config.spectrogram.ladder_s(bands.first().map_or(0.0, Band::width_hz));
     let mut tracers: Vec<RidgeTracer> = ladder_s
         .into_iter()
         .chain(config.spectrogram.window_s)

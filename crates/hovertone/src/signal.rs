@@ -48,13 +48,16 @@ pub struct Signal {
     samples: Vec<f32>,
     sample_rate_hz: f64,
     start_s: f64,
-    is_drained: bool,
+    position: usize,
 }
+
+/// Samples that are handed out at a time.
+const BLOCK_SAMPLES: usize = 1 << 16;
 
 impl Signal {
     /// Samples, full scale ±1, and their rate. Their first is at time 0.
     pub fn new(samples: Vec<f32>, sample_rate_hz: f64) -> Self {
-        Self { samples, sample_rate_hz, start_s: 0.0, is_drained: false }
+        Self { samples, sample_rate_hz, start_s: 0.0, position: 0 }
     }
 
     /// The same sound, starting at `start_s` on the recording's clock.
@@ -79,12 +82,13 @@ impl SignalSource for Signal {
     }
 
     fn next_block(&mut self) -> Result<Option<&[f32]>, SourceError> {
-        let is_drained = std::mem::replace(&mut self.is_drained, true);
-        Ok((!is_drained && !self.samples.is_empty()).then_some(self.samples.as_slice()))
+        let from = self.position;
+        self.position = (from + BLOCK_SAMPLES).min(self.samples.len());
+        Ok(Some(&self.samples[from..self.position]).filter(|block| !block.is_empty()))
     }
 
     fn rewind(&mut self) -> Result<(), SourceError> {
-        self.is_drained = false;
+        self.position = 0;
         Ok(())
     }
 }

@@ -21,10 +21,12 @@ pub(crate) fn median(values: &[f64]) -> Option<f64> {
 }
 
 /// Standard uncertainty of the mean of a series whose neighbours are correlated: s √(τ / n), with the integrated
-/// autocorrelation τ = 1 + 2 Σ ρ_k summed while pairs of ρ stay positive (Geyer, Statistical Science 7, 1992).
+/// autocorrelation τ = −1 + 2 Σ (ρ_2m + ρ_2m+1), m = 0, 1 …, summed while the pairs stay positive (Geyer, Statistical
+/// Science 7, 1992).
 ///
-/// A series too short to show its own correlation (fewer than about 10 τ) yields a value that is too small; the
-/// correlation is therefore never followed beyond a third of the series, and τ is at least 1.
+/// A series too short to show its own correlation (fewer than about 10 τ) yields a value that is too small. The
+/// correlation is followed to a third of the series at most, and τ is at least 1. Values are taken as equally spaced:
+/// gaps are closed up.
 pub(crate) fn std_uncertainty_of_mean(values: &[f64]) -> Option<f64> {
     let (centre, spread) = (mean(values)?, std(values)?);
     let count = values.len();
@@ -37,17 +39,17 @@ pub(crate) fn std_uncertainty_of_mean(values: &[f64]) -> Option<f64> {
             values[lag..].iter().zip(values).map(|(late, early)| (late - centre) * (early - centre)).sum();
         products / variance
     };
-    let mut correlation_time = 1.0;
-    let mut lag = 1;
-    while lag < count / 3 {
-        let pair = correlation(lag) + correlation(lag + 1);
+    let mut correlation_time = -1.0;
+    let mut lag = 0;
+    while lag == 0 || lag < count / 3 {
+        let pair = correlation(lag) + correlation((lag + 1).min(count - 1));
         if pair <= 0.0 {
             break;
         }
         correlation_time += 2.0 * pair;
         lag += 2;
     }
-    Some(spread * (correlation_time / count as f64).sqrt())
+    Some(spread * (correlation_time.max(1.0) / count as f64).sqrt())
 }
 
 #[cfg(test)]

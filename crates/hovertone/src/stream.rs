@@ -61,7 +61,7 @@ pub(crate) fn for_each_piece(
     Ok(time_s(position.min(end)))
 }
 
-fn checked_rate_hz(source: &dyn SignalSource) -> Result<f64, Error> {
+pub(crate) fn checked_rate_hz(source: &dyn SignalSource) -> Result<f64, Error> {
     let sample_rate_hz = source.sample_rate_hz();
     if (1e3..=1e6).contains(&sample_rate_hz) { Ok(sample_rate_hz) } else { Err(Error::SampleRate { sample_rate_hz }) }
 }

@@ -2,6 +2,7 @@
 
 use crate::config::{Method, RidgeConfig};
 use crate::hover::{CutReason, Hover};
+use crate::pipeline::SampleSpeeds;
 use crate::ridge::Ridge;
 use crate::speed::SpeedEstimate;
 use crate::statistics::mean;
@@ -12,12 +13,16 @@ use std::fmt;
 /// Frame lengths whose share of lines differs by less than this are equally clear, and the longest, which resolves most,
 /// is taken. Where rotors part or wander, lines get fewer with length, so that clarity itself keeps frames short.
 const EQUALLY_CLEAR_SHARE: f64 = 0.01;
+/// One-sided 95 % of a normal distribution.
+const CONFIDENCE_STDS: f64 = 1.645;
 /// A ridge on the edge of its band in more frames than this is not in its band.
 const EDGE_SHARE: f64 = 0.2;
 /// More gaps than this are said.
 const GAP_SHARE: f64 = 0.3;
 /// A spread of twice the paper's (1.2 to 1.3 %) means more than one line.
 const SPREAD_SHARE: f64 = 0.025;
+/// A sample of fewer frames has a mean that one bad frame spoils.
+const FEW_FRAMES: usize = 8;
 /// Another speed is worth a warning when it lasts this share of the hover.
 const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
 
@@ -28,10 +33,24 @@ const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
 pub enum NoTone {
     /// The span that was asked for lies outside the recording.
     OutsideRecording,
+    /// The recording is too short to look for anything.
+    TooShort {
+        /// How long it is.
+        heard_s: f64,
+    },
     /// Nothing sounds.
     Silence,
+    /// Nothing resembles a rotor's series of lines.
+    NoSeries,
     /// No stretch is steady for long enough.
     NoHover,
+    /// The hover holds no frame of the length that was asked for with a tone in it.
+    NoFrame {
+        /// Length of a frame.
+        window_s: f64,
+        /// Length of the hover.
+        hover_s: f64,
+    },
     /// What looks like a rotor series is not made of lines.
     NotALine {
         /// Where the strongest candidate is.
@@ -54,8 +73,13 @@ impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutsideRecording => f.write_str("the recording has nothing between the times asked for"),
+            Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s are too short to hear a rotor in"),
             Self::Silence => f.write_str("nothing sounds"),
+            Self::NoSeries => f.write_str("nothing resembles the lines of a rotor"),
             Self::NoHover => f.write_str("no stretch holds a steady tone for long enough"),
+            Self::NoFrame { window_s, hover_s } => {
+                write!(f, "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; ask for shorter frames")
+            }
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
                 "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames; a rotor is one in clearly \
@@ -73,38 +97,39 @@ impl fmt::Display for NoTone {
     }
 }
 
-/// The ridges of the frame length that shows lines in most frames; among equals, of the longest.
+/// The ridges of the frame length that shows lines in most frames; among those equally clear, of the longest.
 pub(crate) fn clearest_ridges(ladder: &[Vec<Ridge>]) -> Option<&Vec<Ridge>> {
     let clarity = |ridges: &[Ridge]| {
         let shares: Vec<f64> = ridges.iter().map(|ridge| ridge.line_share).collect();
         mean(&shares).unwrap_or_default()
     };
-    ladder
-        .iter()
-        .filter(|ridges| ridges.iter().any(|ridge| !ridge.frames.is_empty()))
-        .reduce(|best, longer| if clarity(longer) + EQUALLY_CLEAR_SHARE > clarity(best) { longer } else { best })
+    let drawn = || ladder.iter().filter(|ridges| ridges.iter().any(|ridge| !ridge.frames.is_empty()));
+    let clearest = drawn().map(|ridges| clarity(ridges)).fold(0.0, f64::max);
+    drawn().rfind(|ridges| clarity(ridges) >= clearest - EQUALLY_CLEAR_SHARE)
 }
 
 /// Why these ridges are no rotor; `None` when they are one.
 ///
-/// The clearest harmonic must be a line in `line_share_min` of its frames, also when the share is one standard
-/// deviation lower than counted (few frames prove little), and another harmonic must be heard with it unless it is
-/// nearly always a line.
+/// The clearest harmonic must be a line in `line_share_min` of its frames with 95 % confidence (few frames prove little),
+/// and another harmonic must be heard with it unless it is nearly always a line.
 pub(crate) fn no_tone_reason(ridges: &[Ridge], config: &RidgeConfig) -> Option<NoTone> {
     let mut by_clarity: Vec<&Ridge> = ridges.iter().collect();
     by_clarity.sort_by(|a, b| b.line_share.total_cmp(&a.line_share));
     let clearest = by_clarity.first()?;
     let line_share = clearest.line_share;
-    // neighbouring frames share half of their sound
-    let independent_frames = (clearest.frames.len() as f64 / 2.0).max(1.0);
-    let line_share_std = (line_share * (1.0 - line_share) / independent_frames).sqrt();
     let tone_hz = mean(&clearest.points_hz(Method::MaximumTrace))
         .unwrap_or((clearest.band.band_hz_low + clearest.band.band_hz_high) / 2.0);
-    if line_share - line_share_std < config.line_share_min {
+    if surely_above(line_share, clearest.independent_frames()) < config.line_share_min {
         return Some(NoTone::NotALine { tone_hz, line_share, line_share_min: config.line_share_min });
     }
     let has_company = by_clarity.get(1).is_none_or(|second| second.line_share >= config.company_share_min);
     (!has_company && line_share < config.lonely_line_share_min).then_some(NoTone::LonelyLine { tone_hz, line_share })
+}
+
+/// What a share counted in so many observations is above with 95 % confidence (Wilson's lower bound).
+fn surely_above(share: f64, observations: f64) -> f64 {
+    let z2 = CONFIDENCE_STDS * CONFIDENCE_STDS / observations.max(f64::MIN_POSITIVE);
+    (share + z2 / 2.0 - (share * (1.0 - share) * z2 + z2 * z2 / 4.0).sqrt()) / (1.0 + z2)
 }
 
 /// What the cuts say against the speed.
@@ -123,6 +148,12 @@ pub(crate) fn warnings_of_hover(hover: &Hover) -> Vec<Warning> {
         .collect()
 }
 
+/// What the samples say against their speeds.
+pub(crate) fn warning_of_samples(samples: &[SampleSpeeds]) -> Option<Warning> {
+    let fewest = samples.iter().flat_map(|sample| &sample.speeds).map(|speed| speed.frame_count).min()?;
+    (fewest < FEW_FRAMES).then_some(Warning::FewFrames { frame_count: fewest })
+}
+
 /// What the ridges say against the speed.
 pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> Vec<Warning> {
     let used =
@@ -135,6 +166,10 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
             warnings.push(Warning::RidgeOnBandEdge { harmonic: ridge.band.harmonic, frames_share });
         }
     }
+    let harmonic_count = ridges.iter().filter(used).count();
+    if 2 * harmonic_count < ridges.len() || !ridges.iter().filter(used).any(|ridge| ridge.band.harmonic == 1) {
+        warnings.push(Warning::FewHarmonicsAgree { used: harmonic_count, of: ridges.len() });
+    }
     let gap_share = ridges.iter().filter(used).map(|ridge| 1.0 - ridge.point_share()).fold(1.0, f64::min);
     if gap_share > GAP_SHARE {
         warnings.push(Warning::ManyGaps { gap_share });
@@ -145,4 +180,19 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
         warnings.push(Warning::SeveralLines { spread_share });
     }
     warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::surely_above;
+
+    #[test]
+    fn few_frames_prove_little() {
+        assert!(surely_above(1.0, 1.0) < 0.5 && surely_above(1.0, 2.0) < 0.5);
+        assert!(surely_above(1.0, 4.0) > 0.5);
+        assert!(surely_above(0.6, 10.0) < 0.5 && surely_above(0.6, 200.0) > 0.5);
+        assert!(surely_above(0.5, 1e9) < 0.5 && surely_above(0.501, 1e9) > 0.5);
+        // NIST handbook 7.2.4.1: 4 of 20, two-sided 90 %: lower limit 0.0931 by Wilson's formula
+        assert!((surely_above(0.2, 20.0) - 0.0931).abs() < 5e-4, "{}", surely_above(0.2, 20.0));
+    }
 }

@@ -22,7 +22,14 @@ pub enum Warning {
         /// Why.
         reason: String,
     },
-    /// Other steady speeds were heard for as long as the one that is reported.
+    /// Most harmonics were left out, or the tone itself was: what remains may not be the rotor's.
+    FewHarmonicsAgree {
+        /// Harmonics that are used.
+        used: usize,
+        /// Harmonics that were followed.
+        of: usize,
+    },
+    /// Another steady speed was heard for at least half as long as the one that is reported.
     OtherSteadySpeed {
         /// The other shaft speed.
         speed_rev_s: f64,
@@ -42,6 +49,11 @@ pub enum Warning {
     ManyGaps {
         /// Share of the frames without a point on the ridge.
         gap_share: f64,
+    },
+    /// Some samples rest on few frames.
+    FewFrames {
+        /// Fewest frames of a sample.
+        frame_count: usize,
     },
     /// The ridge jumps between lines.
     SeveralLines {
@@ -65,9 +77,13 @@ impl Warning {
         match self {
             Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
             Self::HarmonicLeftOut { .. } => "nothing to do when the others agree; --harmonics 1 follows the tone alone",
+            Self::FewHarmonicsAgree { .. } => {
+                "another sound may lie in these bands: check the blades or the gear, narrow --band, or compare --harmonics 1"
+            }
             Self::OtherSteadySpeed { .. } => "choose the part you mean with --from and --to",
             Self::HoverShorterThanSample { .. } => "record a longer hover, or shorten the samples (length_s)",
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
+            Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds and the loudest wins; a narrower --band follows one line"
             }
@@ -93,6 +109,9 @@ impl fmt::Display for Warning {
                 )
             }
             Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is left out: {reason}"),
+            Self::FewHarmonicsAgree { used, of } => {
+                write!(f, "only {used} of {of} harmonics agree, or the first is not among them")
+            }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
                 write!(f, "another steady speed, {speed_rev_s:.1} rev/s, is heard from {from_s:.1} s to {to_s:.1} s")
             }
@@ -103,6 +122,7 @@ impl fmt::Display for Warning {
                 )
             }
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
+            Self::FewFrames { frame_count } => write!(f, "a sample rests on {frame_count} frames only"),
             Self::SeveralLines { spread_share } => {
                 write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
             }

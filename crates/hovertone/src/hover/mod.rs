@@ -164,7 +164,7 @@ fn verdicts_of_rows(
     let with_tone: Vec<f64> =
         rows.clone().filter(|&row| near_db[row] >= score_db_min).map(|row| level_db[row]).collect();
     let Some(hover_level_db) = median(&with_tone) else {
-        return vec![Verdict::Not(CutReason::Silence); survey.rows.len()];
+        return vec![Verdict::Not(CutReason::NoTone); survey.rows.len()];
     };
     let mut verdicts: Vec<Verdict> = rows
         .map(|row| {

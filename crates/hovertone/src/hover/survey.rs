@@ -3,6 +3,7 @@
 use crate::config::HoverConfig;
 use crate::span::Span;
 use crate::spectrogram::{Stft, Window, power_db};
+use crate::verdict::NoTone;
 
 /// Sound below this is handling, wind and traffic; it does not count for how loud a row is.
 const LEVEL_HZ_MIN: f64 = 60.0;
@@ -28,6 +29,19 @@ impl Row {
 pub(crate) struct Survey {
     pub(crate) rows: Vec<Row>,
     pub(crate) bin_hz: f64,
+}
+
+/// Sound quieter than this is silence: below the last bit of 24.
+const SILENCE_DB: f64 = -150.0;
+
+impl Survey {
+    /// Why nothing can be found in it; `None` when something sounds.
+    pub(crate) fn why_nothing(&self, heard_s: f64) -> Option<NoTone> {
+        if self.rows.is_empty() {
+            return Some(NoTone::TooShort { heard_s });
+        }
+        self.rows.iter().all(|row| row.level_db(self.bin_hz) < SILENCE_DB).then_some(NoTone::Silence)
+    }
 }
 
 /// Builds a survey from a stream of samples. When there are too many rows, neighbours are merged and rows become twice

@@ -14,8 +14,8 @@ pub(super) struct GaussianPeak {
 /// The modulus between bins is taken as a straight line, so that the threshold cuts between bins too; without that, a
 /// steady tone of one or two bins would read as the middle of a bin.
 ///
-/// Bias for a steady tone, Hann window, transform of two windows: below 0.02 bins of the unpadded frame (measured by
-/// `a_steady_tone_reads_right_between_bins`).
+/// Bias for a steady tone, Hann window, transform of two windows, in bins of the unpadded frame: at most 0.01 with a
+/// threshold of 0.8, 0.035 with 0.9 (measured by `a_steady_tone_reads_right_between_bins`).
 pub(super) fn gaussian_peak(
     power: &[f64],
     first: usize,
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn a_steady_tone_reads_right_between_bins() {
         let (rate, window_s) = (8000.0, 0.1);
-        for threshold_share in [0.5, 0.8, 0.9] {
+        for (threshold_share, bias_cells) in [(0.5, 0.01), (0.8, 0.01), (0.9, 0.035)] {
             let mut worst_cells = 0.0f64;
             for step in 0..100 {
                 let hz = 1000.0 + 10.0 * f64::from(step) / 100.0;
@@ -93,7 +93,7 @@ mod tests {
                     worst_cells = worst_cells.max((got.unwrap().centre_hz - hz).abs() * window_s);
                 });
             }
-            assert!(worst_cells > 0.0 && worst_cells < 0.04, "{threshold_share}: {worst_cells}");
+            assert!(worst_cells > 0.0 && worst_cells < bias_cells, "{threshold_share}: {worst_cells}");
         }
     }
 }

@@ -54,6 +54,8 @@ pub struct Ridge {
     pub band: Band,
     /// Length of its frames.
     pub window_s: f64,
+    /// Step between frames.
+    pub hop_s: f64,
     /// Distance between bins that are independent in noise.
     pub resolution_hz: f64,
     /// All frames in order of time, gaps included.
@@ -68,6 +70,11 @@ impl Ridge {
         self.frames.iter().filter_map(|frame| frame.peak.map(|peak| peak.hz(method))).collect()
     }
 
+    /// Frames that share no sound: how many observations the ridge is worth.
+    pub fn independent_frames(&self) -> f64 {
+        self.frames.len() as f64 * (self.hop_s / self.window_s).min(1.0)
+    }
+
     /// Share of the frames that have a point.
     pub fn point_share(&self) -> f64 {
         self.frames.iter().filter(|frame| frame.peak.is_some()).count() as f64 / self.frames.len().max(1) as f64
@@ -78,9 +85,20 @@ impl Ridge {
 pub(crate) struct RidgeTracer {
     stft: Stft,
     window_s: f64,
+    hop_s: f64,
+    lobe_half_cells: f64,
     config: RidgeConfig,
-    ridges: Vec<(Band, Vec<RidgeFrame>, usize)>,
+    ridges: Vec<Drawn>,
     scratch: Vec<f64>,
+}
+
+/// A ridge that is being drawn.
+struct Drawn {
+    band: Band,
+    /// Power over the surroundings above which a peak is a point.
+    point_ratio: f64,
+    frames: Vec<RidgeFrame>,
+    line_count: usize,
 }
 
 impl RidgeTracer {
@@ -96,7 +114,17 @@ impl RidgeTracer {
             stft: Stft::new(sample_rate_hz, spectrogram.window, window_s, hop_s, spectrogram.zero_pad_factor),
             window_s,
             config: *config,
-            ridges: bands.iter().map(|&band| (band, Vec::new(), 0)).collect(),
+            hop_s,
+            lobe_half_cells: spectrogram.window.main_lobe_half_bins(),
+            ridges: bands
+                .iter()
+                .map(|&band| Drawn {
+                    band,
+                    point_ratio: peak::ratio_for_chance(band.width_hz() * window_s, config.false_point_chance),
+                    frames: Vec::new(),
+                    line_count: 0,
+                })
+                .collect(),
             scratch: Vec::new(),
         }
     }
@@ -107,63 +135,52 @@ impl RidgeTracer {
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
-        let Self { stft, config, ridges, scratch, .. } = self;
-        let resolution_hz = stft.resolution_hz();
+        let Self { stft, config, ridges, scratch, lobe_half_cells, .. } = self;
+        let cell_hz = stft.resolution_hz();
         stft.push(samples, |frame| {
-            for (band, frames, line_count) in ridges.iter_mut() {
-                let peak = peak_from_frame(&frame, band, resolution_hz, config, scratch);
-                *line_count += usize::from(peak.is_some_and(|p| p.over_sides_db >= config.line_over_sides_db));
-                frames.push(RidgeFrame { time_s: frame.centre_s, peak });
+            for drawn in ridges.iter_mut() {
+                let cells = (*lobe_half_cells, cell_hz / frame.bin_hz);
+                let peak = peak_from_frame(&frame, drawn, cells, config.gaussian_threshold_share, scratch);
+                drawn.line_count += usize::from(peak.is_some_and(|p| p.over_sides_db >= config.line_over_sides_db));
+                drawn.frames.push(RidgeFrame { time_s: frame.centre_s, peak });
             }
         });
     }
 
     pub(crate) fn finish(self) -> Vec<Ridge> {
-        let resolution_hz = self.stft.resolution_hz();
-        let window_s = self.window_s;
+        let (window_s, hop_s, resolution_hz) = (self.window_s, self.hop_s, self.stft.resolution_hz());
         self.ridges
             .into_iter()
-            .map(|(band, frames, line_count)| {
+            .map(|Drawn { band, frames, line_count, .. }| {
                 let line_share = line_count as f64 / frames.len().max(1) as f64;
-                Ridge { band, window_s, resolution_hz, frames, line_share }
+                Ridge { band, window_s, hop_s, resolution_hz, frames, line_share }
             })
             .collect()
     }
 }
 
 /// What one frame shows in one band; `None` where the peak could be noise.
-///
-/// In noise the power of a cell is exponential with median ln 2 times its mean, so the loudest of N cells exceeds
-/// ln(N / p) / ln 2 times the median with chance p.
 fn peak_from_frame(
     frame: &Frame<'_>,
-    band: &Band,
-    resolution_hz: f64,
-    config: &RidgeConfig,
+    drawn: &Drawn,
+    cells: (f64, f64),
+    gaussian_threshold_share: f64,
     scratch: &mut Vec<f64>,
 ) -> Option<Peak> {
-    let first = (band.band_hz_low / frame.bin_hz).ceil() as usize;
-    let last = (band.band_hz_high / frame.bin_hz).floor() as usize;
+    let first = (drawn.band.band_hz_low / frame.bin_hz).ceil() as usize;
+    let last = (drawn.band.band_hz_high / frame.bin_hz).floor() as usize;
     let bin = peak::loudest_bin(frame.power, first, last)?;
-    let over_sides = peak::over_sides(frame.power, bin, resolution_hz / frame.bin_hz, scratch)?;
-    let cells = ((band.band_hz_high - band.band_hz_low) / resolution_hz).max(1.0);
-    if over_sides < (cells / config.false_point_chance).ln() / std::f64::consts::LN_2 {
-        return None;
-    }
+    let over_sides =
+        peak::over_sides(frame.power, bin, cells, scratch).filter(|&over_sides| over_sides >= drawn.point_ratio)?;
     let maximum_hz = maximum_trace::maximum_hz(frame.power, bin, frame.bin_hz);
-    let gaussian = gaussian::gaussian_peak(
-        frame.power,
-        first,
-        last,
-        frame.power[bin],
-        config.gaussian_threshold_share,
-        frame.bin_hz,
-    );
+    let peak_power = frame.power[bin];
+    let gaussian =
+        gaussian::gaussian_peak(frame.power, first, last, peak_power, gaussian_threshold_share, frame.bin_hz);
     Some(Peak {
         maximum_hz,
         gaussian_hz: gaussian.map_or(maximum_hz, |gaussian| gaussian.centre_hz),
         gaussian_std_hz: gaussian.map_or(0.0, |gaussian| gaussian.std_hz),
-        level_db: power_db(frame.power[bin]),
+        level_db: power_db(peak_power),
         over_sides_db: power_db(over_sides),
         is_on_edge: bin <= first || bin >= last,
     })

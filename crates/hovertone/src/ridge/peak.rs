@@ -2,9 +2,11 @@
 
 use crate::statistics::median;
 
-/// A peak must stand out of what lies this many resolution cells away on either side: beyond its own main lobe, near
-/// enough that the noise has the same colour.
-const SIDE_CELLS: (f64, f64) = (2.5, 7.5);
+/// A peak must stand out of this many resolution cells on either side, which begin half a cell beyond its own main lobe:
+/// near enough that the noise has the same colour.
+const SIDE_CELLS: f64 = 5.0;
+/// Cells of noise under a tapered window are correlated: so many make an independent one (Hann's noise bandwidth).
+const CELLS_PER_INDEPENDENT: f64 = 1.5;
 
 /// Offset of a tone from the middle bin, by a parabola through three log powers.
 ///
@@ -14,9 +16,9 @@ const SIDE_CELLS: (f64, f64) = (2.5, 7.5);
 /// - Bias with a Hann window, in bins of the unpadded frame: at most 0.016 without padding, 0.0017 with a transform of
 ///   two windows (measured by `the_interpolated_peak_has_the_stated_bias`).
 /// - Reference: J. O. Smith, *Spectral Audio Signal Processing*, section on quadratic interpolation.
-/// - `None` when the middle bin is not a strict maximum.
+/// - `None` when the middle bin is no maximum; of two equal bins the first is.
 pub fn peak_offset_bins(before: f64, middle: f64, after: f64) -> Option<f64> {
-    if !(middle > before && middle > after) {
+    if !(middle > before && middle >= after) {
         return None;
     }
     let smallest = middle * 1e-12; // keeps the logarithm of an empty neighbour finite
@@ -32,9 +34,38 @@ pub(super) fn loudest_bin(power: &[f64], first: usize, last: usize) -> Option<us
         .max_by(|&a, &b| power[a].total_cmp(&power[b]))
 }
 
-/// Power ratio of a peak over the median of its surroundings. `None` where the surroundings are empty or silent.
-pub(super) fn over_sides(power: &[f64], peak: usize, cell_bins: f64, scratch: &mut Vec<f64>) -> Option<f64> {
-    let (near, far) = ((SIDE_CELLS.0 * cell_bins).round() as usize, (SIDE_CELLS.1 * cell_bins).round() as usize);
+/// Power ratio over the median of its surroundings that noise exceeds in a band of so many cells with a chance.
+///
+/// With a median of M independent cells in place of the noise's true one, the chance of a single cell to exceed α times
+/// it is Π (M − i) / (M − i + α), i = 0 … M/2 − 1 (order-statistic CFAR: Rohling, IEEE Trans. AES 19, 1983); a band of N
+/// cells has N times that.
+pub(super) fn ratio_for_chance(band_cells: f64, chance: f64) -> f64 {
+    let reference_cells = (2.0 * SIDE_CELLS / CELLS_PER_INDEPENDENT).floor();
+    let half = (reference_cells / 2.0) as u32;
+    let chance_of = |ratio: f64| -> f64 {
+        let single: f64 = (0..half).map(|i| reference_cells - f64::from(i)).map(|left| left / (left + ratio)).product();
+        band_cells.max(1.0) * single
+    };
+    // the chance falls with the ratio: halve the interval, on a scale of ratios, until it is known to a thousandth
+    let (mut low, mut high) = (1.0f64, 1e9f64);
+    while high / low > 1.001 {
+        let middle = (low * high).sqrt();
+        if chance_of(middle) > chance { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Power ratio of a peak over the median of its surroundings, which begin beyond a main lobe of `lobe_half_cells`. `None`
+/// where the surroundings are empty or silent.
+pub(super) fn over_sides(
+    power: &[f64],
+    peak: usize,
+    (lobe_half_cells, cell_bins): (f64, f64),
+    scratch: &mut Vec<f64>,
+) -> Option<f64> {
+    let near_cells = lobe_half_cells + 0.5;
+    let near = (near_cells * cell_bins).round() as usize;
+    let far = ((near_cells + SIDE_CELLS) * cell_bins).round() as usize;
     scratch.clear();
     // bin 0 holds the offset of the sound card, not sound
     scratch

@@ -1,6 +1,6 @@
 //! Signal → frames of power spectrum, streamed (paper, eq 5, with its two uses of `k` told apart):
 //!
-//! X[m, k] = Σ_n x[n] w[n − mH] e^(−j2πkn/N), H the hop, N the length of the transform.
+//! `X[m, k] = Σ_n x[n] w[n − mH] e^(−j2πkn/N)`, H the hop, N the length of the transform.
 //!
 //! The definition itself stands in `dft.rs` as the tests' oracle.
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Shape of the window w[n] in eq 5, periodic form (as spectral analysis wants it).
+/// Shape of the window `w[n]` in eq 5, periodic form (as spectral analysis wants it).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

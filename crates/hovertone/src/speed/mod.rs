@@ -29,7 +29,7 @@ pub struct HarmonicSpeed {
     pub std_hz: Option<f64>,
     /// Frames with a point.
     pub frame_count: usize,
-    /// Share of the speed that comes from this harmonic.
+    /// Share of the speed that comes from this harmonic in a frame where all have a point.
     pub weight: f64,
 }
 
@@ -82,106 +82,143 @@ pub(crate) struct HarmonicWeights<'a> {
 }
 
 impl<'a> HarmonicWeights<'a> {
-    /// Weighs the ridges and leaves out, with a warning, those that have too few points or disagree with the clearest.
+    /// Weighs the ridges and leaves out, with a warning, those that have too few points or disagree with the reference:
+    /// the harmonic that most others agree with, then the clearest, then the lowest.
     pub(crate) fn from_ridges(ridges: &'a [Ridge], config: &RidgeConfig, warnings: &mut Vec<Warning>) -> Self {
-        let shaft_rev_s = |ridge: &Ridge| {
-            mean(&ridge.points_hz(Method::MaximumTrace)).map(|hz| hz / ridge.band.order.lines_per_turn())
+        let speeds: Vec<Option<f64>> = ridges
+            .iter()
+            .map(|ridge| Some(mean(&ridge.points_hz(Method::MaximumTrace))? / ridge.band.order.lines_per_turn()))
+            .map(|speed| speed.filter(|speed| speed.is_finite()))
+            .collect();
+        let agree = |a: f64, b: f64| (a / b - 1.0).abs() <= config.harmonic_disagreement_share_max;
+        let has_points = |ridge: &Ridge| ridge.point_share() >= config.point_share_min;
+        let company = |speed: f64| {
+            ridges
+                .iter()
+                .zip(&speeds)
+                .filter(|(r, other)| has_points(r) && other.is_some_and(|o| agree(o, speed)))
+                .count()
         };
-        let clearest = ridges.iter().max_by(|a, b| a.line_share.total_cmp(&b.line_share));
-        let Some((clearest, reference_rev_s)) = clearest.and_then(|ridge| Some((ridge, shaft_rev_s(ridge)?))) else {
-            return Self { used: Vec::new() };
-        };
+        let reference = ridges
+            .iter()
+            .zip(&speeds)
+            .filter(|(ridge, _)| has_points(ridge))
+            .filter_map(|(ridge, speed)| Some((ridge, (*speed)?)))
+            .rev()
+            .max_by(|(a, a_speed), (b, b_speed)| {
+                company(*a_speed).cmp(&company(*b_speed)).then(a.line_share.total_cmp(&b.line_share))
+            });
         let mut used = Vec::new();
-        for ridge in ridges {
-            let reason = match shaft_rev_s(ridge).map(|speed_rev_s| speed_rev_s / reference_rev_s - 1.0) {
-                _ if ridge.point_share() < config.point_share_min => {
+        for (ridge, speed) in ridges.iter().zip(&speeds) {
+            let reason = match (speed, reference) {
+                _ if !has_points(ridge) => {
                     format!("only {:.0} % of its frames hold a tone", 100.0 * ridge.point_share())
                 }
-                Some(share) if share.abs() > config.harmonic_disagreement_share_max => {
-                    format!("its speed differs by {:.1} % from the clearest one's", 100.0 * share)
+                (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
+                    format!("its speed differs by {:.1} % from the others'", 100.0 * (speed / reference - 1.0))
                 }
-                Some(_) => {
+                (Some(_), Some(_)) => {
                     used.push(ridge);
                     continue;
                 }
-                None => "it holds no tone".to_owned(),
+                _ => "it holds no tone".to_owned(),
             };
             warnings.push(Warning::HarmonicLeftOut { harmonic: ridge.band.harmonic, reason });
         }
-        let order_power = if used.iter().all(|ridge| is_of_one_shaft(clearest, ridge)) { 2 } else { -1 };
+        let is_one_shaft =
+            reference.is_some_and(|(reference, _)| used.iter().all(|ridge| is_of_one_shaft(reference, ridge)));
+        let order_power = if is_one_shaft { 2 } else { -1 };
         let weight = |ridge: &Ridge| ridge.band.order.lines_per_turn().powi(order_power) * typical_over_sides(ridge);
         let total: f64 = used.iter().map(|ridge| weight(ridge)).sum();
         Self { used: used.into_iter().map(|ridge| (ridge, weight(ridge) / total)).collect() }
     }
 
-    /// Mean speed over a stretch of time: eq 7 per harmonic, eq 9 corrected over harmonics. `None` where no harmonic
-    /// has a point.
-    pub(crate) fn speed_in(&self, span: Option<&Span>, method: Method, order: Order) -> Option<SpeedEstimate> {
-        let is_in = |time_s: f64| span.is_none_or(|span| span.contains(time_s));
-        let harmonics: Vec<HarmonicSpeed> = self
-            .used
-            .iter()
-            .filter_map(|(ridge, weight)| {
-                let points: Vec<f64> = ridge
-                    .frames
-                    .iter()
-                    .filter(|frame| is_in(frame.time_s))
-                    .filter_map(|frame| frame.peak.map(|peak| peak.hz(method)))
-                    .collect();
-                Some(HarmonicSpeed {
-                    harmonic: ridge.band.harmonic,
-                    order: ridge.band.order,
-                    mean_hz: mean(&points)?,
-                    std_hz: std(&points),
-                    frame_count: points.len(),
-                    weight: *weight,
-                })
-            })
-            .collect();
-        let total: f64 = harmonics.iter().map(|harmonic| harmonic.weight).sum();
-        let speed_rev_s = harmonics.iter().map(|h| h.weight / total * h.mean_hz / h.order.lines_per_turn()).sum();
-        let track: Vec<f64> =
-            self.track(method, order).filter(|point| is_in(point.time_s)).map(|point| point.speed_rev_s).collect();
-        (!track.is_empty()).then(|| SpeedEstimate {
-            method,
-            order,
-            speed: RotorSpeed::from_rev_s(speed_rev_s),
-            std_uncertainty_rev_s: std_uncertainty_of_mean(&track),
-            spread_rev_s: std(&track),
-            frame_count: track.len(),
-            harmonics: harmonics.into_iter().map(|h| HarmonicSpeed { weight: h.weight / total, ..h }).collect(),
+    /// Mean speed over a stretch of time, of a track that this made. `None` where no frame has a point.
+    ///
+    /// The harmonics are combined frame by frame and the frames averaged. Where every harmonic has a point in every frame
+    /// that is eq 7 for each harmonic and eq 9 corrected over them; where a harmonic comes and goes, its frames do not pull
+    /// the mean towards the times at which it was heard.
+    pub(crate) fn speed_in(&self, span: Option<&Span>, track: &Track) -> Option<SpeedEstimate> {
+        let points = track.points_in(span);
+        let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
+        Some(SpeedEstimate {
+            method: track.method,
+            order: track.order,
+            speed: RotorSpeed::from_rev_s(mean(&speeds)?),
+            std_uncertainty_rev_s: std_uncertainty_of_mean(&speeds),
+            spread_rev_s: std(&speeds),
+            frame_count: speeds.len(),
+            harmonics: self
+                .used
+                .iter()
+                .filter_map(|(ridge, weight)| harmonic_in(span, ridge, *weight, track.method))
+                .collect(),
         })
     }
 
     /// The speed of every frame in which at least one harmonic has a point.
-    pub(crate) fn track(&self, method: Method, order: Order) -> impl Iterator<Item = TrackPoint> + '_ {
+    pub(crate) fn track(&self, method: Method, order: Order) -> Track {
         let frame_count = self.used.first().map_or(0, |(ridge, _)| ridge.frames.len());
-        (0..frame_count).filter_map(move |index| {
-            let present: Vec<(&Ridge, f64, Peak)> = self
-                .used
+        let points = (0..frame_count).filter_map(|index| self.point_of_frame(index, method, order)).collect();
+        Track { method, order, points }
+    }
+
+    fn point_of_frame(&self, index: usize, method: Method, order: Order) -> Option<TrackPoint> {
+        let present: Vec<(&Ridge, f64, Peak)> = self
+            .used
+            .iter()
+            .filter_map(|&(ridge, weight)| Some((ridge, weight, ridge.frames.get(index)?.peak?)))
+            .collect();
+        let (first, ..) = present.first()?;
+        let total: f64 = present.iter().map(|(_, weight, _)| weight).sum();
+        let shares = || {
+            present
                 .iter()
-                .filter_map(|&(ridge, weight)| Some((ridge, weight, ridge.frames.get(index)?.peak?)))
-                .collect();
-            let total: f64 = present.iter().map(|(_, weight, _)| weight).sum();
-            let (ridge, ..) = present.first()?;
-            let over_turns = |of: &dyn Fn(&Ridge, &Peak) -> f64, power: i32| -> f64 {
-                present
-                    .iter()
-                    .map(|(ridge, weight, peak)| {
-                        (weight / total * of(ridge, peak) / ridge.band.order.lines_per_turn()).powi(power)
-                    })
-                    .sum()
-            };
-            let speed_rev_s = over_turns(&|_, peak| peak.hz(method), 1);
-            Some(TrackPoint {
-                time_s: ridge.frames[index].time_s,
-                tone_hz: speed_rev_s * order.lines_per_turn(),
-                speed_rev_s,
-                std_uncertainty_rev_s: over_turns(&peak_std_hz, 2).sqrt(),
-                level_db: present.iter().map(|(_, _, peak)| peak.level_db).fold(f64::MIN, f64::max),
-            })
+                .map(|(ridge, weight, peak)| (weight / total / ridge.band.order.lines_per_turn(), *ridge, peak))
+        };
+        let speed_rev_s: f64 = shares().map(|(share, _, peak)| share * peak.hz(method)).sum();
+        let variance: f64 = shares().map(|(share, ridge, peak)| (share * peak_std_hz(ridge, peak)).powi(2)).sum();
+        Some(TrackPoint {
+            time_s: first.frames[index].time_s,
+            tone_hz: speed_rev_s * order.lines_per_turn(),
+            speed_rev_s,
+            std_uncertainty_rev_s: variance.sqrt(),
+            level_db: present.iter().map(|(_, _, peak)| peak.level_db).fold(f64::MIN, f64::max),
         })
     }
+}
+
+/// The speed of each frame by one method, in order of time.
+#[derive(Clone, Debug)]
+pub(crate) struct Track {
+    pub(crate) method: Method,
+    order: Order,
+    pub(crate) points: Vec<TrackPoint>,
+}
+
+impl Track {
+    fn points_in(&self, span: Option<&Span>) -> &[TrackPoint] {
+        let Some(span) = span else { return &self.points };
+        let from = self.points.partition_point(|point| point.time_s < span.from_s);
+        let to = self.points.partition_point(|point| point.time_s < span.to_s);
+        &self.points[from..to.max(from)]
+    }
+}
+
+/// What one harmonic says over a stretch of time.
+fn harmonic_in(span: Option<&Span>, ridge: &Ridge, weight: f64, method: Method) -> Option<HarmonicSpeed> {
+    let from = span.map_or(0, |span| ridge.frames.partition_point(|frame| frame.time_s < span.from_s));
+    let to = span.map_or(ridge.frames.len(), |span| ridge.frames.partition_point(|frame| frame.time_s < span.to_s));
+    let points: Vec<f64> =
+        ridge.frames[from..to.max(from)].iter().filter_map(|frame| Some(frame.peak?.hz(method))).collect();
+    Some(HarmonicSpeed {
+        harmonic: ridge.band.harmonic,
+        order: ridge.band.order,
+        mean_hz: mean(&points)?,
+        std_hz: std(&points),
+        frame_count: points.len(),
+        weight,
+    })
 }
 
 /// Standard deviation of a peak's frequency from the noise around it.

@@ -30,14 +30,20 @@ impl Band {
     }
 }
 
-/// Refuses a band that the recording cannot hold, before anything is looked for in it.
-pub(crate) fn check_band(tone: &ToneConfig, sample_rate_hz: f64) -> Result<(), Error> {
-    match tone.band_hz {
-        Some((low_hz, high_hz)) if high_hz > USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0 => {
-            Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz })
+/// Shaft speeds to look for, in turns per second: the given band's or the configured ones, as far as a recording of that
+/// rate can hold their tone.
+pub(crate) fn search_range_rev_s(tone: &ToneConfig, sample_rate_hz: f64) -> Result<(f64, f64), Error> {
+    let order = tone.order.lines_per_turn();
+    let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
+    if let Some((low_hz, high_hz)) = tone.band_hz {
+        if high_hz > hz_max {
+            return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
         }
-        _ => Ok(()),
+        return Ok((low_hz / order, high_hz / order));
     }
+    let low = tone.speed_min.rev_s();
+    let high = tone.speed_max.rev_s().min(hz_max / (1.0 + tone.band_half_width_share) / order);
+    if low < high { Ok((low, high)) } else { Err(Error::ToneAboveNyquist { order: tone.order, sample_rate_hz }) }
 }
 
 /// The bands around a shaft speed, as many harmonics as the recording can hold.

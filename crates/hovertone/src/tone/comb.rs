@@ -102,10 +102,9 @@ pub(crate) struct CombMap {
 }
 
 impl CombMap {
-    /// Scores every speed of the search range in every row.
-    pub(crate) fn from_survey(survey: &Survey, tone: &ToneConfig) -> Self {
+    /// Scores every speed from `low` to `high` in every row.
+    pub(crate) fn from_survey(survey: &Survey, tone: &ToneConfig, (low, high): (f64, f64)) -> Self {
         let comb = Comb::for_tone(tone);
-        let (low, high) = search_range_rev_s(tone);
         let count = ((high / low).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
         let speeds_rev_s: Vec<f64> = (0..count).map(|i| low * (GRID_STEP_SHARE * i as f64).exp()).collect();
         let mut pooled_db = vec![0.0; survey.rows.first().map_or(0, |row| row.power.len())];
@@ -128,16 +127,18 @@ impl CombMap {
             let window = i.saturating_sub(reach)..(i + reach + 1).min(self.speeds_rev_s.len());
             self.scores_db.iter().map(|row| row[window.clone()].iter().copied().fold(0.0, f64::max).powi(2)).sum()
         };
-        let (best, support) = (0..self.speeds_rev_s.len())
-            .map(|i| (i, pooled(i)))
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-            .filter(|&(_, support)| support > 0.0)?;
-        // the pooled maximum is flat over its reach: take the middle of what supports it as much
-        let plateau: Vec<usize> = (best..(best + 2 * reach + 1).min(self.speeds_rev_s.len()))
-            .take_while(|&i| pooled(i) >= 0.999 * support)
-            .collect();
-        let middle = plateau.get(plateau.len() / 2).copied().unwrap_or(best);
-        Some(self.without_alternation(self.speeds_rev_s[middle]))
+        let best = (0..self.speeds_rev_s.len()).map(|i| (i, pooled(i))).max_by(|a, b| a.1.total_cmp(&b.1));
+        let (best, _) = best.filter(|&(_, support)| support > 0.0)?;
+        Some(self.without_alternation(self.refined_rev_s(self.speeds_rev_s[best])))
+    }
+
+    /// A speed that pooling has found to within its reach: the mean of what the rows around it say, each as its score.
+    fn refined_rev_s(&self, speed_rev_s: f64) -> f64 {
+        let (sum, weights) = (0..self.scores_db.len())
+            .filter_map(|row| self.best_near(row, speed_rev_s, 2.0 * POOL_HALF_WIDTH_SHARE))
+            .filter(|&(_, score)| score > 0.0)
+            .fold((0.0, 0.0), |(sum, weights), (speed, score)| (sum + speed * score.powi(2), weights + score.powi(2)));
+        if weights > 0.0 { sum / weights } else { speed_rev_s }
     }
 
     /// Multiplies a speed whose every other (or third …) line is much the strongest, when the lines between can be
@@ -190,13 +191,5 @@ impl CombMap {
             .zip(scores.iter().copied())
             .filter(|&(speed, _)| is_wanted(speed))
             .max_by(|a, b| a.1.total_cmp(&b.1))
-    }
-}
-
-/// Where to look for the shaft speed: the configured range, or what a given band allows.
-fn search_range_rev_s(tone: &ToneConfig) -> (f64, f64) {
-    match tone.band_hz {
-        Some((low_hz, high_hz)) => (low_hz / tone.order.lines_per_turn(), high_hz / tone.order.lines_per_turn()),
-        None => (tone.speed_min.rev_s(), tone.speed_max.rev_s()),
     }
 }

@@ -4,5 +4,5 @@ mod band;
 mod comb;
 
 pub use band::Band;
-pub(crate) use band::{bands_around, check_band};
+pub(crate) use band::{bands_around, search_range_rev_s};
 pub(crate) use comb::CombMap;
