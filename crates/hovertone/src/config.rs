@@ -49,7 +49,7 @@ impl Config {
     }
 }
 
-fn check_range(name: &'static str, value: f64, min: f64, max: f64) -> Result<(), ConfigError> {
+pub(crate) fn check_range(name: &'static str, value: f64, min: f64, max: f64) -> Result<(), ConfigError> {
     if (min..=max).contains(&value) { Ok(()) } else { Err(ConfigError::OutOfRange { name, value, min, max }) }
 }
 

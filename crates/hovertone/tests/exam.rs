@@ -3,7 +3,7 @@
 
 mod testkit;
 
-use hovertone::Method;
+use hovertone::{Error, Method, Signal, Warning, speed_from_source};
 use testkit::{Rotor, SAMPLE_RATE_HZ, TWO_BLADES, analyse, config, hears_nothing, sound, steady, tone};
 
 #[test]
@@ -148,4 +148,77 @@ fn the_octave_is_right_whichever_harmonic_is_loudest() {
         let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
         assert!((got / truth_rev_s - 1.0).abs() < 2e-3, "series {index}: {got}");
     }
+}
+
+#[test]
+fn a_whine_in_one_band_does_not_outvote_two_harmonics_that_agree() {
+    for whine_amplitude in [0.02, 0.2] {
+        let rotor = Rotor { speed_rev_s: &|_| 90.0, lines: &[(2.0, 0.1), (4.0, 0.05)] };
+        let whine = Rotor { speed_rev_s: &|_| 570.0, lines: &[(1.0, whine_amplitude)] };
+        let analysis = analyse(sound(&[rotor, whine], 5.0, 0.005, 11), &config(2.0));
+        let got = tone(&analysis).speeds[0].speed.rev_s();
+        assert!((got - 90.0).abs() < 0.02, "{got}");
+        assert!(analysis.warnings.iter().any(|w| matches!(w, Warning::HarmonicLeftOut { harmonic: 3, .. })));
+    }
+}
+
+#[test]
+fn a_harmonic_that_comes_and_goes_does_not_pull_the_mean() {
+    let speed_rev_s = |time_s: f64| 89.28 + 0.144 * time_s;
+    let base = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &[(2.0, 0.1), (4.0, 0.05)] }], 10.0, 0.002, 12);
+    let third = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &[(6.0, 0.1)] }], 10.0, 0.0, 12);
+    let samples: Vec<f32> = base
+        .iter()
+        .zip(&third)
+        .enumerate()
+        .map(|(n, (base, third))| if n as f64 / SAMPLE_RATE_HZ > 6.5 { base + third } else { *base })
+        .collect();
+    let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
+    assert!((got - 90.0).abs() < 0.02, "{got}");
+}
+
+#[test]
+fn a_glimpse_of_noise_is_no_rotor() {
+    let mut heard = 0;
+    for seed in 0..300 {
+        let mut config = config(69.0);
+        (config.span.from_s, config.span.to_s) = (Some(0.0), Some(0.42));
+        heard += usize::from(!hears_nothing(&analyse(sound(&[], 0.6, 0.1, seed), &config)));
+    }
+    assert_eq!(heard, 0);
+}
+
+#[test]
+fn recordings_of_any_rate_tell_the_same_speed() {
+    for rate in [8000.0, 22050.0, 48000.0, 96000.0, 47123.0] {
+        let samples: Vec<f32> = (0..(5.0 * rate) as usize)
+            .map(|n| {
+                let turn = std::f64::consts::TAU * 91.3 * n as f64 / rate;
+                TWO_BLADES.iter().map(|(order, amplitude)| (amplitude * (order * turn).cos()) as f32).sum()
+            })
+            .collect();
+        let mut source = Signal::new(samples, rate);
+        let analysis = speed_from_source(&mut source, &config(2.0), &mut |_| {}).expect("an analysis");
+        let got = tone(&analysis).speeds[0].speed.rev_s();
+        assert!((got - 91.3).abs() < 0.01, "{rate} Hz: {got}");
+    }
+}
+
+#[test]
+fn a_rate_that_cannot_be_or_cannot_hold_the_tone_is_refused_at_once() {
+    for rate in [0.0, -8000.0, f64::NAN, f64::INFINITY, 4294967295.0, 10.0] {
+        let mut source = Signal::new(vec![0.1; 1000], rate);
+        let refused = speed_from_source(&mut source, &config(2.0), &mut |_| {});
+        assert!(matches!(refused, Err(Error::SampleRate { .. })), "{rate}");
+    }
+    let mut source = Signal::new(vec![0.1; 3000], 1000.0);
+    let refused = speed_from_source(&mut source, &config(69.0), &mut |_| {});
+    assert!(matches!(refused, Err(Error::ToneAboveNyquist { .. })), "{refused:?}");
+}
+
+#[test]
+fn a_window_longer_than_the_hover_is_an_answer_with_its_reason() {
+    let mut config = config(2.0);
+    config.spectrogram.window_s = Some(2.0);
+    assert!(hears_nothing(&analyse(steady(90.0, 1.5, 0.01), &config)));
 }

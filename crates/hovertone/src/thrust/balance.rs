@@ -1,5 +1,7 @@
 //! Force balance: what a known force and a measured speed say of the thrust constant (paper, eq 3).
 
+use crate::config::check_range;
+use crate::error::ConfigError;
 use hovertone_vehicle::RotorSpeed;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
@@ -38,6 +40,14 @@ pub struct Air {
 }
 
 impl Air {
+    /// What is wrong with it, by name, value and limit: air that one can fly in, so that pascals, kelvins and shares are
+    /// told from hectopascals, degrees and per cent.
+    pub(crate) fn check(&self) -> Result<(), ConfigError> {
+        check_range("temperature_c", self.temperature_c, -60.0, 60.0)?;
+        check_range("pressure_hpa", self.pressure_hpa, 300.0, 1100.0)?;
+        check_range("humidity_percent", self.humidity_percent, 0.0, 100.0)
+    }
+
     /// Density of moist air as an ideal gas, (p − e) / (287.05 T) + e / (461.5 T) with the vapour pressure e by Magnus'
     /// formula. Within 0.1 % of the reference formula for weather one can fly in.
     pub fn density_kg_m3(&self) -> f64 {

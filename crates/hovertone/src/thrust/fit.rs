@@ -5,12 +5,17 @@ use crate::config::Method;
 use crate::statistics::{mean, std};
 use crate::warning::Warning;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// A load disagrees when it lies this many standard uncertainties from the others: one chance in a hundred.
-const DISAGREEMENT_STDS: f64 = 2.58;
+/// Degrees of freedom of an uncertainty that comes from the frames of one trial: some hundred frames of a hover are worth
+/// about so many independent ones.
+const FREEDOM_OF_FRAMES: f64 = 20.0;
+/// A load that is right is said to disagree with this chance: the usual level of such tests.
+const DISAGREEMENT_CHANCE: f64 = 0.05;
 
 /// The thrust constant from loads, as the paper's tables have it: per load from the mean speed of all its samples
-/// (C = F / ω̄², not the mean of the samples' constants), over all as the plain mean of the loads.
+/// (C = F / ω̄², not the mean of the samples' constants), over all as the plain mean of the loads. The square of the mean
+/// in place of the mean of the squares makes C too large by the square of the relative spread: 0.015 % at the paper's 1.23 %.
 ///
 /// The standard uncertainty of a load combines the scatter of its trials' mean speeds (or, with a single trial, of the
 /// frames) and the weighing: u²(C)/C² = u²(F)/F² + 4 u²(ω)/ω². Over the loads, what they share (the vehicle's weighing)
@@ -20,7 +25,8 @@ const DISAGREEMENT_STDS: f64 = 2.58;
 /// statistics of the ridge can show. The table warns of it.
 pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, rotor_count: u32) -> ThrustTable {
     let mut rows: Vec<LoadThrust> = loads.iter().map(|load| row_of_load(load, rotor_count)).collect();
-    judge_loads(&mut rows);
+    judge_loads(loads, &mut rows);
+    let rotor_count = rotor_count.max(1);
     let total = mean_over_loads(loads, &rows);
     let mut warnings: Vec<Warning> = rows
         .iter()
@@ -57,7 +63,8 @@ fn row_of_load(load: &LoadSpeeds, rotor_count: u32) -> LoadThrust {
     let total = speed.map(|speed| {
         let (alone, shared) = load.force.relative_std();
         let relative = std_uncertainty_rad_s.map(|std| (2.0 * std / speed.rad_s()).hypot(alone).hypot(shared));
-        let ending = if trials.len() > 1 { Ending::Solved } else { Ending::SingleObservation };
+        let heard = trials.iter().filter(|trial| trial.speed.is_some()).count();
+        let ending = if heard > 1 { Ending::Solved } else { Ending::SingleObservation };
         let value = constant(speed);
         Estimate { value, std_uncertainty: relative.map(|relative| relative * value), ending }
     });
@@ -92,20 +99,20 @@ fn row_of_trial(trial: &TrialSpeeds, constant: &dyn Fn(RotorSpeed) -> f64) -> Tr
     }
 }
 
-/// Standard uncertainty of a load's mean speed. Windows of one trial overlap and share its flight, so trials are what
-/// counts; a single trial can only tell by its frames.
+/// Standard uncertainty of a load's mean speed: from the scatter of its trials (their windows overlap and share a flight,
+/// so trials are what counts) or from the frames within them, whichever is larger; a single trial has only its frames.
 fn speed_std_uncertainty_rad_s(load: &LoadSpeeds, trials: &[TrialThrust]) -> Option<f64> {
     let means: Vec<f64> = trials.iter().filter_map(|trial| Some(trial.speed?.rad_s())).collect();
-    if let Some(scatter) = std(&means) {
-        return Some(scatter / (means.len() as f64).sqrt());
-    }
     let within: Vec<f64> = load
         .trials
         .iter()
         .flat_map(|trial| &trial.samples)
         .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.std_uncertainty_rev_s?).rad_s()))
         .collect();
-    mean(&within)
+    let count = means.len().max(1) as f64;
+    let by_frames = mean(&within).map(|std| std / count.sqrt());
+    // two or three trials can agree by chance better than their frames allow
+    std(&means).map(|scatter| scatter / count.sqrt()).into_iter().chain(by_frames).reduce(f64::max)
 }
 
 /// Spread of the speed over all frames of a load: within the samples and between them.
@@ -119,24 +126,50 @@ fn spread_rad_s(load: &LoadSpeeds, speeds: &[f64]) -> Option<f64> {
     Some((mean(&squares)? + std(speeds).unwrap_or_default().powi(2)).sqrt())
 }
 
-/// Leaves each load out in turn and asks whether it agrees with the rest.
-fn judge_loads(rows: &mut [LoadThrust]) {
-    let totals: Vec<Option<Estimate>> = rows.iter().map(|row| row.thrust_constant_total_n_s2).collect();
+/// A load's constant with the variance that it has alone (what all loads share cancels in a comparison) and the degrees of
+/// freedom that its trials leave.
+struct Alone {
+    value: f64,
+    variance: f64,
+    degrees_of_freedom: f64,
+}
+
+/// Leaves each load out in turn and asks by Student's test whether it agrees with the rest (Welch and Satterthwaite's
+/// degrees of freedom).
+fn judge_loads(loads: &[LoadSpeeds], rows: &mut [LoadThrust]) {
+    let alone: Vec<Option<Alone>> = loads.iter().zip(&*rows).map(|(load, row)| alone_of(load, row)).collect();
     for (index, row) in rows.iter_mut().enumerate() {
-        let others: Vec<Estimate> =
-            totals.iter().enumerate().filter(|&(other, _)| other != index).filter_map(|(_, total)| *total).collect();
+        let others: Vec<&Alone> = alone
+            .iter()
+            .enumerate()
+            .filter(|&(other, _)| other != index)
+            .filter_map(|(_, alone)| alone.as_ref())
+            .collect();
         let values: Vec<f64> = others.iter().map(|other| other.value).collect();
-        let (Some(own), Some(expected)) = (totals[index], mean(&values)) else { continue };
-        let Some(own_std) = own.std_uncertainty else { continue };
-        let Some(others_std) = others.iter().map(|other| Some(other.std_uncertainty?.powi(2))).sum::<Option<f64>>()
-        else {
-            continue;
-        };
-        let apart_std = own_std.hypot(others_std.sqrt() / others.len() as f64);
-        let fits = (own.value - expected).abs() <= DISAGREEMENT_STDS * apart_std;
+        let (Some(own), Some(expected)) = (&alone[index], mean(&values)) else { continue };
+        // the difference's variances: this load's, and each other's share of their mean
+        let parts: Vec<(f64, f64)> = std::iter::once((own.variance, own.degrees_of_freedom))
+            .chain(others.iter().map(|o| (o.variance / (others.len() as f64).powi(2), o.degrees_of_freedom)))
+            .collect();
+        let variance: f64 = parts.iter().map(|(variance, _)| variance).sum();
+        let degrees_of_freedom =
+            variance.powi(2) / parts.iter().map(|(variance, dof)| variance.powi(2) / dof).sum::<f64>();
+        let Ok(student) = StudentsT::new(0.0, 1.0, degrees_of_freedom) else { continue };
+        let apart_stds_max = student.inverse_cdf(1.0 - DISAGREEMENT_CHANCE / 2.0);
+        let fits = (own.value - expected).abs() <= apart_stds_max * variance.sqrt();
         row.fits = Some(fits);
         row.mass_that_fits_kg = row.mass_kg.filter(|_| !fits).map(|mass_kg| mass_kg * expected / own.value);
     }
+}
+
+fn alone_of(load: &LoadSpeeds, row: &LoadThrust) -> Option<Alone> {
+    let value = row.thrust_constant_total_n_s2?.value;
+    let speed_share = 2.0 * row.std_uncertainty_rad_s? / row.speed?.rad_s();
+    let heard = row.trials.iter().filter(|trial| trial.speed.is_some()).count();
+    // a single trial's uncertainty comes from its many frames
+    let degrees_of_freedom = if heard > 1 { heard as f64 - 1.0 } else { FREEDOM_OF_FRAMES };
+    let variance = (value * speed_share.hypot(load.force.relative_std().0)).powi(2);
+    (variance > 0.0).then_some(Alone { value, variance, degrees_of_freedom })
 }
 
 fn mean_over_loads(loads: &[LoadSpeeds], rows: &[LoadThrust]) -> Option<Estimate> {
@@ -156,15 +189,15 @@ fn mean_over_loads(loads: &[LoadSpeeds], rows: &[LoadThrust]) -> Option<Estimate
         })
         .sum();
     let shared: Vec<f64> = heard.iter().map(|(force, _, total)| total.value * force.relative_std().1).collect();
-    let std_uncertainty = alone.map(|squares| {
-        let by_parts = squares.sqrt() / count;
-        let by_scatter = std(&values).map_or(0.0, |scatter| scatter / count.sqrt());
-        by_parts.max(by_scatter).hypot(mean(&shared).unwrap_or_default())
-    });
-    let is_single = heard.iter().map(|(_, row, _)| row.trials.len()).sum::<usize>() < 2;
+    let by_parts = alone.map(|squares| squares.sqrt() / count);
+    let by_scatter = std(&values).map(|scatter| scatter / count.sqrt());
+    let std_uncertainty =
+        by_parts.into_iter().chain(by_scatter).reduce(f64::max).map(|std| std.hypot(mean(&shared).unwrap_or_default()));
+    let trials = heard.iter().flat_map(|(_, row, _)| &row.trials).filter(|trial| trial.speed.is_some()).count();
+    let is_solved = trials > 1 && std_uncertainty.is_some();
     Some(Estimate {
         value,
         std_uncertainty,
-        ending: if is_single { Ending::SingleObservation } else { Ending::Solved },
+        ending: if is_solved { Ending::Solved } else { Ending::SingleObservation },
     })
 }

@@ -9,6 +9,7 @@ pub use balance::{Air, GRAVITY_STANDARD_M_S2, ThrustCoefficients, gravity_m_s2, 
 pub use fit::thrust_from_loads;
 
 use crate::config::Method;
+use crate::pipeline::{RotorTone, SampleSpeeds};
 use crate::span::Span;
 use crate::warning::Warning;
 use hovertone_vehicle::{Estimate, RotorSpeed};
@@ -89,6 +90,22 @@ pub struct TrialSpeeds {
     pub recording: String,
     /// Its samples.
     pub samples: Vec<SampleSpeed>,
+}
+
+impl TrialSpeeds {
+    /// The samples of a rotor's tone by one method.
+    pub fn from_tone(recording: impl Into<String>, tone: &RotorTone, method: Method) -> Self {
+        let sample = |sample: &SampleSpeeds| {
+            sample.speed(method).map(|estimate| SampleSpeed {
+                span: sample.span,
+                speed: estimate.speed,
+                std_uncertainty_rev_s: estimate.std_uncertainty_rev_s,
+                spread_rev_s: estimate.spread_rev_s,
+                frame_count: estimate.frame_count,
+            })
+        };
+        Self { recording: recording.into(), samples: tone.samples.iter().filter_map(sample).collect() }
+    }
 }
 
 /// Speed in one sample.

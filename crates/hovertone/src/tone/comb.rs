@@ -193,3 +193,50 @@ impl CombMap {
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{HoverConfig, ToneConfig};
+    use crate::hover::SurveyBuilder;
+    use hovertone_vehicle::Order;
+    use std::f64::consts::TAU;
+
+    fn leading_rev_s(orders: &[f64], speed_rev_s: f64) -> f64 {
+        let rate = 44100.0;
+        let mut noise = 1u64;
+        let samples: Vec<f32> = (0..3 * 44100)
+            .map(|n| {
+                noise = noise.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                let turn = TAU * speed_rev_s * f64::from(n) / rate;
+                let lines: f64 = orders.iter().map(|order| 0.05 * (order * turn).cos()).sum();
+                (lines + 0.02 * ((noise >> 40) as f64 / f64::from(1 << 23) - 1.0)) as f32
+            })
+            .collect();
+        let mut builder = SurveyBuilder::new(&HoverConfig::default(), rate, 0.0);
+        builder.push(&samples);
+        let tone = ToneConfig::of_order(Order::new(orders[0]).unwrap());
+        CombMap::from_survey(&builder.finish(3.0), &tone, (15.0, 280.0)).leading_speed_rev_s().unwrap()
+    }
+
+    #[test]
+    fn the_leading_speed_is_right_within_the_grid_and_not_to_one_side() {
+        let errors: Vec<f64> = (0..20)
+            .map(|step| 41.0 * 1.085f64.powi(step))
+            .map(|speed_rev_s| leading_rev_s(&[2.0, 4.0, 6.0, 8.0], speed_rev_s) / speed_rev_s - 1.0)
+            .collect();
+        // the survey resolves 5 Hz, a sixteenth of the lowest blade pass here; eight lines share the reading
+        for (step, error) in errors.iter().enumerate() {
+            assert!(error.abs() < 0.008, "step {step}: {error}");
+        }
+        assert!(mean(&errors).unwrap().abs() < 0.002, "{errors:?}");
+    }
+
+    #[test]
+    fn a_gear_mesh_is_found_to_a_thousandth() {
+        for speed_rev_s in [33.3, 51.0, 60.17] {
+            let error = leading_rev_s(&[69.0, 138.0, 207.0], speed_rev_s) / speed_rev_s - 1.0;
+            assert!(error.abs() < 0.0015, "{speed_rev_s}: {error}");
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! The experiment file, settled: preset and own numbers, gravity, the tone's order, each load's force.
+
+use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
+use crate::config::{Config, Method, SpanConfig, ToneConfig};
+use crate::thrust::{Force, GRAVITY_STANDARD_M_S2, gravity_m_s2};
+use hovertone_vehicle::{Order, Vehicle, find_preset};
+
+/// A mass this many times off the preset's was written in grams, or is another vehicle's.
+const MASS_FACTOR_MAX: f64 = 10.0;
+/// Gravity is 9.764 m/s² on the highest equatorial mountain and 9.834 at the poles.
+const GRAVITY_M_S2_MIN: f64 = 9.70;
+const GRAVITY_M_S2_MAX: f64 = 9.90;
+/// Standard uncertainty of a kitchen scale that shows whole grams.
+const MASS_STD_KG: f64 = 0.0005;
+
+impl ExperimentFile {
+    /// Settles everything: preset and own numbers, gravity, the tone's order, each load's force.
+    pub fn resolve(&self) -> Result<Experiment, ExperimentError> {
+        let preset = match &self.vehicle.preset {
+            Some(name) => Some(find_preset(name).ok_or_else(|| ExperimentError::UnknownPreset { name: name.clone() })?),
+            None => None,
+        };
+        let rotor_count = self.vehicle.rotors.or(preset.map(|preset| preset.rotor_count.value));
+        let rotor_count =
+            rotor_count.ok_or_else(|| missing("the number of rotors", "write vehicle.rotors, or a vehicle.preset"))?;
+        positive("vehicle.rotors", f64::from(rotor_count))?;
+        let config = Config {
+            samples: self.samples,
+            spectrogram: self.spectrogram,
+            ridge: self.ridge,
+            hover: self.hover,
+            method: Method::default(),
+            ..Config::for_tone(self.resolve_tone(preset)?)
+        };
+        config.check()?;
+        if self.loads.is_empty() {
+            return Err(missing("the loads", "write at least one [[load]] with its recordings"));
+        }
+        self.check_names()?;
+        let loads =
+            self.loads.iter().map(|load| self.resolve_load(load, preset, rotor_count)).collect::<Result<_, _>>()?;
+        let own_diameter_m = self.vehicle.propeller_diameter_m;
+        own_diameter_m.map_or(Ok(0.0), |diameter_m| positive("vehicle.propeller_diameter_m", diameter_m))?;
+        if let Some(air) = self.air {
+            air.check()?;
+        }
+        Ok(Experiment {
+            vehicle_name: preset.map_or("own vehicle", |preset| preset.name).to_owned(),
+            rotor_count,
+            propeller_diameter_m: own_diameter_m
+                .or_else(|| preset.and_then(|preset| Some(preset.propeller_diameter_m.as_ref()?.value))),
+            config,
+            air: self.air,
+            loads,
+        })
+    }
+
+    fn resolve_tone(&self, preset: Option<&Vehicle>) -> Result<ToneConfig, ExperimentError> {
+        let blades = self.vehicle.blades.or_else(|| preset.and_then(|preset| Some(preset.blade_count.as_ref()?.value)));
+        let gear = self.vehicle.gear.or_else(|| preset.and_then(|preset| Some(preset.gear.as_ref()?.value)));
+        let order = match (self.tone.order, gear, blades) {
+            (OrderSetting::Lines(order), ..) => order,
+            (OrderSetting::Auto, Some(gear), _) => gear.mesh_order()?,
+            (OrderSetting::Auto, None, Some(blades)) => Order::from_blades(blades)?,
+            (OrderSetting::Auto, None, None) => {
+                return Err(missing("the order of the tone", "write tone.order, vehicle.blades or vehicle.gear"));
+            }
+        };
+        let known = preset.and_then(|preset| Some(preset.shaft_speed.as_ref()?.value));
+        let defaults = ToneConfig::of_order(order);
+        let defaults = known.map_or_else(|| defaults.clone(), |known| defaults.clone().within(&known));
+        Ok(ToneConfig {
+            harmonics: self.tone.harmonics.unwrap_or(defaults.harmonics),
+            blades,
+            band_hz: self.tone.band_hz,
+            band_half_width_share: self.tone.band_half_width_share.unwrap_or(defaults.band_half_width_share),
+            ..defaults
+        })
+    }
+
+    fn resolve_load(
+        &self,
+        load: &LoadSection,
+        preset: Option<&Vehicle>,
+        rotor_count: u32,
+    ) -> Result<ExperimentLoad, ExperimentError> {
+        let named = |field: &str| format!("{field} of load {:?}", load.name);
+        let force = match (load.thrust_n, load.added_mass_kg) {
+            (Some(_), Some(_)) => {
+                return Err(ExperimentError::Contradiction {
+                    what: format!("load {:?} has both thrust_n and added_mass_kg", load.name),
+                    hint: "a bench run has a thrust, a hover an added mass",
+                });
+            }
+            (Some(thrust_n), None) => Force::Thrust {
+                thrust_n: positive(&named("thrust_n"), thrust_n)?,
+                thrust_std_n: not_negative(&named("thrust_std_n"), load.thrust_std_n.unwrap_or(self.scale_std_n()?))?,
+            },
+            (None, added_mass_kg) => self.weight(added_mass_kg.unwrap_or(0.0), preset, &named)?,
+        };
+        let rotors_running = load.rotors_running.unwrap_or(rotor_count);
+        if !(1..=rotor_count).contains(&rotors_running) {
+            return Err(ExperimentError::OutOfRange {
+                name: named("rotors_running"),
+                value: f64::from(rotors_running),
+                must_be: "must be at least 1 and no more than the vehicle has rotors",
+            });
+        }
+        if load.recordings.is_empty() {
+            return Err(missing(&named("recordings"), "name at least one file or pattern"));
+        }
+        let span = SpanConfig { from_s: load.from_s, to_s: load.to_s };
+        span.check()?;
+        Ok(ExperimentLoad { name: load.name.clone(), force, rotors_running, recordings: load.recordings.clone(), span })
+    }
+
+    fn weight(
+        &self,
+        added_mass_kg: f64,
+        preset: Option<&Vehicle>,
+        named: &dyn Fn(&str) -> String,
+    ) -> Result<Force, ExperimentError> {
+        let mass_kg = self.vehicle.mass_kg.or_else(|| preset.and_then(|preset| Some(preset.mass_kg.as_ref()?.value)));
+        let mass_kg =
+            mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
+        let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
+            (Some(gravity), None, None) => gravity,
+            (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= 90.0 => {
+                gravity_m_s2(latitude_deg, height_m.unwrap_or(0.0))
+            }
+            (None, None, None) => GRAVITY_STANDARD_M_S2,
+            (None, Some(latitude_deg), _) => {
+                return Err(ExperimentError::OutOfRange {
+                    name: "vehicle.latitude_deg".to_owned(),
+                    value: latitude_deg,
+                    must_be: "must lie between -90 and 90",
+                });
+            }
+            (Some(_), _, _) => {
+                return Err(ExperimentError::Contradiction {
+                    what: "vehicle has both gravity_m_s2 and a place".to_owned(),
+                    hint: "write either gravity_m_s2, or latitude_deg and height_m",
+                });
+            }
+            (None, None, Some(_)) => {
+                return Err(missing("vehicle.latitude_deg", "height_m alone does not tell gravity"));
+            }
+        };
+        positive("vehicle.mass_kg", mass_kg)?;
+        if let Some(known_kg) = preset.and_then(|preset| Some(preset.mass_kg.as_ref()?.value))
+            && !(known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&mass_kg)
+        {
+            return Err(ExperimentError::OutOfRange {
+                name: "vehicle.mass_kg".to_owned(),
+                value: mass_kg,
+                must_be: "is more than ten times off the preset's; masses are in kg",
+            });
+        }
+        positive(&named("total mass"), mass_kg + added_mass_kg)?;
+        Ok(Force::Weight {
+            vehicle_mass_kg: mass_kg,
+            added_mass_kg,
+            mass_std_kg: self.mass_std_kg()?,
+            gravity_m_s2: on_earth(gravity)?,
+        })
+    }
+}
+
+impl ExperimentFile {
+    /// Loads are told apart by their names.
+    fn check_names(&self) -> Result<(), ExperimentError> {
+        for (index, load) in self.loads.iter().enumerate() {
+            if load.name.trim().is_empty() || self.loads[..index].iter().any(|before| before.name == load.name) {
+                return Err(ExperimentError::Contradiction {
+                    what: format!("load number {} is called {:?}", index + 1, load.name),
+                    hint: "give every load a name of its own",
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn mass_std_kg(&self) -> Result<f64, ExperimentError> {
+        not_negative("vehicle.mass_std_kg", self.vehicle.mass_std_kg.unwrap_or(MASS_STD_KG))
+    }
+
+    /// Standard uncertainty of a thrust that is read from the same scale.
+    fn scale_std_n(&self) -> Result<f64, ExperimentError> {
+        Ok(self.mass_std_kg()? * GRAVITY_STANDARD_M_S2)
+    }
+}
+
+fn on_earth(gravity_m_s2: f64) -> Result<f64, ExperimentError> {
+    if (GRAVITY_M_S2_MIN..=GRAVITY_M_S2_MAX).contains(&gravity_m_s2) {
+        Ok(gravity_m_s2)
+    } else {
+        Err(ExperimentError::OutOfRange {
+            name: "vehicle.gravity_m_s2".to_owned(),
+            value: gravity_m_s2,
+            must_be: "is found nowhere on Earth: 9.70 to 9.90",
+        })
+    }
+}
+
+fn missing(what: &str, hint: &'static str) -> ExperimentError {
+    ExperimentError::Missing { what: what.to_owned(), hint }
+}
+
+fn positive(name: &str, value: f64) -> Result<f64, ExperimentError> {
+    if value.is_finite() && value > 0.0 {
+        Ok(value)
+    } else {
+        Err(ExperimentError::OutOfRange { name: name.to_owned(), value, must_be: "must be a number above 0" })
+    }
+}
+
+fn not_negative(name: &str, value: f64) -> Result<f64, ExperimentError> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(value)
+    } else {
+        Err(ExperimentError::OutOfRange { name: name.to_owned(), value, must_be: "must be 0 or more" })
+    }
+}

@@ -1,0 +1,109 @@
+//! Experiment files as people write them, right and wrong.
+
+use super::*;
+use crate::thrust::GRAVITY_STANDARD_M_S2;
+
+const GOOD: &str = r#"
+[vehicle]
+preset = "ardrone"
+latitude_deg = -20.76
+height_m = 650.0
+
+[tone]
+order = 69
+
+[[load]]
+name = "no hull"
+recordings = ["no_hull/*.mov"]
+
+[[load]]
+name = "small hull"
+added_mass_kg = 0.031
+recordings = ["small_hull/*.mov"]
+"#;
+
+fn resolve(text: &str) -> Result<Experiment, String> {
+    let file: ExperimentFile = toml::from_str(text).map_err(|error| error.to_string())?;
+    file.resolve().map_err(|error| error.to_string())
+}
+
+fn refusal(from: &str, to: &str) -> String {
+    assert!(GOOD.contains(from), "{from}");
+    resolve(&GOOD.replacen(from, to, 1)).expect_err(to)
+}
+
+#[test]
+fn a_preset_fills_what_the_file_leaves_out() {
+    let experiment = resolve(GOOD).expect("a good file");
+    assert_eq!((experiment.rotor_count, experiment.loads.len()), (4, 2));
+    assert_eq!(experiment.config.tone.blades, Some(2));
+    assert!(experiment.config.tone.speed_max.rev_s() < 200.0, "the preset's range narrows the search");
+    let Force::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, gravity_m_s2 } = experiment.loads[1].force else {
+        panic!("a hover has a weight");
+    };
+    assert_eq!((vehicle_mass_kg, added_mass_kg, mass_std_kg), (0.413, 0.031, 0.0005));
+    assert!((gravity_m_s2 - 9.7848).abs() < 1e-4);
+}
+
+#[test]
+fn auto_takes_the_gear_mesh_and_then_the_blade_pass() {
+    let order = |text: &str| resolve(text).expect("a good file").config.tone.order.lines_per_turn();
+    assert_eq!(order(&GOOD.replace("order = 69", "order = \"auto\"")), 69.0);
+    assert_eq!(order(&GOOD.replace("order = 69", "")), 69.0);
+    assert_eq!(
+        order(
+            &GOOD
+                .replace("order = 69", "")
+                .replace("ardrone", "crazyflie")
+                .replace("[vehicle]", "[vehicle]\nmass_kg = 0.03")
+        ),
+        2.0
+    );
+}
+
+#[test]
+fn a_bench_run_has_the_scales_uncertainty_unless_it_says_better() {
+    let text = GOOD.replace("added_mass_kg = 0.031", "thrust_n = 1.5\nrotors_running = 1");
+    let load = &resolve(&text).expect("a good file").loads[1];
+    assert_eq!(load.rotors_running, 1);
+    let Force::Thrust { thrust_n, thrust_std_n } = load.force else { panic!("a bench run has a thrust") };
+    assert_eq!(thrust_n, 1.5);
+    assert!((thrust_std_n - 0.0005 * GRAVITY_STANDARD_M_S2).abs() < 1e-12);
+}
+
+#[test]
+fn what_means_nothing_is_refused_by_name() {
+    for (from, to, said) in [
+        ("order = 69", "order = 0", "order"),
+        ("order = 69", "order = \"gear\"", "auto"),
+        ("order = 69", "ordre = 69", "ordre"),
+        ("\"ardrone\"", "\"ardrone9\"", "ardrone9"),
+        ("height_m = 650.0", "mass_kg = 413", "kg"),
+        ("height_m = 650.0", "mass_kg = nan", "mass_kg"),
+        ("height_m = 650.0", "mass_std_kg = -1.0", "mass_std_kg"),
+        ("height_m = 650.0", "gravity_m_s2 = 9.8", "gravity"),
+        ("latitude_deg = -20.76", "latitude_deg = 200.0", "latitude"),
+        ("latitude_deg = -20.76", "", "latitude"),
+        ("latitude_deg = -20.76\nheight_m = 650.0", "gravity_m_s2 = 98.0", "Earth"),
+        ("latitude_deg = -20.76", "latitude_deg = 0.0\nblades = 0", "blades"),
+        ("latitude_deg = -20.76", "latitude_deg = 0.0\nblades = 20000000", "blades"),
+        ("latitude_deg = -20.76", "latitude_deg = 0.0\nrotors = 0", "rotors"),
+        ("small hull", "no hull", "name of its own"),
+        ("added_mass_kg = 0.031", "added_mass_kg = -0.5", "total mass"),
+        ("added_mass_kg = 0.031", "added_mass_kg = 0.031\nthrust_n = 1.0", "thrust_n"),
+        ("added_mass_kg = 0.031", "thrust_n = inf", "thrust_n"),
+        ("added_mass_kg = 0.031", "rotors_running = 5", "rotors_running"),
+        ("added_mass_kg = 0.031", "from_s = 5.0\nto_s = 4.0", "span"),
+        ("[\"small_hull/*.mov\"]", "[]", "recordings"),
+        ("[tone]", "[air]\ntemperature_c = 298.0\npressure_hpa = 937.0\n[tone]", "temperature_c"),
+        ("[tone]", "[air]\ntemperature_c = 25.0\npressure_hpa = 93700.0\n[tone]", "pressure_hpa"),
+        ("[tone]", "[samples]\nlength_s = 0.0\n[tone]", "length_s"),
+    ] {
+        let message = refusal(from, to);
+        assert!(message.contains(said), "{to:?}: {message}");
+    }
+    assert!(resolve("[vehicle]\npreset = \"ardrone\"\n").expect_err("no loads").contains("load"));
+    assert!(
+        resolve("[vehicle]\n[[load]]\nname = \"a\"\nrecordings = [\"a\"]\n").expect_err("no rotors").contains("rotors")
+    );
+}
