@@ -114,17 +114,11 @@ struct Section {
 
 impl SlopeFilter {
     fn new(slope_db_per_octave: f64, sample_rate_hz: f64) -> Self {
-        let share = -slope_db_per_octave / POLE_DB_PER_OCTAVE;
-        let corner = |octaves: f64| (-TAU * SHELF_HZ * (octaves * LN_2).exp() / sample_rate_hz).exp();
-        // Poles above half the sample rate still bend what is below it.
-        let count = (POLES_PER_OCTAVE * (sample_rate_hz / SHELF_HZ).log2()) as u32;
-        let section = |pole, zero| Section { pole, zero, input: 0.0, output: 0.0 };
-        let ladder = (0..count)
-            .map(f64::from)
-            .map(|number| section(corner(number / POLES_PER_OCTAVE), corner((number + share) / POLES_PER_OCTAVE)));
-        let sections = match share {
-            0.0 => Vec::new(),
-            share => ladder.chain([section(0.0, -TOP_ZERO * share)]).collect(),
+        let (ladder, top_zero) = slope_roots(slope_db_per_octave, SHELF_HZ, sample_rate_hz);
+        let section = |(pole, zero)| Section { pole, zero, input: 0.0, output: 0.0 };
+        let sections = match ladder.is_empty() {
+            true => Vec::new(),
+            false => ladder.into_iter().chain([(0.0, top_zero)]).map(section).collect(),
         };
         Self { sections, sample_rate_hz }
     }
@@ -153,6 +147,23 @@ impl SlopeFilter {
         let step_hz = self.sample_rate_hz / 2.0 / f64::from(count);
         (0..count).map(|step| self.power_gain((f64::from(step) + 0.5) * step_hz)).sum::<f64>() / f64::from(count)
     }
+}
+
+/// Poles, each with the zero that follows it, of a filter that is flat up to `shelf_hz` and falls with that slope above;
+/// and the one zero more that keeps the slope straight towards half the sample rate. Nothing, and 0, without a slope.
+pub(crate) fn slope_roots(slope_db_per_octave: f64, shelf_hz: f64, sample_rate_hz: f64) -> (Vec<(f64, f64)>, f64) {
+    let share = -slope_db_per_octave / POLE_DB_PER_OCTAVE;
+    if share == 0.0 {
+        return (Vec::new(), 0.0);
+    }
+    let corner = |octaves: f64| (-TAU * shelf_hz * (octaves * LN_2).exp() / sample_rate_hz).exp();
+    // Poles above half the sample rate still bend what is below it.
+    let count = (POLES_PER_OCTAVE * (sample_rate_hz / shelf_hz).log2()) as u32;
+    let roots = (0..count)
+        .map(f64::from)
+        .map(|number| (corner(number / POLES_PER_OCTAVE), corner((number + share) / POLES_PER_OCTAVE)))
+        .collect();
+    (roots, -TOP_ZERO * share)
 }
 
 #[cfg(test)]

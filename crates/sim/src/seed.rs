@@ -11,6 +11,11 @@ pub(crate) enum Part {
     RotorNoise = 3,
     AmbientNoise = 4,
     Trial = 5,
+    SelfNoise = 6,
+    Babble = 7,
+    Reverberation = 8,
+    Gust = 20,
+    Spread = 21,
 }
 
 /// The stream of `part` number `index`.

@@ -4,11 +4,16 @@
 //! crate and on nothing else of each other, so that recovering a simulated flight proves something.
 
 mod estimate;
+mod flight;
 mod presets;
 mod speed;
 mod vehicle;
 
 pub use estimate::{Ending, Estimate};
+pub use flight::{
+    BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters, RotorParameters,
+    find_flight_parameters, flight_presets,
+};
 pub use presets::{find_preset, presets};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};
 pub use vehicle::{ShaftSpeedRange, Sourced, Vehicle};

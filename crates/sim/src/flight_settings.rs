@@ -1,0 +1,156 @@
+//! What to fly.
+
+use crate::control::Setpoint;
+use crate::environment::{Air, Gusts};
+use crate::seed::{Part, stream};
+use hovertone_vehicle::{FlightParameters, QuantityError};
+use rand::RngExt;
+use rand_distr::StandardNormal;
+
+/// Standard gravity; the paper's tables have 9.80.
+const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
+/// Height of the paper's hovers.
+const HOVER_HEIGHT_M: f64 = 1.0;
+
+/// A point mass on the vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Payload {
+    /// Its mass.
+    pub mass_kg: f64,
+    /// Where, body axes from the vehicle's own centre of mass, m.
+    pub position_m: [f64; 3],
+}
+
+/// How the rotors and motors differ from the vehicle's numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spread {
+    /// C_f of each rotor over the vehicle's.
+    pub thrust_shares: [f64; 4],
+    /// Gain of each motor over the vehicle's: voltage felt over voltage given.
+    pub motor_gains: [f64; 4],
+}
+
+impl Default for Spread {
+    /// All alike.
+    fn default() -> Self {
+        Self { thrust_shares: [1.0; 4], motor_gains: [1.0; 4] }
+    }
+}
+
+impl Spread {
+    /// Drawn from Gaussians about 1, cut at three standard deviations; the same seed gives the same vehicle.
+    pub fn random(thrust_std_share: f64, motor_gain_std_share: f64, seed: u64) -> Self {
+        let draw = |index: u64, std_share: f64| {
+            let mut random = stream(seed, Part::Spread, index);
+            std::array::from_fn(|_| {
+                let normal: f64 = random.sample(StandardNormal);
+                1.0 + std_share * normal.clamp(-3.0, 3.0)
+            })
+        };
+        Self { thrust_shares: draw(0, thrust_std_share), motor_gains: draw(1, motor_gain_std_share) }
+    }
+}
+
+/// How the flight begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// Hovering, trimmed, at a place.
+    Hover(Setpoint),
+    /// Standing on the ground at (x, y) with that heading, motors off.
+    Ground {
+        /// World axes, m.
+        place_m: [f64; 2],
+        /// Heading, rad.
+        yaw_rad: f64,
+    },
+}
+
+/// The flight: the paper's model, and what goes beyond it, all of that off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlightSettings {
+    /// The vehicle; numbers may be overridden.
+    pub vehicle: FlightParameters,
+    /// Gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// Step of the integration.
+    pub step_s: f64,
+    /// Where it begins.
+    pub start: Start,
+    /// Masses added, also off centre: they move the centre of mass and add to the inertia.
+    pub payloads: Vec<Payload>,
+    /// Differences among the rotors; off when absent.
+    pub spread: Option<Spread>,
+    /// Whether the battery's voltage falls with charge and current; else it is the nominal one.
+    pub battery_sag: bool,
+    /// Whether thrust grows near the ground.
+    pub ground_effect: bool,
+    /// The air; when absent it is the one in which the vehicle's constants were found.
+    pub air: Option<Air>,
+    /// Steady wind: velocity of the air, world axes.
+    pub wind_m_s: [f64; 3],
+    /// Gusts; off when absent.
+    pub gusts: Option<Gusts>,
+    /// Everything random comes from here.
+    pub seed: u64,
+}
+
+impl FlightSettings {
+    /// The paper's flight: hover 1 m above the ground in still air, steps of 1 ms, everything else off.
+    pub fn for_vehicle(vehicle: FlightParameters) -> Self {
+        Self {
+            vehicle,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            step_s: 0.001,
+            start: Start::Hover(Setpoint { position_m: [0.0, 0.0, HOVER_HEIGHT_M], yaw_rad: 0.0 }),
+            payloads: Vec::new(),
+            spread: None,
+            battery_sag: false,
+            ground_effect: false,
+            air: None,
+            wind_m_s: [0.0; 3],
+            gusts: None,
+            seed: 1,
+        }
+    }
+
+    /// Refuses what cannot be flown, naming it.
+    pub(crate) fn check(&self) -> Result<(), QuantityError> {
+        let refused = |name, value, must_be| Err(QuantityError { name, value, must_be });
+        self.vehicle.check()?;
+        if !(self.gravity_m_s2 > 0.0 && self.gravity_m_s2 < 100.0) {
+            return refused("gravity_m_s2", self.gravity_m_s2, "above 0 and below 100");
+        }
+        let period_s = self.vehicle.controller.period_s.value;
+        let runs = period_s / self.step_s;
+        if !(self.step_s > 0.0 && runs.round() >= 1.0 && (runs - runs.round()).abs() < 1e-6 * runs) {
+            return refused("step_s", self.step_s, "the controller's period over a whole number");
+        }
+        for payload in &self.payloads {
+            if !(payload.mass_kg >= 0.0 && payload.mass_kg.is_finite()) {
+                return refused("payload mass_kg", payload.mass_kg, "0 or above");
+            }
+            if let Some(bad) = payload.position_m.into_iter().find(|part| !part.is_finite()) {
+                return refused("payload position_m", bad, "a number");
+            }
+        }
+        let spread = self.spread.unwrap_or_default();
+        for share in spread.thrust_shares.into_iter().chain(spread.motor_gains) {
+            if !(0.5..=1.5).contains(&share) {
+                return refused("spread", share, "between 0.5 and 1.5");
+            }
+        }
+        if let Some(bad) = self.wind_m_s.into_iter().find(|part| !(-50.0..=50.0).contains(part)) {
+            return refused("wind_m_s", bad, "between -50 and 50");
+        }
+        if let Start::Hover(setpoint) = self.start {
+            if let Some(bad) = setpoint.position_m.into_iter().find(|part| !part.is_finite()) {
+                return refused("start position_m", bad, "a number");
+            }
+            if setpoint.position_m[2] <= self.vehicle.standing_height_m.value {
+                return refused("start height", setpoint.position_m[2], "above the standing height");
+            }
+        }
+        self.air.map_or(Ok(()), |air| air.check())?;
+        self.gusts.map_or(Ok(()), |gusts| gusts.check())
+    }
+}

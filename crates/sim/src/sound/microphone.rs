@@ -1,0 +1,128 @@
+//! From pressure to samples.
+
+use super::biquad::Biquad;
+use super::level::{amplitude_pa, rms_pa};
+use super::settings::{Bound, LEVEL, checked};
+use crate::seed::{Part, stream};
+use hovertone_vehicle::QuantityError;
+use rand::RngExt;
+use rand_distr::StandardNormal;
+use rand_pcg::Pcg64;
+
+/// One microphone: one channel of the sound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MicrophoneSettings {
+    /// Its place in the world. It hears alike from all directions.
+    pub position_m: [f64; 3],
+    /// Where it is 3 dB down at the low end (second order); `None` for no limit.
+    pub high_pass_hz: Option<f64>,
+    /// Where it is 3 dB down at the high end (second order); `None` for no limit.
+    pub low_pass_hz: Option<f64>,
+    /// Its own white noise, as the level of a sound that would be as loud; `None` for none.
+    pub self_noise_db_spl: Option<f64>,
+    /// Level of the sine whose peaks are at full scale, ±1; what is louder is clipped.
+    pub full_scale_db_spl: f64,
+    /// Bits of a sample, 2 to 24; samples are then whole multiples of `2^(1-bits)`, rounded without dither, at most
+    /// `1 - 2^(1-bits)`. `None` for no rounding.
+    pub bits: Option<u32>,
+}
+
+impl MicrophoneSettings {
+    /// A phone's or camera's microphone.
+    ///
+    /// - 100 Hz and 16 kHz: "defined roll-off below about 100 Hz and above 16 kHz" (forensicspot.com, MEMS microphone).
+    /// - Own noise 29 dB: 65 dB under 94 dB, a usual signal-to-noise ratio of such microphones (more than 60 dB: sistc.com).
+    ///   Taken as white over the whole band, not A-weighted.
+    /// - Full scale 100 dB: a camera that has set its gain to a drone in the room (assumed). Fixed digital ones have 120 dB
+    ///   (Analog Devices' application note, at dataweek.co.za).
+    /// - 16 bits.
+    pub fn at(position_m: [f64; 3]) -> Self {
+        Self {
+            position_m,
+            high_pass_hz: Some(100.0),
+            low_pass_hz: Some(16_000.0),
+            self_noise_db_spl: Some(29.0),
+            full_scale_db_spl: 100.0,
+            bits: Some(16),
+        }
+    }
+
+    /// No filters, no noise, no rounding; 1 is the amplitude of a sine of 94 dB SPL: √2 Pa.
+    pub fn ideal(position_m: [f64; 3]) -> Self {
+        Self {
+            position_m,
+            high_pass_hz: None,
+            low_pass_hz: None,
+            self_noise_db_spl: None,
+            full_scale_db_spl: 94.0,
+            bits: None,
+        }
+    }
+
+    pub(crate) fn check(&self, sample_rate_hz: f64) -> Result<(), QuantityError> {
+        for value in self.position_m {
+            checked("microphone position_m", value, Bound::Finite)?;
+        }
+        if let Some(value) = self.high_pass_hz {
+            checked("high_pass_hz", value, Bound::Within(1.0, 2000.0, "between 1 and 2000"))?;
+        }
+        if let Some(value) = self.low_pass_hz {
+            checked("low_pass_hz", value, Bound::Within(200.0, f64::MAX, "200 or more"))?;
+        }
+        if let Some(value) = self.self_noise_db_spl {
+            checked("self_noise_db_spl", value, LEVEL)?;
+        }
+        if let Some(bits) = self.bits {
+            checked("bits", f64::from(bits), Bound::Within(2.0, 24.0, "between 2 and 24"))?;
+        }
+        checked("full_scale_db_spl", self.full_scale_db_spl, LEVEL)?;
+        checked("sample_rate_hz", sample_rate_hz, Bound::Positive)
+    }
+}
+
+pub(crate) struct Microphone {
+    /// Full scale per pascal.
+    gain: f64,
+    high_pass: Option<Biquad>,
+    low_pass: Option<Biquad>,
+    /// Standard deviation of its own noise, in full scale.
+    noise_std: f64,
+    random: Pcg64,
+    /// Steps per unit.
+    steps: Option<f64>,
+}
+
+impl Microphone {
+    pub(crate) fn new(settings: &MicrophoneSettings, sample_rate_hz: f64, seed: u64, index: u64) -> Self {
+        let gain = 1.0 / amplitude_pa(settings.full_scale_db_spl);
+        // A corner that the sample rate cannot have is the recorder's own limit.
+        let low_pass_hz = settings.low_pass_hz.filter(|hz| *hz < 0.49 * sample_rate_hz);
+        Self {
+            gain,
+            high_pass: settings.high_pass_hz.map(|hz| Biquad::high_pass(hz, sample_rate_hz)),
+            low_pass: low_pass_hz.map(|hz| Biquad::low_pass(hz, sample_rate_hz)),
+            noise_std: settings.self_noise_db_spl.map_or(0.0, |level| gain * rms_pa(level)),
+            random: stream(seed, Part::SelfNoise, index),
+            steps: settings.bits.map(|bits| 2_f64.powi(bits as i32 - 1)),
+        }
+    }
+
+    /// One sample of the recording for one of the pressure, Pa.
+    pub(crate) fn sample(&mut self, pressure_pa: f32) -> f32 {
+        let mut value = self.gain * f64::from(pressure_pa);
+        if let Some(filter) = &mut self.high_pass {
+            value = filter.filtered(value);
+        }
+        if let Some(filter) = &mut self.low_pass {
+            value = filter.filtered(value);
+        }
+        if self.noise_std > 0.0 {
+            let normal: f64 = self.random.sample(StandardNormal);
+            value += self.noise_std * normal;
+        }
+        match self.steps {
+            None => value.clamp(-1.0, 1.0) as f32,
+            Some(steps) => ((value * steps).round_ties_even().clamp(-steps, steps - 1.0) / steps) as f32,
+        }
+    }
+}

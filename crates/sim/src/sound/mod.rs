@@ -1,0 +1,43 @@
+//! The sound of a flight: what microphones hear of rotors whose speeds, places and axes are given at control rate.
+//!
+//! ```text
+//! SoundState, every ms or so ─▶ source (one per rotor): lines + broadband ─▶ interpolator ─┐
+//!        │                                    └─ share for the diffuse field ─▶ reverberation ─┐
+//!        └─▶ path (rotor × wall image × microphone): delay, 1/distance, directivity ──────────┤
+//!                                                       babble, ambient noise (noise colour) ─┴▶ microphone ─▶ samples
+//! ```
+//!
+//! Pressures are in pascal until the microphone; levels are dB re 20 µPa at 1 m. What each rotor radiates is made once,
+//! at the sample rate; every path reads it with a delay and a gain of its own. A path works from the moment of emission:
+//! what a rotor sends out during one control step arrives at a microphone over its own stretch of time, stretched or
+//! squeezed by the motion, so delay and Doppler shift are those of the retarded time without solving for it.
+//!
+//! What it leaves out: absorption in air (by ISO 9613-1, at 20 °C and 50 % humidity, 0.03 dB per metre at 4 kHz, 0.11 at
+//! 8 kHz, 0.36 at 16 kHz), walls that absorb high and low notes differently, reflections of second and higher order one
+//! by one (the exponential tail stands for them, without Doppler shift), shielding by the vehicle, wind over the
+//! microphone, and interaction between rotors.
+
+mod babble;
+mod biquad;
+mod directivity;
+mod flight_sound;
+mod interpolator;
+mod level;
+mod lines;
+mod microphone;
+mod noise_colour;
+mod path;
+mod phasors;
+mod reverberation;
+mod room;
+mod settings;
+mod source;
+mod state;
+
+pub use babble::BabbleSettings;
+pub use directivity::Directivity;
+pub use flight_sound::FlightSound;
+pub use microphone::MicrophoneSettings;
+pub use room::{Room, Surroundings, WallAbsorption};
+pub use settings::{AmbientSettings, BroadbandSettings, MotorTones, SoundSettings, SourceSettings};
+pub use state::{RotorState, SoundState};
