@@ -108,7 +108,9 @@ fn tone_of(arguments: &ToneArguments) -> Result<ToneConfig, Failure> {
         }
     };
     let order = order.map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
-    let mut tone = ToneConfig::of_order(order);
+    let tone = ToneConfig::of_order(order);
+    let known = vehicle.and_then(|vehicle| vehicle.shaft_speed.as_ref());
+    let mut tone = known.map_or_else(|| tone.clone(), |known| tone.clone().within(&known.value));
     tone.blades = blades;
     tone.band_hz = arguments.band;
     tone.harmonics = arguments.harmonics.unwrap_or(tone.harmonics);

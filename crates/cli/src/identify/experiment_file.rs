@@ -5,7 +5,6 @@ use crate::files::sha256_of_bytes;
 use crate::nearest::nearest;
 use crate::vehicles::preset_hint;
 use hovertone::{Experiment, ExperimentError, ExperimentFile};
-use std::collections::BTreeSet;
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -46,12 +45,6 @@ impl ExperimentSource {
         })?;
         let file: ExperimentFile = toml::from_str(text).map_err(|error| toml_failure(&error, text, path))?;
         let experiment = file.resolve().map_err(|error| meaning_failure(&error, path))?;
-        let mut names = BTreeSet::new();
-        if let Some(load) = experiment.loads.iter().find(|load| !names.insert(&load.name)) {
-            let what = format!("two loads are called \"{}\"", load.name);
-            let (hint, path) = ("give each load its own name".to_owned(), Some(path.to_owned()));
-            return Err(Failure::Usage { what, hint, path });
-        }
         Ok(Self {
             path: path.to_owned(),
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),

@@ -11,10 +11,9 @@ use crate::progress::Progress;
 use crate::recording::{Hearing, hear_all};
 use crate::speed::ending_of;
 use crate::terminal::Terminal;
-use hovertone::{Experiment, LoadSpeeds, Method, SampleSpeed, ThrustTable, TrialSpeeds, thrust_from_loads};
+use hovertone::{Experiment, LoadSpeeds, Method, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
-    Identification, InputRecord, Notice, SpeedRecord, method_title, results_json, samples_csv, thrust_summary,
-    thrust_table,
+    Identification, InputRecord, Notice, method_title, results_json, samples_csv, thrust_summary, thrust_table,
 };
 use recordings::jobs_of;
 use std::fs;
@@ -93,25 +92,11 @@ fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> 
             trials: inputs
                 .iter()
                 .filter(|input| input.load == load.name)
-                .filter_map(|input| trial_of(&input.record, method))
+                .filter_map(|input| Some((input, input.record.tone()?)))
+                .map(|(input, tone)| TrialSpeeds::from_tone(&input.record.file, tone, method))
                 .collect(),
         })
         .collect()
-}
-
-fn trial_of(record: &SpeedRecord, method: Method) -> Option<TrialSpeeds> {
-    let samples = &record.tone()?.samples;
-    let speed_of = |sample: &hovertone::SampleSpeeds| {
-        let speed = sample.speeds.iter().find(|speed| speed.method == method)?;
-        Some(SampleSpeed {
-            span: sample.span,
-            speed: speed.speed,
-            std_uncertainty_rev_s: speed.std_uncertainty_rev_s,
-            spread_rev_s: speed.spread_rev_s,
-            frame_count: speed.frame_count,
-        })
-    };
-    Some(TrialSpeeds { recording: record.file.clone(), samples: samples.iter().filter_map(speed_of).collect() })
 }
 
 impl Identified {

@@ -54,7 +54,7 @@ fn an_unknown_key_is_underlined_and_has_a_nearest_name() {
     refuses(&["identify", text(&path)], &["expected a number", "3 | mass_kg"]);
     let load = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
     write(&format!("[vehicle]\npreset = \"ardrone\"\n{load}{load}"));
-    refuses(&["identify", text(&path)], &["two loads", "\"a\""]);
+    refuses(&["identify", text(&path)], &["load number 2", "\"a\""]);
 }
 
 #[test]
