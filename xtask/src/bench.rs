@@ -4,6 +4,7 @@
 use crate::ci::cargo;
 use hovertone::SignalSource;
 use hovertone_media::{OpenOptions, Recording};
+use hovertone_sim::paper::{LOADS, PaperSimulation};
 use hovertone_sim::{HoverSettings, HoverSound};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -46,8 +47,9 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         _ => return Err("cargo xtask bench [--minutes N]".to_owned()),
     };
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli", "-p", "xtask"], &[])?;
-    let programs = root.join("target/release");
-    let folder = root.join("target/bench").join(format!("{minutes}min"));
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
+    let programs = target.join("release");
+    let folder = target.join("bench").join(format!("{minutes}min"));
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let wav = rendered_wav(&folder, minutes)?;
     let mut files: Vec<PathBuf> =
@@ -134,7 +136,8 @@ fn rendered_wav(folder: &Path, minutes: u32) -> Result<PathBuf, String> {
         return Ok(path);
     }
     println!("rendering {}", path.display());
-    let settings = HoverSettings { duration_s: f64::from(minutes) * 60.0, ..HoverSettings::default() };
+    let paper = PaperSimulation { seed: 1, sample_rate_hz: 48_000, rotor_spacing_share: 0.0 };
+    let settings = HoverSettings { duration_s: f64::from(minutes) * 60.0, ..paper.trial(&LOADS[0], 0) };
     let sample_rate = settings.sample_rate_hz;
     let mut sound = HoverSound::new(settings).map_err(|error| error.to_string())?;
     let spec =
