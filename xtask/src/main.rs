@@ -4,6 +4,7 @@
 
 mod bench;
 mod ci;
+mod roundtrip;
 mod tidy;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +16,8 @@ const HELP: &str = "cargo xtask <task>
   tidy    rules of the house that no compiler knows
   bench   speed and memory of decoding and of `hovertone speed` on 30-minute files, as ratios
           [--minutes N] for shorter ones
+  bench roundtrip   simulate, identify, compare with the truth: a hundred random hovers
+          [--count N] for fewer, [--spread SHARE] for rotors more alike or less
 ";
 
 fn main() -> ExitCode {
@@ -23,6 +26,7 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
+        ["bench", "roundtrip", options @ ..] => roundtrip::run(&root(), options),
         ["bench", options @ ..] => bench::run(&root(), options),
         [bench::DECODE_TASK, file] => bench::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),

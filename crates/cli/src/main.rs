@@ -9,11 +9,15 @@ mod failure;
 mod files;
 mod identify;
 mod nearest;
+mod output_folder;
 mod progress;
 mod recording;
+mod simulate;
 mod speed;
 mod terminal;
+mod toml_file;
 mod vehicles;
+mod wav;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -28,6 +32,7 @@ fn main() -> ExitCode {
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
+        Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),
     };
     match ending.and_then(|ending| terminal.flush().map(|()| ending)) {

@@ -6,10 +6,12 @@
 //! recording   what one recording said                     speed        its table row, its JSON, its track
 //! thrust      the paper's tables, any vehicle             results      results.json, samples.csv
 //! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
+//! flight      what a simulated flight was like
 //! ```
 
 mod comparison;
 mod cuts;
+mod flight;
 mod notice;
 mod number;
 mod recording;
@@ -22,6 +24,7 @@ mod vehicles;
 
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use cuts::cuts_in_words;
+pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use notice::Notice;
 pub use recording::{Answer, RecordingFacts, SpeedRecord};
 pub use results::{Identification, InputRecord, results_json};

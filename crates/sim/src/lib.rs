@@ -25,6 +25,8 @@
 //! SoundState ─▶ source per rotor (lines, broadband) ─▶ path per rotor, wall and microphone ─▶ microphone ─▶ samples
 //! ```
 //!
+//! A [`scenario`] file describes all of it, and runs it.
+//!
 //! This crate does not know the estimator (`hovertone`), so that recovering a simulated speed proves something.
 //! [`HoverSound`]'s model is an optimistic one: no room, no distance, no microphone, and tones that stay in phase with
 //! their shaft.
@@ -43,6 +45,7 @@ pub mod paper;
 mod profile;
 mod rk4;
 pub mod rotor;
+pub mod scenario;
 mod seed;
 mod shaft;
 mod sound;

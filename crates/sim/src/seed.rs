@@ -16,6 +16,8 @@ pub(crate) enum Part {
     Reverberation = 8,
     Gust = 20,
     Spread = 21,
+    Jitter = 22,
+    Scenario = 23,
 }
 
 /// The stream of `part` number `index`.

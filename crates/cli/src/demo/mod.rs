@@ -1,4 +1,4 @@
-//! `hovertone demo`: the paper's experiment from simulated sound, identified like anybody's recordings.
+//! `hovertone demo`: the paper's experiment in simulated flight, identified like anybody's recordings.
 
 mod folder;
 mod render;
@@ -10,21 +10,20 @@ use crate::recording::Hearing;
 use crate::terminal::Terminal;
 use hovertone::{Method, ThrustTable};
 use hovertone_report::{PrintedRow, comparison_with_paper, comparison_with_truth, method_title};
-use hovertone_sim::paper::{LOADS, PaperLoad, PaperSimulation};
+use hovertone_sim::paper::{LOADS, PaperLoad};
 
-/// Renders, writes, identifies, compares.
+/// Flies, writes, identifies, compares.
 pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let folder = &arguments.output;
     folder::prepare(folder)?;
-    let simulation = PaperSimulation { seed: arguments.seed, ..PaperSimulation::default() };
-    let truths = render::render_all(&simulation, folder, !arguments.no_progress)?;
+    let truths = render::render_all(arguments.seed, folder, !arguments.no_progress)?;
     let experiment = folder::write_experiment(folder, arguments.seed)?;
     folder::write_truth(folder, &truths)?;
     let source = ExperimentSource::read(&experiment)?;
     let hearing = Hearing { wants_hash: true, wants_samples: true, ..Hearing::default() };
     let identified = identify(source, None, hearing, Method::default(), !arguments.no_progress)?;
     let mut text = format!(
-        "The paper's experiment from simulated sound: {} loads, {} recordings, seed {}\n",
+        "The paper's experiment in simulated flight: {} loads, {} recordings, seed {}\n",
         LOADS.len(),
         truths.len(),
         arguments.seed

@@ -1,17 +1,19 @@
-//! The sound of all trials, as 16-bit WAV files, and its truth.
+//! The flights of all trials, their sound as 16-bit WAV files, and the truth about them.
 
 use crate::failure::Failure;
 use crate::progress::{Progress, Share};
-use hound::{SampleFormat, WavSpec, WavWriter};
+use crate::wav::WavFile;
 use hovertone_report::LoadTruth;
-use hovertone_sim::paper::{GRAVITY_M_S2, LOADS, PaperLoad, PaperSimulation, ROTOR_COUNT, TRIAL_COUNT, TRIAL_S};
-use hovertone_sim::{HoverSound, Truth};
+use hovertone_sim::paper::{GRAVITY_M_S2, LOADS, PaperLoad, ROTOR_COUNT, TRIAL_COUNT};
+use hovertone_sim::scenario::{ScenarioFile, ScenarioRun, SpanTruth};
+use hovertone_vehicle::RotorSpeed;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Samples that are rendered at once.
-const BLOCK: usize = 4800;
+/// Steps of the flight between two writings.
+const STEPS_AT_ONCE: usize = 100;
 
 /// What one trial really was.
 pub(super) struct TrialTruth {
@@ -19,17 +21,12 @@ pub(super) struct TrialTruth {
     pub(super) load: PaperLoad,
     /// Its number, counted from 1.
     pub(super) number: u32,
-    /// Seed of its sound.
+    /// Seed of its flight and sound.
     pub(super) seed: u64,
-    /// Its speeds at every instant.
-    pub(super) truth: Truth,
-}
-
-impl TrialTruth {
-    /// Mean over the whole trial of the sum of the rotors' squared speeds.
-    pub(super) fn mean_sum_of_squares_rad2_s2(&self) -> Option<f64> {
-        self.truth.mean_sum_of_squares(0.0, TRIAL_S)
-    }
+    /// Its means.
+    pub(super) truth: SpanTruth,
+    /// The speeds of its rotors over time.
+    pub(super) track: Vec<(f64, [RotorSpeed; ROTOR_COUNT])>,
 }
 
 /// Name of a load's folder.
@@ -37,60 +34,46 @@ pub(super) fn folder_of_load(load: &PaperLoad) -> String {
     load.name.replace(' ', "_")
 }
 
-/// Renders and writes all trials, in parallel; their truths are in the order of loads and trials.
-pub(super) fn render_all(
-    simulation: &PaperSimulation,
-    folder: &Path,
-    shows_progress: bool,
-) -> Result<Vec<TrialTruth>, Failure> {
+/// Flies and writes all trials, in parallel; their truths are in the order of loads and trials.
+pub(super) fn render_all(seed: u64, folder: &Path, shows_progress: bool) -> Result<Vec<TrialTruth>, Failure> {
     for load in &LOADS {
         let folder = folder.join(folder_of_load(load));
         fs::create_dir_all(&folder).map_err(|error| Failure::cannot_write(&error, &folder))?;
     }
     let trials: Vec<(PaperLoad, u32)> =
         LOADS.iter().flat_map(|load| (0..TRIAL_COUNT).map(|trial| (*load, trial))).collect();
-    let progress = Progress::new("simulating", trials.len(), shows_progress);
-    let rendered = trials
-        .par_iter()
-        .map(|&(load, trial)| render(simulation, load, trial, folder, &mut progress.recording()))
-        .collect();
+    let progress = Progress::new("flying", trials.len(), shows_progress);
+    let rendered =
+        trials.par_iter().map(|&(load, trial)| render(seed, load, trial, folder, &mut progress.recording())).collect();
     progress.finish();
     rendered
 }
 
-fn render(
-    simulation: &PaperSimulation,
-    load: PaperLoad,
-    trial: u32,
-    folder: &Path,
-    share: &mut Share<'_>,
-) -> Result<TrialTruth, Failure> {
+fn render(seed: u64, load: PaperLoad, trial: u32, folder: &Path, share: &mut Share<'_>) -> Result<TrialTruth, Failure> {
     let number = trial + 1;
     let path = folder.join(folder_of_load(&load)).join(format!("trial_{number}.wav"));
-    let settings = simulation.trial(&load, trial);
-    let (seed, sample_rate) = (settings.seed, settings.sample_rate_hz);
-    let mut sound = HoverSound::new(settings).map_err(Failure::internal)?;
-    let spec = WavSpec { channels: 1, sample_rate, bits_per_sample: 16, sample_format: SampleFormat::Int };
-    let cannot_write = |error: hound::Error| match error {
-        hound::Error::IoError(error) => Failure::cannot_write(&error, &path),
-        error => Failure::internal(error),
-    };
-    let mut writer = WavWriter::create(&path, spec).map_err(cannot_write)?;
-    let (mut block, mut rows, mut written) = ([0.0; BLOCK], Vec::new(), 0);
-    loop {
-        let count = sound.render(&mut block, &mut rows);
-        if count == 0 {
-            break;
+    let file = ScenarioFile::paper_trial(&load, trial, seed);
+    let scenario = file.resolve(&BTreeMap::new()).map_err(Failure::internal)?;
+    let mut wav = WavFile::create(
+        &path,
+        scenario.sound.microphones.len(),
+        scenario.sound.sample_rate_hz,
+        scenario.sample_format,
+    )?;
+    let mut flown = ScenarioRun::new(scenario).map_err(Failure::internal)?;
+    let (mut channels, mut rows, mut track, mut goes_on) = (Vec::new(), Vec::new(), Vec::new(), true);
+    while goes_on {
+        for _ in 0..STEPS_AT_ONCE {
+            goes_on = goes_on && flown.advance(&mut channels, &mut rows).map_err(Failure::internal)?;
         }
-        for sample in &block[..count] {
-            let rounded = (sample * f32::from(i16::MAX)).round().clamp(f32::from(i16::MIN), f32::from(i16::MAX));
-            writer.write_sample(rounded as i16).map_err(cannot_write)?;
-        }
-        written += count;
-        share.set(written as f64 / sound.sample_count() as f64);
+        wav.drain(&mut channels)?;
+        track.extend(rows.drain(..).map(|state| (state.time_s, state.speed_rad_s.map(RotorSpeed::from_rad_s))));
+        share.set(flown.share_done());
     }
-    writer.finalize().map_err(cannot_write)?;
-    Ok(TrialTruth { load, number, seed, truth: Truth::from_rows(rows) })
+    let truth = flown.finish(&mut channels);
+    wav.drain(&mut channels)?;
+    wav.finish()?;
+    Ok(TrialTruth { load, number, seed: file.seed, truth: truth.flight, track })
 }
 
 /// The truth of every load, in the paper's order.
@@ -102,7 +85,7 @@ pub(super) fn truth_of_loads(trials: &[TrialTruth]) -> Vec<LoadTruth> {
         mean_sum_of_squares_rad2_s2: trials
             .iter()
             .filter(|trial| trial.load.name == load.name)
-            .filter_map(TrialTruth::mean_sum_of_squares_rad2_s2)
+            .map(|trial| trial.truth.mean_sum_of_squares_rad2_s2)
             .collect(),
     };
     LOADS.iter().map(truth_of).collect()

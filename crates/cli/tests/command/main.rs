@@ -6,6 +6,8 @@
 mod demo;
 mod identify;
 mod real_recordings;
+mod roundtrip;
+mod simulate;
 mod speed;
 mod testkit;
 mod usage;

@@ -62,10 +62,10 @@ fn help_and_version_are_data() {
     let version = hovertone(&["--version"]).ends_with(0);
     assert_eq!(version.stdout.trim_end(), format!("hovertone {}", env!("CARGO_PKG_VERSION")));
     let help = hovertone(&["--help"]).ends_with(0).stdout;
-    for command in ["speed", "identify", "demo", "vehicles", "Exit codes"] {
+    for command in ["speed", "identify", "demo", "simulate", "vehicles", "Exit codes"] {
         assert!(help.contains(command), "{command}");
     }
-    for command in ["speed", "identify", "demo", "vehicles"] {
+    for command in ["speed", "identify", "demo", "simulate", "vehicles"] {
         let help = hovertone(&[command, "--help"]).ends_with(0).stdout;
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
     }

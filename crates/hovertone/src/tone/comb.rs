@@ -21,6 +21,10 @@ const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
 /// pass is twice (or three times …) higher. True series of small multirotors recorded so far show at most 2 dB; halved ones
 /// 6 dB once and 8 dB or more in all other cases. Levels that scatter by 4 dB from line to line reach 7 dB once in 150.
 const ALTERNATION_DB: f64 = 7.0;
+/// Lines between that are weaker by less than this on average belong to the same series.
+const SERIES_DB: f64 = 3.0;
+/// Lines between must stand this far over the floor to be lines at all.
+const BETWEEN_DB_MIN: f64 = 6.0;
 /// How many lines of a series are looked at for that.
 const ALTERNATION_HARMONICS: u32 = 9;
 
@@ -91,6 +95,26 @@ fn level_db(whitened: &[f64], place: f64) -> f64 {
     highest.min(LEVEL_DB_MAX)
 }
 
+/// Levels of every other (third …) line of a series against the lines between.
+struct Alternation {
+    /// How far the lines stand over the mean of the two beside them.
+    over_db: f64,
+    /// How far the lines between stand over the floor.
+    between_db: f64,
+    /// Share of the lines that stand over both beside them.
+    over_both_share: f64,
+}
+
+impl Alternation {
+    fn is_of_a_faster_shaft(&self) -> bool {
+        self.over_db > ALTERNATION_DB && self.over_both_share >= 2.0 / 3.0
+    }
+
+    fn is_of_one_series(&self) -> bool {
+        self.over_db < SERIES_DB && self.between_db > BETWEEN_DB_MIN
+    }
+}
+
 /// How well each speed explains each row of a survey.
 pub(crate) struct CombMap {
     speeds_rev_s: Vec<f64>,
@@ -141,36 +165,50 @@ impl CombMap {
         if weights > 0.0 { sum / weights } else { speed_rev_s }
     }
 
-    /// Multiplies a speed whose every other (or third …) line is much the strongest, when the lines between can be
-    /// those of a faster shaft: for two blades a factor 2, for three blades 3, for six 2 and 3.
+    /// Settles the octave by how levels alternate. Lines between the blade pass and its harmonics can be those of the shaft,
+    /// for two blades one between each two, for three blades two; but then they are much the weaker. So a speed whose every
+    /// other (third …) line is by far the strongest is multiplied, and one whose lines between are as strong is divided.
     fn without_alternation(&self, speed_rev_s: f64) -> f64 {
         let Some(blades) = self.comb.blades.filter(|blades| blades.fract() == 0.0) else { return speed_rev_s };
-        let speed_rev_s_max = self.speeds_rev_s.last().copied().unwrap_or(0.0);
-        [2u32, 3, 5]
-            .into_iter()
-            .filter(|&factor| (blades as u32).is_multiple_of(factor))
-            .find(|&factor| {
-                f64::from(factor) * speed_rev_s <= speed_rev_s_max && self.is_alternating(blades * speed_rev_s, factor)
-            })
-            .map_or(speed_rev_s, |factor| f64::from(factor) * speed_rev_s)
+        let is_searched = |speed: f64| {
+            self.speeds_rev_s.first().is_some_and(|&low| speed >= low)
+                && self.speeds_rev_s.last().is_some_and(|&high| speed <= high)
+        };
+        for factor in [2u32, 3, 5].into_iter().filter(|&factor| (blades as u32).is_multiple_of(factor)) {
+            let times = f64::from(factor);
+            if is_searched(times * speed_rev_s)
+                && self.alternation(blades * speed_rev_s, factor).is_some_and(|it| it.is_of_a_faster_shaft())
+            {
+                return times * speed_rev_s;
+            }
+            if is_searched(speed_rev_s / times)
+                && self.alternation(blades * speed_rev_s / times, factor).is_some_and(|it| it.is_of_one_series())
+            {
+                return speed_rev_s / times;
+            }
+        }
+        speed_rev_s
     }
 
-    /// Whether the `factor`-th, 2 `factor`-th … line of a series stand out of the lines beside them: on average by far,
-    /// and most of them each.
-    fn is_alternating(&self, tone_hz: f64, factor: u32) -> bool {
+    /// How the `factor`-th, 2 `factor`-th … line of a series stand to the lines beside them.
+    fn alternation(&self, tone_hz: f64, factor: u32) -> Option<Alternation> {
         let line_db = |k: u32| {
             let place = f64::from(k) * tone_hz / self.bin_hz;
             let (first, last) = ((0.985 * place - 1.0) as usize, (1.015 * place + 1.0) as usize);
             self.pooled_db.get(first..=last).map(|levels| levels.iter().copied().fold(f64::MIN, f64::max))
         };
-        let over_neighbours_db: Vec<(f64, f64)> = (1..=ALTERNATION_HARMONICS / factor)
+        let triples: Vec<(f64, f64, f64)> = (1..=ALTERNATION_HARMONICS / factor)
             .map(|index| index * factor)
             .filter_map(|k| Some((line_db(k)?, line_db(k - 1)?, line_db(k + 1)?)))
-            .map(|(line, before, after)| (line - (before + after) / 2.0, line - before.max(after)))
             .collect();
-        let over_mean_db: Vec<f64> = over_neighbours_db.iter().map(|over| over.0).collect();
-        let over_both = over_neighbours_db.iter().filter(|over| over.1 > 0.0).count();
-        mean(&over_mean_db).is_some_and(|over| over > ALTERNATION_DB) && 3 * over_both >= 2 * over_neighbours_db.len()
+        let over_db: Vec<f64> = triples.iter().map(|(line, before, after)| line - (before + after) / 2.0).collect();
+        let between_db: Vec<f64> = triples.iter().map(|(_, before, after)| (before + after) / 2.0).collect();
+        let over_both = triples.iter().filter(|(line, before, after)| line > before && line > after).count();
+        Some(Alternation {
+            over_db: mean(&over_db)?,
+            between_db: mean(&between_db)?,
+            over_both_share: over_both as f64 / triples.len() as f64,
+        })
     }
 
     /// Best speed of a row within a share of `speed_rev_s`, and its score.

@@ -1,0 +1,77 @@
+//! The scenario file and its command tables: reading them, and saying what is wrong.
+
+use crate::failure::Failure;
+use crate::files::sha256_of_bytes;
+use crate::nearest::nearest;
+use crate::toml_file::TomlFile;
+use hovertone_sim::scenario::{Scenario, ScenarioError, ScenarioFile};
+use hovertone_vehicle::flight_presets;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const SEE_EXAMPLE: &str = "`hovertone simulate --help` shows a scenario file, docs/formats.md lists all keys";
+
+/// A scenario file that was read and settled.
+pub(crate) struct ScenarioSource {
+    /// Where it is.
+    pub(crate) path: PathBuf,
+    /// Its file name.
+    pub(crate) name: String,
+    /// SHA-256 of its bytes.
+    pub(crate) sha256: String,
+    /// What it says, with the seed that is used.
+    pub(crate) file: ScenarioFile,
+    /// What that means.
+    pub(crate) scenario: Scenario,
+}
+
+impl ScenarioSource {
+    /// Reads and settles a scenario file; `seed` overrules its own.
+    pub(crate) fn read(path: &Path, seed: Option<u64>) -> Result<Self, Failure> {
+        let toml = TomlFile::read(path, "scenario file", "recording", SEE_EXAMPLE)?;
+        let mut file: ScenarioFile = toml.parse()?;
+        file.seed = seed.unwrap_or(file.seed);
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut tables = BTreeMap::new();
+        for name in file.command_files() {
+            let table = folder.join(name);
+            let text = fs::read_to_string(&table).map_err(|error| {
+                let what = format!("the table of commands cannot be read: {error}");
+                Failure::failed(what, "its name counts from the folder of the scenario file", &table)
+            })?;
+            tables.insert(name.to_owned(), text);
+        }
+        let scenario = file.resolve(&tables).map_err(|error| failure_of(&error, path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            name: path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
+            sha256: sha256_of_bytes(toml.text.as_bytes()),
+            file,
+            scenario,
+        })
+    }
+
+    /// Something that the file says turned out not to work.
+    pub(crate) fn failure(&self, error: &ScenarioError) -> Failure {
+        failure_of(error, &self.path)
+    }
+}
+
+fn failure_of(error: &ScenarioError, path: &Path) -> Failure {
+    let (what, hint) = match error {
+        ScenarioError::UnknownPreset { name } => {
+            let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
+            let list = known.join(", ");
+            let hint = match nearest(name, known) {
+                Some(nearest) => format!("did you mean \"{nearest}\"? These can fly: {list}"),
+                None => format!("these can fly: {list}"),
+            };
+            (format!("there is no vehicle preset \"{name}\" that can fly"), hint)
+        }
+        ScenarioError::Contradiction { what, hint } => (what.clone(), (*hint).to_owned()),
+        ScenarioError::Missing { what, hint } => (format!("{what} is missing"), (*hint).to_owned()),
+        _ => (error.to_string(), SEE_EXAMPLE.to_owned()),
+    };
+    Failure::Usage { what, hint, path: Some(path.to_owned()) }
+}

@@ -1,0 +1,68 @@
+//! `truth.json`: exact means over the hovers, and everything that was set.
+
+use super::{SOUND, ScenarioSource, TABLE};
+use crate::failure::Failure;
+use hovertone_report::VERSION;
+use hovertone_sim::scenario::{ScenarioFile, ScenarioTruth};
+use hovertone_vehicle::FlightParameters;
+use serde::Serialize;
+use std::fs;
+use std::path::Path;
+
+/// Name of the file.
+pub(super) const NAME: &str = "truth.json";
+/// First words of every one: what may be overwritten.
+pub(super) const MARK: &str = "{\n  \"made_by\": \"hovertone simulate\"";
+
+#[derive(Serialize)]
+struct TruthFile<'a> {
+    made_by: &'static str,
+    version: &'static str,
+    seed: u64,
+    #[serde(flatten)]
+    truth: &'a ScenarioTruth,
+    files: Files,
+    settings: Settings<'a>,
+}
+
+#[derive(Serialize)]
+struct Files {
+    sound: &'static str,
+    table: &'static str,
+}
+
+#[derive(Serialize)]
+struct Settings<'a> {
+    file: &'a str,
+    sha256: &'a str,
+    scenario: &'a ScenarioFile,
+    vehicle: &'a FlightParameters,
+}
+
+/// Leaves the mark, until there is a truth.
+pub(super) fn begin(folder: &Path) -> Result<(), Failure> {
+    write_text(folder, &format!("{MARK},\n  \"ending\": \"unfinished\"\n}}\n"))
+}
+
+/// Writes the truth.
+pub(super) fn write(folder: &Path, source: &ScenarioSource, truth: &ScenarioTruth) -> Result<(), Failure> {
+    let file = TruthFile {
+        made_by: "hovertone simulate",
+        version: VERSION,
+        seed: source.file.seed,
+        truth,
+        files: Files { sound: SOUND, table: TABLE },
+        settings: Settings {
+            file: &source.name,
+            sha256: &source.sha256,
+            scenario: &source.file,
+            vehicle: &source.scenario.flight.vehicle,
+        },
+    };
+    write_text(folder, &(serde_json::to_string_pretty(&file).map_err(Failure::internal)? + "\n"))
+}
+
+fn write_text(folder: &Path, text: &str) -> Result<(), Failure> {
+    let path = folder.join(NAME);
+    fs::write(&path, text).map_err(|error| Failure::cannot_write(&error, &path))
+}

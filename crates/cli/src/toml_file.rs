@@ -1,0 +1,136 @@
+//! A TOML file that somebody wrote: reading it, and saying where it is wrong.
+
+use crate::failure::Failure;
+use crate::nearest::nearest;
+use serde::de::DeserializeOwned;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// What the parser expects, as people call it.
+const TYPES: [(&str, &str); 4] = [
+    ("expected f64", "expected a number"),
+    ("expected u32", "expected a whole number"),
+    ("expected u64", "expected a whole number"),
+    ("a sequence", "a list [...]"),
+];
+
+/// A file that was read, not yet understood.
+pub(crate) struct TomlFile<'a> {
+    /// Where it is.
+    pub(crate) path: &'a Path,
+    /// What it is called in messages.
+    kind: &'static str,
+    /// Where to see one.
+    see_example: &'static str,
+    /// Its text.
+    pub(crate) text: String,
+}
+
+impl<'a> TomlFile<'a> {
+    /// Reads a file of that kind; `mistaken_for` is what people give instead.
+    pub(crate) fn read(
+        path: &'a Path,
+        kind: &'static str,
+        mistaken_for: &str,
+        see_example: &'static str,
+    ) -> Result<Self, Failure> {
+        let bytes = fs::read(path)
+            .map_err(|error| Failure::failed(format!("the {kind} cannot be read: {error}"), "check its name", path))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let what = format!("the {kind} is not text: {}", error.utf8_error());
+            Failure::failed(what, format!("give the TOML file, not a {mistaken_for}"), path)
+        })?;
+        Ok(Self { path, kind, see_example, text })
+    }
+
+    /// What it says. Unknown keys are named, with the nearest known one.
+    pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, Failure> {
+        toml::from_str(&self.text).map_err(|error| fault(&error, self))
+    }
+}
+
+/// The line with the fault underlined, and the nearest name where one was misspelt.
+fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
+    let (message, kind) = (error.message(), file.kind);
+    let (what, hint) = match unknown_name(message) {
+        Some((what, key, known)) => {
+            let list = known.join(", ");
+            let hint = match nearest(key, known.iter().copied()) {
+                Some(name) => format!("did you mean \"{name}\"? Known here: {list}"),
+                None => format!("known here: {list}"),
+            };
+            (format!("the {kind} has an unknown {what} \"{key}\""), hint)
+        }
+        None => {
+            let message = message.trim_end().replace('\n', " ");
+            let message = TYPES.iter().fold(message, |text, (rust, words)| text.replace(rust, words));
+            (format!("the {kind} has a fault: {message}"), file.see_example.to_owned())
+        }
+    };
+    let Some(place) = error.span().map(|span| Place::of(span, &file.text)) else {
+        return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
+    };
+    let what = format!("{what}\n{}", place.underlined());
+    let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));
+    Failure::Usage { what, hint, path: Some(path) }
+}
+
+/// What is unknown, its name and the known ones, from "unknown field `a`, expected one of `b`, `c`", or "variant".
+fn unknown_name(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
+    let (what, list) = match message.strip_prefix("unknown field ") {
+        Some(list) => ("key", list),
+        None => ("value", message.strip_prefix("unknown variant ")?),
+    };
+    let mut quoted = list.split('`').skip(1).step_by(2);
+    Some((what, quoted.next()?, quoted.collect()))
+}
+
+/// A place in a text, lines and columns counted from 1.
+struct Place<'a> {
+    line: &'a str,
+    line_number: usize,
+    column: usize,
+    length: usize,
+}
+
+impl<'a> Place<'a> {
+    fn of(span: Range<usize>, text: &'a str) -> Self {
+        let before = text.get(..span.start).unwrap_or(text);
+        let line_start = before.rfind('\n').map_or(0, |feed| feed + 1);
+        let line = text[line_start..].lines().next().unwrap_or("");
+        let indent = before[line_start..].chars().count();
+        let marked = text.get(span).unwrap_or("").lines().next().unwrap_or("").chars().count();
+        Self { line, line_number: before.matches('\n').count() + 1, column: indent + 1, length: marked.max(1) }
+    }
+
+    fn underlined(&self) -> String {
+        let number = self.line_number.to_string();
+        let (margin, indent) = (" ".repeat(number.len()), " ".repeat(self.column - 1));
+        format!("  {margin} |\n  {number} | {}\n  {margin} | {indent}{}", self.line, "^".repeat(self.length))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_counted_from_one_and_underlined() {
+        let text = "[vehicle]\n  mas_kg = 1\n";
+        let place = Place::of(12..18, text);
+        assert_eq!((place.line_number, place.column), (2, 3));
+        assert_eq!(place.underlined(), "    |\n  2 |   mas_kg = 1\n    |   ^^^^^^");
+        let end = Place::of(23..23, text);
+        assert_eq!((end.line_number, end.line), (3, ""));
+    }
+
+    #[test]
+    fn the_known_keys_are_read_from_the_parsers_message() {
+        let message = "unknown field `mas_kg`, expected one of `mass_kg`, `rotors`";
+        assert_eq!(unknown_name(message), Some(("key", "mas_kg", vec!["mass_kg", "rotors"])));
+        let message = "unknown variant `hoover`, expected one of `hover`, `land`";
+        assert_eq!(unknown_name(message), Some(("value", "hoover", vec!["hover", "land"])));
+        assert_eq!(unknown_name("invalid type"), None);
+    }
+}

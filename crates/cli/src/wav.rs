@@ -1,0 +1,63 @@
+//! Simulated sound into WAV files, channel by channel.
+
+use crate::failure::Failure;
+use hound::{SampleFormat as Stored, WavSpec, WavWriter};
+use hovertone_sim::scenario::SampleFormat;
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+/// A WAV file that grows.
+pub(crate) struct WavFile {
+    writer: WavWriter<BufWriter<File>>,
+    format: SampleFormat,
+    path: PathBuf,
+}
+
+impl WavFile {
+    /// Begins a file with so many channels.
+    pub(crate) fn create(
+        path: &Path,
+        channels: usize,
+        sample_rate: u32,
+        format: SampleFormat,
+    ) -> Result<Self, Failure> {
+        let (bits_per_sample, sample_format) = match format.integer_bits() {
+            Some(bits) => (bits as u16, Stored::Int),
+            None => (32, Stored::Float),
+        };
+        let channels = u16::try_from(channels)
+            .map_err(|_| Failure::usage("too many microphones for a WAV file", "have at most 65535"))?;
+        let spec = WavSpec { channels, sample_rate, bits_per_sample, sample_format };
+        let writer = WavWriter::create(path, spec).map_err(|error| cannot_write(error, path))?;
+        Ok(Self { writer, format, path: path.to_owned() })
+    }
+
+    /// Writes all samples of the channels, which are equally many, and empties the channels.
+    pub(crate) fn drain(&mut self, channels: &mut [Vec<f32>]) -> Result<(), Failure> {
+        for index in 0..channels.first().map_or(0, Vec::len) {
+            for channel in channels.iter() {
+                let written = match self.format.integer_bits() {
+                    Some(bits) => self.writer.write_sample(SampleFormat::whole_number(bits, channel[index])),
+                    None => self.writer.write_sample(channel[index]),
+                };
+                written.map_err(|error| cannot_write(error, &self.path))?;
+            }
+        }
+        channels.iter_mut().for_each(Vec::clear);
+        Ok(())
+    }
+
+    /// Completes the file.
+    pub(crate) fn finish(self) -> Result<(), Failure> {
+        let path = self.path;
+        self.writer.finalize().map_err(|error| cannot_write(error, &path))
+    }
+}
+
+fn cannot_write(error: hound::Error, path: &Path) -> Failure {
+    match error {
+        hound::Error::IoError(error) => Failure::cannot_write(&error, path),
+        error => Failure::internal(error),
+    }
+}

@@ -1,0 +1,112 @@
+//! What a simulated flight was like.
+
+use crate::number::significant;
+use crate::text_table::{Column, TextTable};
+use hovertone_vehicle::RotorSpeed;
+
+/// A simulated flight, over its hovers where it has some.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulatedFlight {
+    /// Name of the vehicle's preset.
+    pub vehicle: String,
+    /// All that is lifted.
+    pub mass_kg: f64,
+    /// Gravity.
+    pub gravity_m_s2: f64,
+    /// Length of the flight.
+    pub duration_s: f64,
+    /// Channels of the sound.
+    pub microphone_count: usize,
+    /// Where everything random comes from.
+    pub seed: u64,
+    /// Time in hover; absent where the means are over the whole flight.
+    pub hover_s: Option<f64>,
+    /// The rotors.
+    pub rotors: Vec<SimulatedRotor>,
+    /// By hover balance: what an estimate should find; absent where nothing hovers.
+    pub thrust_constant_total_n_s2: Option<f64>,
+}
+
+/// One rotor of a simulated flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimulatedRotor {
+    /// Mean speed.
+    pub speed: RotorSpeed,
+    /// Standard deviation of the speed.
+    pub spread: RotorSpeed,
+    /// Its own constant.
+    pub thrust_constant_n_s2: f64,
+}
+
+/// A head line, a row for each rotor, and the constant that follows.
+pub fn simulated_flight_table(flight: &SimulatedFlight) -> String {
+    let microphones = if flight.microphone_count == 1 { "microphone" } else { "microphones" };
+    let mut text = format!(
+        "{}, {} g: {:.1} s of flight, {} {microphones}, seed {}\n{}\n",
+        flight.vehicle,
+        significant(1000.0 * flight.mass_kg, 4),
+        flight.duration_s,
+        flight.microphone_count,
+        flight.seed,
+        match flight.hover_s {
+            Some(hover_s) => format!("Means over {hover_s:.1} s of hover"),
+            None => "Means over the whole flight: there is no hover".to_owned(),
+        }
+    );
+    let mut table = TextTable::new(vec![
+        Column::words("rotor"),
+        Column::numbers("speed", "rev/s"),
+        Column::numbers("spread", "rev/s"),
+        Column::numbers("speed", "rpm"),
+        Column::numbers("speed", "rad/s"),
+        Column::numbers("C_f", "N s²"),
+    ]);
+    for (number, rotor) in (1..).zip(&flight.rotors) {
+        table.push(vec![
+            format!("{number}"),
+            significant(rotor.speed.rev_s(), 6),
+            significant(rotor.spread.rev_s(), 2),
+            significant(rotor.speed.rpm(), 6),
+            significant(rotor.speed.rad_s(), 6),
+            format!("{:.4e}", rotor.thrust_constant_n_s2),
+        ]);
+    }
+    text += &table.render();
+    if let Some(total) = flight.thrust_constant_total_n_s2 {
+        text += &format!("C_f by hover balance, whole vehicle: {total:.4e} N s² (m g / mean Σω², times the rotors)\n");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flight_is_told_in_a_few_lines() {
+        let rotor = SimulatedRotor {
+            speed: RotorSpeed::from_rpm(3610.0),
+            spread: RotorSpeed::from_rpm(44.0),
+            thrust_constant_n_s2: 7.0775e-6,
+        };
+        let mut flight = SimulatedFlight {
+            vehicle: "ardrone".to_owned(),
+            mass_kg: 0.413,
+            gravity_m_s2: 9.8,
+            duration_s: 10.0,
+            microphone_count: 1,
+            seed: 3,
+            hover_s: Some(8.0),
+            rotors: vec![rotor; 4],
+            thrust_constant_total_n_s2: Some(2.831e-5),
+        };
+        let text = simulated_flight_table(&flight);
+        for words in
+            ["413.0 g", "1 microphone,", "seed 3", "8.0 s of hover", "3610.00", "0.73", "7.0775e-6", "2.8310e-5"]
+        {
+            assert!(text.contains(words), "{words}:\n{text}");
+        }
+        (flight.hover_s, flight.thrust_constant_total_n_s2) = (None, None);
+        assert!(simulated_flight_table(&flight).contains("no hover"));
+    }
+}

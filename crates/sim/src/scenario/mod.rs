@@ -1,0 +1,124 @@
+//! Scenarios: a flight and what hears it, from a file, and the run of it.
+//!
+//! ```text
+//! ScenarioFile (serde) ── resolve ──▶ Scenario ──▶ ScenarioRun ──▶ samples, one channel per microphone
+//!        ▲ text of command tables        │            │ per step       and states, for the table of the truth
+//!        └── handed in by the caller     └─ schedule  └──────────────▶ ScenarioTruth: exact means over the hovers
+//! ```
+//!
+//! Data and its meaning only: reading and writing files is the caller's. Nothing is stored, whatever the length.
+
+mod command_table;
+mod file;
+mod jitter;
+mod maneuver;
+mod paper_trial;
+mod random;
+mod resolve;
+mod run;
+mod schedule;
+mod sections;
+#[cfg(test)]
+mod tests;
+mod truth;
+mod truth_table;
+
+pub use file::{FlightSection, PilotSection, ScenarioFile};
+pub use maneuver::{Axis, Maneuver};
+pub use run::ScenarioRun;
+pub use schedule::{Instruction, Schedule};
+pub use sections::{
+    AirSection, AmbientSection, GroundSection, GustSection, JitterSection, LayoutName, MicrophoneSection,
+    PayloadSection, PeopleSection, RoomSection, SampleFormat, SoundSection, SpreadSection, VehicleSection, WindSection,
+};
+pub use truth::{ScenarioTruth, SpanTruth};
+pub use truth_table::{TRUTH_COLUMNS, truth_cells};
+
+use crate::flight_settings::FlightSettings;
+use crate::sound::SoundSettings;
+use hovertone_vehicle::QuantityError;
+
+/// A scenario, settled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scenario {
+    /// The flight model's settings.
+    pub flight: FlightSettings,
+    /// The sound's settings.
+    pub sound: SoundSettings,
+    /// What is flown.
+    pub schedule: Schedule,
+    /// Whether a pilot holds the place.
+    pub holds_place: bool,
+    /// Unsteadiness of the commands.
+    pub jitter: Option<JitterSection>,
+    /// Steps of the flight.
+    pub step_count: u64,
+    /// Steps between two rows of the truth.
+    pub steps_per_row: u64,
+    /// How samples are stored.
+    pub sample_format: SampleFormat,
+}
+
+impl Scenario {
+    /// Length of the flight.
+    pub fn duration_s(&self) -> f64 {
+        self.step_count as f64 * self.flight.step_s
+    }
+}
+
+/// What is wrong with a scenario.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScenarioError {
+    /// A preset that does not exist or has no flight parameters.
+    #[error("there is no vehicle preset {name:?} with flight parameters")]
+    UnknownPreset {
+        /// What was asked for.
+        name: String,
+    },
+    /// Something that cannot be guessed.
+    #[error("{what} is missing: {hint}")]
+    Missing {
+        /// What.
+        what: String,
+        /// Where to write it.
+        hint: &'static str,
+    },
+    /// A number that means nothing.
+    #[error("{name} = {value}, {must_be}")]
+    OutOfRange {
+        /// Which number.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        must_be: &'static str,
+    },
+    /// Things that exclude each other.
+    #[error("{what}: {hint}")]
+    Contradiction {
+        /// What.
+        what: String,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// A fault in a table of commands.
+    #[error("{file}, line {line}: {what}")]
+    CommandTable {
+        /// Name of the table as written.
+        file: String,
+        /// Line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// A number of the flight or of the sound.
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
+}
+
+impl ScenarioError {
+    fn out_of_range(name: &'static str, value: f64, must_be: &'static str) -> Self {
+        Self::OutOfRange { name, value, must_be }
+    }
+}

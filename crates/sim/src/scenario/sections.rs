@@ -1,0 +1,302 @@
+//! The sections of a scenario file that describe things: vehicle, air, sound, place, microphones.
+
+use hovertone_vehicle::Layout;
+use serde::{Deserialize, Serialize};
+
+/// What flies: a preset, and the numbers of it that are otherwise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VehicleSection {
+    /// Id of a vehicle with flight parameters.
+    pub preset: String,
+    /// Take-off mass without payloads.
+    pub mass_kg: Option<f64>,
+    /// Ixx, Iyy, Izz about the centre of mass.
+    pub inertia_kg_m2: Option<[f64; 3]>,
+    /// Where the rotors stand: "x" or "plus".
+    pub layout: Option<LayoutName>,
+    /// Centre to rotor shaft.
+    pub arm_length_m: Option<f64>,
+    /// Linear drag along the body's axes.
+    pub drag_n_s_m: Option<[f64; 3]>,
+    /// C_f of one rotor.
+    pub thrust_constant_per_rotor_n_s2: Option<f64>,
+    /// C_τ of one rotor.
+    pub torque_constant_per_rotor_n_m_s2: Option<f64>,
+    /// Density of the air that both constants belong to.
+    pub air_density_kg_m3: Option<f64>,
+    /// R of a motor.
+    pub motor_resistance_ohm: Option<f64>,
+    /// k_m = k_b of a motor.
+    pub motor_constant_v_s_rad: Option<f64>,
+    /// B_m of a motor.
+    pub motor_viscous_n_m_s: Option<f64>,
+    /// J_m, all that turns, felt at the motor's shaft.
+    pub motor_inertia_kg_m2: Option<f64>,
+    /// Voltage that limits the motors.
+    pub battery_voltage_v: Option<f64>,
+    /// Charge of the battery.
+    pub battery_capacity_a_h: Option<f64>,
+    /// Resistance of the battery with its leads.
+    pub battery_resistance_ohm: Option<f64>,
+}
+
+impl Default for VehicleSection {
+    /// The paper's.
+    fn default() -> Self {
+        Self {
+            preset: "ardrone".to_owned(),
+            mass_kg: None,
+            inertia_kg_m2: None,
+            layout: None,
+            arm_length_m: None,
+            drag_n_s_m: None,
+            thrust_constant_per_rotor_n_s2: None,
+            torque_constant_per_rotor_n_m_s2: None,
+            air_density_kg_m3: None,
+            motor_resistance_ohm: None,
+            motor_constant_v_s_rad: None,
+            motor_viscous_n_m_s: None,
+            motor_inertia_kg_m2: None,
+            battery_voltage_v: None,
+            battery_capacity_a_h: None,
+            battery_resistance_ohm: None,
+        }
+    }
+}
+
+/// How a layout is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LayoutName {
+    /// Arms at 45° to the axes.
+    X,
+    /// Arms along the axes.
+    Plus,
+}
+
+impl From<LayoutName> for Layout {
+    fn from(name: LayoutName) -> Self {
+        match name {
+            LayoutName::X => Self::X,
+            LayoutName::Plus => Self::Plus,
+        }
+    }
+}
+
+/// A point mass.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PayloadSection {
+    /// Its mass.
+    pub mass_kg: f64,
+    /// Where, body axes from the vehicle's own centre of mass.
+    #[serde(default)]
+    pub position_m: [f64; 3],
+}
+
+/// Standard deviations of an unsteadiness on the four commands, of ±1: a thumb's, or what the embedded controller's own
+/// sensors make it believe. Smooth: critically damped, second order, so that a vertical rate of `std` m/s means
+/// accelerations of `std / time_constant_s`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct JitterSection {
+    /// On roll.
+    pub roll_std: f64,
+    /// On pitch.
+    pub pitch_std: f64,
+    /// On the yaw rate.
+    pub yaw_rate_std: f64,
+    /// On the vertical rate.
+    pub climb_std: f64,
+    /// How long it lasts: its autocovariance goes with (1 + t/τ) e^(-t/τ).
+    pub time_constant_s: f64,
+}
+
+impl Default for JitterSection {
+    fn default() -> Self {
+        Self { roll_std: 0.0, pitch_std: 0.0, yaw_rate_std: 0.0, climb_std: 0.0, time_constant_s: 0.3 }
+    }
+}
+
+/// How rotors and motors differ: said one by one, or drawn from the seed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpreadSection {
+    /// C_f of each rotor over the vehicle's.
+    pub thrust_shares: Option<[f64; 4]>,
+    /// Voltage that each motor feels over the one that it is given.
+    pub motor_gains: Option<[f64; 4]>,
+    /// Standard deviation of C_f, where the shares are not said.
+    pub thrust_std_share: f64,
+    /// Standard deviation of the motors' gains, where they are not said.
+    pub motor_gain_std_share: f64,
+}
+
+/// The air as a weather station has it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AirSection {
+    /// Temperature.
+    pub temperature_c: f64,
+    /// Pressure at the place.
+    pub pressure_hpa: f64,
+    /// Relative humidity, 0 to 100.
+    pub humidity_percent: f64,
+}
+
+impl Default for AirSection {
+    /// ISO 2533.
+    fn default() -> Self {
+        Self { temperature_c: 15.0, pressure_hpa: 1013.25, humidity_percent: 0.0 }
+    }
+}
+
+/// Steady wind.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WindSection {
+    /// Velocity of the air, world axes.
+    pub velocity_m_s: [f64; 3],
+}
+
+/// Dryden gusts: by the wind outdoors, or by their own numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GustSection {
+    /// Wind at 6 m above the ground, from which MIL-F-8785C has all the others at the height of the start.
+    pub wind_at_6_m_m_s: Option<f64>,
+    /// Standard deviation along, across and up.
+    pub std_m_s: Option<[f64; 3]>,
+    /// Length along, across and up.
+    pub length_m: Option<[f64; 3]>,
+    /// Speed at which the turbulence is carried past the vehicle.
+    pub airspeed_m_s: Option<f64>,
+}
+
+/// Format of the recording and strength of the sources.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SoundSection {
+    /// Samples per second.
+    pub sample_rate_hz: u32,
+    /// How a sample is stored.
+    pub sample_format: SampleFormat,
+    /// Level of a rotor's line of level 1 at 1 m, at its hover speed.
+    pub tone_level_db_spl: f64,
+    /// Level of a rotor's broadband noise at 1 m.
+    pub broadband_level_db_spl: f64,
+    /// Standard deviation of every line's slow change in amplitude and phase.
+    pub unsteadiness: f64,
+}
+
+impl Default for SoundSection {
+    /// Those of [`SourceSettings::for_vehicle`](crate::SourceSettings::for_vehicle), and a sound card's rate.
+    fn default() -> Self {
+        Self {
+            sample_rate_hz: 48_000,
+            sample_format: SampleFormat::Int16,
+            tone_level_db_spl: 53.0,
+            broadband_level_db_spl: 60.0,
+            unsteadiness: 0.1,
+        }
+    }
+}
+
+/// How a sample is stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SampleFormat {
+    /// Whole numbers of 16 bits.
+    Int16,
+    /// Whole numbers of 24 bits.
+    Int24,
+    /// Floating point of 32 bits.
+    Float32,
+}
+
+impl SampleFormat {
+    /// Bits of a whole number; none for floating point.
+    pub fn integer_bits(self) -> Option<u32> {
+        match self {
+            Self::Int16 => Some(16),
+            Self::Int24 => Some(24),
+            Self::Float32 => None,
+        }
+    }
+
+    /// Bytes of a sample.
+    pub fn byte_count(self) -> u32 {
+        self.integer_bits().unwrap_or(32) / 8
+    }
+}
+
+/// A room; every key's default is that of [`Room`](crate::Room).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RoomSection {
+    /// The corner with the smallest coordinates; z is that of the floor.
+    pub corner_m: Option<[f64; 3]>,
+    /// Length along x, along y, and height.
+    pub size_m: Option<[f64; 3]>,
+    /// Absorption of all four walls.
+    pub wall_absorption: Option<f64>,
+    /// Absorption of the floor.
+    pub floor_absorption: Option<f64>,
+    /// Absorption of the ceiling.
+    pub ceiling_absorption: Option<f64>,
+    /// Time in which the tail falls by 60 dB; 0 for first reflections only.
+    pub reverberation_s: Option<f64>,
+}
+
+/// A level ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GroundSection {
+    /// Share of the sound energy that it keeps.
+    pub absorption: f64,
+}
+
+impl Default for GroundSection {
+    /// Concrete (tables: 0.02 at 1 kHz).
+    fn default() -> Self {
+        Self { absorption: 0.02 }
+    }
+}
+
+/// Noise of the place; the default is that of [`AmbientSettings`](crate::AmbientSettings).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AmbientSection {
+    /// Level over the whole band.
+    pub level_db_spl: Option<f64>,
+}
+
+/// People talking; every key's default is that of [`BabbleSettings`](crate::BabbleSettings).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PeopleSection {
+    /// Level of all voices together at 1 m.
+    pub level_db_spl: Option<f64>,
+    /// How many talk at once.
+    pub voices: Option<u32>,
+    /// Where they are heard from.
+    pub position_m: Option<[f64; 3]>,
+}
+
+/// A microphone; what is not said is that of [`MicrophoneSettings::at`](crate::MicrophoneSettings::at).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MicrophoneSection {
+    /// Where.
+    pub position_m: [f64; 3],
+    /// Whether it is without filters, noise and, unless the sample format is one of whole numbers, rounding.
+    #[serde(default)]
+    pub ideal: bool,
+    /// Level of the sine whose peaks are at full scale.
+    #[serde(default)]
+    pub full_scale_db_spl: Option<f64>,
+    /// Its own noise.
+    #[serde(default)]
+    pub self_noise_db_spl: Option<f64>,
+}
