@@ -1,6 +1,6 @@
 //! The paper's averages, with uncertainty and a check whether the loads agree.
 
-use super::{Force, LoadSpeeds, LoadThrust, SampleThrust, ThrustTable, TrialSpeeds, TrialThrust, thrust_constant_n_s2};
+use super::{LoadSpeeds, LoadThrust, SampleThrust, ThrustTable, TrialSpeeds, TrialThrust, thrust_constant_n_s2};
 use crate::config::Method;
 use crate::statistics::{mean, std};
 use crate::warning::Warning;
@@ -24,9 +24,9 @@ const DISAGREEMENT_CHANCE: f64 = 0.05;
 /// Not in it: that a single ridge follows the loudest rotor (2 to 4 % in C with rotors 1 to 2 % apart), which no
 /// statistics of the ridge can show. The table warns of it.
 pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, rotor_count: u32) -> ThrustTable {
+    let rotor_count = rotor_count.max(1);
     let mut rows: Vec<LoadThrust> = loads.iter().map(|load| row_of_load(load, rotor_count)).collect();
     judge_loads(loads, &mut rows);
-    let rotor_count = rotor_count.max(1);
     let total = mean_over_loads(loads, &rows);
     let mut warnings: Vec<Warning> = rows
         .iter()
@@ -162,33 +162,29 @@ fn judge_loads(loads: &[LoadSpeeds], rows: &mut [LoadThrust]) {
     }
 }
 
+/// Variance of a load's constant without what all loads share: its speed's and its own weighing's.
+fn variance_alone(load: &LoadSpeeds, row: &LoadThrust) -> Option<f64> {
+    let speed_share = 2.0 * row.std_uncertainty_rad_s? / row.speed?.rad_s();
+    Some((row.thrust_constant_total_n_s2?.value * speed_share.hypot(load.force.relative_std().0)).powi(2))
+}
+
 fn alone_of(load: &LoadSpeeds, row: &LoadThrust) -> Option<Alone> {
     let value = row.thrust_constant_total_n_s2?.value;
-    let speed_share = 2.0 * row.std_uncertainty_rad_s? / row.speed?.rad_s();
     let heard = row.trials.iter().filter(|trial| trial.speed.is_some()).count();
     // a single trial's uncertainty comes from its many frames
     let degrees_of_freedom = if heard > 1 { heard as f64 - 1.0 } else { FREEDOM_OF_FRAMES };
-    let variance = (value * speed_share.hypot(load.force.relative_std().0)).powi(2);
+    let variance = variance_alone(load, row)?;
     (variance > 0.0).then_some(Alone { value, variance, degrees_of_freedom })
 }
 
 fn mean_over_loads(loads: &[LoadSpeeds], rows: &[LoadThrust]) -> Option<Estimate> {
-    let heard: Vec<(&Force, &LoadThrust, Estimate)> = loads
-        .iter()
-        .zip(rows)
-        .filter_map(|(load, row)| Some((&load.force, row, row.thrust_constant_total_n_s2?)))
-        .collect();
+    let heard: Vec<(&LoadSpeeds, &LoadThrust, Estimate)> =
+        loads.iter().zip(rows).filter_map(|(load, row)| Some((load, row, row.thrust_constant_total_n_s2?))).collect();
     let values: Vec<f64> = heard.iter().map(|(.., total)| total.value).collect();
     let count = values.len() as f64;
     let value = mean(&values)?;
-    let alone: Option<f64> = heard
-        .iter()
-        .map(|(force, row, total)| {
-            let speed_share = 2.0 * row.std_uncertainty_rad_s? / row.speed?.rad_s();
-            Some((total.value * speed_share.hypot(force.relative_std().0)).powi(2))
-        })
-        .sum();
-    let shared: Vec<f64> = heard.iter().map(|(force, _, total)| total.value * force.relative_std().1).collect();
+    let alone: Option<f64> = heard.iter().map(|(load, row, _)| variance_alone(load, row)).sum();
+    let shared: Vec<f64> = heard.iter().map(|(load, _, total)| total.value * load.force.relative_std().1).collect();
     let by_parts = alone.map(|squares| squares.sqrt() / count);
     let by_scatter = std(&values).map(|scatter| scatter / count.sqrt());
     let std_uncertainty =
