@@ -2,9 +2,11 @@
 //!
 //! Pure: no files, clock, threads, environment or printing. Sound comes in through [`SignalSource`].
 
+mod channel;
 mod config;
 mod error;
 mod experiment;
+mod harmonic;
 mod hover;
 mod pipeline;
 mod ridge;

@@ -57,7 +57,7 @@ impl Stft {
     pub fn new(sample_rate_hz: f64, window: Window, window_s: f64, hop_s: f64, zero_pad_factor: u32) -> Self {
         let window_samples = ((window_s * sample_rate_hz).round() as usize).max(8);
         let hop_samples = ((hop_s * sample_rate_hz).round() as usize).max(1);
-        let transform_samples = smooth_even_at_least(window_samples * zero_pad_factor.max(1) as usize);
+        let transform_samples = smooth_at_least(window_samples * zero_pad_factor.max(1) as usize, 2);
         let plan = RealFftPlanner::new().plan_fft_forward(transform_samples);
         let window = window.values(window_samples);
         let window_sum: f64 = window.iter().sum();
@@ -129,8 +129,8 @@ impl Stft {
     }
 }
 
-/// The next even length whose only prime factors are 2, 3 and 5: those transform fast.
-fn smooth_even_at_least(length: usize) -> usize {
+/// The next multiple of `step` whose only prime factors are 2, 3 and 5: those transform fast.
+pub(crate) fn smooth_at_least(length: usize, step: usize) -> usize {
     let is_smooth = |mut n: usize| {
         for factor in [2, 3, 5] {
             while n.is_multiple_of(factor) {
@@ -139,7 +139,8 @@ fn smooth_even_at_least(length: usize) -> usize {
         }
         n == 1
     };
-    (length.max(2)..).find(|&n| n % 2 == 0 && is_smooth(n)).unwrap_or(length)
+    let first = length.max(step).next_multiple_of(step);
+    (first..).step_by(step).find(|&n| is_smooth(n)).unwrap_or(first)
 }
 
 #[cfg(test)]
@@ -214,9 +215,10 @@ mod tests {
 
     #[test]
     fn lengths_of_transforms_are_smooth_and_even() {
-        assert_eq!(smooth_even_at_least(8820), 9000);
-        assert_eq!(smooth_even_at_least(9600), 9600);
-        assert_eq!(smooth_even_at_least(0), 2);
-        assert_eq!(smooth_even_at_least(77), 80);
+        assert_eq!(smooth_at_least(8820, 2), 9000);
+        assert_eq!(smooth_at_least(9600, 2), 9600);
+        assert_eq!(smooth_at_least(0, 2), 2);
+        assert_eq!(smooth_at_least(77, 2), 80);
+        assert_eq!(smooth_at_least(33, 16), 48);
     }
 }

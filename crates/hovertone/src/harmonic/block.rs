@@ -1,0 +1,358 @@
+//! The speed of a short stretch: the maximum of the likelihood of all lines together.
+//!
+//! Over a block the shaft turns at `n + γ τ`, τ from the middle of the block. Line o of it, in noise of variance V_o per
+//! sample, has the log likelihood (amplitude and phase at their best, constants left out)
+//!
+//! `J_o(n, γ) = |Σ z_o exp(−j 2π o (n τ + γ τ² / 2))|² / (N_o V_o)`,
+//!
+//! and the lines add: J = Σ_o J_o (Whittle; harmonic maximum likelihood with coloured noise). The standard uncertainty is that
+//! of the Cramér-Rao bound, 1/σ² = Σ_o 2 (2π o)² N_o |A_o|² ⟨τ²⟩ / V_o; an unknown γ does not widen it, because n is the speed in the middle.
+
+use super::path::SpeedPath;
+use crate::channel::TICKS_PER_HOP;
+use realfft::num_complex::Complex;
+use std::f64::consts::{PI, TAU};
+
+/// One line of a quantum, turned back by a path: one sum for each tick.
+pub(super) struct Line {
+    pub(super) order: f64,
+    /// Whether it stands out of the noise in every half hop.
+    pub(super) is_strong: bool,
+    pub(super) noise_variance: f64,
+    pub(super) samples_per_tick: f64,
+    pub(super) ticks: Vec<Complex<f64>>,
+}
+
+/// What the likelihood says of one block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BlockFit {
+    pub(super) tick_from: usize,
+    pub(super) tick_to: usize,
+    /// Speed in the middle.
+    pub(super) speed_rev_s: f64,
+    /// How fast it changes.
+    pub(super) slope_rev_s2: f64,
+    /// Log likelihood over that of noise alone; noise itself gives one for each line.
+    pub(super) likelihood: f64,
+    /// The same, where strong lines have an amplitude of their own in each half hop, so that only phase counts.
+    pub(super) in_phase: f64,
+    /// How much more the phases of the strong lines scatter along the block than the noise explains; 1 is what it explains.
+    pub(super) scatter: f64,
+    /// Information on the speed, 1/σ².
+    pub(super) information: f64,
+}
+
+impl BlockFit {
+    /// Middle of the block.
+    pub(super) fn middle_s(&self, tick_s: f64) -> f64 {
+        (self.tick_from + self.tick_to) as f64 / 2.0 * tick_s
+    }
+
+    /// Speed at a time.
+    pub(super) fn speed_at(&self, time_s: f64, tick_s: f64) -> f64 {
+        self.speed_rev_s + self.slope_rev_s2 * (time_s - self.middle_s(tick_s))
+    }
+}
+
+/// Turns a channel back by the shaft's angle times its order and adds up each tick.
+pub(super) fn demodulated(
+    series: &[Complex<f32>],
+    (order, centre_hz, rate_hz): (f64, f64, f64),
+    samples_per_tick: usize,
+    path: &SpeedPath,
+) -> Vec<Complex<f64>> {
+    series
+        .chunks_exact(samples_per_tick)
+        .take(path.ticks())
+        .enumerate()
+        .map(|(tick, samples)| {
+            let (turns, from, to) = path.tick(tick);
+            let start_s = tick as f64 * path.tick_s;
+            let cycles = order * turns - centre_hz * start_s;
+            // exp(−j phase) advances by a step that itself advances: both by multiplication
+            let step_s = 1.0 / rate_hz;
+            let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
+            let mut turn = Complex::from_polar(1.0, -TAU * cycles.fract());
+            let mut step = Complex::from_polar(1.0, -(TAU * (order * from - centre_hz) * step_s + bend));
+            let step_of_step = Complex::from_polar(1.0, -2.0 * bend);
+            let mut sum = Complex::<f64>::default();
+            for z in samples {
+                sum += turn * Complex::new(f64::from(z.re), f64::from(z.im));
+                turn *= step;
+                step *= step_of_step;
+            }
+            sum
+        })
+        .collect()
+}
+
+/// Ticks of a block, turned by a first guess and gathered into cells of equal length, ready for the search.
+pub(super) struct Cells {
+    orders: Vec<f64>,
+    are_strong: Vec<bool>,
+    /// 1 / (N V) of each line, and N.
+    scales: Vec<(f64, f64)>,
+    /// Middle of each cell from the middle of the block.
+    times_s: Vec<f64>,
+    /// Line by line.
+    sums: Vec<Complex<f64>>,
+    /// The same in cells of half a hop, for the question whether all of them have one phase.
+    half_hops: Vec<Complex<f64>>,
+    half_hop_times_s: Vec<f64>,
+    half_hop_shares: Vec<f64>,
+    span_s: f64,
+    guess: (f64, f64),
+}
+
+/// Cells of a block at most: fine enough that speed does not turn a cell by more than a sixteenth of the block's own
+/// resolution for each line of resolution that it is off.
+const CELLS_MAX: usize = 16;
+
+impl Cells {
+    /// The cells of the ticks `from..to`, turned by speed and slope `guess` instead of by `path`.
+    pub(super) fn new(
+        lines: &[Line],
+        path: &SpeedPath,
+        (tick_from, tick_to): (usize, usize),
+        guess: (f64, f64),
+    ) -> Self {
+        let tick_s = path.tick_s;
+        let ticks = tick_to - tick_from;
+        let per_cell = ticks.div_ceil(CELLS_MAX);
+        let cells = ticks.div_ceil(per_cell);
+        let middle_s = (tick_from + tick_to) as f64 / 2.0 * tick_s;
+        let turns_middle = path.turns_at(middle_s);
+        let (speed, slope) = guess;
+        // by how far, and how fast, the guess runs ahead of the path
+        let ahead: Vec<(f64, f64)> = (tick_from..tick_to)
+            .map(|tick| {
+                let t = (tick as f64 + 0.5) * tick_s - middle_s;
+                let turns = speed * t + slope * t * t / 2.0 - (path.turns_at_middle(tick) - turns_middle);
+                (turns, speed + slope * t - (path.speed_rev_s(tick) + path.speed_rev_s(tick + 1)) / 2.0)
+            })
+            .collect();
+        let halves = ticks.div_ceil(TICKS_PER_HOP / 2);
+        let mut sums = vec![Complex::default(); lines.len() * cells];
+        let mut half_hops = vec![Complex::default(); lines.len() * halves];
+        for ((line, sums), half_hops) in
+            lines.iter().zip(sums.chunks_exact_mut(cells)).zip(half_hops.chunks_exact_mut(halves))
+        {
+            // the mean time of a tick's samples lies half a sample before its middle
+            let half_sample_s = tick_s / line.samples_per_tick / 2.0;
+            for (index, (z, (turns, speed))) in line.ticks[tick_from..tick_to].iter().zip(&ahead).enumerate() {
+                let turned = z * Complex::from_polar(1.0, -TAU * line.order * (turns - speed * half_sample_s));
+                sums[index / per_cell] += turned;
+                half_hops[index / (TICKS_PER_HOP / 2)] += turned;
+            }
+        }
+        let times_of = |cells: usize, per_cell: usize| -> Vec<f64> {
+            (0..cells)
+                .map(|cell| {
+                    let (first, last) = (cell * per_cell, ((cell + 1) * per_cell).min(ticks));
+                    ((first + last) as f64 - ticks as f64) / 2.0 * tick_s
+                })
+                .collect()
+        };
+        Self {
+            orders: lines.iter().map(|line| line.order).collect(),
+            are_strong: lines.iter().map(|line| line.is_strong).collect(),
+            scales: lines
+                .iter()
+                .map(|line| {
+                    let samples = line.samples_per_tick * ticks as f64;
+                    (1.0 / (samples * line.noise_variance), samples)
+                })
+                .collect(),
+            times_s: times_of(cells, per_cell),
+            sums,
+            half_hops,
+            half_hop_times_s: times_of(halves, TICKS_PER_HOP / 2),
+            half_hop_shares: (0..halves)
+                .map(|half| (ticks - half * TICKS_PER_HOP / 2).min(TICKS_PER_HOP / 2) as f64 / ticks as f64)
+                .collect(),
+            span_s: ticks as f64 * tick_s,
+            guess,
+        }
+    }
+
+    fn lines(&self) -> impl Iterator<Item = (f64, f64, &[Complex<f64>])> {
+        let cells = self.times_s.len();
+        self.orders.iter().zip(&self.scales).zip(self.sums.chunks_exact(cells)).map(|((o, s), sums)| (*o, s.0, sums))
+    }
+
+    /// J, its gradient and its second derivatives at an offset.
+    pub(super) fn expansion(&self, offset: f64, bend: f64) -> (f64, [f64; 2], [f64; 3]) {
+        let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
+        for (order, scale, sums) in self.lines() {
+            let w = TAU * order;
+            // moments Σ z τ^m, m = 0 … 4
+            let mut moments = [Complex::<f64>::default(); 5];
+            for (z, &t) in sums.iter().zip(&self.times_s) {
+                let mut z = z * Complex::from_polar(1.0, -w * t * (offset + bend * t / 2.0));
+                for moment in &mut moments {
+                    *moment += z;
+                    z *= t;
+                }
+            }
+            let [s, s1, s2, s3, s4] = moments;
+            // ∂S/∂n = −jw S₁, ∂S/∂γ = −jw S₂/2, and so on
+            let j = Complex::new(0.0, 1.0);
+            let (dn, dg) = (-j * w * s1, -j * w * s2 / 2.0);
+            let (nn, ng, gg) = (-w * w * s2, -w * w * s3 / 2.0, -w * w * s4 / 4.0);
+            let of = |a: Complex<f64>, b: Complex<f64>| (a.conj() * b).re;
+            value += scale * s.norm_sqr();
+            gradient[0] += 2.0 * scale * of(s, dn);
+            gradient[1] += 2.0 * scale * of(s, dg);
+            second[0] += 2.0 * scale * (dn.norm_sqr() + of(s, nn));
+            second[1] += 2.0 * scale * (of(dn, dg) + of(s, ng));
+            second[2] += 2.0 * scale * (dg.norm_sqr() + of(s, gg));
+        }
+        (value, gradient, second)
+    }
+
+    /// J on a grid of speeds around the guess, `points` to either side.
+    pub(super) fn on_grid(&self, step_rev_s: f64, points: usize, values: &mut [f64]) {
+        for (order, scale, sums) in self.lines() {
+            let turn = |t: f64, offset: f64| Complex::from_polar(1.0, -TAU * order * t * offset);
+            let mut cells: Vec<(Complex<f64>, Complex<f64>)> = sums
+                .iter()
+                .zip(&self.times_s)
+                .map(|(z, &t)| (z * turn(t, -step_rev_s * points as f64), turn(t, step_rev_s)))
+                .collect();
+            for value in values.iter_mut() {
+                let mut sum = Complex::<f64>::default();
+                for (z, step) in &mut cells {
+                    sum += *z;
+                    *z *= *step;
+                }
+                *value += scale * sum.norm_sqr();
+            }
+        }
+    }
+
+    /// A resolution cell of the highest line.
+    pub(super) fn cell_rev_s(&self) -> f64 {
+        1.0 / (self.orders.iter().copied().fold(1.0, f64::max) * self.span_s)
+    }
+
+    /// The offset of the highest point of a grid that reaches `cells` resolution cells to either side.
+    fn best_on_grid(&self, cells: f64) -> f64 {
+        let step = self.cell_rev_s() / GRID_PER_CELL;
+        let points = (cells * GRID_PER_CELL).round() as usize;
+        let mut values = vec![0.0; 2 * points + 1];
+        self.on_grid(step, points, &mut values);
+        let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(points);
+        (best as f64 - points as f64) * step
+    }
+
+    /// The maximum near the guess: a grid of `grid_cells` to either side, then Newton's method. `slope_std_rev_s2` is how fast
+    /// the speed may be expected to change; it keeps the slope of a weak block from running away.
+    pub(super) fn fit(&self, ticks: (usize, usize), grid_cells: f64, slope_std_rev_s2: f64) -> BlockFit {
+        let prior = slope_std_rev_s2.powi(-2);
+        let mut offset = if grid_cells > 0.0 { self.best_on_grid(grid_cells) } else { 0.0 };
+        let mut bend = 0.0;
+        let penalised = |value: f64, bend: f64| value - prior * (self.guess.1 + bend).powi(2) / 2.0;
+        let (mut value, mut gradient, mut second) = self.expansion(offset, bend);
+        for _ in 0..NEWTON_STEPS {
+            let (g0, g1) = (gradient[0], gradient[1] - prior * (self.guess.1 + bend));
+            let (h00, h01, h11) = (second[0], second[1], second[2] - prior);
+            let determinant = h00 * h11 - h01 * h01;
+            let (mut d_offset, mut d_bend) = if h00 < 0.0 && determinant > 0.0 {
+                ((-h11 * g0 + h01 * g1) / determinant, (h01 * g0 - h00 * g1) / determinant)
+            } else {
+                // not on top yet: uphill by what the curvature of a clean line would ask for
+                (g0.signum() * UPHILL_CELLS * self.cell_rev_s(), 0.0)
+            };
+            let before = penalised(value, bend);
+            let mut halvings = 0;
+            loop {
+                let next = self.expansion(offset + d_offset, bend + d_bend);
+                if penalised(next.0, bend + d_bend) >= before || halvings == HALVINGS_MAX {
+                    (value, gradient, second) = next;
+                    (offset, bend) = (offset + d_offset, bend + d_bend);
+                    break;
+                }
+                (d_offset, d_bend, halvings) = (d_offset / 2.0, d_bend / 2.0, halvings + 1);
+            }
+            if d_offset.abs() < STEP_MIN_CELLS * self.cell_rev_s() {
+                break;
+            }
+        }
+        let seen = self.seen_at(offset, bend);
+        BlockFit {
+            tick_from: ticks.0,
+            tick_to: ticks.1,
+            speed_rev_s: self.guess.0 + offset,
+            slope_rev_s2: self.guess.1 + bend,
+            likelihood: value,
+            in_phase: seen.in_phase,
+            scatter: seen.scatter,
+            information: seen.information,
+        }
+    }
+
+    /// What is to be said of the block once its speed is known.
+    fn seen_at(&self, offset: f64, bend: f64) -> Seen {
+        let mean_square_s2 = self.span_s * self.span_s / 12.0;
+        let halves = self.half_hop_times_s.len();
+        let mut seen = Seen { information: 0.0, in_phase: 0.0, scatter: 1.0 };
+        let mut turned = vec![Complex::<f64>::default(); halves];
+        // phases are compared in so many pieces that what rotates quickly, such as another line nearby, has averaged out
+        let piece = halves.div_ceil(PHASE_PIECES);
+        let pieces = halves.div_ceil(piece);
+        let (mut squares, mut freedom) = (0.0, 0.0);
+        for (index, half_hops) in self.half_hops.chunks_exact(halves).enumerate() {
+            let (order, scale) = (self.orders[index], self.scales[index].0);
+            let mut sum = Complex::<f64>::default();
+            for ((into, z), t) in turned.iter_mut().zip(half_hops).zip(&self.half_hop_times_s) {
+                *into = z * Complex::from_polar(1.0, -TAU * order * t * (offset + bend * t / 2.0));
+                sum += *into;
+            }
+            // noise itself adds N V to |Σ z|²
+            seen.information += 2.0 * (TAU * order).powi(2) * (scale * sum.norm_sqr() - 1.0) * mean_square_s2;
+            if !self.are_strong[index] {
+                seen.in_phase += scale * sum.norm_sqr();
+                continue;
+            }
+            let phase = (sum / sum.norm().max(f64::MIN_POSITIVE)).conj();
+            // of N samples in all, each half hop has its share
+            seen.in_phase += scale
+                * turned.iter().zip(&self.half_hop_shares).map(|(z, share)| (z * phase).re.powi(2) / share).sum::<f64>();
+            for (turned, shares) in turned.chunks(piece).zip(self.half_hop_shares.chunks(piece)) {
+                let across = (turned.iter().sum::<Complex<f64>>() * phase).im;
+                squares += 2.0 * scale * across * across / shares.iter().sum::<f64>();
+            }
+            freedom += pieces as f64 - 1.0;
+        }
+        seen.information = seen.information.max(f64::MIN_POSITIVE);
+        freedom -= 2.0;
+        if pieces >= 4 && freedom > 0.0 {
+            // only scatter that noise gives less than once in a few hundred blocks says something
+            let excess = squares / freedom;
+            let limit = 1.0 + SCATTER_STDS * (2.0 / freedom).sqrt();
+            seen.scatter = if excess > limit { excess } else { 1.0 };
+        }
+        seen
+    }
+}
+
+/// What a block shows at its maximum.
+struct Seen {
+    information: f64,
+    in_phase: f64,
+    scatter: f64,
+}
+
+/// Pieces of a block whose phases are compared.
+const PHASE_PIECES: usize = 8;
+const SCATTER_STDS: f64 = 3.0;
+
+/// Points of the search grid in a resolution cell of the highest line.
+const GRID_PER_CELL: f64 = 3.0;
+/// From a grid point Newton's method needs three or four steps.
+const NEWTON_STEPS: u32 = 8;
+const HALVINGS_MAX: u32 = 4;
+/// Steps below this are none.
+const STEP_MIN_CELLS: f64 = 1e-6;
+/// A step uphill where the likelihood is not yet curved like a summit.
+const UPHILL_CELLS: f64 = 0.1;

@@ -1,0 +1,268 @@
+//! Where the speed is, roughly: all lines scored together on a grid of speeds in each frame, and the best path through them.
+
+use crate::channel::Channel;
+use realfft::num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Frames of the map, in hops of the bank: 0.17 s.
+pub(super) const FRAME_HOPS: usize = 2;
+/// Grid points in a resolution cell of the highest line; the lobe of a Hann frame is four cells wide.
+const GRID_PER_CELL: f64 = 1.5;
+/// Points of the grid at most.
+const GRID_POINTS_MAX: f64 = 1200.0;
+/// How much the speed of a hover changes from one frame of the map to the next, as a share.
+const STEP_STD_SHARE: f64 = 0.01;
+
+/// What one line shows in the frames of a quantum.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct LinePresence {
+    /// Mean power on the path, over that of noise.
+    pub(super) on_path: f64,
+    /// Mean of each frame's highest power in the line's band, over that of noise.
+    pub(super) in_band: f64,
+}
+
+struct Line {
+    order: f64,
+    centre_hz: f64,
+    bin_hz: f64,
+    plan: Arc<dyn Fft<f32>>,
+    window: Vec<f32>,
+    energy: f64,
+    frame: Vec<Complex<f32>>,
+    scratch: Vec<Complex<f32>>,
+    amplitude: Vec<f32>,
+}
+
+/// Scores speeds between two limits.
+pub(super) struct SpeedMap {
+    lines: Vec<Line>,
+    speeds_rev_s: Vec<f64>,
+}
+
+impl SpeedMap {
+    pub(super) fn new(
+        channels: &[Channel],
+        (low, high): (f64, f64),
+        hop_s: f64,
+        planner: &mut FftPlanner<f32>,
+    ) -> Self {
+        let order_max = channels.iter().map(|channel| channel.order).fold(1.0, f64::max);
+        let frame_s = FRAME_HOPS as f64 * hop_s;
+        let points = ((high - low) * GRID_PER_CELL * order_max * frame_s).ceil().clamp(3.0, GRID_POINTS_MAX);
+        let lines = channels
+            .iter()
+            .map(|channel| {
+                let length = FRAME_HOPS * channel.hop_samples;
+                let window: Vec<f32> =
+                    (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
+                let plan = planner.plan_fft_forward(2 * length);
+                Line {
+                    order: channel.order,
+                    centre_hz: channel.centre_hz,
+                    bin_hz: channel.rate_hz / (2 * length) as f64,
+                    energy: window.iter().map(|&w| f64::from(w).powi(2)).sum(),
+                    window,
+                    frame: vec![Complex::default(); 2 * length],
+                    scratch: vec![Complex::default(); plan.get_inplace_scratch_len()],
+                    amplitude: vec![0.0; 2 * length + 1],
+                    plan,
+                }
+            })
+            .collect();
+        let step = (high - low) / points;
+        Self { lines, speeds_rev_s: (0..=points as usize).map(|index| low + step * index as f64).collect() }
+    }
+
+    /// The path of a quantum as speeds in the middle of each frame, and how present each line is on it.
+    pub(super) fn path_through(
+        &mut self,
+        series: &[&[Complex<f32>]],
+        noise_variances: &[f64],
+        hop_s: f64,
+    ) -> MapPath {
+        let frames = self
+            .lines
+            .iter()
+            .zip(series)
+            .map(|(line, series)| series.len() / line.window.len())
+            .min()
+            .unwrap_or(0);
+        let mut scores: Vec<Vec<f64>> = Vec::with_capacity(frames);
+        let mut amplitudes: Vec<Vec<f32>> = Vec::with_capacity(frames);
+        let mut presences = vec![LinePresence::default(); self.lines.len()];
+        let points = self.speeds_rev_s.len();
+        let mut power = vec![0.0f32; points];
+        for frame in 0..frames {
+            let mut on_grid = vec![0.0f32; points * self.lines.len()];
+            for (((line, series), &noise), row) in
+                self.lines.iter_mut().zip(series).zip(noise_variances).zip(on_grid.chunks_exact_mut(points))
+            {
+                line.transform(&series[frame * line.window.len()..], noise);
+                line.interpolate(&self.speeds_rev_s, row);
+            }
+            let peaks: Vec<f32> =
+                on_grid.chunks_exact(points).map(|row| row.iter().copied().fold(0.0, f32::max)).collect();
+            let cap = second_largest(&peaks);
+            let mut score = vec![0.0; points];
+            for ((row, &peak), presence) in on_grid.chunks_exact(points).zip(&peaks).zip(&mut presences) {
+                // a whistle in one band must not outvote lines that agree
+                let scale = if peak > cap { cap / peak } else { 1.0 };
+                for ((sum, power), amplitude) in score.iter_mut().zip(&mut power).zip(row) {
+                    *sum += f64::from(amplitude * scale);
+                    *power += (amplitude * scale).powi(2);
+                }
+                presence.in_band += f64::from(peak * peak) / frames as f64;
+            }
+            scores.push(score);
+            amplitudes.push(on_grid);
+        }
+        let steady = (0..points).max_by(|&a, &b| power[a].total_cmp(&power[b])).unwrap_or(0);
+        let step = self.speeds_rev_s[1] - self.speeds_rev_s[0];
+        let middle = (self.speeds_rev_s[0] + self.speeds_rev_s[points - 1]) / 2.0;
+        let path = best_path(&scores, STEP_STD_SHARE * middle / step);
+        for (&place, on_grid) in path.iter().zip(&amplitudes) {
+            for (presence, row) in presences.iter_mut().zip(on_grid.chunks_exact(points)) {
+                presence.on_path += f64::from(row[place].powi(2)) / frames as f64;
+            }
+        }
+        let frame_s = FRAME_HOPS as f64 * hop_s;
+        let points = path
+            .iter()
+            .enumerate()
+            .map(|(frame, &place)| ((frame as f64 + 0.5) * frame_s, self.speeds_rev_s[place]))
+            .collect();
+        MapPath { points, presences, steady_rev_s: self.speeds_rev_s[steady] }
+    }
+}
+
+/// What the map shows of a quantum.
+pub(super) struct MapPath {
+    /// Time from the start and speed.
+    pub(super) points: Vec<(f64, f64)>,
+    /// How present each line is.
+    pub(super) presences: Vec<LinePresence>,
+    /// The one speed that explains most of all frames.
+    pub(super) steady_rev_s: f64,
+}
+
+impl Line {
+    /// Amplitude spectrum of a frame in units of the noise: the root of what J would be.
+    fn transform(&mut self, series: &[Complex<f32>], noise_variance: f64) {
+        let length = self.window.len();
+        for ((into, z), weight) in self.frame.iter_mut().zip(series).zip(&self.window) {
+            *into = z * weight;
+        }
+        self.frame[length..].fill(Complex::default());
+        self.plan.process_with_scratch(&mut self.frame, &mut self.scratch);
+        let scale = 1.0 / (self.energy * noise_variance).sqrt() as f32;
+        // from the lowest frequency to the highest
+        for (index, into) in self.amplitude.iter_mut().take(2 * length).enumerate() {
+            *into = self.frame[(index + length) % (2 * length)].norm() * scale;
+        }
+    }
+
+    /// The spectrum at the line's place for each speed.
+    fn interpolate(&self, speeds_rev_s: &[f64], row: &mut [f32]) {
+        let length = self.window.len() as f64;
+        let first = (self.order * speeds_rev_s[0] - self.centre_hz) / self.bin_hz + length;
+        let step = self.order * (speeds_rev_s[1] - speeds_rev_s[0]) / self.bin_hz;
+        let last = self.amplitude.len() - 2;
+        for (index, into) in row.iter_mut().enumerate() {
+            let place = (first + step * index as f64).max(0.0);
+            let bin = (place as usize).min(last);
+            let share = (place - bin as f64).min(1.0) as f32;
+            *into = self.amplitude[bin] + share * (self.amplitude[bin + 1] - self.amplitude[bin]);
+        }
+    }
+}
+
+fn second_largest(values: &[f32]) -> f32 {
+    let (mut first, mut second) = (0.0f32, 0.0f32);
+    for &value in values {
+        if value > first {
+            (first, second) = (value, first);
+        } else if value > second {
+            second = value;
+        }
+    }
+    if values.len() > 1 { second } else { first }
+}
+
+/// The path of grid points with the highest sum of scores less (step / σ)² / 2 for each step (Viterbi). The best predecessor
+/// of every point is found in one sweep, by the lower envelope of parabolas (Felzenszwalb and Huttenlocher, Theory of
+/// Computing 8, 2012).
+fn best_path(scores: &[Vec<f64>], step_std: f64) -> Vec<usize> {
+    let Some(first) = scores.first() else { return Vec::new() };
+    let points = first.len();
+    let curvature = 1.0 / (2.0 * step_std * step_std);
+    let mut total = first.clone();
+    let mut from: Vec<Vec<u32>> = Vec::with_capacity(scores.len());
+    let (mut places, mut borders) = (vec![0usize; points], vec![0.0f64; points + 1]);
+    for score in &scores[1..] {
+        let mut last = 0;
+        places[0] = 0;
+        (borders[0], borders[1]) = (f64::NEG_INFINITY, f64::INFINITY);
+        for q in 1..points {
+            let crossing = |p: usize| {
+                let (qf, pf) = (q as f64, p as f64);
+                ((curvature * qf * qf - total[q]) - (curvature * pf * pf - total[p])) / (2.0 * curvature * (qf - pf))
+            };
+            let mut s = crossing(places[last]);
+            while s <= borders[last] && last > 0 {
+                last -= 1;
+                s = crossing(places[last]);
+            }
+            last += 1;
+            places[last] = q;
+            (borders[last], borders[last + 1]) = (s, f64::INFINITY);
+        }
+        let mut origin = vec![0u32; points];
+        let mut next = vec![0.0; points];
+        let mut envelope = 0;
+        for (q, (origin, into)) in origin.iter_mut().zip(&mut next).enumerate() {
+            while borders[envelope + 1] < q as f64 {
+                envelope += 1;
+            }
+            let p = places[envelope];
+            *origin = p as u32;
+            *into = total[p] - curvature * (q as f64 - p as f64).powi(2) + score[q];
+        }
+        from.push(origin);
+        total = next;
+    }
+    let mut place = (0..points).max_by(|&a, &b| total[a].total_cmp(&total[b])).unwrap_or(0);
+    let mut path = vec![place];
+    for origin in from.iter().rev() {
+        place = origin[place] as usize;
+        path.push(place);
+    }
+    path.reverse();
+    path
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+
+    #[test]
+    fn the_path_is_the_best_of_all_paths() {
+        let mut rng = rand_pcg::Pcg64::seed_from_u64(5);
+        for _ in 0..50 {
+            let scores: Vec<Vec<f64>> = (0..4).map(|_| (0..7).map(|_| rng.random_range(0.0..3.0)).collect()).collect();
+            let value = |path: &[usize]| -> f64 {
+                let levels: f64 = path.iter().zip(&scores).map(|(&place, score)| score[place]).sum();
+                let steps: f64 = path.windows(2).map(|pair| (pair[0] as f64 - pair[1] as f64).powi(2)).sum();
+                levels - steps / (2.0 * 1.3 * 1.3)
+            };
+            let best = (0..7usize.pow(4))
+                .map(|code| value(&[code % 7, code / 7 % 7, code / 49 % 7, code / 343]))
+                .fold(f64::MIN, f64::max);
+            assert!((value(&best_path(&scores, 1.3)) - best).abs() < 1e-9);
+        }
+        assert!(best_path(&[], 1.0).is_empty());
+    }
+}
