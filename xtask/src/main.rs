@@ -4,6 +4,7 @@
 
 mod bench;
 mod ci;
+mod cost;
 mod roundtrip;
 mod tidy;
 
@@ -43,4 +44,9 @@ fn main() -> ExitCode {
 /// The root of the workspace.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+}
+
+/// Where cargo builds, and where benches keep what they make.
+fn target(root: &Path) -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }
