@@ -16,7 +16,7 @@ use std::process::{Command, Stdio};
 pub(crate) const DECODE_TASK: &str = "bench-decode";
 
 /// Length of a recording, unless `--minutes` says otherwise.
-const MINUTES: u32 = 30;
+pub(crate) const MINUTES: u32 = 30;
 
 /// Containers and how an `ffmpeg` makes them of the WAV. `VIDEO` stands for a small picture track.
 const CONTAINERS: [(&str, &[&str]); 15] = [
@@ -87,7 +87,7 @@ pub(crate) fn decode(file: &Path) -> Result<(), String> {
 }
 
 /// The recording that all others are made of; kept between runs.
-fn rendered_wav(root: &Path, minutes: u32) -> Result<PathBuf, String> {
+pub(crate) fn rendered_wav(root: &Path, minutes: u32) -> Result<PathBuf, String> {
     let folder = target(root).join("bench").join(format!("{minutes}min"));
     fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let path = folder.join("pcm16.wav");

@@ -2,6 +2,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
+mod accuracy;
 mod bench;
 mod ci;
 mod cost;
@@ -19,6 +20,8 @@ const HELP: &str = "cargo xtask <task>
           [--minutes N] for shorter ones
   bench roundtrip   simulate, identify, compare with the truth: a hundred random hovers
           [--count N] for fewer, [--spread SHARE] for rotors more alike or less
+  bench accuracy    one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
+          [--draws N] [--coverage N] for fewer, [--only PART] to print one part, [--install-peers] to have them here
 ";
 
 fn main() -> ExitCode {
@@ -28,6 +31,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
         ["bench", "roundtrip", options @ ..] => roundtrip::run(&root(), options),
+        ["bench", "accuracy", options @ ..] => accuracy::run(&root(), options),
         ["bench", options @ ..] => bench::run(&root(), options),
         [bench::DECODE_TASK, file] => bench::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),
