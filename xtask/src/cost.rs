@@ -79,3 +79,26 @@ fn peak_memory_mib(process: u32) -> Option<f64> {
     let kib: f64 = line.split_whitespace().next()?.parse().ok()?;
     Some(kib / 1024.0)
 }
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+    use std::process::{Command, Stdio};
+
+    #[test]
+    fn the_time_of_a_child_is_known_after_its_end() {
+        let work = "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done";
+        let mut shell = Command::new("sh");
+        let child = shell.args(["-c", work]).stdout(Stdio::null()).spawn().unwrap();
+        let (status, cost) = watched(child, Instant::now()).unwrap();
+        assert!(status.success() && cost.peak_mib > 0.1, "{} MiB", cost.peak_mib);
+        // one tick is 0.01 s, and its loop takes several
+        assert!(cost.cpu_s.unwrap() >= 0.01 && cost.cpu_s.unwrap() <= cost.wall_s + 0.02, "{:?}", cost.cpu_s);
+    }
+
+    #[test]
+    fn a_program_that_fails_or_is_not_there_is_no_measurement() {
+        assert!(fastest(|| Command::new("false").spawn()).is_err());
+        assert!(fastest(|| Command::new("/no/such/program").spawn()).is_err());
+    }
+}

@@ -3,6 +3,7 @@
 use super::bound::speed_bound_rev_s;
 use super::draws::drawn;
 use super::sound::{Colour, Noise, Rotor, SAMPLE_RATE_HZ, Series, Turning, rendered, tone_power};
+use super::track::median;
 use hovertone::{Config, Method, Outcome, Signal, SpeedAnalysis, ToneConfig, speed_from_source};
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
@@ -14,6 +15,8 @@ const SPEED_REV_S: std::ops::Range<f64> = 50.0..70.0;
 const OUTLIER_BOUNDS: f64 = 20.0;
 /// What a stated uncertainty is multiplied with to hold 95 %.
 const COVERAGE_FACTOR: f64 = 2.0;
+/// Median of |x| of a normal x of standard deviation 1.
+const MEDIAN_STDS: f64 = 0.674_489_75;
 const WANDER: Turning = Turning::Wandering { std_share: 0.004, time_constant_s: 0.8 };
 
 /// Which lines a rotor has.
@@ -100,21 +103,27 @@ pub(super) struct MethodScore {
     pub(super) rmse_bounds: Option<f64>,
     pub(super) median_bounds: Option<f64>,
     pub(super) covered: usize,
+    /// Median of the stated u over the standard deviation that the median |error| means: 1 where u is right, more where
+    /// it is too careful.
+    pub(super) stated_over_scatter: Option<f64>,
 }
 
 impl MethodScore {
     fn of(draws: usize, answers: &[&Answer]) -> Self {
         let mut bounds_off: Vec<f64> = answers.iter().map(|answer| answer.bounds_off()).collect();
         bounds_off.sort_by(f64::total_cmp);
-        let inliers = &bounds_off[..bounds_off.partition_point(|&bounds| bounds <= OUTLIER_BOUNDS)];
-        let mean_square = inliers.iter().map(|bounds| bounds * bounds).sum::<f64>() / inliers.len() as f64;
+        let inliers = bounds_off.partition_point(|&bounds| bounds <= OUTLIER_BOUNDS);
+        let mean_square = bounds_off[..inliers].iter().map(|bounds| bounds * bounds).sum::<f64>() / inliers as f64;
         Self {
             draws,
             answered: answers.len(),
-            outliers: answers.len() - inliers.len(),
-            rmse_bounds: (!inliers.is_empty()).then(|| mean_square.sqrt()),
-            median_bounds: bounds_off.get(bounds_off.len() / 2).copied(),
+            outliers: answers.len() - inliers,
+            rmse_bounds: (inliers > 0).then(|| mean_square.sqrt()),
+            median_bounds: median(bounds_off),
             covered: answers.iter().filter(|answer| answer.is_covered()).count(),
+            stated_over_scatter: median(answers.iter().filter_map(|answer| answer.std_uncertainty_rev_s).collect())
+                .zip(median(answers.iter().map(|answer| answer.error_rev_s.abs()).collect()))
+                .map(|(stated, error)| MEDIAN_STDS * stated / error),
         }
     }
 }
@@ -200,6 +209,7 @@ mod tests {
         assert_eq!((score.draws, score.answered, score.outliers, score.covered), (4, 3, 1, 1));
         assert!((score.rmse_bounds.unwrap() - 12.5_f64.sqrt()).abs() < 1e-12);
         assert_eq!(score.median_bounds, Some(4.0));
+        assert!((score.stated_over_scatter.unwrap() - MEDIAN_STDS * 0.17 / 0.4).abs() < 1e-12);
         assert_eq!(MethodScore::of(4, &[]).rmse_bounds, None);
     }
 

@@ -1,5 +1,8 @@
 //! The report as it grows: headings, paragraphs and tables in Markdown.
 
+/// As the other documents.
+const LINE_LENGTH: usize = 150;
+
 /// Markdown, one block after the other.
 #[derive(Default)]
 pub(super) struct Document {
@@ -11,8 +14,34 @@ impl Document {
         self.block(&format!("## {text}"));
     }
 
+    /// Running text, in lines of at most [`LINE_LENGTH`].
     pub(super) fn paragraph(&mut self, text: &str) {
-        self.block(text);
+        let mut lines = vec![String::new()];
+        for word in text.split_whitespace() {
+            match lines.last_mut() {
+                Some(line) if line.is_empty() => line.push_str(word),
+                Some(line) if line.chars().count() + 1 + word.chars().count() <= LINE_LENGTH => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
+        }
+        self.block(&lines.join("\n"));
+    }
+
+    /// One sentence for each different text, after the names of all that it is said of.
+    pub(super) fn notes(&mut self, notes: Vec<(String, String)>) {
+        let mut sentences: Vec<(Vec<String>, String)> = Vec::new();
+        for (name, text) in notes {
+            match sentences.iter_mut().find(|(_, said)| *said == text) {
+                Some((names, _)) => names.push(name),
+                None => sentences.push((vec![name], text)),
+            }
+        }
+        for (names, text) in sentences {
+            self.paragraph(&format!("{}: {text}.", names.join("; ")));
+        }
     }
 
     /// A table; cells are text.
@@ -88,5 +117,17 @@ mod tests {
         document.heading("A");
         document.table(&["x", "y"], &[vec!["1".to_owned(), "2".to_owned()]]);
         assert_eq!(document.into_text(), "## A\n\n| x | y |\n|---|---|\n| 1 | 2 |\n");
+    }
+
+    #[test]
+    fn paragraphs_are_wrapped_and_equal_notes_said_once() {
+        let mut document = Document::default();
+        document.paragraph(&"äöüß ".repeat(60));
+        let lengths: Vec<usize> = document.into_text().lines().map(|line| line.chars().count()).collect();
+        assert_eq!(lengths, [149, 149]);
+        let mut document = Document::default();
+        let note = |name: &str, text: &str| (name.to_owned(), text.to_owned());
+        document.notes(vec![note("a", "no"), note("b", "yes"), note("c", "no")]);
+        assert_eq!(document.into_text(), "a; c: no.\n\nb: yes.\n");
     }
 }

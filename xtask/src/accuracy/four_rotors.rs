@@ -102,10 +102,7 @@ pub(super) fn add_four_rotors(document: &mut Document, workbench: Option<&Workbe
         let cells: Vec<_> = rows.iter().filter_map(Row::cells).collect();
         let heads = ["", "answered %", "median error %", "within 1 %", "gross %", "nearest rotor %", "C_f error %"];
         document.table(&heads, &cells);
-        let notes: Vec<String> = rows.iter().filter_map(Row::said_below).collect();
-        if !notes.is_empty() {
-            document.paragraph(&format!("{}.", notes.join(". ")));
-        }
+        document.notes(rows.iter().filter_map(|row| Some((row.name.clone(), row.said_below()?))).collect());
     }
     Ok(())
 }
@@ -137,11 +134,11 @@ impl Row {
         match &self.came {
             Came::Scored(score) if !score.each_rotor.is_empty() => {
                 let each: Vec<String> = score.each_rotor.iter().map(|error| format!("{:.3}", 100.0 * error)).collect();
-                Some(format!("{}, rotor by rotor, median error %: {}", self.name, each.join(", ")))
+                Some(format!("rotor by rotor, median error %, {}", each.join(", ")))
             }
-            Came::Scored(_) => self.note.as_ref().map(|note| format!("{}: {note}", self.name)),
-            Came::Silent(reason) => Some(format!("{}: nothing, {reason}", self.name)),
-            Came::LeftOut(reason) => Some(format!("{} is left out: {reason}", self.name)),
+            Came::Scored(_) => self.note.clone(),
+            Came::Silent(reason) => Some(format!("nothing, {reason}")),
+            Came::LeftOut(reason) => Some(format!("left out, {reason}")),
         }
     }
 }
@@ -181,9 +178,9 @@ fn hovertone_rows(files: &Files) -> Result<Vec<Row>, String> {
         };
         let note =
             tone.speed(method).zip(files.truth.mean_over(&analysis.hover.segments)).map(|(speed, truth_rev_s)| {
-                let u = speed.std_uncertainty_rev_s.map_or("–".to_owned(), |std| format!("{std:.4}"));
+                let u = speed.std_uncertainty_rev_s.map_or("–".to_owned(), |std| format!("{std:.1e}"));
                 let error_rev_s = speed.speed.rev_s() - truth_rev_s;
-                format!("mean {:.4} rev/s, stated u {u}, off by {error_rev_s:+.4}", speed.speed.rev_s())
+                format!("mean {:.4} rev/s, stated u {u}, off by {error_rev_s:+.1e}", speed.speed.rev_s())
             });
         let frames: Vec<TrackFrame> = tone.track.iter().map(TrackFrame::from).collect();
         let steps = frames.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();

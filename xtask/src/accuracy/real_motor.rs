@@ -47,7 +47,10 @@ pub(super) fn add_real_motor(document: &mut Document, root: &Path) -> Result<(),
         for plateau in &PLATEAUS {
             let span = SpanConfig { from_s: Some(plateau.from_s), to_s: Some(plateau.to_s) };
             let alone = track(&wav, method, span)?.unwrap_or_else(|reason| {
-                notes.push(format!("{}, {:.1}–{:.1} s alone: {reason}.", shown(method), plateau.from_s, plateau.to_s));
+                notes.push((
+                    shown(method),
+                    format!("nothing in {:.1}–{:.1} s alone, {reason}", plateau.from_s, plateau.to_s),
+                ));
                 Vec::new()
             });
             let mut row = vec![
@@ -62,9 +65,7 @@ pub(super) fn add_real_motor(document: &mut Document, root: &Path) -> Result<(),
     }
     let heads = ["method", "s", "right rev/s", "whole: heard %", "right %", "alone: heard %", "right %"];
     document.table(&heads, &rows);
-    for note in notes {
-        document.paragraph(&note);
-    }
+    document.notes(notes);
     Ok(())
 }
 

@@ -49,7 +49,8 @@ pub(super) fn add_coverage(document: &mut Document, draws: usize) -> Result<(), 
     document.paragraph(&format!(
         "Share of answers with |error| ≤ 2 u (95.4 % where errors are normal and u is their standard deviation), {draws} \
          draws for each line, otherwise as above. Wandering: the speed of the rotor is a smooth random process, standard \
-         deviation 0.4 %, correlation time 0.8 s, and the truth is its exact mean over the stretches that were used."
+         deviation 0.4 %, correlation time 0.8 s, and the truth is its exact mean over the stretches that were used. \
+         u / scatter: median u over the standard deviation that the median |error| means; above 1, u is wider than it need be."
     ));
     let mut rows = Vec::new();
     for (number, condition) in (COVERAGE_FROM..).zip(coverage_conditions()) {
@@ -60,11 +61,16 @@ pub(super) fn add_coverage(document: &mut Document, draws: usize) -> Result<(), 
         let snr = format!("{:+.0}", condition.snr_db);
         let mut row: Vec<String> = [turning, condition.tones.name(), colour_name, &snr].map(str::to_owned).into();
         row.push(answered(&scored));
-        row.extend(scored.methods.iter().map(|score| percent_with_uncertainty(score.covered, score.answered)));
+        for score in &scored.methods {
+            row.push(percent_with_uncertainty(score.covered, score.answered));
+            row.push(three_digits(score.stated_over_scatter));
+        }
         rows.push(row);
     }
     let mut heads: Vec<String> = ["rotor", "tones", "noise", "SNR dB", "answered %"].map(str::to_owned).into();
-    heads.extend(Method::ALL.map(|method| format!("{}: covered %", shown(method))));
+    for method in Method::ALL {
+        heads.extend(["covered %", "u / scatter"].map(|column| format!("{}: {column}", shown(method))));
+    }
     document.table(&heads, &rows);
     Ok(())
 }
