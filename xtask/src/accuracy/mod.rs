@@ -101,8 +101,8 @@ fn add_head(document: &mut Document, root: &Path, words: &[&str]) {
     document.paragraph("# How accurate");
     document.paragraph(&format!(
         "Made by `{}`, hovertone {} at commit {}{}; not edited by hand. Recommended settings throughout: nothing is told but \
-         what the flags named here say. Every sound is drawn from fixed seeds, so that all numbers but those of the long \
-         file are the same on every machine. Errors of the speed count double in the thrust constant.",
+         what the flags named here say. Every sound is drawn from fixed seeds, whatever the number of cores, so that another \
+         run repeats all numbers but those of the long file (and the other programs', as long as their versions stay). Errors of the speed count double in the thrust constant.",
         ["cargo xtask bench accuracy"].iter().chain(words).copied().collect::<Vec<_>>().join(" "),
         env!("CARGO_PKG_VERSION"),
         commit.trim(),
