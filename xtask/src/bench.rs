@@ -2,6 +2,8 @@
 //! real time and to decoding alone, with peak memory. Run by people, never in a test.
 
 use crate::ci::cargo;
+use crate::cost::{REPEATS, fastest};
+use crate::target;
 use hovertone::SignalSource;
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_sim::paper::{LOADS, PaperSimulation};
@@ -9,17 +11,12 @@ use hovertone_sim::{HoverSettings, HoverSound};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 /// Name of the task that a measured child runs: decode a file and do nothing with it.
 pub(crate) const DECODE_TASK: &str = "bench-decode";
 
 /// Length of a recording, unless `--minutes` says otherwise.
-const MINUTES: u32 = 30;
-/// Times each measurement is made; the fastest counts.
-const REPEATS: u32 = 3;
-/// How often a running child's memory is read.
-const MEMORY_POLL: Duration = Duration::from_millis(2);
+pub(crate) const MINUTES: u32 = 30;
 
 /// Containers and how an `ffmpeg` makes them of the WAV. `VIDEO` stands for a small picture track.
 const CONTAINERS: [(&str, &[&str]); 15] = [
@@ -47,11 +44,8 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         _ => return Err("cargo xtask bench [--minutes N]".to_owned()),
     };
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli", "-p", "xtask"], &[])?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    let programs = target.join("release");
-    let folder = target.join("bench").join(format!("{minutes}min"));
-    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    let wav = rendered_wav(&folder, minutes)?;
+    let programs = target(root).join("release");
+    let wav = rendered_wav(root, minutes)?;
     let mut files: Vec<PathBuf> =
         CONTAINERS.iter().filter_map(|(name, arguments)| encoded(&wav, name, arguments)).collect();
     files.insert(0, wav);
@@ -92,45 +86,10 @@ pub(crate) fn decode(file: &Path) -> Result<(), String> {
     if samples == 0 { Err("nothing was decoded".to_owned()) } else { Ok(()) }
 }
 
-struct Cost {
-    wall_s: f64,
-    peak_mib: f64,
-}
-
-fn fastest(mut start: impl FnMut() -> std::io::Result<std::process::Child>) -> Result<Cost, String> {
-    let mut best: Option<Cost> = None;
-    for _ in 0..REPEATS {
-        let started = Instant::now();
-        let mut child = start().map_err(|error| format!("a measured program could not start: {error}"))?;
-        let mut peak_mib = 0.0f64;
-        let status = loop {
-            peak_mib = peak_mib.max(peak_memory_mib(child.id()).unwrap_or_default());
-            match child.try_wait().map_err(|error| error.to_string())? {
-                Some(status) => break status,
-                None => std::thread::sleep(MEMORY_POLL),
-            }
-        };
-        if !status.success() {
-            return Err(format!("a measured program failed: {status}"));
-        }
-        let cost = Cost { wall_s: started.elapsed().as_secs_f64(), peak_mib };
-        if best.as_ref().is_none_or(|best| cost.wall_s < best.wall_s) {
-            best = Some(cost);
-        }
-    }
-    best.ok_or_else(|| "nothing was measured".to_owned())
-}
-
-/// Most memory that a running process has held so far; known on Linux only.
-fn peak_memory_mib(process: u32) -> Option<f64> {
-    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kib: f64 = line.split_whitespace().next()?.parse().ok()?;
-    Some(kib / 1024.0)
-}
-
 /// The recording that all others are made of; kept between runs.
-fn rendered_wav(folder: &Path, minutes: u32) -> Result<PathBuf, String> {
+pub(crate) fn rendered_wav(root: &Path, minutes: u32) -> Result<PathBuf, String> {
+    let folder = target(root).join("bench").join(format!("{minutes}min"));
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let path = folder.join("pcm16.wav");
     if path.exists() {
         return Ok(path);

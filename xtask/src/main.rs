@@ -2,8 +2,10 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
+mod accuracy;
 mod bench;
 mod ci;
+mod cost;
 mod roundtrip;
 mod tidy;
 
@@ -18,6 +20,8 @@ const HELP: &str = "cargo xtask <task>
           [--minutes N] for shorter ones
   bench roundtrip   simulate, identify, compare with the truth: a hundred random hovers
           [--count N] for fewer, [--spread SHARE] for rotors more alike or less
+  bench accuracy    one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
+          [--draws N] [--coverage N] for fewer, [--only PART] to print one part, [--install-peers] to have them here
 ";
 
 fn main() -> ExitCode {
@@ -27,6 +31,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
         ["bench", "roundtrip", options @ ..] => roundtrip::run(&root(), options),
+        ["bench", "accuracy", options @ ..] => accuracy::run(&root(), options),
         ["bench", options @ ..] => bench::run(&root(), options),
         [bench::DECODE_TASK, file] => bench::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),
@@ -43,4 +48,9 @@ fn main() -> ExitCode {
 /// The root of the workspace.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+}
+
+/// Where cargo builds, and where benches keep what they make.
+fn target(root: &Path) -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from)
 }

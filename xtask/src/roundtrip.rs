@@ -2,6 +2,7 @@
 //! Run by people, never in a test; `crates/cli/tests/command/roundtrip.rs` does ten of them.
 
 use crate::ci::cargo;
+use crate::target;
 use hovertone_sim::scenario::ScenarioFile;
 use serde_json::Value;
 use std::fs;
@@ -58,9 +59,8 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         }
     }
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli"], &[])?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
-    let program = target.join("release/hovertone");
-    let folder = target.join("bench/roundtrip");
+    let program = target(root).join("release/hovertone");
+    let folder = target(root).join("bench/roundtrip");
     let (next, trips) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     std::thread::scope(|scope| {
