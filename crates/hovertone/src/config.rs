@@ -22,6 +22,8 @@ pub struct Config {
     pub ridge: RidgeConfig,
     /// Which of the estimators gives the speed.
     pub method: Method,
+    /// Whether the others are wanted too, for comparison. The paper's two cost more time than the harmonic likelihood.
+    pub wants_all_methods: bool,
 }
 
 impl Config {
@@ -34,8 +36,19 @@ impl Config {
             samples: SampleConfig::default(),
             spectrogram: SpectrogramConfig::default(),
             ridge: RidgeConfig::default(),
-            method: Method::MaximumTrace,
+            method: Method::default(),
+            wants_all_methods: false,
         }
+    }
+
+    /// The estimators that are wanted.
+    pub(crate) fn methods(&self) -> impl Iterator<Item = Method> {
+        Method::ALL.into_iter().filter(|&method| self.wants_all_methods || method == self.method)
+    }
+
+    /// Whether a method is wanted that reads ridges.
+    pub(crate) fn wants_ridges(&self) -> bool {
+        self.methods().any(|method| method != Method::Harmonic)
     }
 
     /// Refuses settings that mean nothing, by name, value and limit.
@@ -53,25 +66,28 @@ pub(crate) fn check_range(name: &'static str, value: f64, min: f64, max: f64) ->
     if (min..=max).contains(&value) { Ok(()) } else { Err(ConfigError::OutOfRange { name, value, min, max }) }
 }
 
-/// How the frequency of a ridge is read from each frame.
+/// How the speed is read from the sound.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Method {
-    /// The loudest frequency of each frame (paper, section 4.1).
+    /// The maximum of the likelihood of all lines together, each weighed by the noise around it.
     #[default]
+    Harmonic,
+    /// The loudest frequency of each frame (paper, section 4.1).
     MaximumTrace,
     /// The centre of the Gaussian through all that reaches a share of the loudest (paper, section 4.2).
     Gaussian,
 }
 
 impl Method {
-    /// All methods, in the paper's order.
-    pub const ALL: [Self; 2] = [Self::MaximumTrace, Self::Gaussian];
+    /// All methods: ours, then the paper's in its order.
+    pub const ALL: [Self; 3] = [Self::Harmonic, Self::MaximumTrace, Self::Gaussian];
 
     /// Name in files and flags.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Harmonic => "harmonic",
             Self::MaximumTrace => "maximum_trace",
             Self::Gaussian => "gaussian",
         }
@@ -83,8 +99,13 @@ impl Method {
 pub struct ToneConfig {
     /// Order of the tone: lines per turn of the shaft.
     pub order: Order,
-    /// How many harmonics are followed, the tone itself counted as the first. The paper follows three.
+    /// How many harmonics have a ridge, the tone itself counted as the first. The paper follows three.
     pub harmonics: u32,
+    /// How many lines of the blade pass the harmonic likelihood hears: those of small multirotors stand out of the noise up
+    /// to the twelfth.
+    pub blade_pass_lines: u32,
+    /// How many lines of the gear mesh it hears: the AR.Drone's fourth is above what most recorders keep.
+    pub gear_mesh_lines: u32,
     /// Blades of the rotor, where they are known beside a gear: their lines help to find the shaft speed.
     pub blades: Option<u32>,
     /// Band of the first harmonic, in Hz; found from the recording where absent.
@@ -109,6 +130,8 @@ impl ToneConfig {
         Self {
             order,
             harmonics: 3,
+            blade_pass_lines: 12,
+            gear_mesh_lines: 3,
             blades: None,
             band_hz: None,
             band_half_width_share: 0.08,
@@ -130,6 +153,8 @@ impl ToneConfig {
     fn check(&self) -> Result<(), ConfigError> {
         check_range("order", self.order.lines_per_turn(), 0.1, 1e4)?;
         check_range("harmonics", f64::from(self.harmonics), 1.0, 20.0)?;
+        check_range("blade_pass_lines", f64::from(self.blade_pass_lines), 1.0, 40.0)?;
+        check_range("gear_mesh_lines", f64::from(self.gear_mesh_lines), 1.0, 40.0)?;
         check_range("blades", f64::from(self.blades.unwrap_or(1)), 1.0, 20.0)?;
         check_range("band_half_width_share", self.band_half_width_share, 0.005, 0.3)?;
         check_range("speed_rad_s_min", self.speed_min.rad_s(), 1.0, 1e5)?;
@@ -247,6 +272,9 @@ pub struct SpectrogramConfig {
     /// Frames of a ridge at most. On a hover so long that the step above would give more, the step grows, so that memory
     /// does not grow with the length of a recording. 12 000 frames cover 75 s in the shortest frames without a gap.
     pub frames_max: u32,
+    /// Frames of each length at most where only the question is asked whether there are lines at all: a share of 256 is known to
+    /// 3 %.
+    pub verdict_frames_max: u32,
     /// Shape of the window.
     pub window: Window,
     /// Length of the transform in windows: 2 brings the bias of the interpolated peak to 0.0017 of a window's bin.
@@ -258,7 +286,14 @@ const WINDOW_LADDER_S: [f64; 6] = [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4];
 
 impl Default for SpectrogramConfig {
     fn default() -> Self {
-        Self { window_s: None, hop_share: 0.5, frames_max: 12_000, window: Window::Hann, zero_pad_factor: 2 }
+        Self {
+            window_s: None,
+            hop_share: 0.5,
+            frames_max: 12_000,
+            verdict_frames_max: 256,
+            window: Window::Hann,
+            zero_pad_factor: 2,
+        }
     }
 }
 
@@ -269,12 +304,13 @@ impl SpectrogramConfig {
         }
         check_range("hop_share", self.hop_share, 0.02, 1.0)?;
         check_range("frames_max", f64::from(self.frames_max), 100.0, 1e5)?;
+        check_range("verdict_frames_max", f64::from(self.verdict_frames_max), 20.0, 1e5)?;
         check_range("zero_pad_factor", f64::from(self.zero_pad_factor), 1.0, 8.0)
     }
 
     /// Step between frames of a length in a hover of a length.
-    pub(crate) fn hop_s(&self, window_s: f64, hover_s: f64) -> f64 {
-        (self.hop_share * window_s).max(hover_s / f64::from(self.frames_max))
+    pub(crate) fn hop_s(&self, window_s: f64, hover_s: f64, frames_max: u32) -> f64 {
+        (self.hop_share * window_s).max(hover_s / f64::from(frames_max))
     }
 
     /// The frame lengths in which to look for lines of a tone whose first band is this wide. The main lobe must fit in the
@@ -305,6 +341,9 @@ pub struct RidgeConfig {
     pub company_share_min: f64,
     /// … unless the clearest is one in this share of frames.
     pub lonely_line_share_min: f64,
+    /// … or lines keep their phase, in blocks of a second and more, over this share of the hover: a tone so steady is a tone
+    /// however weak it is. No rotor in flight is; one on a bench, or a simulated one, can be.
+    pub steady_share_min: f64,
     /// Share of frames with a point below which a ridge is not used.
     pub point_share_min: f64,
     /// Harmonics whose mean differs from the clearest one's by more than this share are left out.
@@ -320,6 +359,7 @@ impl Default for RidgeConfig {
             line_share_min: 0.5,
             company_share_min: 0.1,
             lonely_line_share_min: 0.85,
+            steady_share_min: 0.8,
             point_share_min: 0.3,
             harmonic_disagreement_share_max: 0.01,
         }
@@ -334,6 +374,7 @@ impl RidgeConfig {
         check_range("line_share_min", self.line_share_min, 0.0, 1.0)?;
         check_range("company_share_min", self.company_share_min, 0.0, 1.0)?;
         check_range("lonely_line_share_min", self.lonely_line_share_min, 0.0, 1.0)?;
+        check_range("steady_share_min", self.steady_share_min, 0.0, 1.0)?;
         check_range("point_share_min", self.point_share_min, 0.0, 1.0)?;
         check_range("harmonic_disagreement_share_max", self.harmonic_disagreement_share_max, 0.0, 0.2)
     }

@@ -1,7 +1,9 @@
 //! The whole flow on one screen: source → survey → hover → bands → ridges → samples → speed. No arithmetic here.
 
+use crate::channel::ChannelBand;
 use crate::config::{Config, Method};
 use crate::error::Error;
+use crate::harmonic::{HarmonicTracer, HarmonicTrack};
 use crate::hover::{Hover, Survey, SurveyBuilder, hover_from_survey};
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
@@ -9,7 +11,7 @@ use crate::signal::SignalSource;
 use crate::span::Span;
 use crate::speed::{HarmonicWeights, SpeedEstimate, Track, TrackPoint};
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
-use crate::tone::{Band, CombMap, bands_around, search_range_rev_s};
+use crate::tone::{Band, CombMap, bands_around, lines_around, search_range_rev_s};
 use crate::verdict::{
     NoTone, clearest_ridges, no_tone_reason, warning_of_samples, warnings_of_hover, warnings_of_speed,
 };
@@ -117,19 +119,27 @@ pub fn speed_from_source(
         hover_from_survey(&survey, &map, speed_rev_s, &config.tone, &config.hover)
     };
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
-    let mut ladder = ridges_from_source(source, &hover, &bands, config, on_progress)?;
+    let lines = lines_around(speed_rev_s, &config.tone, sample_rate_hz);
+    let (mut ladder, harmonic) = lines_from_source(source, &hover, &bands, &lines, config, on_progress)?;
     let chosen = config.spectrogram.window_s.and_then(|_| ladder.pop());
     let Some(clearest) = clearest_ridges(&ladder) else {
         return Ok(nothing_heard(heard, hover, NoTone::NoHover, warnings));
     };
-    if let Some(reason) = no_tone_reason(clearest, &config.ridge) {
+    let is_steady = harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
+    if let Some(reason) = no_tone_reason(clearest, &config.ridge).filter(|_| !is_steady) {
         return Ok(nothing_heard(heard, hover, reason, warnings));
     }
     let ridges = chosen.unwrap_or_else(|| clearest.clone());
     let weights = HarmonicWeights::from_ridges(&ridges, &config.ridge, &mut warnings);
-    let tracks: Vec<Track> = Method::ALL.iter().map(|&method| weights.track(method, config.tone.order)).collect();
+    let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, config.tone.order)).collect();
     let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
-        tracks.iter().filter_map(|track| weights.speed_in(span, track)).collect()
+        config
+            .methods()
+            .filter_map(|method| match tracks.iter().find(|track| track.method == method) {
+                Some(track) => weights.speed_in(span, track),
+                None => harmonic.speed_in(span, config.tone.order),
+            })
+            .collect()
     };
     let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);
     let speeds = speeds_in(None);
@@ -145,8 +155,10 @@ pub fn speed_from_source(
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&ridges, &speeds));
     warnings.extend(warning_of_samples(&samples));
-    let track =
-        tracks.into_iter().find(|track| track.method == config.method).map_or_else(Vec::new, |track| track.points);
+    let track = match tracks.into_iter().find(|track| track.method == config.method) {
+        Some(track) => track.points,
+        None => harmonic.points_in(None, config.tone.order),
+    };
     let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
@@ -172,25 +184,38 @@ fn survey_from_source(
     Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))
 }
 
-/// Second reading: the ridges of the hover at every frame length that is tried, the one that the user wants last.
-fn ridges_from_source(
+/// Second reading: the ridges of the hover at every frame length that is tried, the one that the user wants last; and the
+/// harmonic likelihood.
+fn lines_from_source(
     source: &mut dyn SignalSource,
     hover: &Hover,
     bands: &[Band],
+    lines: &[ChannelBand],
     config: &Config,
     on_progress: &mut dyn FnMut(Progress),
-) -> Result<Vec<Vec<Ridge>>, Error> {
+) -> Result<(Vec<Vec<Ridge>>, HarmonicTrack), Error> {
     let sample_rate_hz = source.sample_rate_hz();
-    let ladder_s = config.spectrogram.ladder_s(bands.first().map_or(0.0, Band::width_hz));
-    let mut tracers: Vec<RidgeTracer> = ladder_s
+    let spectrogram = &config.spectrogram;
+    let frames_max = if config.wants_ridges() { spectrogram.frames_max } else { spectrogram.verdict_frames_max };
+    let mut tracers: Vec<RidgeTracer> = spectrogram
+        .ladder_s(bands.first().map_or(0.0, Band::width_hz))
         .into_iter()
-        .chain(config.spectrogram.window_s)
-        .map(|s| RidgeTracer::new((s, hover.length_s()), bands, sample_rate_hz, &config.spectrogram, &config.ridge))
+        .chain(spectrogram.window_s)
+        .map(|window_s| (window_s, spectrogram.hop_s(window_s, hover.length_s(), frames_max)))
+        .map(|frames_s| RidgeTracer::new(frames_s, bands, sample_rate_hz, spectrogram, &config.ridge))
         .collect();
+    let mut harmonic = HarmonicTracer::new(sample_rate_hz, lines);
+    let mut segments = hover.segments.iter();
     for_each_piece(source, &hover.segments, |piece| match piece {
-        Piece::Start(time_s) => tracers.iter_mut().for_each(|tracer| tracer.restart(time_s)),
-        Piece::Samples(samples) => tracers.iter_mut().for_each(|tracer| tracer.push(samples)),
+        Piece::Start(time_s) => {
+            tracers.iter_mut().for_each(|tracer| tracer.restart(time_s));
+            harmonic.restart(time_s, segments.next().map_or(0.0, Span::length_s));
+        }
+        Piece::Samples(samples) => {
+            tracers.iter_mut().for_each(|tracer| tracer.push(samples));
+            harmonic.push(samples);
+        }
         Piece::Heard(time_s) => on_progress(Progress { pass: 2, pass_count: PASS_COUNT, time_s }),
     })?;
-    Ok(tracers.into_iter().map(RidgeTracer::finish).collect())
+    Ok((tracers.into_iter().map(RidgeTracer::finish).collect(), harmonic.finish()))
 }

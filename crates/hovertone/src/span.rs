@@ -17,6 +17,17 @@ impl Span {
         self.to_s - self.from_s
     }
 
+    /// Its middle.
+    pub fn middle_s(&self) -> f64 {
+        (self.from_s + self.to_s) / 2.0
+    }
+
+    /// What it shares with another; of no or negative length where they do not meet.
+    #[must_use]
+    pub fn overlap(&self, other: Self) -> Self {
+        Self { from_s: self.from_s.max(other.from_s), to_s: self.to_s.min(other.to_s) }
+    }
+
     /// Whether the time lies in it.
     pub fn contains(&self, time_s: f64) -> bool {
         (self.from_s..self.to_s).contains(&time_s)

@@ -75,8 +75,7 @@ impl ChannelBank {
         let plan = RealFftPlanner::new().plan_fft_forward(block_samples);
         let bin_hz = sample_rate_hz / block_samples as f64;
         let mut planner = FftPlanner::new();
-        let channels: Vec<Channel> =
-            bands.iter().map(|band| Channel::new(band, bin_hz, &mut planner)).collect();
+        let channels: Vec<Channel> = bands.iter().map(|band| Channel::new(band, bin_hz, &mut planner)).collect();
         let scratch_len = channels.iter().map(|channel| channel.inverse.get_inplace_scratch_len()).max().unwrap_or(0);
         Self {
             channels,

@@ -30,6 +30,7 @@ impl ExperimentFile {
             ridge: self.ridge,
             hover: self.hover,
             method: Method::default(),
+            wants_all_methods: true,
             ..Config::for_tone(self.resolve_tone(preset)?)
         };
         config.check()?;

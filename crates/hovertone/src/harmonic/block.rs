@@ -40,6 +40,10 @@ pub(super) struct BlockFit {
     pub(super) scatter: f64,
     /// Information on the speed, 1/σ².
     pub(super) information: f64,
+    /// Lines that stand out of the noise by themselves.
+    pub(super) lines_heard: u32,
+    /// Power of the strongest line, 1 for a sine of full scale.
+    pub(super) strongest_power: f64,
 }
 
 impl BlockFit {
@@ -288,6 +292,8 @@ impl Cells {
             in_phase: seen.in_phase,
             scatter: seen.scatter,
             information: seen.information,
+            lines_heard: seen.lines_heard,
+            strongest_power: seen.strongest_power,
         }
     }
 
@@ -295,7 +301,7 @@ impl Cells {
     fn seen_at(&self, offset: f64, bend: f64) -> Seen {
         let mean_square_s2 = self.span_s * self.span_s / 12.0;
         let halves = self.half_hop_times_s.len();
-        let mut seen = Seen { information: 0.0, in_phase: 0.0, scatter: 1.0 };
+        let mut seen = Seen { information: 0.0, in_phase: 0.0, scatter: 1.0, strongest_power: 0.0, lines_heard: 0 };
         let mut turned = vec![Complex::<f64>::default(); halves];
         // phases are compared in so many pieces that what rotates quickly, such as another line nearby, has averaged out
         let piece = halves.div_ceil(PHASE_PIECES);
@@ -308,6 +314,8 @@ impl Cells {
                 *into = z * Complex::from_polar(1.0, -TAU * order * t * (offset + bend * t / 2.0));
                 sum += *into;
             }
+            seen.strongest_power = seen.strongest_power.max(sum.norm_sqr() / self.scales[index].1.powi(2));
+            seen.lines_heard += u32::from(scale * sum.norm_sqr() > LINE_LIKELIHOOD_MIN);
             // noise itself adds N V to |Σ z|²
             seen.information += 2.0 * (TAU * order).powi(2) * (scale * sum.norm_sqr() - 1.0) * mean_square_s2;
             if !self.are_strong[index] {
@@ -317,7 +325,11 @@ impl Cells {
             let phase = (sum / sum.norm().max(f64::MIN_POSITIVE)).conj();
             // of N samples in all, each half hop has its share
             seen.in_phase += scale
-                * turned.iter().zip(&self.half_hop_shares).map(|(z, share)| (z * phase).re.powi(2) / share).sum::<f64>();
+                * turned
+                    .iter()
+                    .zip(&self.half_hop_shares)
+                    .map(|(z, share)| (z * phase).re.powi(2) / share)
+                    .sum::<f64>();
             for (turned, shares) in turned.chunks(piece).zip(self.half_hop_shares.chunks(piece)) {
                 let across = (turned.iter().sum::<Complex<f64>>() * phase).im;
                 squares += 2.0 * scale * across * across / shares.iter().sum::<f64>();
@@ -338,11 +350,15 @@ impl Cells {
 
 /// What a block shows at its maximum.
 struct Seen {
+    lines_heard: u32,
+    strongest_power: f64,
     information: f64,
     in_phase: f64,
     scatter: f64,
 }
 
+/// Noise alone gives a line this likelihood once in 160 000 times.
+const LINE_LIKELIHOOD_MIN: f64 = 12.0;
 /// Pieces of a block whose phases are compared.
 const PHASE_PIECES: usize = 8;
 const SCATTER_STDS: f64 = 3.0;

@@ -6,8 +6,8 @@
 //! is taken: the sum over its blocks of the likelihood, less what noise alone would give and five standard deviations of it.
 
 use super::block::{BlockFit, Cells, Line};
-use super::path::SpeedPath;
 use super::map::FRAME_HOPS;
+use super::path::SpeedPath;
 use crate::channel::TICKS_PER_HOP;
 
 /// What a block must explain beyond the noise to pay for its own parameters, in standard deviations of what noise gives.
@@ -83,8 +83,7 @@ pub(super) fn best_level(lines: &[Line], path: &SpeedPath) -> Level {
     let (mut count, mut worse) = (hops, 0);
     while count > 1 && worse < WORSE_LEVELS_MAX {
         count = count.div_ceil(2);
-        let above =
-            level(lines, path, count, 0.0, |from, to| guess_from_blocks(&below.blocks, path, from, to));
+        let above = level(lines, path, count, 0.0, |from, to| guess_from_blocks(&below.blocks, path, from, to));
         worse = if above.evidence > best.evidence { 0 } else { worse + 1 };
         if worse == 0 {
             best = above.clone();
@@ -213,8 +212,7 @@ fn guess_from_path(path: &SpeedPath, from: usize, to: usize) -> (f64, f64) {
 fn guess_from_blocks(blocks: &[BlockFit], path: &SpeedPath, from: usize, to: usize) -> (f64, f64) {
     let tick_s = path.tick_s;
     let middle_s = (from + to) as f64 / 2.0 * tick_s;
-    let within: Vec<&BlockFit> =
-        blocks.iter().filter(|block| block.tick_to > from && block.tick_from < to).collect();
+    let within: Vec<&BlockFit> = blocks.iter().filter(|block| block.tick_to > from && block.tick_from < to).collect();
     if let [only] = within[..] {
         return (only.speed_at(middle_s, tick_s), only.slope_rev_s2);
     }

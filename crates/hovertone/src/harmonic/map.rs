@@ -1,6 +1,7 @@
 //! Where the speed is, roughly: all lines scored together on a grid of speeds in each frame, and the best path through them.
 
 use crate::channel::Channel;
+use crate::statistics::mean;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
@@ -14,6 +15,14 @@ const GRID_PER_CELL: f64 = 1.5;
 const GRID_POINTS_MAX: f64 = 1200.0;
 /// How much the speed of a hover changes from one frame of the map to the next, as a share.
 const STEP_STD_SHARE: f64 = 0.01;
+/// A line of this power over the noise in a frame stands out in each of its four half hops.
+pub(super) const STRONG_POWER_MIN: f64 = 30.0;
+/// The highest power of noise alone in a band.
+const NOISE_PEAK_POWER: f64 = 8.0;
+/// Half width of the lobe of a Hann frame, and half a cell more, in resolution cells.
+const LOBE_CELLS: f64 = 2.5;
+/// What is weaker than this share of a frame's highest power does not count for where its energy lies.
+const CENTROID_SHARE_MIN: f32 = 0.4;
 
 /// What one line shows in the frames of a quantum.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,10 +31,14 @@ pub(super) struct LinePresence {
     pub(super) on_path: f64,
     /// Mean of each frame's highest power in the line's band, over that of noise.
     pub(super) in_band: f64,
+    /// Mean of each frame's highest power in the band but for the lobe around the path, over that of noise.
+    pub(super) beside: f64,
 }
 
 struct Line {
     order: f64,
+    /// Whether no other line of the rotor reaches into its band.
+    is_alone: bool,
     centre_hz: f64,
     bin_hz: f64,
     plan: Arc<dyn Fft<f32>>,
@@ -59,8 +72,14 @@ impl SpeedMap {
                 let window: Vec<f32> =
                     (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
                 let plan = planner.plan_fft_forward(2 * length);
+                let apart = channels
+                    .iter()
+                    .map(|other| (other.order - channel.order).abs())
+                    .filter(|&apart| apart > 0.0)
+                    .fold(channel.order, f64::min);
                 Line {
                     order: channel.order,
+                    is_alone: channel.order * (high - low) / 2.0 <= apart * low / 2.0,
                     centre_hz: channel.centre_hz,
                     bin_hz: channel.rate_hz / (2 * length) as f64,
                     energy: window.iter().map(|&w| f64::from(w).powi(2)).sum(),
@@ -77,19 +96,9 @@ impl SpeedMap {
     }
 
     /// The path of a quantum as speeds in the middle of each frame, and how present each line is on it.
-    pub(super) fn path_through(
-        &mut self,
-        series: &[&[Complex<f32>]],
-        noise_variances: &[f64],
-        hop_s: f64,
-    ) -> MapPath {
-        let frames = self
-            .lines
-            .iter()
-            .zip(series)
-            .map(|(line, series)| series.len() / line.window.len())
-            .min()
-            .unwrap_or(0);
+    pub(super) fn path_through(&mut self, series: &[&[Complex<f32>]], noise_variances: &[f64], hop_s: f64) -> MapPath {
+        let frames =
+            self.lines.iter().zip(series).map(|(line, series)| series.len() / line.window.len()).min().unwrap_or(0);
         let mut scores: Vec<Vec<f64>> = Vec::with_capacity(frames);
         let mut amplitudes: Vec<Vec<f32>> = Vec::with_capacity(frames);
         let mut presences = vec![LinePresence::default(); self.lines.len()];
@@ -124,18 +133,79 @@ impl SpeedMap {
         let middle = (self.speeds_rev_s[0] + self.speeds_rev_s[points - 1]) / 2.0;
         let path = best_path(&scores, STEP_STD_SHARE * middle / step);
         for (&place, on_grid) in path.iter().zip(&amplitudes) {
-            for (presence, row) in presences.iter_mut().zip(on_grid.chunks_exact(points)) {
+            for ((presence, row), line) in presences.iter_mut().zip(on_grid.chunks_exact(points)).zip(&self.lines) {
+                let lobe_points = LOBE_CELLS / (line.order * FRAME_HOPS as f64 * hop_s) / step;
                 presence.on_path += f64::from(row[place].powi(2)) / frames as f64;
+                presence.beside += power_beside(row, place, lobe_points) / frames as f64;
             }
         }
+        let strong: Vec<f64> = presences
+            .iter()
+            .filter(|presence| presence.on_path > STRONG_POWER_MIN)
+            .map(|presence| (presence.beside - NOISE_PEAK_POWER).max(0.0) / presence.in_band)
+            .collect();
+        let beside_share = mean(&strong).unwrap_or(0.0);
+        let centroids = amplitudes.iter().map(|on_grid| self.centroid(on_grid, &presences, noise_variances)).collect();
         let frame_s = FRAME_HOPS as f64 * hop_s;
         let points = path
             .iter()
             .enumerate()
             .map(|(frame, &place)| ((frame as f64 + 0.5) * frame_s, self.speeds_rev_s[place]))
             .collect();
-        MapPath { points, presences, steady_rev_s: self.speeds_rev_s[steady] }
+        MapPath { points, presences, steady_rev_s: self.speeds_rev_s[steady], beside_share, centroids }
     }
+
+    /// Where the energy of a frame lies, each line weighed by A² / (Φ o): of all strong lines whose band holds no other line of the rotor.
+    fn centroid(&self, on_grid: &[f32], presences: &[LinePresence], noise_variances: &[f64]) -> Centroid {
+        let points = self.speeds_rev_s.len();
+        let mut centroid = Centroid::default();
+        let rows = on_grid.chunks_exact(points).zip(presences).zip(noise_variances);
+        for (((row, presence), noise), line) in rows.zip(&self.lines) {
+            if !line.is_alone || presence.on_path < STRONG_POWER_MIN {
+                continue;
+            }
+            let peak = row.iter().copied().fold(0.0, f32::max).powi(2);
+            // J of a sine of amplitude A in a Hann frame of N samples is A² N / 1.5 V
+            let amplitude_square = 1.5 * f64::from(peak) * noise / line.window.len() as f64;
+            centroid.strongest_power = centroid.strongest_power.max(amplitude_square);
+            let floor = (CENTROID_SHARE_MIN * peak).max(NOISE_PEAK_POWER as f32);
+            for (amplitude, speed) in row.iter().zip(&self.speeds_rev_s) {
+                let power = amplitude * amplitude;
+                if power > floor {
+                    let energy = f64::from(power);
+                    centroid.energy += energy;
+                    centroid.first += energy * speed;
+                    centroid.second += energy * speed * speed;
+                }
+            }
+        }
+        centroid
+    }
+}
+
+/// Energy of a frame, and its moments over speed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Centroid {
+    pub(super) energy: f64,
+    pub(super) first: f64,
+    pub(super) second: f64,
+    /// Power of the strongest line, 1 for a sine of full scale.
+    pub(super) strongest_power: f64,
+}
+
+/// The highest power of a row outside the lobe of what is nearest to the path.
+fn power_beside(row: &[f32], place: usize, lobe_points: f64) -> f64 {
+    let near = (lobe_points / 2.0).ceil() as usize;
+    let peak = (place.saturating_sub(near)..(place + near + 1).min(row.len()))
+        .max_by(|&a, &b| row[a].total_cmp(&row[b]))
+        .unwrap_or(place);
+    let highest = row
+        .iter()
+        .enumerate()
+        .filter(|(index, _)| index.abs_diff(peak) as f64 > lobe_points)
+        .map(|(_, &amplitude)| amplitude)
+        .fold(0.0, f32::max);
+    f64::from(highest * highest)
 }
 
 /// What the map shows of a quantum.
@@ -146,6 +216,10 @@ pub(super) struct MapPath {
     pub(super) presences: Vec<LinePresence>,
     /// The one speed that explains most of all frames.
     pub(super) steady_rev_s: f64,
+    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean over these lines.
+    pub(super) beside_share: f64,
+    /// Where the energy of each frame lies.
+    pub(super) centroids: Vec<Centroid>,
 }
 
 impl Line {

@@ -12,10 +12,11 @@ mod path;
 
 use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
 use crate::span::Span;
+use crate::spectrogram::power_db;
 use block::{BlockFit, Line, demodulated};
 use coherence::{Level, best_level, first_level, likelihood_min, polished, straight_level};
 use floor::FloorMeter;
-use map::{FRAME_HOPS, LinePresence, MapPath, SpeedMap};
+use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
@@ -29,6 +30,23 @@ const STRANGER_RATIO: f64 = 6.0;
 /// … if that stands this far over the noise: the highest of a band's own noise does not.
 const STRANGER_POWER_MIN: f64 = 20.0;
 
+/// Where something else in the bands of the strong lines has this share of their power, several rotors sound at once. One rotor
+/// leaves up to 0.05 there (its own wander, and lines at other orders), several leave 0.13 to 0.6.
+const SEVERAL_SHARE: f64 = 0.1;
+/// The rotors' loudness is not known to be equal: with levels that differ by 3 dB or so, the mean of four is uncertain by this
+/// share of how far they lie apart.
+const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
+/// Where this share of the shortest blocks stands out by so many times what they must, the path cannot be wrong.
+const CLEAR_SHARE: f64 = 0.9;
+const CLEAR_TIMES: f64 = 2.0;
+/// A block that knows the speed no better than to 10 rev/s knows nothing.
+const INFORMATION_MIN: f64 = 1e-2;
+/// A tone too weak to be a line in any frame is one if two of its lines keep their phase for this long …
+const STEADY_S_MIN: f64 = 1.0;
+/// … and reach so many times what a block must, and what the search over a hundred thousand cells finds in noise.
+const STEADY_TIMES: f64 = 2.0;
+const SEARCH_LIKELIHOOD: f64 = 20.0;
+
 /// The speed over one block of sound.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HarmonicBlock {
@@ -38,9 +56,21 @@ pub(crate) struct HarmonicBlock {
     pub(crate) slope_rev_s2: f64,
     /// From the curvature of the likelihood.
     pub(crate) std_uncertainty_rev_s: f64,
-    pub(crate) likelihood: f64,
+    /// Whether several rotors sound, and the speed is their mean.
+    pub(crate) is_several: bool,
+    /// Level of the strongest line, dB re a full-scale sine.
+    pub(crate) level_db: f64,
     /// Whether it stands out of the noise.
     pub(crate) is_heard: bool,
+    /// Whether two lines keep their phase over a second or more, beyond what the search finds in noise.
+    pub(crate) is_steady: bool,
+}
+
+impl HarmonicBlock {
+    /// Speed at a time.
+    pub(crate) fn speed_at(&self, time_s: f64) -> f64 {
+        self.speed_rev_s + self.slope_rev_s2 * (time_s - self.span.middle_s())
+    }
 }
 
 /// What a line contributed over all quanta.
@@ -53,11 +83,29 @@ pub(crate) struct LineRecord {
     pub(crate) quanta_left_out: u32,
 }
 
+impl LineRecord {
+    /// What the line counts for: order squared times power over noise.
+    pub(crate) fn weight(&self) -> f64 {
+        let heard = 1.0 - f64::from(self.quanta_left_out) / f64::from(self.quanta.max(1));
+        heard * self.order.powi(2) * (self.on_path - f64::from(self.quanta)).max(0.0)
+    }
+}
+
 /// The harmonic likelihood over a hover.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HarmonicTrack {
+    /// Time between points of the track.
+    pub(crate) step_s: f64,
     pub(crate) blocks: Vec<HarmonicBlock>,
     pub(crate) lines: Vec<LineRecord>,
+}
+
+impl HarmonicTrack {
+    /// Share of a hover in which lines keep their phase.
+    pub(crate) fn steady_share(&self, hover_s: f64) -> f64 {
+        let steady_s: f64 = self.blocks.iter().filter(|block| block.is_steady).map(|block| block.span.length_s()).sum();
+        steady_s / hover_s.max(f64::MIN_POSITIVE)
+    }
 }
 
 /// Follows the speed through stretches of sound.
@@ -70,17 +118,21 @@ pub(crate) struct HarmonicTracer {
     start_s: f64,
     stretch_start_s: f64,
     samples_in: u64,
+    /// Sum of their squares.
+    squares: f64,
     sample_rate_hz: f64,
     quantum_hops: usize,
     track: HarmonicTrack,
 }
 
 impl HarmonicTracer {
-    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], speeds_rev_s: (f64, f64)) -> Self {
+    /// Hears the lines of `bands`, which all stand for the same limits of speed.
+    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
+        let speeds_rev_s =
+            bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order));
         let bank = ChannelBank::new(sample_rate_hz, bands);
         let mut planner = FftPlanner::new();
-        let floors =
-            bank.channels.iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect();
+        let floors = bank.channels.iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect();
         let map = SpeedMap::new(&bank.channels, speeds_rev_s, bank.hop_s(), &mut planner);
         Self {
             series: vec![Vec::new(); bank.channels.len()],
@@ -89,9 +141,11 @@ impl HarmonicTracer {
             start_s: 0.0,
             stretch_start_s: 0.0,
             samples_in: 0,
+            squares: 0.0,
             sample_rate_hz,
             quantum_hops: 1,
             track: HarmonicTrack {
+                step_s: bank.hop_s(),
                 blocks: Vec::new(),
                 lines: bands.iter().map(|band| LineRecord { order: band.order, ..LineRecord::default() }).collect(),
             },
@@ -103,13 +157,14 @@ impl HarmonicTracer {
     pub(crate) fn restart(&mut self, start_s: f64, length_s: f64) {
         self.end_stretch();
         self.bank.restart();
-        (self.start_s, self.stretch_start_s, self.samples_in) = (start_s, start_s, 0);
+        (self.start_s, self.stretch_start_s, self.samples_in, self.squares) = (start_s, start_s, 0, 0.0);
         let quanta = (length_s / QUANTUM_S_MAX).ceil().max(1.0);
         self.quantum_hops = (length_s / quanta / self.bank.hop_s()).ceil().max(1.0) as usize;
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
         self.samples_in += samples.len() as u64;
+        self.squares += samples.iter().map(|&sample| f64::from(sample * sample)).sum::<f64>();
         self.bank.push(samples, &mut self.series);
         // a stretch that ends a little later than it should must not leave a crumb
         while self.hops() >= self.quantum_hops + self.quantum_hops / 2 {
@@ -153,10 +208,16 @@ impl HarmonicTracer {
             self.drop_ticks(FADE_TICKS);
             ticks -= FADE_TICKS;
         }
-        if let Some(level) = self.level_of_quantum(ticks) {
-            let threshold = likelihood_min(self.bank.channels.len());
-            let start_s = self.start_s;
-            self.track.blocks.extend(level.blocks.iter().map(|fit| block_at(fit, start_s, tick_s, threshold)));
+        let threshold = likelihood_min(self.bank.channels.len());
+        let start_s = self.start_s;
+        match self.level_of_quantum(ticks) {
+            Some(Heard::One(level)) => {
+                self.track.blocks.extend(level.blocks.iter().map(|fit| block_at(fit, start_s, tick_s, threshold)));
+            }
+            Some(Heard::Several(centroids)) => {
+                self.track.blocks.extend(blocks_of_several(&centroids, start_s, FRAME_HOPS as f64 * hop_s));
+            }
+            None => {}
         }
         self.drop_ticks(ticks);
     }
@@ -169,7 +230,7 @@ impl HarmonicTracer {
         self.start_s += ticks as f64 * self.bank.hop_s() / TICKS_PER_HOP as f64;
     }
 
-    fn level_of_quantum(&mut self, ticks: usize) -> Option<Level> {
+    fn level_of_quantum(&mut self, ticks: usize) -> Option<Heard> {
         let channels = &self.bank.channels;
         let hop_s = self.bank.hop_s();
         let tick_s = hop_s / TICKS_PER_HOP as f64;
@@ -178,13 +239,16 @@ impl HarmonicTracer {
             .zip(&self.series)
             .map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP])
             .collect();
+        let mean_square = self.squares / self.samples_in.max(1) as f64;
+        let noise_variance_min = NOISE_VARIANCE_MIN.max(ROUNDING_SHARE * mean_square);
         let noise_variances: Vec<f64> = self
             .floors
             .iter_mut()
             .zip(&series)
-            .map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(NOISE_VARIANCE_MIN))
+            .map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min))
             .collect();
-        let MapPath { points, presences, steady_rev_s } = self.map.path_through(&series, &noise_variances, hop_s);
+        let MapPath { points, presences, steady_rev_s, beside_share, centroids } =
+            self.map.path_through(&series, &noise_variances, hop_s);
         let path = SpeedPath::through(&points, tick_s, ticks)?;
         let used: Vec<usize> = (0..channels.len()).filter(|&index| !is_stranger(&presences[index])).collect();
         for (index, (record, presence)) in self.track.lines.iter_mut().zip(&presences).enumerate() {
@@ -192,6 +256,9 @@ impl HarmonicTracer {
             record.in_band += presence.in_band;
             record.quanta += 1;
             record.quanta_left_out += u32::from(!used.contains(&index));
+        }
+        if beside_share > SEVERAL_SHARE {
+            return Some(Heard::Several(centroids));
         }
         let lines_along = |path: &SpeedPath| -> Vec<Line> {
             used.iter()
@@ -239,19 +306,48 @@ impl HarmonicTracer {
             })
             .collect();
         Some(match SpeedPath::through(&points, tick_s, ticks) {
-            Some(path) => polished(&lines_along(&path), &path, &best),
-            None => best,
+            Some(path) => Heard::One(polished(&lines_along(&path), &path, &best)),
+            None => Heard::One(best),
         })
     }
 }
 
-/// A line of this power over the noise in a frame of the map stands out in each of its four half hops.
-const STRONG_POWER_MIN: f64 = 30.0;
-/// Where this share of the shortest blocks stands out by so many times what they must, the path cannot be wrong.
-const CLEAR_SHARE: f64 = 0.9;
-const CLEAR_TIMES: f64 = 2.0;
+/// What a quantum holds.
+enum Heard {
+    /// One rotor, or several that turn as one.
+    One(Level),
+    /// Several, and where their energy lies in each frame.
+    Several(Vec<Centroid>),
+}
+
+/// Blocks of several rotors: the mean of their speeds, each counting for its loudness.
+fn blocks_of_several(centroids: &[Centroid], start_s: f64, frame_s: f64) -> Vec<HarmonicBlock> {
+    centroids
+        .iter()
+        .enumerate()
+        .filter(|(_, centroid)| centroid.energy > 0.0)
+        .map(|(frame, centroid)| {
+            let speed_rev_s = centroid.first / centroid.energy;
+            let apart_rev_s = (centroid.second / centroid.energy - speed_rev_s * speed_rev_s).max(0.0).sqrt();
+            let from_s = start_s + frame as f64 * frame_s;
+            HarmonicBlock {
+                span: Span { from_s, to_s: from_s + frame_s },
+                speed_rev_s,
+                slope_rev_s2: 0.0,
+                std_uncertainty_rev_s: UNKNOWN_LOUDNESS_SHARE * apart_rev_s,
+                level_db: power_db(centroid.strongest_power),
+                is_several: true,
+                is_heard: true,
+                is_steady: false,
+            }
+        })
+        .collect()
+}
+
 /// Digital silence has no noise; this keeps the likelihood finite. The last bit of 24 has 2e-15.
 const NOISE_VARIANCE_MIN: f64 = 1e-16;
+/// Noise below this share of the sound's power is the rounding of the transforms, and keeps its phase like a tone.
+const ROUNDING_SHARE: f64 = 1e-12;
 
 fn is_stranger(presence: &LinePresence) -> bool {
     presence.in_band > STRANGER_POWER_MIN && presence.in_band > STRANGER_RATIO * presence.on_path
@@ -264,8 +360,12 @@ fn block_at(fit: &BlockFit, start_s: f64, tick_s: f64, threshold: f64) -> Harmon
         speed_rev_s: fit.speed_rev_s,
         slope_rev_s2: fit.slope_rev_s2,
         std_uncertainty_rev_s: (fit.scatter / fit.information).sqrt(),
-        likelihood: fit.likelihood,
-        is_heard: fit.likelihood >= threshold,
+        is_several: false,
+        level_db: power_db(fit.strongest_power),
+        is_heard: fit.likelihood >= threshold && fit.information > INFORMATION_MIN,
+        is_steady: (fit.tick_to - fit.tick_from) as f64 * tick_s >= STEADY_S_MIN
+            && fit.lines_heard >= 2
+            && fit.likelihood >= STEADY_TIMES * threshold + SEARCH_LIKELIHOOD,
     }
 }
 

@@ -32,7 +32,7 @@ impl Peak {
     /// Frequency by a method.
     pub fn hz(&self, method: Method) -> f64 {
         match method {
-            Method::MaximumTrace => self.maximum_hz,
+            Method::Harmonic | Method::MaximumTrace => self.maximum_hz,
             Method::Gaussian => self.gaussian_hz,
         }
     }
@@ -103,13 +103,12 @@ struct Drawn {
 
 impl RidgeTracer {
     pub(crate) fn new(
-        (window_s, hover_s): (f64, f64),
+        (window_s, hop_s): (f64, f64),
         bands: &[Band],
         sample_rate_hz: f64,
         spectrogram: &SpectrogramConfig,
         config: &RidgeConfig,
     ) -> Self {
-        let hop_s = spectrogram.hop_s(window_s, hover_s);
         Self {
             stft: Stft::new(sample_rate_hz, spectrogram.window, window_s, hop_s, spectrogram.zero_pad_factor),
             window_s,

@@ -1,5 +1,7 @@
 //! Ridges → shaft speed: one number per harmonic, combined over harmonics, with spread and uncertainty.
 
+mod harmonic;
+
 use crate::config::{Method, RidgeConfig};
 use crate::ridge::{Peak, Ridge};
 use crate::span::Span;
@@ -156,11 +158,14 @@ impl<'a> HarmonicWeights<'a> {
         })
     }
 
-    /// The speed of every frame in which at least one harmonic has a point.
-    pub(crate) fn track(&self, method: Method, order: Order) -> Track {
+    /// The speed of every frame in which at least one harmonic has a point; `None` for a method that does not read ridges.
+    pub(crate) fn track(&self, method: Method, order: Order) -> Option<Track> {
+        if method == Method::Harmonic {
+            return None;
+        }
         let frame_count = self.used.first().map_or(0, |(ridge, _)| ridge.frames.len());
         let points = (0..frame_count).filter_map(|index| self.point_of_frame(index, method, order)).collect();
-        Track { method, order, points }
+        Some(Track { method, order, points })
     }
 
     fn point_of_frame(&self, index: usize, method: Method, order: Order) -> Option<TrackPoint> {

@@ -1,7 +1,9 @@
 //! Shaft speed → one search band for each harmonic of the tone.
 
+use crate::channel::ChannelBand;
 use crate::config::ToneConfig;
 use crate::error::Error;
+use crate::tone::BLADES_MAX;
 use crate::warning::Warning;
 use hovertone_vehicle::Order;
 use serde::Serialize;
@@ -75,6 +77,30 @@ pub(crate) fn bands_around(
         }
     }
     Ok(bands)
+}
+
+/// Every line that the harmonic likelihood hears: the blade pass and the gear mesh with their harmonics, as far as each is known
+/// and the recording can hold them.
+pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: f64) -> Vec<ChannelBand> {
+    let order = tone.order.lines_per_turn();
+    let found_rev_s =
+        (speed_rev_s * (1.0 - tone.band_half_width_share), speed_rev_s * (1.0 + tone.band_half_width_share));
+    let (low_rev_s, high_rev_s) =
+        tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| (low_hz / order, high_hz / order));
+    let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
+    let is_blade_pass = order <= BLADES_MAX;
+    let blades = tone.blades.map(f64::from).filter(|_| !is_blade_pass);
+    let own = if is_blade_pass { tone.blade_pass_lines } else { tone.gear_mesh_lines };
+    let blade_pass =
+        blades.into_iter().flat_map(|blades| (1..=tone.blade_pass_lines).map(move |k| f64::from(k) * blades));
+    let mut orders: Vec<f64> = (1..=own).map(|k| f64::from(k) * order).chain(blade_pass).collect();
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders
+        .into_iter()
+        .filter(|order| order * high_rev_s <= hz_max)
+        .map(|order| ChannelBand { order, band_hz_low: order * low_rev_s, band_hz_high: order * high_rev_s })
+        .collect()
 }
 
 #[cfg(test)]

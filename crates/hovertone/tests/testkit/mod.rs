@@ -42,8 +42,10 @@ pub fn steady(speed_rev_s: f64, length_s: f64, noise_std: f64) -> Vec<f32> {
     sound(&[Rotor { speed_rev_s: &|_| speed_rev_s, lines: &TWO_BLADES }], length_s, noise_std, 1)
 }
 
+/// Every method is examined.
 pub fn config(order: f64) -> Config {
-    Config::for_tone(ToneConfig::of_order(Order::new(order).expect("an order")))
+    let tone = ToneConfig::of_order(Order::new(order).expect("an order"));
+    Config { wants_all_methods: true, ..Config::for_tone(tone) }
 }
 
 pub fn analyse(samples: Vec<f32>, config: &Config) -> SpeedAnalysis {
