@@ -14,7 +14,7 @@ const BLADE_PASS_HARMONICS: u32 = 8;
 /// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already.
 const GEAR_MESH_HARMONICS: u32 = 3;
 /// An order up to this is a number of blades; above, a number of teeth.
-const BLADES_MAX: f64 = 12.0;
+pub(super) const BLADES_MAX: f64 = 12.0;
 /// Speeds this near count as the same when rows are pooled: a hover wanders.
 const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
 /// Every other (or third …) line stronger by this on average means that the lines between are shaft lines, and the blade
