@@ -27,7 +27,9 @@ const NOISE_STDS: f64 = 2.0;
 const FRAME_STD_DB: f64 = 5.6;
 const FRAMES_PER_ROW: f64 = 1.8;
 /// A series this much weaker than the rotor's lines is another sound beside it.
-const WEAKER_DB: f64 = 15.0;
+const WEAKER_DB: f64 = 12.0;
+/// So many lines of the rotor are compared with it.
+const FIRST_LINES: u32 = 4;
 /// Lines between those of a tone that are weaker by less than this on average, and of which so many are heard, belong to one
 /// series with it.
 const ONE_SERIES_DB: f64 = 3.0;
@@ -54,6 +56,9 @@ pub(crate) fn foreign_series(survey: &Survey, hover: &Hover, tone: &ToneConfig, 
         claim: Claim::new(tone, speed_rev_s),
         each_db: each_db.max(EACH_OVER_DB_MIN),
     };
+    if search.claim.tone_hz > search.hz_max {
+        return None; // a tone beyond what can be searched for other series is beyond most of them too
+    }
     if let Some(fundamental_hz) = search.slower_shaft_hz() {
         return Some(NoTone::ForeignSeries { fundamental_hz, tone_hz: search.claim.tone_hz });
     }
@@ -66,9 +71,7 @@ pub(crate) fn foreign_series(survey: &Survey, hover: &Hover, tone: &ToneConfig, 
     let level_db =
         |hz: f64| search.bins(hz).filter_map(|bin| power.get(bin)).map(|&p| power_db(p)).fold(f64::MIN, f64::max);
     let strongest = |lines_hz: &[f64]| lines_hz.iter().map(|&hz| level_db(hz)).fold(f64::MIN, f64::max);
-    let claimed_hz: Vec<f64> =
-        (1..=4).map(|k| f64::from(k) * search.claim.tone_hz).filter(|hz| *hz < search.hz_max).collect();
-    let is_strong = claimed_hz.is_empty() || strongest(&run.lines_hz) >= strongest(&claimed_hz) - WEAKER_DB;
+    let is_strong = strongest(&run.lines_hz) >= strongest(&search.claim.first_lines_hz(search.hz_max)) - WEAKER_DB;
     is_strong.then_some(NoTone::ForeignSeries { fundamental_hz, tone_hz: search.claim.tone_hz })
 }
 
@@ -99,6 +102,13 @@ impl Claim {
             band_half_width_share: tone.band_half_width_share,
             is_blade_pass,
         }
+    }
+
+    /// The first lines of the tone, and of the blade pass where that is known beside a gear.
+    fn first_lines_hz(&self, hz_max: f64) -> Vec<f64> {
+        let blade_pass_hz = self.shaft_hz * self.orders.first().copied().unwrap_or(1.0);
+        let lines = |hz: f64| (1..=FIRST_LINES).map(move |k| f64::from(k) * hz);
+        lines(self.tone_hz).chain(lines(blade_pass_hz)).filter(|hz| *hz < hz_max).collect()
     }
 
     /// Whether a series can be that of another rotor of the same vehicle, or of all their shafts.
