@@ -43,14 +43,31 @@ pub(super) fn name_cuts(hover: &mut Hover, hover_speed_rev_s: f64) {
     let runs_up = Direction { hover_speed_rev_s, sign: 1.0 };
     let runs_down = Direction { hover_speed_rev_s, sign: -1.0 };
     let segments = hover.segments.clone();
+    let silences: Vec<Span> =
+        hover.cuts.iter().filter(|cut| cut.reason == CutReason::Silence).map(|cut| cut.span).collect();
+    let from_silence = |at_s: f64| silences.iter().any(|silence| is_same(silence.to_s, at_s));
+    let to_silence = |at_s: f64| silences.iter().any(|silence| is_same(silence.from_s, at_s));
     for cuts in runs_of_motion(&mut hover.cuts) {
         let span = Span { from_s: cuts[0].span.from_s, to_s: cuts[cuts.len() - 1].span.to_s };
         let is_between = span.from_s >= first.from_s && span.to_s <= last.to_s;
-        let reason = if span.to_s <= first.from_s && runs_up.is_of(cuts) {
+        let has_speeds =
+            cuts.iter().any(|cut| matches!(cut.reason, CutReason::OtherSpeed { .. } | CutReason::Manoeuvre));
+        let is_heard = cuts.iter().all(|cut| cut.reason != CutReason::NoTone);
+        let is_up = (has_speeds || from_silence(span.from_s)) && runs_up.is_of(cuts);
+        let is_down = (has_speeds || to_silence(span.to_s)) && runs_down.is_of(cuts);
+        if cuts.iter().all(|cut| matches!(cut.reason, CutReason::Edge | CutReason::TooShort)) {
+            continue;
+        }
+        let reason = if is_same(span.to_s, first.from_s) && is_up {
             CutReason::TakeOff
-        } else if span.from_s >= last.to_s && runs_down.is_of(cuts) {
+        } else if is_same(span.from_s, last.to_s) && is_down {
             CutReason::Landing
-        } else if is_between && span.length_s() <= MANOEUVRE_S_MAX && touches_hover(&segments, &span) {
+        } else if is_between
+            && has_speeds
+            && is_heard
+            && span.length_s() <= MANOEUVRE_S_MAX
+            && touches_hover(&segments, &span)
+        {
             CutReason::Manoeuvre
         } else {
             continue;
@@ -60,19 +77,16 @@ pub(super) fn name_cuts(hover: &mut Hover, hover_speed_rev_s: f64) {
     join_equal(&mut hover.cuts);
 }
 
-/// Neighbouring cuts in which the rotors turn at other speeds, none of them for long, with the edges beside them.
+/// Neighbouring cuts in which the rotors turn at other speeds, none of them for long, or too fast up or down to be heard as
+/// a series, with the edges beside them.
 fn runs_of_motion(cuts: &mut [Cut]) -> impl Iterator<Item = &mut [Cut]> {
     let is_motion = |cut: &Cut| match cut.reason {
-        CutReason::OtherSpeed { .. } | CutReason::Manoeuvre => cut.span.length_s() <= HELD_S,
-        CutReason::Edge | CutReason::TooShort => true,
+        CutReason::OtherSpeed { .. } | CutReason::NoTone => cut.span.length_s() <= HELD_S,
+        CutReason::Edge | CutReason::TooShort | CutReason::Manoeuvre => true,
         _ => false,
     };
-    cuts.chunk_by_mut(move |a, b| is_motion(a) && is_motion(b) && (b.span.from_s - a.span.to_s).abs() < 1e-6).filter(
-        move |run| {
-            run.iter().all(is_motion)
-                && run.iter().any(|cut| matches!(cut.reason, CutReason::OtherSpeed { .. } | CutReason::Manoeuvre))
-        },
-    )
+    cuts.chunk_by_mut(move |a, b| is_motion(a) && is_motion(b) && is_same(b.span.from_s, a.span.to_s))
+        .filter(move |run| run.iter().all(is_motion))
 }
 
 /// Whether speeds rise to the hover's, or fall from it.
@@ -96,15 +110,20 @@ impl Direction {
     }
 }
 
+/// Times of rows that touch differ by rounding.
+fn is_same(a_s: f64, b_s: f64) -> bool {
+    (a_s - b_s).abs() < 1e-6
+}
+
 fn touches_hover(segments: &[Span], span: &Span) -> bool {
-    segments.iter().any(|segment| (segment.to_s - span.from_s).abs() < 1e-6)
-        && segments.iter().any(|segment| (segment.from_s - span.to_s).abs() < 1e-6)
+    segments.iter().any(|segment| is_same(segment.to_s, span.from_s))
+        && segments.iter().any(|segment| is_same(segment.from_s, span.to_s))
 }
 
 /// Neighbours with the same reason are one cut.
 fn join_equal(cuts: &mut Vec<Cut>) {
     cuts.dedup_by(|next, before| {
-        let is_one = before.reason == next.reason && (next.span.from_s - before.span.to_s).abs() < 1e-6;
+        let is_one = before.reason == next.reason && is_same(next.span.from_s, before.span.to_s);
         if is_one {
             before.span.to_s = next.span.to_s;
         }
