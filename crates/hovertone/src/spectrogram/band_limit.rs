@@ -7,6 +7,9 @@ use crate::statistics::median;
 const STRIP_HZ: f64 = 150.0;
 /// A codec's edge falls within this many strips. Microphones and rooms lose no more than a few dB over so little.
 const FLANK_STRIPS: usize = 3;
+/// Below the edge, the sound reaches over so many strips (2 kHz), three quarters of them, to that level: a rotor's highest line is an
+/// edge too, but stands alone.
+const PLATEAU_STRIPS: usize = 13;
 /// A codec's edge is at least this deep. What remains above is the last bit, or what the decoder's filter lets through.
 const CLIFF_DB: f64 = 18.0;
 /// Above the edge no strip rises to within this of what was just below it.
@@ -21,13 +24,20 @@ pub(crate) fn band_limit_hz(power: &[f64], bin_hz: f64) -> Option<f64> {
     let strips_db = &strips_db[..strips_db.len().saturating_sub(1)];
     let loudest_from = |strip: usize| strips_db[strip..].iter().copied().fold(f64::MIN, f64::max);
     (1..strips_db.len().saturating_sub(2 * FLANK_STRIPS))
-        .rev()
-        .filter(|&strip| {
-            let (below, above) = (strips_db[strip], strips_db[strip + FLANK_STRIPS]);
+        .find(|&strip| {
+            let plateau_db = &strips_db[(strip + 1).saturating_sub(PLATEAU_STRIPS)..=strip];
+            let below = lower_quartile(plateau_db).min(strips_db[strip]);
+            let above = strips_db[strip + FLANK_STRIPS];
             below - above >= CLIFF_DB && loudest_from(strip + FLANK_STRIPS) <= below - STAYS_DB
         })
-        .last()
         .map(|strip| (strip + 1) as f64 * bins as f64 * bin_hz)
+}
+
+/// The level that three quarters of the strips reach.
+fn lower_quartile(levels_db: &[f64]) -> f64 {
+    let mut levels_db = levels_db.to_vec();
+    levels_db.sort_by(f64::total_cmp);
+    levels_db.get(levels_db.len() / 4).copied().unwrap_or(f64::MIN)
 }
 
 #[cfg(test)]
@@ -59,6 +69,9 @@ mod tests {
         assert_eq!(band_limit_hz(&cut_at(1e9), 5.0), None);
         let fading: Vec<f64> = (1..4410).map(|bin| 1.0 / f64::from(bin).powi(4)).collect();
         assert_eq!(band_limit_hz(&fading[100..], 5.0), None);
+        // a rotor's last line, wide from wander, over a flat floor
+        let lone: Vec<f64> = (0..4410).map(|bin| if (2440..2540).contains(&bin) { 1e-5 } else { 1e-9 }).collect();
+        assert_eq!(band_limit_hz(&lone, 5.0), None);
         assert_eq!(band_limit_hz(&[], 5.0), None);
         assert_eq!(band_limit_hz(&[0.0; 4410], 5.0), None);
     }

@@ -12,6 +12,8 @@ const LIMIT_MARGIN_SHARE: f64 = 0.02;
 const HUM_POWER_SHARE_MAX: f64 = 0.1;
 /// A line of hum this far beyond the edge of a band still shows its side lobes inside: four cells of the longest frames.
 const HUM_REACH_HZ: f64 = 10.0;
+/// One band that is left where hum took others is no witness.
+const BANDS_BESIDE_HUM_MIN: usize = 2;
 /// Bins on either side of a line of hum that are its own.
 const HUM_HALF_BINS: f64 = 3.0;
 
@@ -57,8 +59,9 @@ pub(crate) fn bands_worth_following(
             (None, None) => kept.push(band),
         }
     }
+    let has_hum = reasons.iter().any(|reason| matches!(reason, NoTone::MainsHum { .. }));
     match reasons.into_iter().next() {
-        Some(reason) if kept.is_empty() => Err(reason),
+        Some(reason) if kept.is_empty() || has_hum && kept.len() < BANDS_BESIDE_HUM_MIN => Err(reason),
         _ => Ok(kept),
     }
 }

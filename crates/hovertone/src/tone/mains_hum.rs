@@ -8,8 +8,10 @@ use crate::spectrogram::whitened_db;
 const GRIDS_HZ: [f64; 2] = [50.0, 60.0];
 /// Grids keep their frequency within this share nearly always (ENTSO-E: ±0.05 Hz), and a recorder's clock within a tenth.
 const GRID_SHARE: f64 = 0.001;
+/// Of the frequency that all lines together tell, with the recorder's clock.
+const GRID_SHARE_MAX: f64 = 0.0012;
 /// Error of an interpolated peak, in bins.
-const PEAK_BINS: f64 = 0.15;
+const PEAK_BINS: f64 = 0.08;
 /// A multiple of the hum as heard is this near to where it should be: the drift within a recording, and the peak's error.
 const OWN_SHARE: f64 = 0.0003;
 const OWN_HZ: f64 = 0.15;
@@ -106,7 +108,8 @@ fn hum_of_grid(fine: &Rows, power: &[f64], over_db: &[f64], grid_hz: f64, hz_max
     if !(is_heard(1, 1) || is_heard(1, 2) || is_heard(2, 2)) {
         return None;
     }
-    let mains_hz = mains_hz_of(&lines)?;
+    // all lines together know the frequency better than the first alone: a rotor at 60.17 rev/s is none
+    let mains_hz = mains_hz_of(&lines).filter(|mains_hz| (mains_hz / grid_hz - 1.0).abs() <= GRID_SHARE_MAX)?;
     // where there is hum, what stands in its place is hum too, however weak
     let in_place = (1..=multiples).filter_map(|k| {
         let hz = k as f64 * mains_hz;

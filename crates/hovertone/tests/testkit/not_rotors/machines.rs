@@ -4,7 +4,8 @@ use super::{Dice, add, falling, red_noise, series};
 
 /// A slow shaft's wander, a few thousandths.
 fn wander(dice: &mut Dice, hz: f64, share: f64) -> impl Fn(f64) -> f64 + use<> {
-    let waves: Vec<(f64, f64)> = (0..4).map(|_| (dice.between(0.5, 6.0), dice.between(0.0, 6.28))).collect();
+    let waves: Vec<(f64, f64)> =
+        (0..4).map(|_| (dice.between(0.5, 6.0), dice.between(0.0, std::f64::consts::TAU))).collect();
     move |t| hz * (1.0 + share / 2.0 * waves.iter().map(|(rate, phase)| (rate * t + phase).sin()).sum::<f64>())
 }
 
