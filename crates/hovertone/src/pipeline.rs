@@ -4,16 +4,20 @@ use crate::channel::ChannelBand;
 use crate::config::{Config, Method};
 use crate::error::Error;
 use crate::harmonic::{HarmonicTracer, HarmonicTrack};
-use crate::hover::{Hover, Survey, SurveyBuilder, hover_from_survey};
+use crate::hover::{Hover, Survey, SurveyBuilder, hover_from_survey, restless_s};
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
 use crate::span::Span;
 use crate::speed::{HarmonicWeights, SpeedEstimate, Track, TrackPoint};
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
-use crate::tone::{Band, CombMap, bands_around, lines_around, search_range_rev_s};
+use crate::tone::{
+    Band, CombMap, bands_around, bands_worth_following, foreign_series, lines_around, lines_worth_hearing,
+    search_range_rev_s,
+};
 use crate::verdict::{
-    NoTone, clearest_ridges, no_tone_reason, warning_of_samples, warnings_of_hover, warnings_of_speed,
+    NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_samples,
+    warnings_of_hover, warnings_of_speed,
 };
 use crate::warning::Warning;
 use serde::Serialize;
@@ -111,7 +115,7 @@ pub fn speed_from_source(
     }
     let map = CombMap::from_survey(&survey, &config.tone, search_rev_s);
     let Some(speed_rev_s) = map.leading_speed_rev_s() else {
-        return Ok(nothing_heard(heard, Hover::default(), NoTone::NoSeries, warnings));
+        return Ok(nothing_heard(heard, Hover::default(), or_mains_hum(NoTone::NoSeries, &survey), warnings));
     };
     let hover = if config.span.is_given() {
         Hover::whole(heard)
@@ -119,15 +123,25 @@ pub fn speed_from_source(
         hover_from_survey(&survey, &map, speed_rev_s, &config.tone, &config.hover)
     };
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
-    let lines = lines_around(speed_rev_s, &config.tone, sample_rate_hz);
+    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+    let bands = match bands_worth_following(bands, &survey, &mut warnings) {
+        Ok(bands) => bands,
+        Err(reason) => return Ok(nothing_heard(heard, hover, reason, warnings)),
+    };
+    let lines = lines_worth_hearing(lines_around(speed_rev_s, &config.tone, sample_rate_hz), &survey);
     let (mut ladder, harmonic) = lines_from_source(source, &hover, &bands, &lines, config, on_progress)?;
     let chosen = config.spectrogram.window_s.and_then(|_| ladder.pop());
     let Some(clearest) = clearest_ridges(&ladder) else {
-        return Ok(nothing_heard(heard, hover, NoTone::NoHover, warnings));
+        return Ok(nothing_heard(heard, hover, or_mains_hum(NoTone::NoHover, &survey), warnings));
     };
     let is_steady = harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
-    if let Some(reason) = no_tone_reason(clearest, &config.ridge).filter(|_| !is_steady) {
-        return Ok(nothing_heard(heard, hover, reason, warnings));
+    if let Some(reason) = no_tone_reason(clearest, &config.ridge)
+        .filter(|_| !is_steady)
+        .or_else(|| not_held_reason(restless_s(&hover, &survey, &map), &hover, tone_hz, &config.hover))
+        .or_else(|| mains_hum_reason(clearest, &survey))
+        .or_else(|| foreign_series(&survey, &hover, &config.tone, speed_rev_s))
+    {
+        return Ok(nothing_heard(heard, hover, or_mains_hum(reason, &survey), warnings));
     }
     let ridges = chosen.unwrap_or_else(|| clearest.clone());
     let weights = HarmonicWeights::from_ridges(&ridges, &config.ridge, &mut warnings);

@@ -1,11 +1,12 @@
 //! Whether the ridges show a rotor at all, and what weakens what they show.
 
-use crate::config::{Method, RidgeConfig};
-use crate::hover::{CutReason, Hover};
+use crate::config::{HoverConfig, Method, RidgeConfig};
+use crate::hover::{CutReason, Hover, Survey};
 use crate::pipeline::SampleSpeeds;
 use crate::ridge::Ridge;
+use crate::span::Span;
 use crate::speed::SpeedEstimate;
-use crate::statistics::mean;
+use crate::statistics::{mean, std};
 use crate::warning::Warning;
 use serde::Serialize;
 use std::fmt;
@@ -60,6 +61,32 @@ pub enum NoTone {
         /// Share that is asked for.
         line_share_min: f64,
     },
+    /// Mains hum, and nothing else that resembles a rotor.
+    MainsHum {
+        /// Frequency of the mains as heard.
+        mains_hz: f64,
+    },
+    /// Tones come and go, and none is held for long while others sound for longer.
+    NotHeld {
+        /// The tone that is heard most.
+        tone_hz: f64,
+        /// How long it is held at most.
+        held_s: f64,
+    },
+    /// The lines belong to something that turns more slowly, or to an instrument.
+    ForeignSeries {
+        /// Distance of its lines.
+        fundamental_hz: f64,
+        /// Where the strongest candidate is.
+        tone_hz: f64,
+    },
+    /// The tone lies where the recording holds nothing.
+    BandCutByCodec {
+        /// Where the tone would be.
+        tone_hz: f64,
+        /// Where the recording ends.
+        above_hz: f64,
+    },
     /// A line that comes and goes, without any of its harmonics.
     LonelyLine {
         /// Where it is.
@@ -86,6 +113,25 @@ impl fmt::Display for NoTone {
                  more than {:.0} %",
                 100.0 * line_share,
                 100.0 * line_share_min
+            ),
+            Self::MainsHum { mains_hz } => write!(
+                f,
+                "what sounds is mains hum, lines at multiples of {mains_hz:.2} Hz that do not move, and no rotor is heard beside it"
+            ),
+            Self::NotHeld { tone_hz, held_s } => write!(
+                f,
+                "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most, and others sound for longer; \
+                 if a rotor is among them, choose its part with --from and --to"
+            ),
+            Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
+                f,
+                "lines {fundamental_hz:.1} Hz apart are heard that a rotor with its tone near {tone_hz:.0} Hz cannot make: a slower \
+                 rotor, an engine or an instrument; check the blades or the gear"
+            ),
+            Self::BandCutByCodec { tone_hz, above_hz } => write!(
+                f,
+                "the tone would be near {tone_hz:.0} Hz, and a codec or the recorder left nothing above {above_hz:.0} Hz; \
+                 record without compression, or follow a tone of lower order"
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
@@ -124,6 +170,34 @@ pub(crate) fn no_tone_reason(ridges: &[Ridge], config: &RidgeConfig) -> Option<N
     }
     let has_company = by_clarity.get(1).is_none_or(|second| second.line_share >= config.company_share_min);
     (!has_company && line_share < config.lonely_line_share_min).then_some(NoTone::LonelyLine { tone_hz, line_share })
+}
+
+/// Why a hover that lies in pieces among other tones is none: music, speech and beeps change, a hover holds its speed.
+pub(crate) fn not_held_reason(restless_s: f64, hover: &Hover, tone_hz: f64, config: &HoverConfig) -> Option<NoTone> {
+    let held_s = hover.segments.iter().map(Span::length_s).fold(0.0, f64::max);
+    let is_restless = held_s < config.held_s_min && restless_s > hover.length_s();
+    (is_restless && held_s > 0.0).then_some(NoTone::NotHeld { tone_hz, held_s })
+}
+
+/// The reason as it is said where mains hum was taken out before: then the hum is what was heard.
+pub(crate) fn or_mains_hum(reason: NoTone, survey: &Survey) -> NoTone {
+    match (&survey.hum, &reason) {
+        (Some(hum), NoTone::NoSeries | NoTone::NoHover | NoTone::NotALine { .. } | NoTone::LonelyLine { .. }) => {
+            NoTone::MainsHum { mains_hz: hum.mains_hz }
+        }
+        _ => reason,
+    }
+}
+
+/// Whether the clearest of the ridges is a line of the mains hum that was heard. A gear mesh above what was searched for hum
+/// is none, whatever number it happens to stand at.
+pub(crate) fn mains_hum_reason(ridges: &[Ridge], survey: &Survey) -> Option<NoTone> {
+    let hum = survey.hum.as_ref()?;
+    let clearest = ridges.iter().rev().max_by(|a, b| a.line_share.total_cmp(&b.line_share))?;
+    let points_hz = clearest.points_hz(Method::MaximumTrace);
+    let (mean_hz, std_hz) = (mean(&points_hz)?, std(&points_hz)?);
+    let is_hum = mean_hz <= survey.fine_hz_max && hum.holds(mean_hz, std_hz);
+    is_hum.then_some(NoTone::MainsHum { mains_hz: hum.mains_hz })
 }
 
 /// What a share counted in so many observations is above with 95 % confidence (Wilson's lower bound).

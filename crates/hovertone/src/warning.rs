@@ -22,6 +22,11 @@ pub enum Warning {
         /// Why.
         reason: String,
     },
+    /// A codec or the recorder left nothing of the high frequencies.
+    BandCutByCodec {
+        /// Where the recording ends.
+        above_hz: f64,
+    },
     /// Most harmonics were left out, or the tone itself was: what remains may not be the rotor's.
     FewHarmonicsAgree {
         /// Harmonics that are used.
@@ -77,6 +82,9 @@ impl Warning {
         match self {
             Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
             Self::HarmonicLeftOut { .. } => "nothing to do when the others agree; --harmonics 1 follows the tone alone",
+            Self::BandCutByCodec { .. } => {
+                "record without compression, or at a higher bit rate, to use the harmonics above"
+            }
             Self::FewHarmonicsAgree { .. } => {
                 "another sound may lie in these bands: check the blades or the gear, narrow --band, or compare --harmonics 1"
             }
@@ -109,6 +117,9 @@ impl fmt::Display for Warning {
                 )
             }
             Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is left out: {reason}"),
+            Self::BandCutByCodec { above_hz } => {
+                write!(f, "the recording holds nothing above {:.1} kHz: a codec or the recorder cut it", above_hz / 1e3)
+            }
             Self::FewHarmonicsAgree { used, of } => {
                 write!(f, "only {used} of {of} harmonics agree, or the first is not among them")
             }

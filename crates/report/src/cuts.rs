@@ -36,7 +36,10 @@ fn in_words(reason: CutReason) -> &'static str {
     match reason {
         CutReason::Silence => "silence",
         CutReason::HandlingNoise => "handling noise",
-        CutReason::OtherSpeed { .. } => "take-off, landing or another speed",
+        CutReason::OtherSpeed { .. } => "another speed",
+        CutReason::TakeOff => "take-off",
+        CutReason::Landing => "landing",
+        CutReason::Manoeuvre => "manoeuvre",
         CutReason::NoTone => "no rotor heard",
         CutReason::Edge => "edge of the hover",
         CutReason::TooShort => "too short to use",
@@ -89,7 +92,7 @@ mod tests {
             cut(9.0, 9.5, CutReason::Edge),
             cut(10.0, 11.0, CutReason::OtherSpeed { speed_rev_s: 9.0 }),
         ];
-        let expected = "0.0–1.5 s (silence), 9.0–11.0 s (take-off, landing or another speed)";
+        let expected = "0.0–1.5 s (silence), 9.0–11.0 s (another speed)";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
         assert_eq!(cuts_in_words(&[]), None);
     }

@@ -3,6 +3,7 @@
 // The lints know tests by their attribute, and what tests share has none.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod codecs;
 mod demo;
 mod identify;
 mod real_recordings;

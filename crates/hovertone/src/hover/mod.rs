@@ -1,7 +1,12 @@
 //! Survey → hover: which stretches are steady flight, and why the rest was cut away.
 
+mod manoeuvre;
+mod phases;
+mod rows;
 mod survey;
 
+pub(crate) use phases::restless_s;
+pub(crate) use rows::Rows;
 pub(crate) use survey::{Survey, SurveyBuilder};
 
 use crate::config::{HoverConfig, ToneConfig};
@@ -31,7 +36,13 @@ pub enum CutReason {
     Silence,
     /// Much louder than the hover: handling, wind, speech at the microphone.
     HandlingNoise,
-    /// The rotors turn, but not at the hover's speed: take-off, landing, another load.
+    /// The rotors run up.
+    TakeOff,
+    /// The rotors run down.
+    Landing,
+    /// The speed moves by clearly more than the hover's own wander: doublets, climbs, fast yaw.
+    Manoeuvre,
+    /// The rotors turn, but not at the hover's speed: idling, another load.
     OtherSpeed {
         /// Shaft speed that is heard there.
         speed_rev_s: f64,
@@ -50,8 +61,11 @@ impl fmt::Display for CutReason {
             Self::Silence => f.write_str("silence"),
             Self::HandlingNoise => f.write_str("handling noise"),
             Self::OtherSpeed { speed_rev_s } => {
-                write!(f, "take-off, landing or another speed ({speed_rev_s:.1} rev/s)")
+                write!(f, "another speed ({speed_rev_s:.1} rev/s)")
             }
+            Self::TakeOff => f.write_str("take-off"),
+            Self::Landing => f.write_str("landing"),
+            Self::Manoeuvre => f.write_str("manoeuvre"),
             Self::NoTone => f.write_str("no rotor heard"),
             Self::Edge => f.write_str("edge of the hover"),
             Self::TooShort => f.write_str("too short to use"),
@@ -102,6 +116,7 @@ pub(crate) fn hover_from_survey(
         }
         row = end;
     }
+    phases::name_cuts(&mut hover, speed_rev_s);
     hover
 }
 
@@ -166,6 +181,13 @@ fn verdicts_of_rows(
     let Some(hover_level_db) = median(&with_tone) else {
         return vec![Verdict::Not(CutReason::NoTone); survey.rows.len()];
     };
+    let speeds_rev_s: Vec<Option<f64>> = rows
+        .clone()
+        .map(|row| map.best_near(row, speed_rev_s, tone.band_half_width_share))
+        .map(|best| best.filter(|&(_, score)| score >= score_db_min).map(|(speed, _)| speed))
+        .collect();
+    let row_s = survey.rows.first().map_or(config.survey_row_s, |row| row.span.length_s());
+    let is_flown = manoeuvre::manoeuvring_rows(&speeds_rev_s, row_s, config);
     let mut verdicts: Vec<Verdict> = rows
         .map(|row| {
             let is_quiet = level_db[row] < hover_level_db - config.quieter_db;
@@ -173,6 +195,7 @@ fn verdicts_of_rows(
             let is_near = near_db[row] >= score_db_min;
             let other = map.best_of_row(row).filter(|&(_, score)| score >= score_db_min && !is_near);
             match (is_near, is_quiet, is_loud, other) {
+                (true, false, false, _) if is_flown[row] => Verdict::Not(CutReason::Manoeuvre),
                 (true, false, false, _) => Verdict::Hover,
                 (_, _, true, _) => Verdict::Not(CutReason::HandlingNoise),
                 (_, _, _, Some((speed_rev_s, _))) => Verdict::Not(CutReason::OtherSpeed { speed_rev_s }),

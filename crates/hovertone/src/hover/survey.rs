@@ -1,40 +1,35 @@
-//! Signal → survey: the whole recording as a coarse spectrogram that fits in memory whatever its length.
+//! Signal → survey: the whole recording as a coarse spectrogram that fits in memory whatever its length, and its low
+//! frequencies as a fine one.
 
+use super::rows::{Row, Rows, RowsBuilder, mean_power};
 use crate::config::HoverConfig;
-use crate::span::Span;
-use crate::spectrogram::{Stft, Window, power_db};
+use crate::spectrogram::Decimator;
+use crate::tone::{MainsHum, mains_hum};
 use crate::verdict::NoTone;
-
-/// Sound below this is handling, wind and traffic; it does not count for how loud a row is.
-const LEVEL_HZ_MIN: f64 = 60.0;
-
-/// One row of the survey: the mean power spectrum of a stretch of sound.
-#[derive(Clone, Debug)]
-pub(crate) struct Row {
-    pub(crate) span: Span,
-    pub(crate) power: Vec<f64>,
-    frame_count: u32,
-}
-
-impl Row {
-    /// Loudness of the row above the lowest frequencies, in dB re a full-scale sine.
-    pub(crate) fn level_db(&self, bin_hz: f64) -> f64 {
-        let first = ((LEVEL_HZ_MIN / bin_hz).ceil() as usize).min(self.power.len());
-        power_db(self.power[first..].iter().sum())
-    }
-}
-
-/// The recording in rows of equal length.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Survey {
-    pub(crate) rows: Vec<Row>,
-    pub(crate) bin_hz: f64,
-}
 
 /// Sound quieter than this is silence: below the last bit of 24.
 const SILENCE_DB: f64 = -150.0;
 
+/// The recording in rows of equal length.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Survey {
+    /// All frequencies, coarsely. Mains hum is taken out.
+    pub(crate) rows: Vec<Row>,
+    pub(crate) bin_hz: f64,
+    /// The low frequencies, finely, as they are.
+    pub(crate) fine: Rows,
+    /// Highest frequency that the fine rows hold.
+    pub(crate) fine_hz_max: f64,
+    /// The mains hum that was found.
+    pub(crate) hum: Option<MainsHum>,
+}
+
 impl Survey {
+    /// Mean power spectrum of all that was heard.
+    pub(crate) fn mean_power(&self) -> Option<Vec<f64>> {
+        mean_power(self.rows.iter())
+    }
+
     /// Why nothing can be found in it; `None` when something sounds.
     pub(crate) fn why_nothing(&self, heard_s: f64) -> Option<NoTone> {
         if self.rows.is_empty() {
@@ -44,81 +39,41 @@ impl Survey {
     }
 }
 
-/// Builds a survey from a stream of samples. When there are too many rows, neighbours are merged and rows become twice
-/// as long, so that memory stays the same for a minute and for a day.
+/// Builds a survey from a stream of samples.
 pub(crate) struct SurveyBuilder {
-    stft: Stft,
-    hop_s: f64,
-    frames_per_row: u32,
-    rows_max: usize,
-    rows: Vec<Row>,
+    coarse: RowsBuilder,
+    decimator: Decimator,
+    fine: RowsBuilder,
 }
 
 impl SurveyBuilder {
     pub(crate) fn new(config: &HoverConfig, sample_rate_hz: f64, start_s: f64) -> Self {
-        let hop_s = config.survey_window_s / 2.0;
-        let mut stft = Stft::new(sample_rate_hz, Window::Hann, config.survey_window_s, hop_s, 1);
-        stft.restart(start_s);
+        let rows_max = config.survey_rows_max;
+        let decimator = Decimator::new(sample_rate_hz, config.fine_hz_max);
+        let fine_s = config.fine_window_s;
+        let fine_start_s = start_s + decimator.delay_s();
         Self {
-            stft,
-            hop_s,
-            frames_per_row: (config.survey_row_s / hop_s).round().max(1.0) as u32,
-            rows_max: config.survey_rows_max,
-            rows: Vec::new(),
+            coarse: RowsBuilder::new(sample_rate_hz, start_s, config.survey_window_s, config.survey_row_s, rows_max),
+            fine: RowsBuilder::new(decimator.rate_hz(), fine_start_s, fine_s, fine_s, rows_max / 2),
+            decimator,
         }
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
-        let Self { stft, hop_s, frames_per_row, rows_max, rows } = self;
-        stft.push(samples, |frame| {
-            let (from_s, to_s) = (frame.centre_s - *hop_s / 2.0, frame.centre_s + *hop_s / 2.0);
-            match rows.last_mut().filter(|row| row.frame_count < *frames_per_row) {
-                Some(row) => {
-                    row.power.iter_mut().zip(frame.power).for_each(|(sum, power)| *sum += power);
-                    row.frame_count += 1;
-                    row.span.to_s = to_s;
-                }
-                None => {
-                    if rows.len() == *rows_max {
-                        merge_pairs(rows);
-                        *frames_per_row *= 2;
-                    }
-                    rows.push(Row { span: Span { from_s, to_s }, power: frame.power.to_vec(), frame_count: 1 });
-                }
-            }
-        });
+        self.coarse.push(samples);
+        self.fine.push(self.decimator.push(samples));
     }
 
     pub(crate) fn finish(self, end_s: f64) -> Survey {
-        let bin_hz = self.stft.bin_hz();
-        let mut rows = self.rows;
-        for row in &mut rows {
-            row.power.iter_mut().for_each(|sum| *sum /= f64::from(row.frame_count));
+        let Rows { mut rows, bin_hz } = self.coarse.finish(end_s);
+        let fine = self.fine.finish(end_s);
+        let fine_hz_max = self.decimator.hz_max();
+        let hum = mains_hum(&fine, fine_hz_max);
+        if let Some(hum) = &hum {
+            rows.iter_mut().for_each(|row| hum.take_out(&mut row.power, bin_hz));
         }
-        // the first and last half window belong to the first and last row
-        if let Some(first) = rows.first_mut() {
-            first.span.from_s -= self.hop_s / 2.0;
-        }
-        if let Some(last) = rows.last_mut() {
-            last.span.to_s = end_s;
-        }
-        Survey { rows, bin_hz }
+        Survey { rows, bin_hz, fine, fine_hz_max, hum }
     }
-}
-
-fn merge_pairs(rows: &mut Vec<Row>) {
-    let mut merged: Vec<Row> = Vec::with_capacity(rows.len());
-    for (index, row) in rows.drain(..).enumerate() {
-        match merged.last_mut().filter(|_| index % 2 == 1) {
-            Some(before) => {
-                before.power.iter_mut().zip(&row.power).for_each(|(sum, power)| *sum += power);
-                before.frame_count += row.frame_count;
-                before.span.to_s = row.span.to_s;
-            }
-            None => merged.push(row),
-        }
-    }
-    *rows = merged;
 }
 
 #[cfg(test)]

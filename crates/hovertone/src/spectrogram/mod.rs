@@ -4,11 +4,15 @@
 //!
 //! The definition itself stands in `dft.rs` as the tests' oracle.
 
+mod band_limit;
+mod decimator;
 #[cfg(test)]
 mod dft;
 mod whitening;
 mod window;
 
+pub(crate) use band_limit::band_limit_hz;
+pub(crate) use decimator::Decimator;
 pub(crate) use whitening::whitened_db;
 pub use window::Window;
 

@@ -62,6 +62,8 @@ impl Comb {
         }
         if !is_blade_pass {
             teeth.extend(series(order, GEAR_MESH_HARMONICS));
+            // a mesh at twice its frequency would have its own first line halfway; a codec that cuts the third makes that likely
+            gaps.extend([0.5, 1.5].map(|k: f64| Tooth { order: k * order, weight: (k + 0.5).powf(-0.5) }));
         }
         Self { teeth, gaps, blades }
     }

@@ -1,6 +1,8 @@
 //! Sound with known truth, made here and not by the simulator: the estimator is examined by a stranger.
 #![allow(dead_code, missing_docs, unreachable_pub, clippy::expect_used)] // each test file uses its part
 
+pub mod not_rotors;
+
 use hovertone::{Config, Outcome, RotorTone, Signal, SpeedAnalysis, ToneConfig, speed_from_source};
 use hovertone_vehicle::Order;
 use rand::SeedableRng;
