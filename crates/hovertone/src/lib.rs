@@ -3,6 +3,8 @@
 //! Pure: no files, clock, threads, environment or printing. Sound comes in through [`SignalSource`].
 
 mod config;
+mod discovery;
+mod discovery_config;
 mod error;
 mod experiment;
 mod hover;
@@ -21,6 +23,8 @@ mod verdict;
 mod warning;
 
 pub use config::{Config, HoverConfig, Method, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
+pub use discovery::{Discovery, FoundSpeed, tones_from_source};
+pub use discovery_config::{DiscoveryConfig, KnownRotor};
 pub use error::{ConfigError, Error};
 pub use experiment::{
     Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, ToneSection, VehicleSection,
@@ -37,6 +41,6 @@ pub use thrust::{
     Air, Force, GRAVITY_STANDARD_M_S2, LoadSpeeds, LoadThrust, SampleSpeed, SampleThrust, ThrustCoefficients,
     ThrustTable, TrialSpeeds, TrialThrust, gravity_m_s2, thrust_constant_n_s2, thrust_from_loads,
 };
-pub use tone::Band;
+pub use tone::{Band, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use verdict::NoTone;
 pub use warning::Warning;

@@ -98,23 +98,37 @@ pub fn speed_from_source(
 ) -> Result<SpeedAnalysis, Error> {
     config.check()?;
     let sample_rate_hz = checked_rate_hz(source)?;
+    // a tone that the recording cannot hold is refused before it is read
+    search_range_rev_s(&config.tone, sample_rate_hz)?;
+    let (survey, heard) = survey_from_source(source, config, None, on_progress)?;
+    speed_from_survey(source, &survey, heard, config, on_progress)
+}
+
+/// What follows the first reading.
+pub(crate) fn speed_from_survey(
+    source: &mut dyn SignalSource,
+    survey: &Survey,
+    heard: Span,
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<SpeedAnalysis, Error> {
+    let sample_rate_hz = checked_rate_hz(source)?;
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     let mut warnings = Vec::new();
-    let (survey, heard) = survey_from_source(source, config, on_progress)?;
     if config.span.is_given() && heard.length_s() <= 0.0 {
         return Ok(nothing_heard(heard, Hover::default(), NoTone::OutsideRecording, warnings));
     }
     if let Some(reason) = survey.why_nothing(heard.length_s()) {
         return Ok(nothing_heard(heard, Hover::default(), reason, warnings));
     }
-    let map = CombMap::from_survey(&survey, &config.tone, search_rev_s);
+    let map = CombMap::from_survey(survey, &config.tone, search_rev_s);
     let Some(speed_rev_s) = map.leading_speed_rev_s() else {
         return Ok(nothing_heard(heard, Hover::default(), NoTone::NoSeries, warnings));
     };
     let hover = if config.span.is_given() {
         Hover::whole(heard)
     } else {
-        hover_from_survey(&survey, &map, speed_rev_s, &config.tone, &config.hover)
+        hover_from_survey(survey, &map, speed_rev_s, &config.tone, &config.hover)
     };
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
     let mut ladder = ridges_from_source(source, &hover, &bands, config, on_progress)?;
@@ -151,14 +165,15 @@ pub fn speed_from_source(
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
 
-fn nothing_heard(heard: Span, hover: Hover, reason: NoTone, warnings: Vec<Warning>) -> SpeedAnalysis {
+pub(crate) fn nothing_heard(heard: Span, hover: Hover, reason: NoTone, warnings: Vec<Warning>) -> SpeedAnalysis {
     SpeedAnalysis { heard, hover, outcome: Outcome::NoRotorTone { reason }, warnings }
 }
 
-/// First reading: the whole recording in coarse rows.
-fn survey_from_source(
+/// First reading: the whole recording in coarse rows, and in those of a second builder beside them.
+pub(crate) fn survey_from_source(
     source: &mut dyn SignalSource,
     config: &Config,
+    mut beside: Option<&mut SurveyBuilder>,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<(Survey, Span), Error> {
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(source.start_s());
@@ -166,7 +181,12 @@ fn survey_from_source(
     let mut builder = SurveyBuilder::new(&config.hover, source.sample_rate_hz(), from_s);
     let to_s = for_each_piece(source, &[span], |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
-        Piece::Samples(samples) => builder.push(samples),
+        Piece::Samples(samples) => {
+            builder.push(samples);
+            if let Some(beside) = &mut beside {
+                beside.push(samples);
+            }
+        }
         Piece::Heard(time_s) => on_progress(Progress { pass: 1, pass_count: PASS_COUNT, time_s }),
     })?;
     Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))
