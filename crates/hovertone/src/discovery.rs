@@ -20,8 +20,8 @@ const OTHER_SPEED_FACTOR: f64 = 1.9;
 const SAME_TONE_SHARE: f64 = 0.08;
 /// Rows of the finer spectrum that are kept: 64 of a second are 6 MB at 44.1 kHz.
 const DETAIL_ROWS_MAX: usize = 64;
-/// Frames of the finer spectrum to a row.
-const DETAIL_FRAMES: f64 = 4.0;
+/// Frames of the finer spectrum to a row. They follow each other without overlap, which costs half as much.
+const DETAIL_FRAMES: f64 = 2.0;
 
 /// What is looked for, and what is known beforehand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -79,12 +79,12 @@ pub fn tones_from_source(
     let sample_rate_hz = checked_rate_hz(source)?;
     let detail_config = HoverConfig {
         survey_window_s: discovery.config.detail_window_s,
-        survey_row_s: DETAIL_FRAMES * discovery.config.detail_window_s / 2.0,
+        survey_row_s: DETAIL_FRAMES * discovery.config.detail_window_s,
         survey_rows_max: DETAIL_ROWS_MAX,
         ..config.hover
     };
     let start_s = config.span.from_s.unwrap_or(f64::MIN).max(source.start_s());
-    let mut detail = SurveyBuilder::new(&detail_config, sample_rate_hz, start_s);
+    let mut detail = SurveyBuilder::with_hop(&detail_config, discovery.config.detail_window_s, sample_rate_hz, start_s);
     let (survey, heard) = survey_from_source(source, config, Some(&mut detail), on_progress)?;
     let detail = detail.finish(heard.to_s);
     let nothing = |reason: NoTone, families: Vec<ToneFamily>| FoundSpeed {

@@ -56,7 +56,11 @@ pub(crate) struct SurveyBuilder {
 
 impl SurveyBuilder {
     pub(crate) fn new(config: &HoverConfig, sample_rate_hz: f64, start_s: f64) -> Self {
-        let hop_s = config.survey_window_s / 2.0;
+        Self::with_hop(config, config.survey_window_s / 2.0, sample_rate_hz, start_s)
+    }
+
+    /// With another step between frames than half their length.
+    pub(crate) fn with_hop(config: &HoverConfig, hop_s: f64, sample_rate_hz: f64, start_s: f64) -> Self {
         let mut stft = Stft::new(sample_rate_hz, Window::Hann, config.survey_window_s, hop_s, 1);
         stft.restart(start_s);
         Self {

@@ -10,9 +10,10 @@ pub(crate) const BLADES: [u32; 5] = [2, 3, 4, 5, 6];
 const BETWEEN_ORDERS: f64 = 4.5;
 /// Two of so many lines make a series without its fundamental.
 const LOW_LINES: usize = 4;
-/// Halves, thirds and fifths of the fundamental are looked at up to this order.
+/// Thirds, fourths (and halves with them) and fifths of the fundamental are looked at up to this order.
 const FRACTION_ORDERS: usize = 4;
-/// One line there can be anything.
+/// One faint line there can be anything, but one this far over the floor leaves the pattern in doubt.
+const FRACTION_LINE_DB: f64 = 10.0;
 const FRACTION_LINES_MIN: usize = 2;
 /// Lines must stand out of the floor's lower quarter by this many standard deviations: the highest of three places does
 /// by 1.5 on average.
@@ -33,7 +34,7 @@ pub(crate) struct Pattern {
     pub(crate) lines_db: Vec<Option<f64>>,
     /// Where every b-th line stands over the others: b, and by how much.
     pub(crate) contrast: Option<Contrast>,
-    /// Whether something sounds at halves, thirds or fifths of the fundamental. A shaft has no such lines; a blade pass whose odd
+    /// Whether something sounds at halves, thirds, fourths or fifths of the fundamental. A shaft has no such lines; a blade pass whose odd
     /// harmonics an echo swallows has those of its shaft, and alternates no less.
     pub(crate) has_fractions: bool,
 }
@@ -101,11 +102,11 @@ impl Look {
         let sounds_at_parts = |part: usize| {
             let numbers = (1..part * FRACTION_ORDERS).filter(|number| number % part != 0);
             let places = numbers.map(|number| number * PLACES / (part * divisor));
-            let is_heard =
-                |&place: &usize| profile.line_db(place).is_some_and(|db| db >= heard_db) && profile.is_peak(place);
-            places.filter(is_heard).count() >= FRACTION_LINES_MIN
+            let level_db = |place: usize| profile.line_db(place).filter(|_| profile.is_peak(place));
+            let heard: Vec<f64> = places.filter_map(level_db).filter(|&db| db >= heard_db).collect();
+            heard.len() >= FRACTION_LINES_MIN || heard.iter().any(|&db| db >= FRACTION_LINE_DB)
         };
-        let has_fractions = [2, 3, 5].into_iter().any(sounds_at_parts);
+        let has_fractions = [3, 4, 5].into_iter().any(sounds_at_parts);
         Self::Pattern(Pattern { fundamental_ratio: 1.0 / divisor as f64, lines_db, contrast, has_fractions })
     }
 }

@@ -123,7 +123,7 @@ pub struct Reading {
 /// Belief = likelihood of the pattern x how common the number of blades is, 0 where a limit rules it out. The likelihood
 /// that lines between are shaft lines is 1 / (1 + exp((c0 − c)/s)) in their contrast c, with `contrast_even_db` and
 /// `contrast_scale_db`. Where fewer than `contrast_lines_min` lines show the contrast,
-/// fewer than `between_share_min` of those between are heard, or something sounds at halves, thirds or fifths of the supposed shaft's
+/// fewer than `between_share_min` of those between are heard, or something sounds at halves, thirds, fourths or fifths of the supposed shaft's
 /// order, it stays at one half at most.
 ///
 /// The limit of this: a steady echo of relative amplitude a whose delay is half a period of the blade pass makes every second
