@@ -10,4 +10,5 @@ mod roundtrip;
 mod simulate;
 mod speed;
 mod testkit;
+mod tones;
 mod usage;
