@@ -11,6 +11,7 @@ Examples:
   hovertone demo                              the paper's experiment, in simulated flight
   hovertone speed --blades 2 hover.mp4        rotor speed of a recording
   hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
+  hovertone tones hover.mp4                   which tones it holds, and what each can mean
   hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
   hovertone simulate scenario.toml -o out     a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
@@ -19,7 +20,7 @@ Exit codes:
   0  done
   1  a file could not be read or written
   2  wrong use
-  3  done, but something is missing: no rotor tone, or a file that ends early
+  3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early
 
 Data goes to stdout and to files, everything else to stderr.";
 
@@ -38,6 +39,7 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Speed(Box<SpeedArguments>),
+    Tones(Box<TonesArguments>),
     Identify(IdentifyArguments),
     Demo(DemoArguments),
     Simulate(SimulateArguments),
@@ -45,10 +47,12 @@ pub(crate) enum Command {
 }
 
 const SPEED_EXAMPLES: &str = "\
-Which tone is heard: --order wins, then --gear, then --blades, then --vehicle. One of the four is needed.
+Which tone is heard: --order wins, then --gear, then --blades, then --vehicle. Without any of them
+the tone is found by itself; where its blades cannot be heard, all readings are shown (exit code 3).
 
 Examples:
   hovertone speed --blades 2 hover.mp4
+  hovertone speed hover.mp4
   hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
@@ -65,6 +69,8 @@ pub(crate) struct SpeedArguments {
     pub(crate) files: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
+    #[command(flatten)]
+    pub(crate) known: KnownArguments,
     #[command(flatten)]
     pub(crate) analysis: AnalysisArguments,
     #[command(flatten)]
@@ -98,6 +104,58 @@ pub(crate) struct ToneArguments {
     /// Harmonics to follow, the tone itself counted [default: 3]
     #[arg(long, value_name = "N")]
     pub(crate) harmonics: Option<u32>,
+}
+
+const TONES_EXAMPLES: &str = "\
+A blade pass alone does not tell the number of blades: lines of the shaft between its harmonics do, the mesh of a
+known gear does, and diameter, mass and rotors rule out what cannot fly.
+
+Examples:
+  hovertone tones hover.mp4
+  hovertone tones --vehicle iris hover.mp4
+  hovertone tones --diameter-m 0.254 --mass-kg 1.2 --rotors 4 hover.mp4
+  hovertone tones --json *.wav | jq '.families[0].readings[0]'";
+
+/// Tone families in recordings, and the shaft speed that each possible order would mean
+///
+/// Lists every series of lines: fundamental, harmonics, level over the floor, when it is heard. For the one that was
+/// taken for the rotor's, all readings: blades, gears, speeds, and how plausible each is.
+#[derive(Args, Debug)]
+#[command(after_help = TONES_EXAMPLES)]
+pub(crate) struct TonesArguments {
+    /// Recordings: video or audio files
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) known: KnownArguments,
+    /// A known vehicle, for what it rules out (see `hovertone vehicles`)
+    #[arg(long, value_name = "ID", help_heading = "What is known of the vehicle")]
+    pub(crate) vehicle: Option<String>,
+    /// Listen from here
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]
+    pub(crate) from: Option<f64>,
+    /// Listen up to here
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]
+    pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print one JSON object per line and file, in the order given
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "What is known of the vehicle")]
+pub(crate) struct KnownArguments {
+    /// Diameter of a propeller: tips faster than Mach 0.6 are ruled out
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) diameter_m: Option<f64>,
+    /// Mass as flown: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub(crate) mass_kg: Option<f64>,
+    /// Rotors that carry it
+    #[arg(long, value_name = "N")]
+    pub(crate) rotors: Option<u32>,
 }
 
 #[derive(Args, Debug)]

@@ -16,6 +16,7 @@ mod simulate;
 mod speed;
 mod terminal;
 mod toml_file;
+mod tones;
 mod vehicles;
 mod wav;
 
@@ -30,6 +31,7 @@ fn main() -> ExitCode {
     let mut terminal = Terminal::new();
     let ending = match &arguments.command {
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
+        Command::Tones(arguments) => tones::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),

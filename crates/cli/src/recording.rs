@@ -2,9 +2,9 @@
 
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
-use hovertone::{Config, SpeedAnalysis, Warning, speed_from_source};
+use hovertone::{Config, Discovery, FoundSpeed, SpeedAnalysis, Warning, speed_from_source, tones_from_source};
 use hovertone_media::{Decoder, OpenOptions, Recording};
-use hovertone_report::{Answer, Notice, RecordingFacts, SpeedRecord};
+use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -30,6 +30,8 @@ pub(crate) struct Job {
     pub(crate) name: String,
     /// How it is analysed.
     pub(crate) config: Config,
+    /// How the tone is found, where nobody says which it is; the order of `config` then means nothing.
+    pub(crate) discovery: Option<Discovery>,
 }
 
 /// Hears all recordings, in parallel; the answers are in the order of the jobs.
@@ -43,6 +45,7 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> SpeedRecord {
         config: job.config.clone(),
         recording,
         answer: Answer::Failed { reason },
+        found: None,
         notices: Vec::new(),
     };
     if let Some(reason) = wrong_kind(&job.path) {
@@ -57,9 +60,9 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> SpeedRecord {
         Ok(sha256) => sha256,
         Err(error) => return failed(format!("the file could not be read to its end: {error}; check the disk"), None),
     };
-    let analysis = analysis_of(&mut recording, &job.config, share);
+    let analysis = analysis_of(&mut recording, job, share);
     let facts = facts_of(&recording, sha256);
-    let analysis = match analysis {
+    let (analysis, config, found) = match analysis {
         Ok(analysis) => analysis,
         Err(error) => return failed(error.to_string(), Some(facts)),
     };
@@ -67,13 +70,16 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> SpeedRecord {
     let matters =
         |warning: &&Warning| hearing.wants_samples || !matches!(warning, Warning::HoverShorterThanSample { .. });
     let notices = of_the_file.chain(analysis.warnings.iter().filter(matters).map(Notice::from)).collect();
-    SpeedRecord {
+    let mut record = SpeedRecord {
         file: job.name.clone(),
-        config: job.config.clone(),
+        config,
         recording: Some(facts),
         answer: Answer::Heard(Box::new(analysis)),
+        found,
         notices,
-    }
+    };
+    record.notices.extend(notice_of_reading(&record));
+    record
 }
 
 /// What only somebody who knows what was typed can say.
@@ -85,21 +91,38 @@ fn wrong_kind(path: &Path) -> Option<String> {
         .then(|| "no file matches this pattern; check the folder and the ending of its files".to_owned())
 }
 
+/// What was taken for granted where nobody said which tone is the rotor's.
+fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
+    let reading = record.found_reading().filter(|_| record.speed().is_some())?;
+    let text = format!(
+        "the tone was found by itself and read as order {}, {}: {}",
+        reading.order, reading.meaning, reading.why
+    );
+    Some(Notice::new(text, "check the blades and say --blades N; `hovertone tones` shows the other readings"))
+}
+
 fn analysis_of(
     recording: &mut Recording,
-    config: &Config,
+    job: &Job,
     share: &mut Share<'_>,
-) -> Result<SpeedAnalysis, hovertone::Error> {
+) -> Result<(SpeedAnalysis, Config, Option<Found>), hovertone::Error> {
     let (start_s, declared_s) = (recording.info().start_s, recording.info().declared_duration_s);
     let mut heard_s: f64 = 0.0;
-    speed_from_source(recording, config, &mut |progress| {
+    let mut on_progress = |progress: hovertone::Progress| {
         let time_s = progress.time_s - start_s;
         // once it was heard, we know better than the header
         let length_s = if progress.pass == 1 { declared_s } else { Some(heard_s) };
         heard_s = heard_s.max(time_s);
         let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
         share.set((f64::from(progress.pass - 1) + of_pass) / f64::from(progress.pass_count));
-    })
+    };
+    let Some(discovery) = job.discovery else {
+        let analysis = speed_from_source(recording, &job.config, &mut on_progress)?;
+        return Ok((analysis, job.config.clone(), None));
+    };
+    let found = tones_from_source(recording, &job.config, &discovery, &mut on_progress)?;
+    let FoundSpeed { families, rotor, config, analysis, alternatives } = found;
+    Ok((analysis, config, Some(Found { discovery, families, rotor, alternatives })))
 }
 
 fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts {

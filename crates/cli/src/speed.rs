@@ -6,8 +6,9 @@ use crate::files::files_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, hear_all};
 use crate::terminal::Terminal;
+use crate::tones::discovery_of;
 use crate::vehicles::preset;
-use hovertone::{Config, ToneConfig};
+use hovertone::{Config, Discovery, ToneConfig};
 use hovertone_report::{SpeedRecord, speed_json, speed_table, track_csv};
 use hovertone_vehicle::Order;
 use std::path::PathBuf;
@@ -52,18 +53,8 @@ pub(crate) fn ending_of<'a>(records: impl IntoIterator<Item = &'a SpeedRecord>) 
 }
 
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
-    let config = config_of(arguments)?;
-    let mut jobs = Vec::new();
-    for name in &arguments.files {
-        let files = files_of(name);
-        // a pattern without files stays in the list, so that its failure has a place in the output
-        let files = if files.is_empty() { vec![name.clone()] } else { files };
-        jobs.extend(files.into_iter().map(|path| Job {
-            name: path.display().to_string(),
-            path,
-            config: config.clone(),
-        }));
-    }
+    let (config, discovery) = config_of(arguments)?;
+    let jobs = jobs_of(&arguments.files, &config, discovery);
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,
@@ -73,8 +64,34 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
     Ok(Plan { jobs, hearing, track: arguments.track.clone() })
 }
 
-fn config_of(arguments: &SpeedArguments) -> Result<Config, Failure> {
-    let mut config = Config::for_tone(tone_of(&arguments.tone)?);
+/// One job for each file, all alike.
+pub(crate) fn jobs_of(names: &[PathBuf], config: &Config, discovery: Option<Discovery>) -> Vec<Job> {
+    let mut jobs = Vec::new();
+    for name in names {
+        let files = files_of(name);
+        // a pattern without files stays in the list, so that its failure has a place in the output
+        let files = if files.is_empty() { vec![name.clone()] } else { files };
+        jobs.extend(files.into_iter().map(|path| Job {
+            name: path.display().to_string(),
+            path,
+            config: config.clone(),
+            discovery,
+        }));
+    }
+    jobs
+}
+
+/// The settings, and how the tone is found where nothing tells which it is.
+fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), Failure> {
+    let (tone, discovery) = match tone_of(&arguments.tone)? {
+        Some(tone) => (tone, None),
+        None => {
+            let (tone, discovery) = discovery_of(&arguments.known, arguments.tone.vehicle.as_deref(), false)?;
+            let harmonics = arguments.tone.harmonics.unwrap_or(tone.harmonics);
+            (ToneConfig { band_hz: arguments.tone.band, harmonics, ..tone }, Some(discovery))
+        }
+    };
+    let mut config = Config::for_tone(tone);
     let analysis = &arguments.analysis;
     config.method = analysis.method.unwrap_or_default();
     config.span.from_s = analysis.from;
@@ -84,28 +101,23 @@ fn config_of(arguments: &SpeedArguments) -> Result<Config, Failure> {
     let threshold_share = analysis.gaussian_threshold_share;
     config.ridge.gaussian_threshold_share = threshold_share.unwrap_or(config.ridge.gaussian_threshold_share);
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
-    Ok(config)
+    Ok((config, discovery))
 }
 
 /// The tone that is meant: `--order` wins, then the gear, then the blades, then the vehicle. Blades that are known
-/// beside a gear help to find its tone.
-fn tone_of(arguments: &ToneArguments) -> Result<ToneConfig, Failure> {
+/// beside a gear help to find its tone. `None` where it has to be found.
+fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
     let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
     let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
     let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {
         (Some(lines_per_turn), ..) => Order::new(lines_per_turn),
         (None, Some(gear), ..) => gear.mesh_order(),
         (None, None, Some(blades), _) => Order::from_blades(blades),
-        (None, None, None, Some(vehicle)) => Ok(vehicle.tone_order().ok_or_else(|| {
-            let what = format!("the blades of the {} are not known, so neither is its tone", vehicle.name);
-            Failure::usage(what, "count them and add --blades N")
-        })?),
-        (None, None, None, None) => {
-            return Err(Failure::usage(
-                "which tone is the rotor's? One of --blades, --gear, --order and --vehicle is needed",
-                "for most drones count the blades of one propeller: hovertone speed --blades 2 FILE",
-            ));
-        }
+        (None, None, None, Some(vehicle)) => match vehicle.tone_order() {
+            Some(order) => Ok(order),
+            None => return Ok(None),
+        },
+        (None, None, None, None) => return Ok(None),
     };
     let order = order.map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
     let tone = ToneConfig::of_order(order);
@@ -114,5 +126,5 @@ fn tone_of(arguments: &ToneArguments) -> Result<ToneConfig, Failure> {
     tone.blades = blades;
     tone.band_hz = arguments.band;
     tone.harmonics = arguments.harmonics.unwrap_or(tone.harmonics);
-    Ok(tone)
+    Ok(Some(tone))
 }

@@ -113,7 +113,8 @@ impl Terminal {
                 }
                 (Some(reason), false) => {
                     self.say(&format!("{BOLD}{}{RESET}", record.file));
-                    self.labelled("  ", "no rotor tone:", PLAIN, &reason);
+                    let label = if record.is_ambiguous() { "ambiguous:" } else { "no rotor tone:" };
+                    self.labelled("  ", label, PLAIN, &reason);
                 }
                 (None, _) => self.say(&format!("{BOLD}{}{RESET}", record.file)),
             }

@@ -4,6 +4,8 @@
 
 mod channel;
 mod config;
+mod discovery;
+mod discovery_config;
 mod error;
 mod experiment;
 mod harmonic;
@@ -23,6 +25,8 @@ mod verdict;
 mod warning;
 
 pub use config::{Config, HoverConfig, Method, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
+pub use discovery::{Discovery, FoundSpeed, tones_from_source};
+pub use discovery_config::{DiscoveryConfig, KnownRotor};
 pub use error::{ConfigError, Error};
 pub use experiment::{
     Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, ToneSection, VehicleSection,
@@ -39,6 +43,6 @@ pub use thrust::{
     Air, Force, GRAVITY_STANDARD_M_S2, LoadSpeeds, LoadThrust, SampleSpeed, SampleThrust, ThrustCoefficients,
     ThrustTable, TrialSpeeds, TrialThrust, gravity_m_s2, thrust_constant_n_s2, thrust_from_loads,
 };
-pub use tone::Band;
+pub use tone::{Band, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use verdict::NoTone;
 pub use warning::Warning;

@@ -4,7 +4,7 @@ use crate::channel::ChannelBand;
 use crate::config::{Config, Method};
 use crate::error::Error;
 use crate::harmonic::{HarmonicTracer, HarmonicTrack};
-use crate::hover::{Hover, Survey, SurveyBuilder, hover_from_survey, restless_s};
+use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
@@ -104,44 +104,58 @@ pub fn speed_from_source(
 ) -> Result<SpeedAnalysis, Error> {
     config.check()?;
     let sample_rate_hz = checked_rate_hz(source)?;
+    // a tone that the recording cannot hold is refused before it is read
+    search_range_rev_s(&config.tone, sample_rate_hz)?;
+    let (survey, heard) = survey_from_source(source, config, None, on_progress)?;
+    speed_from_survey(source, &survey, heard, config, on_progress)
+}
+
+/// What follows the first reading.
+pub(crate) fn speed_from_survey(
+    source: &mut dyn SignalSource,
+    survey: &Survey,
+    heard: Span,
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<SpeedAnalysis, Error> {
+    let sample_rate_hz = checked_rate_hz(source)?;
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     let mut warnings = Vec::new();
-    let (survey, heard) = survey_from_source(source, config, on_progress)?;
     if config.span.is_given() && heard.length_s() <= 0.0 {
         return Ok(nothing_heard(heard, Hover::default(), NoTone::OutsideRecording, warnings));
     }
     if let Some(reason) = survey.why_nothing(heard.length_s()) {
         return Ok(nothing_heard(heard, Hover::default(), reason, warnings));
     }
-    let map = CombMap::from_survey(&survey, &config.tone, search_rev_s);
+    let map = CombMap::from_survey(survey, &config.tone, search_rev_s);
     let Some(speed_rev_s) = map.leading_speed_rev_s() else {
-        return Ok(nothing_heard(heard, Hover::default(), or_mains_hum(NoTone::NoSeries, &survey), warnings));
+        return Ok(nothing_heard(heard, Hover::default(), or_mains_hum(NoTone::NoSeries, survey), warnings));
     };
     let hover = if config.span.is_given() {
         Hover::whole(heard)
     } else {
-        hover_from_survey(&survey, &map, speed_rev_s, &config.tone, &config.hover)
+        hover_from_survey(survey, &map, speed_rev_s, &config.tone, &config.hover)
     };
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
-    let bands = match bands_worth_following(bands, &survey, &mut warnings) {
+    let bands = match bands_worth_following(bands, survey, &mut warnings) {
         Ok(bands) => bands,
         Err(reason) => return Ok(nothing_heard(heard, hover, reason, warnings)),
     };
-    let lines = lines_worth_hearing(lines_around(speed_rev_s, &config.tone, sample_rate_hz), &survey);
+    let lines = lines_worth_hearing(lines_around(speed_rev_s, &config.tone, sample_rate_hz), survey);
     let (mut ladder, harmonic) = lines_from_source(source, &hover, &bands, &lines, config, on_progress)?;
     let chosen = config.spectrogram.window_s.and_then(|_| ladder.pop());
     let Some(clearest) = clearest_ridges(&ladder) else {
-        return Ok(nothing_heard(heard, hover, or_mains_hum(NoTone::NoHover, &survey), warnings));
+        return Ok(nothing_heard(heard, hover, or_mains_hum(NoTone::NoHover, survey), warnings));
     };
     let is_steady = harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
     if let Some(reason) = no_tone_reason(clearest, &config.ridge)
         .filter(|_| !is_steady)
-        .or_else(|| not_held_reason(restless_s(&hover, &survey, &map), &hover, tone_hz, &config.hover))
-        .or_else(|| mains_hum_reason(clearest, &survey))
-        .or_else(|| foreign_series(&survey, &hover, &config.tone, speed_rev_s))
+        .or_else(|| not_held_reason(restless_s(&hover, survey, &map), &hover, tone_hz, &config.hover))
+        .or_else(|| mains_hum_reason(clearest, survey))
+        .or_else(|| foreign_series(survey, &hover, &config.tone, speed_rev_s))
     {
-        return Ok(nothing_heard(heard, hover, or_mains_hum(reason, &survey), warnings));
+        return Ok(nothing_heard(heard, hover, or_mains_hum(reason, survey), warnings));
     }
     let ridges = chosen.unwrap_or_else(|| clearest.clone());
     let weights = HarmonicWeights::from_ridges(&ridges, &config.ridge, &mut warnings);
@@ -177,14 +191,15 @@ pub fn speed_from_source(
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
 
-fn nothing_heard(heard: Span, hover: Hover, reason: NoTone, warnings: Vec<Warning>) -> SpeedAnalysis {
+pub(crate) fn nothing_heard(heard: Span, hover: Hover, reason: NoTone, warnings: Vec<Warning>) -> SpeedAnalysis {
     SpeedAnalysis { heard, hover, outcome: Outcome::NoRotorTone { reason }, warnings }
 }
 
-/// First reading: the whole recording in coarse rows.
-fn survey_from_source(
+/// First reading: the whole recording in coarse rows, and in those of a second builder beside them.
+pub(crate) fn survey_from_source(
     source: &mut dyn SignalSource,
     config: &Config,
+    mut beside: Option<&mut RowsBuilder>,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<(Survey, Span), Error> {
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(source.start_s());
@@ -192,7 +207,12 @@ fn survey_from_source(
     let mut builder = SurveyBuilder::new(&config.hover, source.sample_rate_hz(), from_s);
     let to_s = for_each_piece(source, &[span], |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
-        Piece::Samples(samples) => builder.push(samples),
+        Piece::Samples(samples) => {
+            builder.push(samples);
+            if let Some(beside) = &mut beside {
+                beside.push(samples);
+            }
+        }
         Piece::Heard(time_s) => on_progress(Progress { pass: 1, pass_count: PASS_COUNT, time_s }),
     })?;
     Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))

@@ -6,7 +6,7 @@
 //! recording   what one recording said                     speed        its table row, its JSON, its track
 //! thrust      the paper's tables, any vehicle             results      results.json, samples.csv
 //! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
-//! flight      what a simulated flight was like
+//! flight      what a simulated flight was like            tones        tone families and what each can mean
 //! ```
 
 mod comparison;
@@ -20,18 +20,20 @@ mod samples;
 mod speed;
 mod text_table;
 mod thrust;
+mod tones;
 mod vehicles;
 
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use cuts::cuts_in_words;
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use notice::Notice;
-pub use recording::{Answer, RecordingFacts, SpeedRecord};
+pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{Identification, InputRecord, results_json};
 pub use samples::samples_csv;
 pub use speed::{speed_json, speed_table, track_csv};
 pub use text_table::wrapped;
 pub use thrust::{method_title, thrust_summary, thrust_table};
+pub use tones::{tones_json, tones_text};
 pub use vehicles::{vehicles_json, vehicles_text};
 
 /// Version of the program that made an output.

@@ -1,7 +1,7 @@
 //! What one recording said, and what it was.
 
 use crate::notice::Notice;
-use hovertone::{Config, Outcome, RotorTone, Span, SpeedAnalysis, SpeedEstimate};
+use hovertone::{Config, Discovery, Outcome, Reading, RotorTone, Span, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use serde::Serialize;
 
 /// What is known of a file that could be opened.
@@ -42,6 +42,19 @@ pub enum Answer {
     },
 }
 
+/// What was found where nobody had said which tone is the rotor's.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// How it was looked for.
+    pub discovery: Discovery,
+    /// All tone families, strongest first.
+    pub families: Vec<ToneFamily>,
+    /// Which of them was taken for the rotor's.
+    pub rotor: Option<usize>,
+    /// The readings that stay plausible, most plausible first; empty where one is settled, or there is no rotor.
+    pub alternatives: Vec<Reading>,
+}
+
 /// One recording, its settings and its answer.
 #[derive(Clone, Debug)]
 pub struct SpeedRecord {
@@ -53,6 +66,8 @@ pub struct SpeedRecord {
     pub recording: Option<RecordingFacts>,
     /// What came of it.
     pub answer: Answer,
+    /// The tone families, where the tone had to be found.
+    pub found: Option<Found>,
     /// What weakens it, of the file as of the analysis.
     pub notices: Vec<Notice>,
 }
@@ -74,9 +89,31 @@ impl SpeedRecord {
         }
     }
 
-    /// The speed by the configured method.
+    /// The speed by the configured method; none where several readings of the tone stay plausible.
     pub fn speed(&self) -> Option<&SpeedEstimate> {
-        self.tone()?.speed(self.config.method)
+        self.tone()?.speed(self.config.method).filter(|_| !self.is_ambiguous())
+    }
+
+    /// Mean frequency of the tone that was followed, whether or not its order is settled.
+    pub fn tone_hz(&self) -> Option<f64> {
+        let estimate = self.tone()?.speed(self.config.method)?;
+        Some(estimate.speed.tone_hz(estimate.order))
+    }
+
+    /// What the tone can mean, most plausible first; nothing where that is settled.
+    pub fn alternatives(&self) -> &[Reading] {
+        self.found.as_ref().map_or(&[], |found| &found.alternatives)
+    }
+
+    /// The reading that was taken, where the tone had to be found.
+    pub fn found_reading(&self) -> Option<&Reading> {
+        let found = self.found.as_ref()?;
+        found.families.get(found.rotor?)?.readings.first()
+    }
+
+    /// Whether a rotor was heard whose order is not settled.
+    pub fn is_ambiguous(&self) -> bool {
+        !self.alternatives().is_empty()
     }
 
     /// How it ended, in the words of the machine output.
@@ -84,6 +121,7 @@ impl SpeedRecord {
         match self.speed() {
             Some(_) => "ok",
             None if self.has_failed() => "error",
+            None if self.is_ambiguous() => "ambiguous",
             None => "no_rotor_tone",
         }
     }
@@ -94,7 +132,11 @@ impl SpeedRecord {
             Answer::Failed { reason } => Some(reason.clone()),
             Answer::Heard(analysis) => match &analysis.outcome {
                 Outcome::NoRotorTone { reason } => Some(reason.to_string()),
-                Outcome::Ok(_) => None,
+                Outcome::Ok(_) => self.is_ambiguous().then(|| {
+                    "several readings of the tone stay plausible; count the blades and say --blades N, or give --diameter-m, \
+                     --mass-kg and --rotors"
+                        .to_owned()
+                }),
             },
         }
     }
@@ -104,7 +146,7 @@ impl SpeedRecord {
         matches!(self.answer, Answer::Failed { .. })
     }
 
-    /// Whether there is less than was asked for: no rotor tone, or only the beginning of the sound.
+    /// Whether there is less than was asked for: no rotor tone, one that is not settled, or only the beginning of the sound.
     pub fn is_incomplete(&self) -> bool {
         self.speed().is_none() || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }

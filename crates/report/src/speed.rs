@@ -2,12 +2,16 @@
 
 use crate::VERSION;
 use crate::notice::Notice;
-use crate::number::{DASH, rounded, uncertainty};
+use crate::number::{DASH, rounded, significant, uncertainty};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
-use hovertone::{Config, Hover, Method, SpeedEstimate, TrackPoint};
+use crate::tones::{ReadingLine, percent};
+use hovertone::{Config, Hover, Method, Reading, SpeedEstimate, TrackPoint};
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
+
+/// Digits of speeds of which at most one is right.
+const DIGITS_OF_READINGS: usize = 4;
 
 /// The speeds of all recordings, one row each.
 pub fn speed_table(records: &[SpeedRecord]) -> String {
@@ -25,6 +29,10 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
         match record.speed() {
             Some(speed) => table.push(cells_of_speed(record, speed)),
             None if record.has_failed() => table.push_words(record.file.clone(), "could not be heard".to_owned()),
+            None if record.is_ambiguous() => {
+                table.push_words(record.file.clone(), "a rotor tone that can mean:".to_owned());
+                record.alternatives().iter().for_each(|reading| table.push(cells_of_reading(record, reading)));
+            }
             None => table.push_words(record.file.clone(), "no rotor tone".to_owned()),
         }
     }
@@ -46,13 +54,27 @@ fn cells_of_speed(record: &SpeedRecord, estimate: &SpeedEstimate) -> Vec<String>
     ]
 }
 
+/// A reading among several: its belief stands where its uncertainty would.
+fn cells_of_reading(record: &SpeedRecord, reading: &Reading) -> Vec<String> {
+    vec![
+        format!("  {}? ({} %)", reading.meaning, percent(reading.plausibility)),
+        significant(reading.tone_hz, DIGITS_OF_READINGS),
+        significant(reading.speed.rev_s(), DIGITS_OF_READINGS),
+        DASH.to_owned(),
+        DASH.to_owned(),
+        significant(reading.speed.rpm(), DIGITS_OF_READINGS),
+        significant(reading.speed.rad_s(), DIGITS_OF_READINGS),
+        record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s)),
+    ]
+}
+
 /// The fixed names of the machine output, and after them what else is known.
 #[derive(Serialize)]
 struct SpeedLine<'a> {
     file: &'a str,
     status: &'static str,
     method: Method,
-    order: Order,
+    order: Option<Order>,
     tone_hz: Option<f64>,
     speed_rev_s: Option<f64>,
     speed_rpm: Option<f64>,
@@ -63,6 +85,10 @@ struct SpeedLine<'a> {
     to_s: Option<f64>,
     warnings: &'a [Notice],
     reason: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    found: Option<ReadingLine<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    alternatives: Vec<ReadingLine<'a>>,
     frame_count: Option<usize>,
     window_s: Option<f64>,
     hover: Option<&'a Hover>,
@@ -82,8 +108,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         file: &record.file,
         status: record.status(),
         method: record.config.method,
-        order: record.config.tone.order,
-        tone_hz: estimate.map(|estimate| estimate.speed.tone_hz(estimate.order)),
+        order: (record.found.is_none() || estimate.is_some()).then_some(record.config.tone.order),
+        tone_hz: record.tone_hz(),
         speed_rev_s: speed.map(RotorSpeed::rev_s),
         speed_rpm: speed.map(RotorSpeed::rpm),
         speed_rad_s: speed.map(RotorSpeed::rad_s),
@@ -93,6 +119,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         to_s: used.map(|used| used.to_s),
         warnings: &record.notices,
         reason: record.reason(),
+        found: record.found_reading().filter(|_| estimate.is_some()).map(ReadingLine::from),
+        alternatives: record.alternatives().iter().map(ReadingLine::from).collect(),
         frame_count: estimate.map(|estimate| estimate.frame_count),
         window_s: record.tone().map(|tone| tone.window_s),
         hover: record.analysis().map(|analysis| &analysis.hover),
@@ -123,7 +151,7 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
     writer.write_record(&columns[usize::from(records.len() == 1)..])?;
     for record in records {
         let file = (records.len() != 1).then_some(record.file.as_str());
-        for point in record.tone().map_or(&[][..], |tone| &tone.track) {
+        for point in record.tone().filter(|_| !record.is_ambiguous()).map_or(&[][..], |tone| &tone.track) {
             let &TrackPoint { time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db } = point;
             writer.serialize(Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db })?;
         }

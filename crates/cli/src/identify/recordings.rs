@@ -25,7 +25,8 @@ pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
                 missing.push((load, name.as_str()));
             }
             for path in files {
-                let job = Job { name: name_of(&path, root), path, config: load.config(&source.experiment) };
+                let job =
+                    Job { name: name_of(&path, root), path, config: load.config(&source.experiment), discovery: None };
                 let is_known = |(known, of): &(Job, String)| *of == load.name && known.path == job.path;
                 if !jobs.iter().any(is_known) {
                     jobs.push((job, load.name.clone()));

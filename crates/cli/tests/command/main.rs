@@ -11,4 +11,5 @@ mod roundtrip;
 mod simulate;
 mod speed;
 mod testkit;
+mod tones;
 mod usage;

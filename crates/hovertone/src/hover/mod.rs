@@ -6,7 +6,7 @@ mod rows;
 mod survey;
 
 pub(crate) use phases::restless_s;
-pub(crate) use rows::Rows;
+pub(crate) use rows::{Rows, RowsBuilder};
 pub(crate) use survey::{Survey, SurveyBuilder};
 
 use crate::config::{HoverConfig, ToneConfig};

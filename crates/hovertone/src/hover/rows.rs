@@ -59,7 +59,17 @@ pub(crate) struct RowsBuilder {
 impl RowsBuilder {
     /// Frames of `window_s` that overlap by half, rows of `row_s`.
     pub(crate) fn new(sample_rate_hz: f64, start_s: f64, window_s: f64, row_s: f64, rows_max: usize) -> Self {
-        let hop_s = window_s / 2.0;
+        Self::with_hop(sample_rate_hz, start_s, (window_s, window_s / 2.0), row_s, rows_max)
+    }
+
+    /// Frames of another step than half their length.
+    pub(crate) fn with_hop(
+        sample_rate_hz: f64,
+        start_s: f64,
+        (window_s, hop_s): (f64, f64),
+        row_s: f64,
+        rows_max: usize,
+    ) -> Self {
         let mut stft = Stft::new(sample_rate_hz, Window::Hann, window_s, hop_s, 1);
         stft.restart(start_s);
         let frames_per_row = (row_s / hop_s).round().max(1.0) as u32;

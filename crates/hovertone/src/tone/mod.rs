@@ -3,15 +3,25 @@
 mod band;
 mod band_choice;
 mod comb;
+mod family;
 mod foreign_series;
+mod levels;
 mod mains_hum;
+mod mesh;
+mod pattern;
+mod profile;
+mod reading;
+mod series;
 
 pub use band::Band;
 pub(crate) use band::{bands_around, lines_around, search_range_rev_s};
 pub(crate) use band_choice::{bands_worth_following, lines_worth_hearing};
 pub(crate) use comb::CombMap;
+pub(crate) use family::families_from_surveys;
+pub use family::{Remark, SeenHarmonic, ToneFamily};
 pub(crate) use foreign_series::foreign_series;
 pub(crate) use mains_hum::{MainsHum, mains_hum};
+pub use reading::{Meaning, Reading};
 
 /// An order up to this is a number of blades; above, a number of teeth.
 const BLADES_MAX: f64 = 12.0;

@@ -1,0 +1,244 @@
+//! Tone families of recordings: blocks for people, a JSON line for programs.
+
+use crate::VERSION;
+use crate::notice::Notice;
+use crate::number::{DASH, significant};
+use crate::recording::{Found, RecordingFacts, SpeedRecord};
+use crate::text_table::{Column, TextTable};
+use hovertone::{Config, Discovery, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
+use hovertone_vehicle::{Gear, Order};
+use serde::Serialize;
+
+/// Digits of a frequency or speed that the survey gives.
+const DIGITS: usize = 4;
+/// Before the table of a family.
+const INDENT: &str = "   ";
+
+/// What a reading is in machine output.
+#[derive(Serialize)]
+pub(crate) struct ReadingLine<'a> {
+    order: Order,
+    tone_hz: f64,
+    meaning: &'static str,
+    blades: Option<u32>,
+    gear: Option<Gear>,
+    speed_rev_s: f64,
+    speed_rpm: f64,
+    speed_rad_s: f64,
+    motor_rpm: f64,
+    tip_mach: Option<f64>,
+    thrust_coefficient: Option<f64>,
+    plausibility: f64,
+    why: &'a str,
+}
+
+impl<'a> From<&'a Reading> for ReadingLine<'a> {
+    fn from(reading: &'a Reading) -> Self {
+        Self {
+            order: reading.order,
+            tone_hz: reading.tone_hz,
+            meaning: match reading.meaning {
+                Meaning::BladePass { .. } => "blade_pass",
+                Meaning::ShaftLines { .. } => "shaft_lines",
+                Meaning::BladePassAndMesh { .. } => "blade_pass_and_mesh",
+                Meaning::Mesh { .. } => "mesh",
+            },
+            blades: reading.meaning.blades(),
+            gear: reading.meaning.gear(),
+            speed_rev_s: reading.speed.rev_s(),
+            speed_rpm: reading.speed.rpm(),
+            speed_rad_s: reading.speed.rad_s(),
+            motor_rpm: reading.motor_speed.rpm(),
+            tip_mach: reading.tip_mach,
+            thrust_coefficient: reading.thrust_coefficient,
+            plausibility: reading.plausibility,
+            why: &reading.why,
+        }
+    }
+}
+
+/// The families of one recording as a block of text: the rotor's with a table of its readings, the others on two lines.
+pub fn tones_text(record: &SpeedRecord) -> String {
+    let mut text = format!("{}\n", record.file);
+    if record.has_failed() {
+        return text + "could not be heard\n";
+    }
+    let Some(found) = record.found.as_ref() else { return text };
+    let rotor = found.rotor.filter(|_| record.tone().is_some());
+    let verdict = match rotor {
+        Some(_) if record.is_ambiguous() => "a rotor whose shaft speed the sound does not settle",
+        Some(_) => "a rotor",
+        None => "no rotor tone",
+    };
+    text += &format!("{verdict}\n");
+    if found.families.is_empty() {
+        text += "\nno family of lines stands out\n";
+    }
+    if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
+        text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(&family.readings));
+    }
+    let others = found.families.iter().enumerate().filter(|(index, _)| rotor != Some(*index));
+    for (_, family) in others {
+        let is_near = rotor.and_then(|rotor| found.families.get(rotor)).is_some_and(|rotor| family.is_near(rotor));
+        let kind = match family.remark {
+            Some(Remark::NearMains) => Remark::NearMains.text(),
+            _ if is_near => "another rotor, or the same in drift",
+            Some(remark) => remark.text(),
+            None => "another tone",
+        };
+        text += &format!("\n{}\n{}", kind_and_place(kind, family), readings_in_a_line(&family.readings));
+    }
+    text
+}
+
+/// "rotor: 360.2 Hz × 1–9, 31 dB over the floor, all the time".
+fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
+    let lines = if family.harmonics.len() == 1 {
+        String::new()
+    } else {
+        format!(" × {}", numbers_in_words(&family.harmonics))
+    };
+    let time = match (100.0 * family.time_share).round() {
+        100.0 => "all the time".to_owned(),
+        percent => format!("{percent:.0} % of the time ({:.1}–{:.1} s)", family.span.from_s, family.span.to_s),
+    };
+    let fundamental = significant(family.fundamental_hz, DIGITS);
+    format!("{kind}: {fundamental} Hz{lines}, {:.0} dB over the floor, {time}", family.level_db)
+}
+
+/// "1–4, 6, 8".
+fn numbers_in_words(harmonics: &[SeenHarmonic]) -> String {
+    let mut ranges: Vec<(u32, u32)> = Vec::new();
+    for number in harmonics.iter().map(|line| line.number) {
+        match ranges.last_mut().filter(|range| range.1 + 1 == number) {
+            Some(range) => range.1 = number,
+            None => ranges.push((number, number)),
+        }
+    }
+    let words = ranges.into_iter().map(|(first, last)| match last - first {
+        0 => first.to_string(),
+        1 => format!("{first}, {last}"),
+        _ => format!("{first}–{last}"),
+    });
+    words.collect::<Vec<_>>().join(", ")
+}
+
+/// What is believed of a reading, in per cent; a dash where it is ruled out.
+pub(crate) fn percent(plausibility: f64) -> String {
+    match plausibility {
+        0.0 => DASH.to_owned(),
+        share if share < 0.005 => "<1".to_owned(),
+        share => format!("{:.0}", 100.0 * share),
+    }
+}
+
+fn readings_table(readings: &[Reading]) -> String {
+    let has_mach = readings.iter().any(|reading| reading.tip_mach.is_some());
+    let has_coefficient = readings.iter().any(|reading| reading.thrust_coefficient.is_some());
+    let mut columns = vec![
+        Column::words("if it has"),
+        Column::numbers("order", ""),
+        Column::numbers("tone", "Hz"),
+        Column::numbers("shaft", "rev/s"),
+        Column::numbers("shaft", "rpm"),
+        Column::numbers("motor", "rpm"),
+    ];
+    columns.extend(has_mach.then(|| Column::numbers("tip", "Mach")));
+    columns.extend(has_coefficient.then(|| Column::numbers("C_T", "")));
+    columns.extend([Column::numbers("belief", "%"), Column::words("because")]);
+    let mut table = TextTable::new(columns);
+    for reading in readings {
+        let mut cells = vec![
+            reading.meaning.to_string(),
+            reading.order.to_string(),
+            significant(reading.tone_hz, DIGITS),
+            significant(reading.speed.rev_s(), DIGITS),
+            significant(reading.speed.rpm(), DIGITS),
+            significant(reading.motor_speed.rpm(), DIGITS),
+        ];
+        let number = |value: Option<f64>| value.map_or(DASH.to_owned(), |value| significant(value, 2));
+        cells.extend(has_mach.then(|| number(reading.tip_mach)));
+        cells.extend(has_coefficient.then(|| number(reading.thrust_coefficient)));
+        cells.extend([percent(reading.plausibility), reading.why.clone()]);
+        table.push(cells);
+    }
+    table.render().lines().map(|line| format!("{INDENT}{line}\n")).collect()
+}
+
+fn readings_in_a_line(readings: &[Reading]) -> String {
+    let possible = readings.iter().filter(|reading| reading.plausibility > 0.0);
+    let words: Vec<String> = possible
+        .filter(|reading| !matches!(reading.meaning, Meaning::ShaftLines { .. }) || reading.plausibility > 0.1)
+        .map(|reading| format!("{} {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
+        .collect();
+    match words.is_empty() {
+        true => format!("{INDENT}no rotor turns like that\n"),
+        false => format!("{INDENT}as a rotor: {}\n", words.join(" · ")),
+    }
+}
+
+#[derive(Serialize)]
+struct FamilyLine<'a> {
+    is_rotor: bool,
+    fundamental_hz: f64,
+    spread_hz: Option<f64>,
+    harmonics: &'a [SeenHarmonic],
+    level_db: f64,
+    time_share: f64,
+    from_s: f64,
+    to_s: f64,
+    is_settled: bool,
+    remark: Option<Remark>,
+    readings: Vec<ReadingLine<'a>>,
+}
+
+#[derive(Serialize)]
+struct TonesLine<'a> {
+    file: &'a str,
+    status: &'static str,
+    tone_hz: Option<f64>,
+    speed_rev_s: Option<f64>,
+    families: Vec<FamilyLine<'a>>,
+    warnings: &'a [Notice],
+    reason: Option<String>,
+    recording: Option<&'a RecordingFacts>,
+    discovery: Option<&'a Discovery>,
+    settings: &'a Config,
+    version: &'static str,
+}
+
+/// A recording's families as one line of JSON, without the line feed.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn tones_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
+    let rotor = record.found.as_ref().and_then(|found| found.rotor).filter(|_| record.tone().is_some());
+    let families = record.found.iter().flat_map(|found: &Found| &found.families).enumerate();
+    serde_json::to_string(&TonesLine {
+        file: &record.file,
+        status: record.status(),
+        tone_hz: record.tone_hz(),
+        speed_rev_s: record.speed().map(|speed| speed.speed.rev_s()),
+        families: families
+            .map(|(index, family)| FamilyLine {
+                is_rotor: rotor == Some(index),
+                fundamental_hz: family.fundamental_hz,
+                spread_hz: family.spread_hz,
+                harmonics: &family.harmonics,
+                level_db: family.level_db,
+                time_share: family.time_share,
+                from_s: family.span.from_s,
+                to_s: family.span.to_s,
+                is_settled: family.is_settled,
+                remark: family.remark,
+                readings: family.readings.iter().map(ReadingLine::from).collect(),
+            })
+            .collect(),
+        warnings: &record.notices,
+        reason: record.reason(),
+        recording: record.recording.as_ref(),
+        discovery: record.found.as_ref().map(|found| &found.discovery),
+        settings: &record.config,
+        version: VERSION,
+    })
+}
