@@ -4,7 +4,7 @@
 use crate::config::Config;
 use crate::discovery_config::{DiscoveryConfig, KnownRotor};
 use crate::error::Error;
-use crate::hover::{Hover, Rows, RowsBuilder, Survey};
+use crate::hover::{Hover, RowsBuilder, Survey};
 use crate::pipeline::{Outcome, SpeedAnalysis, nothing_heard, speed_from_survey, survey_from_source};
 use crate::signal::SignalSource;
 use crate::speed::SpeedEstimate;
@@ -82,8 +82,7 @@ pub fn tones_from_source(
     let mut detail =
         RowsBuilder::with_hop(sample_rate_hz, start_s, (window_s, window_s), DETAIL_FRAMES * window_s, DETAIL_ROWS_MAX);
     let (survey, heard) = survey_from_source(source, config, Some(&mut detail), on_progress)?;
-    let Rows { rows, bin_hz } = detail.finish(heard.to_s);
-    let detail = Survey { rows, bin_hz, ..Survey::default() };
+    let detail = Survey::of_rows(detail.finish(heard.to_s));
     let nothing = |reason: NoTone, families: Vec<ToneFamily>| FoundSpeed {
         families,
         rotor: None,
@@ -100,18 +99,36 @@ pub fn tones_from_source(
     let (fundamental_hz_min, fundamental_hz_max) =
         config.tone.band_hz.unwrap_or((discovery.config.fundamental_hz_min, discovery.config.fundamental_hz_max));
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
-    let families = families_from_surveys(&survey, &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
-        !discovery.wants_all && doubt(family) == Some(0)
-    });
+    let families =
+        families_from_surveys(&survey.with_hum(), &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
+            !discovery.wants_all && doubt(family) == Some(0)
+        });
     let Some(rotor) = rotor_among(&families) else { return Ok(nothing(NoTone::NoSeries, families)) };
-    let Some(reading) = families[rotor].readings.first() else { return Ok(nothing(NoTone::NoSeries, families)) };
+    let Some(first) = families[rotor].readings.first() else { return Ok(nothing(NoTone::NoSeries, families)) };
     let mut config_of_found = config.clone();
     config_of_found.ridge.company_share_min = config.ridge.company_share_min.max(discovery.config.company_share_min);
-    let mut found = config_for(&config_of_found, reading, OTHER_SPEED_FACTOR);
-    let mut analysis = speed_from_survey(source, &survey, heard, &found, on_progress)?;
+    let mut analysed = |reading: &Reading, factor: f64| -> Result<(Config, SpeedAnalysis), Error> {
+        let found = config_for(&config_of_found, reading, factor);
+        let analysis = speed_from_survey(source, &survey, heard, &found, on_progress)?;
+        Ok((found, analysis))
+    };
+    let mut reading = first;
+    let (mut found, mut analysis) = analysed(reading, OTHER_SPEED_FACTOR)?;
+    // lines that one reading cannot explain refute it, not the others
+    let is_refuted = |analysis: &SpeedAnalysis| {
+        matches!(analysis.outcome, Outcome::NoRotorTone { reason: NoTone::ForeignSeries { .. } })
+    };
+    for other in families[rotor].plausible_readings(&discovery.config).into_iter().skip(1) {
+        if !is_refuted(&analysis) {
+            break;
+        }
+        let next = analysed(other, OTHER_SPEED_FACTOR)?;
+        if !is_refuted(&next.1) {
+            (reading, (found, analysis)) = (other, next);
+        }
+    }
     if !speed_of(&analysis, &found).is_none_or(|speed| is_near(speed.speed, reading)) {
-        found = config_for(&config_of_found, reading, 1.0 + SAME_TONE_SHARE);
-        analysis = speed_from_survey(source, &survey, heard, &found, on_progress)?;
+        (found, analysis) = analysed(reading, 1.0 + SAME_TONE_SHARE)?;
     }
     let alternatives = match speed_of(&analysis, &found) {
         Some(speed) if !families[rotor].is_settled => {

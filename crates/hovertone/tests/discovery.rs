@@ -33,7 +33,7 @@ fn answer(found: &FoundSpeed) -> Answer {
     match &found.analysis.outcome {
         Outcome::NoRotorTone { .. } => Answer::Nothing,
         Outcome::Ok(tone) if found.alternatives.is_empty() => {
-            Answer::Settled(tone.speed(Method::MaximumTrace).expect("a speed").speed.rev_s())
+            Answer::Settled(tone.speed(Method::Harmonic).expect("a speed").speed.rev_s())
         }
         Outcome::Ok(_) => Answer::Open(found.alternatives.iter().map(|reading| reading.speed.rev_s()).collect()),
     }

@@ -131,7 +131,7 @@ fn samples_cover_the_hover_as_set() {
     let Outcome::Ok(tone) = &analysis.outcome else { panic!("no tone") };
     assert_eq!(tone.samples.len(), 5);
     for sample in &tone.samples {
-        assert_eq!(sample.speeds.len(), 2);
+        assert_eq!(sample.speeds.len(), 3);
         assert!((sample.speeds[0].speed.rev_s() - 90.0).abs() < 0.02);
     }
 }

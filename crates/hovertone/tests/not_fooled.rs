@@ -37,7 +37,7 @@ fn seeds() -> u64 {
 fn fooled_percent_max(kind: &Kind) -> usize {
     match kind.name {
         "PWM whine" => 55,  // a crystal's multiples, with a gear for an order
-        "singing" => 35,    // a note with its harmonics, held for longer than 3 s
+        "singing" => 40,    // a note with its harmonics, held for longer than 3 s
         "chords" => 30,     // a chord held for as long
         "melody" => 20,     // a note that comes again and again
         "helicopter" => 12, // with one blade: its main rotor's blade pass is such a line

@@ -32,6 +32,8 @@ pub(crate) const TICKS_PER_HOP: usize = 8;
 pub(crate) struct ChannelBand {
     /// Lines per turn of the shaft.
     pub(crate) order: f64,
+    /// Whether it is the first of its family: the blade pass or the gear mesh itself.
+    pub(crate) is_first: bool,
     pub(crate) band_hz_low: f64,
     pub(crate) band_hz_high: f64,
 }
@@ -40,6 +42,8 @@ pub(crate) struct ChannelBand {
 pub(crate) struct Channel {
     /// Lines per turn of the shaft.
     pub(crate) order: f64,
+    /// Whether it is the first of its family.
+    pub(crate) is_first: bool,
     /// The frequency that is shifted to zero.
     pub(crate) centre_hz: f64,
     /// Samples per second.
@@ -173,6 +177,7 @@ impl Channel {
         let width = smooth_at_least((2 * half_bins).max(WIDTH_BINS_MIN), 2 * TICKS_PER_HOP);
         Self {
             order: band.order,
+            is_first: band.is_first,
             centre_hz: centre_bin as f64 * bin_hz,
             rate_hz: width as f64 * bin_hz,
             hop_samples: width / 2,
@@ -235,7 +240,7 @@ mod tests {
                 (amplitude * (TAU * hz * t + phase).cos() + 10.0 * amplitude * (TAU * 3000.0 * t).cos()) as f32
             })
             .collect();
-        let band = ChannelBand { order: 69.0, band_hz_low: 3820.0, band_hz_high: 4480.0 };
+        let band = ChannelBand { order: 69.0, is_first: true, band_hz_low: 3820.0, band_hz_high: 4480.0 };
         let mut bank = ChannelBank::new(rate, &[band]);
         for block in [7, 1000, 65536] {
             let mut series = vec![Vec::new()];

@@ -16,6 +16,8 @@ use std::f64::consts::{PI, TAU};
 /// One line of a quantum, turned back by a path: one sum for each tick.
 pub(super) struct Line {
     pub(super) order: f64,
+    /// Whether it is the first of its family.
+    pub(super) is_first: bool,
     /// Whether it stands out of the noise in every half hop.
     pub(super) is_strong: bool,
     pub(super) noise_variance: f64,
@@ -40,8 +42,9 @@ pub(super) struct BlockFit {
     pub(super) scatter: f64,
     /// Information on the speed, 1/σ².
     pub(super) information: f64,
-    /// Lines that stand out of the noise by themselves.
+    /// Lines that stand out of the noise by themselves, and whether the first of a family is among them.
     pub(super) lines_heard: u32,
+    pub(super) is_first_heard: bool,
     /// Power of the strongest line, 1 for a sine of full scale.
     pub(super) strongest_power: f64,
 }
@@ -94,6 +97,7 @@ pub(super) fn demodulated(
 pub(super) struct Cells {
     orders: Vec<f64>,
     are_strong: Vec<bool>,
+    are_first: Vec<bool>,
     /// 1 / (N V) of each line, and N.
     scales: Vec<(f64, f64)>,
     /// Middle of each cell from the middle of the block.
@@ -160,6 +164,7 @@ impl Cells {
         Self {
             orders: lines.iter().map(|line| line.order).collect(),
             are_strong: lines.iter().map(|line| line.is_strong).collect(),
+            are_first: lines.iter().map(|line| line.is_first).collect(),
             scales: lines
                 .iter()
                 .map(|line| {
@@ -293,6 +298,7 @@ impl Cells {
             scatter: seen.scatter,
             information: seen.information,
             lines_heard: seen.lines_heard,
+            is_first_heard: seen.is_first_heard,
             strongest_power: seen.strongest_power,
         }
     }
@@ -301,7 +307,14 @@ impl Cells {
     fn seen_at(&self, offset: f64, bend: f64) -> Seen {
         let mean_square_s2 = self.span_s * self.span_s / 12.0;
         let halves = self.half_hop_times_s.len();
-        let mut seen = Seen { information: 0.0, in_phase: 0.0, scatter: 1.0, strongest_power: 0.0, lines_heard: 0 };
+        let mut seen = Seen {
+            information: 0.0,
+            in_phase: 0.0,
+            scatter: 1.0,
+            strongest_power: 0.0,
+            lines_heard: 0,
+            is_first_heard: false,
+        };
         let mut turned = vec![Complex::<f64>::default(); halves];
         // phases are compared in so many pieces that what rotates quickly, such as another line nearby, has averaged out
         let piece = halves.div_ceil(PHASE_PIECES);
@@ -315,7 +328,9 @@ impl Cells {
                 sum += *into;
             }
             seen.strongest_power = seen.strongest_power.max(sum.norm_sqr() / self.scales[index].1.powi(2));
-            seen.lines_heard += u32::from(scale * sum.norm_sqr() > LINE_LIKELIHOOD_MIN);
+            let is_heard = scale * sum.norm_sqr() > LINE_LIKELIHOOD_MIN;
+            seen.lines_heard += u32::from(is_heard);
+            seen.is_first_heard |= is_heard && self.are_first[index];
             // noise itself adds N V to |Σ z|²
             seen.information += 2.0 * (TAU * order).powi(2) * (scale * sum.norm_sqr() - 1.0) * mean_square_s2;
             if !self.are_strong[index] {
@@ -351,6 +366,7 @@ impl Cells {
 /// What a block shows at its maximum.
 struct Seen {
     lines_heard: u32,
+    is_first_heard: bool,
     strongest_power: f64,
     information: f64,
     in_phase: f64,

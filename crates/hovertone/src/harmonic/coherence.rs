@@ -52,6 +52,16 @@ impl Level {
         Self { evidence: explained - free - PENALTY_STDS * free.sqrt() - tolerated, blocks }
     }
 
+    /// Likelihood of all blocks.
+    pub(super) fn likelihood(&self) -> f64 {
+        self.blocks.iter().map(|block| block.likelihood).sum()
+    }
+
+    /// The same, less what noise gives.
+    pub(super) fn likelihood_over_noise(&self, lines: usize) -> f64 {
+        self.blocks.iter().map(|block| (block.likelihood - lines as f64 - 1.0).max(0.0)).sum()
+    }
+
     /// Share of the blocks that stand out of the noise by so many times what they must.
     pub(super) fn heard_share(&self, lines: usize, times: f64) -> f64 {
         let heard = self.blocks.iter().filter(|block| block.likelihood >= times * likelihood_min(lines)).count();

@@ -141,8 +141,9 @@ impl SpeedMap {
         }
         let strong: Vec<f64> = presences
             .iter()
-            .filter(|presence| presence.on_path > STRONG_POWER_MIN)
-            .map(|presence| (presence.beside - NOISE_PEAK_POWER).max(0.0) / presence.in_band)
+            .zip(&self.lines)
+            .filter(|(presence, line)| line.is_alone && presence.on_path > STRONG_POWER_MIN)
+            .map(|(presence, _)| (presence.beside - NOISE_PEAK_POWER).max(0.0) / presence.in_band)
             .collect();
         let beside_share = mean(&strong).unwrap_or(0.0);
         let centroids = amplitudes.iter().map(|on_grid| self.centroid(on_grid, &presences, noise_variances)).collect();
@@ -216,7 +217,7 @@ pub(super) struct MapPath {
     pub(super) presences: Vec<LinePresence>,
     /// The one speed that explains most of all frames.
     pub(super) steady_rev_s: f64,
-    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean over these lines.
+    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines.
     pub(super) beside_share: f64,
     /// Where the energy of each frame lies.
     pub(super) centroids: Vec<Centroid>,

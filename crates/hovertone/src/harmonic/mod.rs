@@ -31,8 +31,8 @@ const STRANGER_RATIO: f64 = 6.0;
 const STRANGER_POWER_MIN: f64 = 20.0;
 
 /// Where something else in the bands of the strong lines has this share of their power, several rotors sound at once. One rotor
-/// leaves up to 0.05 there (its own wander, and lines at other orders), several leave 0.13 to 0.6.
-const SEVERAL_SHARE: f64 = 0.1;
+/// leaves up to 0.02 there (its own wander, and lines at other orders), several leave 0.11 to 0.6.
+const SEVERAL_SHARE: f64 = 0.08;
 /// The rotors' loudness is not known to be equal: with levels that differ by 3 dB or so, the mean of four is uncertain by this
 /// share of how far they lie apart.
 const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
@@ -46,6 +46,8 @@ const STEADY_S_MIN: f64 = 1.0;
 /// … and reach so many times what a block must, and what the search over a hundred thousand cells finds in noise.
 const STEADY_TIMES: f64 = 2.0;
 const SEARCH_LIKELIHOOD: f64 = 20.0;
+/// … and hold this share of the likelihood that blocks of one hop find, each by itself. A machine's hum leaves a tenth.
+const COHERENT_SHARE: f64 = 0.4;
 
 /// The speed over one block of sound.
 #[derive(Clone, Copy, Debug)]
@@ -211,8 +213,9 @@ impl HarmonicTracer {
         let threshold = likelihood_min(self.bank.channels.len());
         let start_s = self.start_s;
         match self.level_of_quantum(ticks) {
-            Some(Heard::One(level)) => {
-                self.track.blocks.extend(level.blocks.iter().map(|fit| block_at(fit, start_s, tick_s, threshold)));
+            Some(Heard::One(level, coheres)) => {
+                let blocks = level.blocks.iter().map(|fit| block_at(fit, coheres, start_s, tick_s, threshold));
+                self.track.blocks.extend(blocks);
             }
             Some(Heard::Several(centroids)) => {
                 self.track.blocks.extend(blocks_of_several(&centroids, start_s, FRAME_HOPS as f64 * hop_s));
@@ -268,6 +271,7 @@ impl HarmonicTracer {
                     let place = (channel.order, channel.centre_hz, channel.rate_hz);
                     Line {
                         order: channel.order,
+                        is_first: channel.is_first,
                         is_strong: presences[index].on_path > STRONG_POWER_MIN,
                         noise_variance: noise_variances[index],
                         samples_per_tick: samples_per_tick as f64,
@@ -295,6 +299,7 @@ impl HarmonicTracer {
                 following.map_or(straight.clone(), |level| straight.or_better(level))
             }
         };
+        let coheres = best.likelihood() > COHERENT_SHARE * coarse.likelihood_over_noise(used.len());
         let points: Vec<(f64, f64)> = best
             .blocks
             .iter()
@@ -306,16 +311,17 @@ impl HarmonicTracer {
             })
             .collect();
         Some(match SpeedPath::through(&points, tick_s, ticks) {
-            Some(path) => Heard::One(polished(&lines_along(&path), &path, &best)),
-            None => Heard::One(best),
+            Some(path) => Heard::One(polished(&lines_along(&path), &path, &best), coheres),
+            None => Heard::One(best, coheres),
         })
     }
 }
 
 /// What a quantum holds.
 enum Heard {
-    /// One rotor, or several that turn as one.
-    One(Level),
+    /// One rotor, or several that turn as one; and whether its blocks hold most of what short ones find, so that the lines
+    /// really keep their phase.
+    One(Level, bool),
     /// Several, and where their energy lies in each frame.
     Several(Vec<Centroid>),
 }
@@ -353,7 +359,7 @@ fn is_stranger(presence: &LinePresence) -> bool {
     presence.in_band > STRANGER_POWER_MIN && presence.in_band > STRANGER_RATIO * presence.on_path
 }
 
-fn block_at(fit: &BlockFit, start_s: f64, tick_s: f64, threshold: f64) -> HarmonicBlock {
+fn block_at(fit: &BlockFit, coheres: bool, start_s: f64, tick_s: f64, threshold: f64) -> HarmonicBlock {
     let at = |tick: usize| start_s + tick as f64 * tick_s;
     HarmonicBlock {
         span: Span { from_s: at(fit.tick_from), to_s: at(fit.tick_to) },
@@ -365,6 +371,8 @@ fn block_at(fit: &BlockFit, start_s: f64, tick_s: f64, threshold: f64) -> Harmon
         is_heard: fit.likelihood >= threshold && fit.information > INFORMATION_MIN,
         is_steady: (fit.tick_to - fit.tick_from) as f64 * tick_s >= STEADY_S_MIN
             && fit.lines_heard >= 2
+            && fit.is_first_heard
+            && coheres
             && fit.likelihood >= STEADY_TIMES * threshold + SEARCH_LIKELIHOOD,
     }
 }

@@ -16,6 +16,8 @@ pub(crate) struct Survey {
     /// All frequencies, coarsely. Mains hum is taken out.
     pub(crate) rows: Vec<Row>,
     pub(crate) bin_hz: f64,
+    /// The same as they were, where hum was taken out.
+    rows_with_hum: Option<Vec<Row>>,
     /// The low frequencies, finely, as they are.
     pub(crate) fine: Rows,
     /// Highest frequency that the fine rows hold.
@@ -25,6 +27,17 @@ pub(crate) struct Survey {
 }
 
 impl Survey {
+    /// A survey of rows alone.
+    pub(crate) fn of_rows(Rows { rows, bin_hz }: Rows) -> Self {
+        Self { rows, bin_hz, ..Self::default() }
+    }
+
+    /// All that sounds, hum included.
+    pub(crate) fn with_hum(&self) -> Self {
+        let rows = self.rows_with_hum.as_ref().unwrap_or(&self.rows).clone();
+        Self { rows, bin_hz: self.bin_hz, ..Self::default() }
+    }
+
     /// Mean power spectrum of all that was heard.
     pub(crate) fn mean_power(&self) -> Option<Vec<f64>> {
         mean_power(self.rows.iter())
@@ -69,10 +82,11 @@ impl SurveyBuilder {
         let fine = self.fine.finish(end_s);
         let fine_hz_max = self.decimator.hz_max();
         let hum = mains_hum(&fine, fine_hz_max);
+        let rows_with_hum = hum.is_some().then(|| rows.clone());
         if let Some(hum) = &hum {
             rows.iter_mut().for_each(|row| hum.take_out(&mut row.power, bin_hz));
         }
-        Survey { rows, bin_hz, fine, fine_hz_max, hum }
+        Survey { rows, bin_hz, rows_with_hum, fine, fine_hz_max, hum }
     }
 }
 

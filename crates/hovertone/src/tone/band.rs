@@ -99,7 +99,12 @@ pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: 
     orders
         .into_iter()
         .filter(|order| order * high_rev_s <= hz_max)
-        .map(|order| ChannelBand { order, band_hz_low: order * low_rev_s, band_hz_high: order * high_rev_s })
+        .map(|order| ChannelBand {
+            order,
+            is_first: order == tone.order.lines_per_turn() || blades == Some(order),
+            band_hz_low: order * low_rev_s,
+            band_hz_high: order * high_rev_s,
+        })
         .collect()
 }
 
