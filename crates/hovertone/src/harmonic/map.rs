@@ -1,7 +1,7 @@
 //! Where the speed is, roughly: all lines scored together on a grid of speeds in each frame, and the best path through them.
 
 use crate::channel::Channel;
-use crate::statistics::mean;
+use crate::statistics::{mean, median};
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
@@ -19,6 +19,8 @@ const STEP_STD_SHARE: f64 = 0.01;
 pub(super) const STRONG_POWER_MIN: f64 = 30.0;
 /// The highest power of noise alone in a band.
 const NOISE_PEAK_POWER: f64 = 8.0;
+/// Something else is in a band where it has this share of the strongest power.
+const MOST_BANDS_SHARE: f64 = 0.04;
 /// Half width of the lobe of a Hann frame, and half a cell more, in resolution cells.
 const LOBE_CELLS: f64 = 2.5;
 /// What is weaker than this share of a frame's highest power does not count for where its energy lies.
@@ -145,7 +147,9 @@ impl SpeedMap {
             .filter(|(presence, line)| line.is_alone && presence.on_path > STRONG_POWER_MIN)
             .map(|(presence, _)| (presence.beside - NOISE_PEAK_POWER).max(0.0) / presence.in_band)
             .collect();
-        let beside_share = mean(&strong).unwrap_or(0.0);
+        // another sound falls into some bands, another rotor into most of those that resolve it
+        let is_in_most = median(&strong).is_some_and(|share| share > MOST_BANDS_SHARE);
+        let beside_share = mean(&strong).filter(|_| is_in_most).unwrap_or(0.0);
         let centroids = amplitudes.iter().map(|on_grid| self.centroid(on_grid, &presences, noise_variances)).collect();
         let frame_s = FRAME_HOPS as f64 * hop_s;
         let points = path
@@ -217,7 +221,7 @@ pub(super) struct MapPath {
     pub(super) presences: Vec<LinePresence>,
     /// The one speed that explains most of all frames.
     pub(super) steady_rev_s: f64,
-    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines.
+    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines, 0 where it is in few of them.
     pub(super) beside_share: f64,
     /// Where the energy of each frame lies.
     pub(super) centroids: Vec<Centroid>,
