@@ -1,6 +1,7 @@
 //! Settings: every default stands here once, with its unit and its reason.
 
 use crate::error::ConfigError;
+use crate::method::Method;
 use crate::spectrogram::Window;
 use hovertone_vehicle::{Order, RotorSpeed, ShaftSpeedRange};
 use serde::{Deserialize, Serialize};
@@ -66,34 +67,6 @@ pub(crate) fn check_range(name: &'static str, value: f64, min: f64, max: f64) ->
     if (min..=max).contains(&value) { Ok(()) } else { Err(ConfigError::OutOfRange { name, value, min, max }) }
 }
 
-/// How the speed is read from the sound.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[non_exhaustive]
-pub enum Method {
-    /// The maximum of the likelihood of all lines together, each weighed by the noise around it.
-    #[default]
-    Harmonic,
-    /// The loudest frequency of each frame (paper, section 4.1).
-    MaximumTrace,
-    /// The centre of the Gaussian through all that reaches a share of the loudest (paper, section 4.2).
-    Gaussian,
-}
-
-impl Method {
-    /// All methods: ours, then the paper's in its order.
-    pub const ALL: [Self; 3] = [Self::Harmonic, Self::MaximumTrace, Self::Gaussian];
-
-    /// Name in files and flags.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Harmonic => "harmonic",
-            Self::MaximumTrace => "maximum_trace",
-            Self::Gaussian => "gaussian",
-        }
-    }
-}
-
 /// Which tone of the rotor is followed, and where it is looked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToneConfig {
@@ -102,7 +75,7 @@ pub struct ToneConfig {
     /// How many harmonics have a ridge, the tone itself counted as the first. The paper follows three.
     pub harmonics: u32,
     /// How many lines of the blade pass the harmonic likelihood hears: those of small multirotors stand out of the noise up
-    /// to the twelfth.
+    /// to the twelfth, and weak ones do no harm.
     pub blade_pass_lines: u32,
     /// How many lines of the gear mesh it hears: the AR.Drone's fourth is above what most recorders keep.
     pub gear_mesh_lines: u32,
@@ -130,7 +103,7 @@ impl ToneConfig {
         Self {
             order,
             harmonics: 3,
-            blade_pass_lines: 12,
+            blade_pass_lines: 20,
             gear_mesh_lines: 3,
             blades: None,
             band_hz: None,

@@ -10,6 +10,7 @@ mod error;
 mod experiment;
 mod harmonic;
 mod hover;
+mod method;
 mod pipeline;
 mod ridge;
 mod sample;
@@ -24,7 +25,7 @@ mod tone;
 mod verdict;
 mod warning;
 
-pub use config::{Config, HoverConfig, Method, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
+pub use config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
 pub use discovery::{Discovery, FoundSpeed, tones_from_source};
 pub use discovery_config::{DiscoveryConfig, KnownRotor};
 pub use error::{ConfigError, Error};
@@ -32,6 +33,7 @@ pub use experiment::{
     Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, ToneSection, VehicleSection,
 };
 pub use hover::{Cut, CutReason, Hover};
+pub use method::Method;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
 pub use ridge::{Peak, Ridge, RidgeFrame, peak_offset_bins};
 pub use signal::{Signal, SignalSource, SourceError};

@@ -1,10 +1,11 @@
 //! The whole flow on one screen: source → survey → hover → bands → ridges → samples → speed. No arithmetic here.
 
 use crate::channel::ChannelBand;
-use crate::config::{Config, Method};
+use crate::config::Config;
 use crate::error::Error;
 use crate::harmonic::{HarmonicTracer, HarmonicTrack};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
+use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
@@ -12,8 +13,8 @@ use crate::span::Span;
 use crate::speed::{HarmonicWeights, SpeedEstimate, Track, TrackPoint};
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
 use crate::tone::{
-    Band, CombMap, bands_around, bands_worth_following, foreign_series, lines_around, lines_worth_hearing,
-    search_range_rev_s,
+    BLADES_MAX, Band, CombMap, bands_around, bands_worth_following, foreign_series, lines_and_between, lines_around,
+    lines_worth_hearing, search_range_rev_s,
 };
 use crate::verdict::{
     NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_samples,
@@ -148,9 +149,11 @@ pub(crate) fn speed_from_survey(
     let Some(clearest) = clearest_ridges(&ladder) else {
         return Ok(nothing_heard(heard, hover, or_mains_hum(NoTone::NoHover, survey), warnings));
     };
-    let is_steady = harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
-    if let Some(reason) = no_tone_reason(clearest, &config.ridge)
-        .filter(|_| !is_steady)
+    let mut not_a_line = no_tone_reason(clearest, &config.ridge);
+    if not_a_line.is_some() && harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
+        not_a_line = slower_shaft_from_source(source, &hover, &lines, config, on_progress)?;
+    }
+    if let Some(reason) = not_a_line
         .or_else(|| not_held_reason(restless_s(&hover, survey, &map), &hover, tone_hz, &config.hover))
         .or_else(|| mains_hum_reason(clearest, survey))
         .or_else(|| foreign_series(survey, &hover, &config.tone, speed_rev_s))
@@ -216,6 +219,30 @@ pub(crate) fn survey_from_source(
         Piece::Heard(time_s) => on_progress(Progress { pass: 1, pass_count: PASS_COUNT, time_s }),
     })?;
     Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))
+}
+
+/// Third reading, where a steady tone is too weak for the comb to have settled its octave: whether lines between the assumed ones
+/// sound as well. A gear mesh has no octave to settle.
+fn slower_shaft_from_source(
+    source: &mut dyn SignalSource,
+    hover: &Hover,
+    lines: &[ChannelBand],
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<Option<NoTone>, Error> {
+    let order = config.tone.order.lines_per_turn();
+    if order > BLADES_MAX {
+        return Ok(None);
+    }
+    let mut harmonic = HarmonicTracer::new(source.sample_rate_hz(), &lines_and_between(lines, order));
+    let mut segments = hover.segments.iter();
+    for_each_piece(source, &hover.segments, |piece| match piece {
+        Piece::Start(time_s) => harmonic.restart(time_s, segments.next().map_or(0.0, Span::length_s)),
+        Piece::Samples(samples) => harmonic.push(samples),
+        Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
+    })?;
+    let between = harmonic.finish().lines_between(order);
+    Ok((between > 1).then_some(NoTone::SlowerShaft { line_count: between }))
 }
 
 /// Second reading: the ridges of the hover at every frame length that is tried, the one that the user wants last; and the

@@ -1,7 +1,8 @@
 //! Whether the ridges show a rotor at all, and what weakens what they show.
 
-use crate::config::{HoverConfig, Method, RidgeConfig};
+use crate::config::{HoverConfig, RidgeConfig};
 use crate::hover::{CutReason, Hover, Survey};
+use crate::method::Method;
 use crate::pipeline::SampleSpeeds;
 use crate::ridge::Ridge;
 use crate::span::Span;
@@ -87,6 +88,11 @@ pub enum NoTone {
         /// Where the recording ends.
         above_hz: f64,
     },
+    /// A weak steady tone, with lines between those that the rotor can make.
+    SlowerShaft {
+        /// How many of them.
+        line_count: usize,
+    },
     /// A line that comes and goes, without any of its harmonics.
     LonelyLine {
         /// Where it is.
@@ -132,6 +138,11 @@ impl fmt::Display for NoTone {
                 f,
                 "the tone would be near {tone_hz:.0} Hz, and a codec or the recorder left nothing above {above_hz:.0} Hz; \
                  record without compression, or follow a tone of lower order"
+            ),
+            Self::SlowerShaft { line_count } => write!(
+                f,
+                "a weak steady tone, but {line_count} lines sound between those that the rotor can make: the shaft turns more \
+                 slowly than they say"
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,

@@ -1,7 +1,8 @@
 //! The experiment file, settled: preset and own numbers, gravity, the tone's order, each load's force.
 
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
-use crate::config::{Config, Method, SpanConfig, ToneConfig};
+use crate::config::{Config, SpanConfig, ToneConfig};
+use crate::method::Method;
 use crate::thrust::{Force, GRAVITY_STANDARD_M_S2, gravity_m_s2};
 use hovertone_vehicle::{Order, Vehicle, find_preset};
 

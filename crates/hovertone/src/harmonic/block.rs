@@ -189,6 +189,11 @@ impl Cells {
         self.orders.iter().zip(&self.scales).zip(self.sums.chunks_exact(cells)).map(|((o, s), sums)| (*o, s.0, sums))
     }
 
+    /// J of each line at the guess.
+    pub(super) fn line_likelihoods(&self) -> Vec<f64> {
+        self.lines().map(|(_, scale, sums)| scale * sums.iter().sum::<Complex<f64>>().norm_sqr()).collect()
+    }
+
     /// J, its gradient and its second derivatives at an offset.
     pub(super) fn expansion(&self, offset: f64, bend: f64) -> (f64, [f64; 2], [f64; 3]) {
         let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);

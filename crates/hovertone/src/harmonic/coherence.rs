@@ -171,6 +171,16 @@ fn climbed(blocks: &[(f64, Cells)], offset: f64) -> (f64, f64) {
     place
 }
 
+/// J of each line, over all blocks of a level.
+pub(super) fn line_likelihoods(lines: &[Line], path: &SpeedPath, level: &Level) -> Vec<f64> {
+    let mut sums = vec![0.0; lines.len()];
+    for block in &level.blocks {
+        let cells = Cells::new(lines, path, (block.tick_from, block.tick_to), (block.speed_rev_s, block.slope_rev_s2));
+        sums.iter_mut().zip(cells.line_likelihoods()).for_each(|(sum, likelihood)| *sum += likelihood);
+    }
+    sums
+}
+
 /// The same blocks once more, around themselves.
 pub(super) fn polished(lines: &[Line], path: &SpeedPath, level: &Level) -> Level {
     let blocks = level

@@ -114,20 +114,20 @@ impl SpeedMap {
                 line.transform(&series[frame * line.window.len()..], noise);
                 line.interpolate(&self.speeds_rev_s, row);
             }
-            let peaks: Vec<f32> =
-                on_grid.chunks_exact(points).map(|row| row.iter().copied().fold(0.0, f32::max)).collect();
+            let peaks: Vec<f32> = on_grid.chunks_exact(points).map(highest).collect();
             let cap = second_largest(&peaks);
-            let mut score = vec![0.0; points];
+            let mut score = vec![0.0f32; points];
             for ((row, &peak), presence) in on_grid.chunks_exact(points).zip(&peaks).zip(&mut presences) {
                 // a whistle in one band must not outvote lines that agree
                 let scale = if peak > cap { cap / peak } else { 1.0 };
                 for ((sum, power), amplitude) in score.iter_mut().zip(&mut power).zip(row) {
-                    *sum += f64::from(amplitude * scale);
-                    *power += (amplitude * scale).powi(2);
+                    let scaled = amplitude * scale;
+                    *sum += scaled;
+                    *power += scaled * scaled;
                 }
                 presence.in_band += f64::from(peak * peak) / frames as f64;
             }
-            scores.push(score);
+            scores.push(score.into_iter().map(f64::from).collect());
             amplitudes.push(on_grid);
         }
         let steady = (0..points).max_by(|&a, &b| power[a].total_cmp(&power[b])).unwrap_or(0);
@@ -138,7 +138,9 @@ impl SpeedMap {
             for ((presence, row), line) in presences.iter_mut().zip(on_grid.chunks_exact(points)).zip(&self.lines) {
                 let lobe_points = LOBE_CELLS / (line.order * FRAME_HOPS as f64 * hop_s) / step;
                 presence.on_path += f64::from(row[place].powi(2)) / frames as f64;
-                presence.beside += power_beside(row, place, lobe_points) / frames as f64;
+                if line.is_alone {
+                    presence.beside += power_beside(row, place, lobe_points) / frames as f64;
+                }
             }
         }
         let strong: Vec<f64> = presences
@@ -150,14 +152,19 @@ impl SpeedMap {
         // another sound falls into some bands, another rotor into most of those that resolve it
         let is_in_most = median(&strong).is_some_and(|share| share > MOST_BANDS_SHARE);
         let beside_share = mean(&strong).filter(|_| is_in_most).unwrap_or(0.0);
-        let centroids = amplitudes.iter().map(|on_grid| self.centroid(on_grid, &presences, noise_variances)).collect();
         let frame_s = FRAME_HOPS as f64 * hop_s;
         let points = path
             .iter()
             .enumerate()
             .map(|(frame, &place)| ((frame as f64 + 0.5) * frame_s, self.speeds_rev_s[place]))
             .collect();
-        MapPath { points, presences, steady_rev_s: self.speeds_rev_s[steady], beside_share, centroids }
+        let steady_rev_s = self.speeds_rev_s[steady];
+        MapPath { points, presences, steady_rev_s, beside_share, amplitudes }
+    }
+
+    /// Where the energy of each frame of a path lies.
+    pub(super) fn centroids(&self, path: &MapPath, noise_variances: &[f64]) -> Vec<Centroid> {
+        path.amplitudes.iter().map(|on_grid| self.centroid(on_grid, &path.presences, noise_variances)).collect()
     }
 
     /// Where the energy of a frame lies, each line weighed by A² / (Φ o): of all strong lines whose band holds no other line of the rotor.
@@ -169,7 +176,7 @@ impl SpeedMap {
             if !line.is_alone || presence.on_path < STRONG_POWER_MIN {
                 continue;
             }
-            let peak = row.iter().copied().fold(0.0, f32::max).powi(2);
+            let peak = highest(row).powi(2);
             // J of a sine of amplitude A in a Hann frame of N samples is A² N / 1.5 V
             let amplitude_square = 1.5 * f64::from(peak) * noise / line.window.len() as f64;
             centroid.strongest_power = centroid.strongest_power.max(amplitude_square);
@@ -204,13 +211,15 @@ fn power_beside(row: &[f32], place: usize, lobe_points: f64) -> f64 {
     let peak = (place.saturating_sub(near)..(place + near + 1).min(row.len()))
         .max_by(|&a, &b| row[a].total_cmp(&row[b]))
         .unwrap_or(place);
-    let highest = row
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| index.abs_diff(peak) as f64 > lobe_points)
-        .map(|(_, &amplitude)| amplitude)
-        .fold(0.0, f32::max);
-    f64::from(highest * highest)
+    let reach = lobe_points as usize;
+    let below = highest(&row[..peak.saturating_sub(reach)]);
+    let above = highest(row.get(peak + reach + 1..).unwrap_or_default());
+    f64::from(below.max(above).powi(2))
+}
+
+/// The largest of values that are not negative; written so that it runs in vectors.
+fn highest(values: &[f32]) -> f32 {
+    values.iter().fold(0.0, |highest, &value| if value > highest { value } else { highest })
 }
 
 /// What the map shows of a quantum.
@@ -223,8 +232,8 @@ pub(super) struct MapPath {
     pub(super) steady_rev_s: f64,
     /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines, 0 where it is in few of them.
     pub(super) beside_share: f64,
-    /// Where the energy of each frame lies.
-    pub(super) centroids: Vec<Centroid>,
+    /// Amplitude of every line at every speed, frame by frame.
+    amplitudes: Vec<Vec<f32>>,
 }
 
 impl Line {
@@ -239,7 +248,7 @@ impl Line {
         let scale = 1.0 / (self.energy * noise_variance).sqrt() as f32;
         // from the lowest frequency to the highest
         for (index, into) in self.amplitude.iter_mut().take(2 * length).enumerate() {
-            *into = self.frame[(index + length) % (2 * length)].norm() * scale;
+            *into = self.frame[(index + length) % (2 * length)].norm_sqr().sqrt() * scale;
         }
     }
 

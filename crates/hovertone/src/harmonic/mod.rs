@@ -9,15 +9,18 @@ mod coherence;
 mod floor;
 mod map;
 mod path;
+mod track;
 
 use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
 use crate::span::Span;
 use crate::spectrogram::power_db;
 use block::{BlockFit, Line, demodulated};
-use coherence::{Level, best_level, first_level, likelihood_min, polished, straight_level};
+use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, polished, straight_level};
 use floor::FloorMeter;
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
+pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
+
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
@@ -39,6 +42,8 @@ const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
 /// Where this share of the shortest blocks stands out by so many times what they must, the path cannot be wrong.
 const CLEAR_SHARE: f64 = 0.9;
 const CLEAR_TIMES: f64 = 2.0;
+/// A quantum in more blocks than this is not steady.
+const STEADY_BLOCKS_MAX: usize = 8;
 /// A block that knows the speed no better than to 10 rev/s knows nothing.
 const INFORMATION_MIN: f64 = 1e-2;
 /// A tone too weak to be a line in any frame is one if two of its lines keep their phase for this long …
@@ -48,67 +53,6 @@ const STEADY_TIMES: f64 = 2.0;
 const SEARCH_LIKELIHOOD: f64 = 20.0;
 /// … and hold this share of the likelihood that blocks of one hop find, each by itself. A machine's hum leaves a tenth.
 const COHERENT_SHARE: f64 = 0.4;
-
-/// The speed over one block of sound.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct HarmonicBlock {
-    pub(crate) span: Span,
-    /// Speed in the middle.
-    pub(crate) speed_rev_s: f64,
-    pub(crate) slope_rev_s2: f64,
-    /// From the curvature of the likelihood.
-    pub(crate) std_uncertainty_rev_s: f64,
-    /// Whether several rotors sound, and the speed is their mean.
-    pub(crate) is_several: bool,
-    /// Level of the strongest line, dB re a full-scale sine.
-    pub(crate) level_db: f64,
-    /// Whether it stands out of the noise.
-    pub(crate) is_heard: bool,
-    /// Whether two lines keep their phase over a second or more, beyond what the search finds in noise.
-    pub(crate) is_steady: bool,
-}
-
-impl HarmonicBlock {
-    /// Speed at a time.
-    pub(crate) fn speed_at(&self, time_s: f64) -> f64 {
-        self.speed_rev_s + self.slope_rev_s2 * (time_s - self.span.middle_s())
-    }
-}
-
-/// What a line contributed over all quanta.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct LineRecord {
-    pub(crate) order: f64,
-    on_path: f64,
-    in_band: f64,
-    pub(crate) quanta: u32,
-    pub(crate) quanta_left_out: u32,
-}
-
-impl LineRecord {
-    /// What the line counts for: order squared times power over noise.
-    pub(crate) fn weight(&self) -> f64 {
-        let heard = 1.0 - f64::from(self.quanta_left_out) / f64::from(self.quanta.max(1));
-        heard * self.order.powi(2) * (self.on_path - f64::from(self.quanta)).max(0.0)
-    }
-}
-
-/// The harmonic likelihood over a hover.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct HarmonicTrack {
-    /// Time between points of the track.
-    pub(crate) step_s: f64,
-    pub(crate) blocks: Vec<HarmonicBlock>,
-    pub(crate) lines: Vec<LineRecord>,
-}
-
-impl HarmonicTrack {
-    /// Share of a hover in which lines keep their phase.
-    pub(crate) fn steady_share(&self, hover_s: f64) -> f64 {
-        let steady_s: f64 = self.blocks.iter().filter(|block| block.is_steady).map(|block| block.span.length_s()).sum();
-        steady_s / hover_s.max(f64::MIN_POSITIVE)
-    }
-}
 
 /// Follows the speed through stretches of sound.
 pub(crate) struct HarmonicTracer {
@@ -250,18 +194,18 @@ impl HarmonicTracer {
             .zip(&series)
             .map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min))
             .collect();
-        let MapPath { points, presences, steady_rev_s, beside_share, centroids } =
-            self.map.path_through(&series, &noise_variances, hop_s);
-        let path = SpeedPath::through(&points, tick_s, ticks)?;
+        let seen = self.map.path_through(&series, &noise_variances, hop_s);
+        let MapPath { points, presences, steady_rev_s, .. } = &seen;
+        let path = SpeedPath::through(points, tick_s, ticks)?;
         let used: Vec<usize> = (0..channels.len()).filter(|&index| !is_stranger(&presences[index])).collect();
-        for (index, (record, presence)) in self.track.lines.iter_mut().zip(&presences).enumerate() {
+        for (index, (record, presence)) in self.track.lines.iter_mut().zip(presences).enumerate() {
             record.on_path += presence.on_path;
             record.in_band += presence.in_band;
             record.quanta += 1;
             record.quanta_left_out += u32::from(!used.contains(&index));
         }
-        if beside_share > SEVERAL_SHARE {
-            return Some(Heard::Several(centroids));
+        if seen.beside_share > SEVERAL_SHARE {
+            return Some(Heard::Several(self.map.centroids(&seen, &noise_variances)));
         }
         let lines_along = |path: &SpeedPath| -> Vec<Line> {
             used.iter()
@@ -294,7 +238,7 @@ impl HarmonicTracer {
             Some(level) if coarse.heard_share(used.len(), CLEAR_TIMES) > CLEAR_SHARE => level,
             following => {
                 // single blocks are weak: perhaps all of them together are a rotor that holds its speed
-                let steady = SpeedPath::through(&[(0.0, steady_rev_s)], tick_s, ticks)?;
+                let steady = SpeedPath::through(&[(0.0, *steady_rev_s)], tick_s, ticks)?;
                 let straight = straight_level(&lines_along(&steady), &steady);
                 following.map_or(straight.clone(), |level| straight.or_better(level))
             }
@@ -310,10 +254,16 @@ impl HarmonicTracer {
                 [middle_s - reach_s, middle_s + reach_s].map(|t| (t, block.speed_at(t, tick_s)))
             })
             .collect();
-        Some(match SpeedPath::through(&points, tick_s, ticks) {
-            Some(path) => Heard::One(polished(&lines_along(&path), &path, &best), coheres),
-            None => Heard::One(best, coheres),
-        })
+        let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
+        let lines = lines_along(&path);
+        let best = polished(&lines, &path, &best);
+        if best.blocks.len() <= STEADY_BLOCKS_MAX {
+            let likelihoods = line_likelihoods(&lines, &path, &best);
+            for (&index, likelihood) in used.iter().zip(likelihoods) {
+                self.track.lines[index].steady_likelihood += likelihood;
+            }
+        }
+        Some(Heard::One(best, coheres))
     }
 }
 

@@ -6,7 +6,8 @@ mod peak;
 
 pub use peak::peak_offset_bins;
 
-use crate::config::{Method, RidgeConfig, SpectrogramConfig};
+use crate::config::{RidgeConfig, SpectrogramConfig};
+use crate::method::Method;
 use crate::spectrogram::{Frame, Stft, power_db};
 use crate::tone::Band;
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! Blocks of the harmonic likelihood → shaft speed over a stretch of time, and its track.
 
 use super::{HarmonicSpeed, SpeedEstimate, TrackPoint};
-use crate::config::Method;
 use crate::harmonic::{HarmonicBlock, HarmonicTrack};
+use crate::method::Method;
 use crate::span::Span;
 use crate::statistics::{mean, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};

@@ -2,7 +2,8 @@
 
 mod harmonic;
 
-use crate::config::{Method, RidgeConfig};
+use crate::config::RidgeConfig;
+use crate::method::Method;
 use crate::ridge::{Peak, Ridge};
 use crate::span::Span;
 use crate::statistics::{mean, median, std, std_uncertainty_of_mean};

@@ -1,7 +1,7 @@
 //! The paper's averages, with uncertainty and a check whether the loads agree.
 
 use super::{LoadSpeeds, LoadThrust, SampleThrust, ThrustTable, TrialSpeeds, TrialThrust, thrust_constant_n_s2};
-use crate::config::Method;
+use crate::method::Method;
 use crate::statistics::{mean, std};
 use crate::warning::Warning;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};

@@ -8,7 +8,7 @@ mod tests;
 pub use balance::{Air, GRAVITY_STANDARD_M_S2, ThrustCoefficients, gravity_m_s2, thrust_constant_n_s2};
 pub use fit::thrust_from_loads;
 
-use crate::config::Method;
+use crate::method::Method;
 use crate::pipeline::{RotorTone, SampleSpeeds};
 use crate::span::Span;
 use crate::warning::Warning;

@@ -108,6 +108,23 @@ pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: 
         .collect()
 }
 
+/// The blade pass' lines and those halfway and at thirds between: where they sound, the shaft turns more slowly than assumed.
+pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64) -> Vec<ChannelBand> {
+    let shares = [0.5, 1.0 / 3.0, 2.0 / 3.0];
+    let between = lines.iter().filter(|line| (line.order / order).fract() == 0.0).flat_map(|line| {
+        shares.into_iter().map(|share| {
+            let times = (line.order - share * order) / line.order;
+            ChannelBand {
+                order: times * line.order,
+                is_first: false,
+                band_hz_low: times * line.band_hz_low,
+                band_hz_high: times * line.band_hz_high,
+            }
+        })
+    });
+    lines.iter().copied().chain(between).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -14,7 +14,7 @@ mod reading;
 mod series;
 
 pub use band::Band;
-pub(crate) use band::{bands_around, lines_around, search_range_rev_s};
+pub(crate) use band::{bands_around, lines_and_between, lines_around, search_range_rev_s};
 pub(crate) use band_choice::{bands_worth_following, lines_worth_hearing};
 pub(crate) use comb::CombMap;
 pub(crate) use family::families_from_surveys;
@@ -24,4 +24,4 @@ pub(crate) use mains_hum::{MainsHum, mains_hum};
 pub use reading::{Meaning, Reading};
 
 /// An order up to this is a number of blades; above, a number of teeth.
-const BLADES_MAX: f64 = 12.0;
+pub(crate) const BLADES_MAX: f64 = 12.0;
