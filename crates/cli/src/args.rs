@@ -161,16 +161,22 @@ pub(crate) struct KnownArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
-    /// How the frequency is read from each frame [default: maximum_trace]
+    /// How the speed is read from the sound [default: harmonic]
     #[arg(long, value_parser = method_parser())]
     pub(crate) method: Option<Method>,
+    /// How far the recorder's clock may be off, in millionths [default: 50]
+    #[arg(long, value_name = "PPM", allow_negative_numbers = true)]
+    pub(crate) clock_ppm: Option<f64>,
+    /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
+    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    pub(crate) radial_speed_m_s_max: Option<f64>,
     /// Use the recording from here, and cut nothing away
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) from: Option<f64>,
     /// Use the recording up to here, and cut nothing away
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) to: Option<f64>,
-    /// Length of a frame in seconds; the clearest of 0.0125 to 0.4 where not given
+    /// Length of a frame of the paper's methods in seconds; the clearest of 0.0125 to 0.4 where not given
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) window_s: Option<f64>,
     /// Step between frames as a share of their length [default: 0.5]
@@ -228,7 +234,7 @@ Examples:
 
 /// Thrust constant from recordings of hovers with known masses, or of bench runs
 ///
-/// Prints tables like the paper's, by both of its methods, and the constant of the whole vehicle and of one rotor.
+/// Prints tables like the paper's, by the harmonic likelihood and by both of its methods, and the constant of the whole vehicle and of one rotor.
 #[derive(Args, Debug)]
 #[command(after_help = IDENTIFY_EXAMPLES)]
 pub(crate) struct IdentifyArguments {
@@ -244,7 +250,7 @@ pub(crate) struct IdentifyArguments {
     /// Folder that the names of the recordings start from [default: the folder of the experiment file]
     #[arg(long, value_name = "DIR", help_heading = "Reading files")]
     pub(crate) data_root: Option<PathBuf>,
-    /// The method whose constant is reported; both are computed [default: maximum_trace]
+    /// The method whose constant is reported; all are computed [default: harmonic]
     #[arg(long, value_parser = method_parser())]
     pub(crate) method: Option<Method>,
     #[command(flatten)]

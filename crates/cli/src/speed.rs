@@ -94,6 +94,8 @@ fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), 
     let mut config = Config::for_tone(tone);
     let analysis = &arguments.analysis;
     config.method = analysis.method.unwrap_or_default();
+    config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
+    config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.span.from_s = analysis.from;
     config.span.to_s = analysis.to;
     config.spectrogram.window_s = analysis.window_s;

@@ -1,5 +1,6 @@
 //! Settings: every default stands here once, with its unit and its reason.
 
+use crate::budget_config::BudgetConfig;
 use crate::error::ConfigError;
 use crate::method::Method;
 use crate::spectrogram::Window;
@@ -21,6 +22,8 @@ pub struct Config {
     pub spectrogram: SpectrogramConfig,
     /// How a ridge is drawn and when it counts as a tone.
     pub ridge: RidgeConfig,
+    /// What else makes the speed uncertain.
+    pub budget: BudgetConfig,
     /// Which of the estimators gives the speed.
     pub method: Method,
     /// Whether the others are wanted too, for comparison. The paper's two cost more time than the harmonic likelihood.
@@ -37,6 +40,7 @@ impl Config {
             samples: SampleConfig::default(),
             spectrogram: SpectrogramConfig::default(),
             ridge: RidgeConfig::default(),
+            budget: BudgetConfig::default(),
             method: Method::default(),
             wants_all_methods: false,
         }
@@ -59,6 +63,7 @@ impl Config {
         self.hover.check()?;
         self.samples.check()?;
         self.spectrogram.check()?;
+        self.budget.check()?;
         self.ridge.check()
     }
 }

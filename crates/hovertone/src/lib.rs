@@ -2,6 +2,7 @@
 //!
 //! Pure: no files, clock, threads, environment or printing. Sound comes in through [`SignalSource`].
 
+mod budget_config;
 mod channel;
 mod config;
 mod discovery;
@@ -25,6 +26,7 @@ mod tone;
 mod verdict;
 mod warning;
 
+pub use budget_config::BudgetConfig;
 pub use config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
 pub use discovery::{Discovery, FoundSpeed, tones_from_source};
 pub use discovery_config::{DiscoveryConfig, KnownRotor};
@@ -39,7 +41,7 @@ pub use ridge::{Peak, Ridge, RidgeFrame, peak_offset_bins};
 pub use signal::{Signal, SignalSource, SourceError};
 pub use span::Span;
 pub use spectrogram::{Frame, Stft, Window};
-pub use speed::{HarmonicSpeed, SpeedEstimate, TrackPoint};
+pub use speed::{HarmonicSpeed, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm};
 pub use stream::Progress;
 pub use thrust::{
     Air, Force, GRAVITY_STANDARD_M_S2, LoadSpeeds, LoadThrust, SampleSpeed, SampleThrust, ThrustCoefficients,

@@ -170,6 +170,7 @@ pub(crate) fn speed_from_survey(
                 Some(track) => weights.speed_in(span, track),
                 None => harmonic.speed_in(span, config.tone.order),
             })
+            .map(|speed| speed.with_budget(&config.budget))
             .collect()
     };
     let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);

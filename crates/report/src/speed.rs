@@ -6,7 +6,7 @@ use crate::number::{DASH, rounded, significant, uncertainty};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
-use hovertone::{Config, Hover, Method, Reading, SpeedEstimate, TrackPoint};
+use hovertone::{Config, Hover, Method, Reading, SpeedEstimate, TrackPoint, UncertaintyTerm};
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
 
@@ -40,7 +40,7 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
 }
 
 fn cells_of_speed(record: &SpeedRecord, estimate: &SpeedEstimate) -> Vec<String> {
-    let (speed, std_rev_s) = (estimate.speed, estimate.std_uncertainty_rev_s);
+    let (speed, std_rev_s) = (estimate.speed, estimate.combined_std_uncertainty_rev_s());
     let std = std_rev_s.map(RotorSpeed::from_rev_s);
     vec![
         record.file.clone(),
@@ -80,6 +80,8 @@ struct SpeedLine<'a> {
     speed_rpm: Option<f64>,
     speed_rad_s: Option<f64>,
     std_uncertainty_rev_s: Option<f64>,
+    combined_std_uncertainty_rev_s: Option<f64>,
+    uncertainty_budget: Option<&'a [UncertaintyTerm]>,
     spread_rev_s: Option<f64>,
     from_s: Option<f64>,
     to_s: Option<f64>,
@@ -114,6 +116,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         speed_rpm: speed.map(RotorSpeed::rpm),
         speed_rad_s: speed.map(RotorSpeed::rad_s),
         std_uncertainty_rev_s: estimate.and_then(|estimate| estimate.std_uncertainty_rev_s),
+        combined_std_uncertainty_rev_s: estimate.and_then(SpeedEstimate::combined_std_uncertainty_rev_s),
+        uncertainty_budget: estimate.map(|estimate| estimate.budget.as_slice()),
         spread_rev_s: estimate.and_then(|estimate| estimate.spread_rev_s),
         from_s: used.map(|used| used.from_s),
         to_s: used.map(|used| used.to_s),

@@ -57,6 +57,7 @@ impl HarmonicTrack {
             std_uncertainty_rev_s: Some((variance * step_scatter(&blocks)).sqrt()),
             spread_rev_s,
             frame_count: points.len(),
+            budget: Vec::new(),
             harmonics: self
                 .lines
                 .iter()

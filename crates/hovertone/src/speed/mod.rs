@@ -1,6 +1,9 @@
 //! Ridges → shaft speed: one number per harmonic, combined over harmonics, with spread and uncertainty.
 
+mod budget;
 mod harmonic;
+
+pub use budget::{UncertaintySource, UncertaintyTerm};
 
 use crate::config::RidgeConfig;
 use crate::method::Method;
@@ -55,6 +58,8 @@ pub struct SpeedEstimate {
     pub frame_count: usize,
     /// The harmonics that it comes from.
     pub harmonics: Vec<HarmonicSpeed>,
+    /// The terms of its uncertainty: what the sound leaves open, and what it cannot tell.
+    pub budget: Vec<UncertaintyTerm>,
 }
 
 /// One frame of the track: all harmonics together.
@@ -151,6 +156,7 @@ impl<'a> HarmonicWeights<'a> {
             std_uncertainty_rev_s: std_uncertainty_of_mean(&speeds),
             spread_rev_s: std(&speeds),
             frame_count: speeds.len(),
+            budget: Vec::new(),
             harmonics: self
                 .used
                 .iter()

@@ -11,6 +11,9 @@ use serde::Serialize;
 /// Sound above this share of half the sample rate is inside the recorder's own filter.
 const USABLE_NYQUIST_SHARE: f64 = 0.98;
 
+/// Harmonics between which other lines are looked for.
+const BETWEEN_LINES: f64 = 8.0;
+
 /// Where the ridge of one harmonic is looked for: the paper's band-pass (figure 7), as a cut of the spectrum. An ideal
 /// band-pass before the transform and a search inside the band after it find the same peak.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -108,11 +111,13 @@ pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: 
         .collect()
 }
 
-/// The blade pass' lines and those halfway and at thirds between: where they sound, the shaft turns more slowly than assumed.
+/// The lowest lines of the blade pass and those at halves, thirds, quarters and fifths between: where they sound, the shaft turns
+/// more slowly than assumed.
 pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64) -> Vec<ChannelBand> {
-    let shares = [0.5, 1.0 / 3.0, 2.0 / 3.0];
-    let between = lines.iter().filter(|line| (line.order / order).fract() == 0.0).flat_map(|line| {
-        shares.into_iter().map(|share| {
+    let shares = (2..=5).flat_map(|parts: u32| (1..parts).map(move |part| f64::from(part) / f64::from(parts)));
+    let low = || lines.iter().filter(|line| (line.order / order).fract() == 0.0 && line.order <= BETWEEN_LINES * order);
+    let between = low().flat_map(|line| {
+        shares.clone().map(|share| {
             let times = (line.order - share * order) / line.order;
             ChannelBand {
                 order: times * line.order,
