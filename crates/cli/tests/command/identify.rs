@@ -55,24 +55,30 @@ fn the_constant_of_a_hover_is_found_by_both_methods() {
     let experiment = write_experiment(folder.path());
     let out = folder.path().join("out");
     let run = hovertone(&["identify", &experiment, "-o", text(&out)]).ends_with(0);
-    for words in ["Maximum trace", "Gaussian approximation", "1e-5 N s²", "1e-6 N s²", "rpm", "rad/s", "413.0", "463.0"]
-    {
+    for words in [
+        "Harmonic likelihood",
+        "Maximum trace",
+        "Gaussian approximation",
+        "1e-5 N s²",
+        "1e-6 N s²",
+        "rpm",
+        "rad/s",
+        "413.0",
+        "463.0",
+    ] {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
     assert!(run.stderr.contains("one ridge stands for all rotors") && run.stderr.contains("hint:"), "{}", run.stderr);
     let results = results_in(&out);
     let tolerance = tolerance_share(&results, hover_speed(VEHICLE_KG), 69.0);
-    for method in ["maximum_trace", "gaussian"] {
+    for method in ["harmonic", "maximum_trace", "gaussian"] {
         let total = results["methods"][method]["thrust_constant_total_n_s2"]["value"].as_f64().unwrap();
         let rotor = results["methods"][method]["thrust_constant_per_rotor_n_s2"]["value"].as_f64().unwrap();
         assert!((total / TRUTH_TOTAL_N_S2 - 1.0).abs() < tolerance, "{method}: {total}, tolerance {tolerance}");
         assert!((total / rotor - 4.0).abs() < 1e-9);
     }
-    assert_eq!(results["method"], "maximum_trace");
-    assert_eq!(
-        results["thrust_constant_total_n_s2"],
-        results["methods"]["maximum_trace"]["thrust_constant_total_n_s2"]
-    );
+    assert_eq!(results["method"], "harmonic");
+    assert_eq!(results["thrust_constant_total_n_s2"], results["methods"]["harmonic"]["thrust_constant_total_n_s2"]);
     assert_eq!(results["thrust_constant_total_n_s2"]["ending"], "solved");
     assert!(results["thrust_constant_total_n_s2"]["std_uncertainty"].as_f64().unwrap() > 0.0);
     let loads = results["loads"].as_array().unwrap();
@@ -96,7 +102,7 @@ fn the_constant_of_a_hover_is_found_by_both_methods() {
     assert_rows_of_samples(&out);
 }
 
-/// Two loads, two trials, two samples of 2 s with 40 % overlap in 4 s, two methods.
+/// Two loads, two trials, two samples of 2 s with 40 % overlap in 4 s, three methods.
 fn assert_rows_of_samples(out: &Path) {
     let mut table = csv::Reader::from_path(out.join("samples.csv")).unwrap();
     let head: Vec<String> = table.headers().unwrap().iter().map(str::to_owned).collect();
@@ -112,7 +118,7 @@ fn assert_rows_of_samples(out: &Path) {
     ] {
         assert!(head.iter().any(|known| known == name), "{name} is not in {head:?}");
     }
-    assert_eq!(table.records().count(), 2 * 2 * 2 * 2);
+    assert_eq!(table.records().count(), 2 * 2 * 2 * 3);
 }
 
 #[test]

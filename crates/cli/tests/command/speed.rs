@@ -54,7 +54,7 @@ fn json_has_the_fixed_names_and_the_right_speed() {
     }
     assert!(!keys(line).contains(&"rotors"));
     assert_eq!((&line["file"], &line["status"]), (&Value::from(text(&path)), &Value::from("ok")));
-    assert_eq!((&line["method"], line["order"].as_f64()), (&Value::from("maximum_trace"), Some(2.0)));
+    assert_eq!((&line["method"], line["order"].as_f64()), (&Value::from("harmonic"), Some(2.0)));
     assert_eq!(line["recording"]["sha256"].as_str().unwrap().len(), 64);
     let number = |name: &str| line[name].as_f64().unwrap();
     let tolerance_rev_s = PEAK_BIAS_BINS / number("window_s") / 2.0;

@@ -2,6 +2,7 @@
 
 use crate::channel::Channel;
 use crate::statistics::{mean, median};
+use crate::tone::BLADES_MAX;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
@@ -20,7 +21,9 @@ pub(super) const STRONG_POWER_MIN: f64 = 30.0;
 /// The highest power of noise alone in a band.
 const NOISE_PEAK_POWER: f64 = 8.0;
 /// Something else is in a band where it has this share of the strongest power.
-const MOST_BANDS_SHARE: f64 = 0.04;
+const MOST_BANDS_SHARE: f64 = 0.03;
+/// Power of the lines beside a gear mesh, as a share of its own.
+const SIDEBAND_SHARE: f64 = 0.35;
 /// Half width of the lobe of a Hann frame, and half a cell more, in resolution cells.
 const LOBE_CELLS: f64 = 2.5;
 /// What is weaker than this share of a frame's highest power does not count for where its energy lies.
@@ -147,7 +150,11 @@ impl SpeedMap {
             .iter()
             .zip(&self.lines)
             .filter(|(presence, line)| line.is_alone && presence.on_path > STRONG_POWER_MIN)
-            .map(|(presence, _)| (presence.beside - NOISE_PEAK_POWER).max(0.0) / presence.in_band)
+            .map(|(presence, line)| {
+                // a gear mesh has lines beside it, one and two turns of the shaft away, up to a third as strong
+                let sidebands = if line.order > BLADES_MAX { SIDEBAND_SHARE * presence.in_band } else { 0.0 };
+                (presence.beside - NOISE_PEAK_POWER - sidebands).max(0.0) / presence.in_band
+            })
             .collect();
         // another sound falls into some bands, another rotor into most of those that resolve it
         let is_in_most = median(&strong).is_some_and(|share| share > MOST_BANDS_SHARE);

@@ -35,7 +35,7 @@ const STRANGER_POWER_MIN: f64 = 20.0;
 
 /// Where something else in the bands of the strong lines has this share of their power, several rotors sound at once. One rotor
 /// leaves up to 0.02 there (its own wander, and lines at other orders), several leave 0.11 to 0.6.
-const SEVERAL_SHARE: f64 = 0.08;
+const SEVERAL_SHARE: f64 = 0.06;
 /// The rotors' loudness is not known to be equal: with levels that differ by 3 dB or so, the mean of four is uncertain by this
 /// share of how far they lie apart.
 const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
