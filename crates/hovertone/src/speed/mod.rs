@@ -49,8 +49,9 @@ pub struct SpeedEstimate {
     /// Mean shaft speed.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
-    /// Standard uncertainty of the mean from the scatter of its frames and their correlation. It does not know of what
-    /// all frames share: the ridge follows the loudest rotor, and the recorder's clock may be off by 0.005 %.
+    /// Standard uncertainty of the mean as the sound shows it: from the curvature of the likelihood, or for the paper's methods
+    /// from the scatter of the frames and their correlation. It does not know of what all frames share: a ridge follows the
+    /// loudest rotor. What the sound cannot tell, such as the recorder's clock, is in the budget.
     pub std_uncertainty_rev_s: Option<f64>,
     /// Standard deviation of the speed over the frames: the wander of the flight and the noise of the method.
     pub spread_rev_s: Option<f64>,
