@@ -8,22 +8,11 @@
 //! and the lines add: J = Σ_o J_o (Whittle; harmonic maximum likelihood with coloured noise). The standard uncertainty is that
 //! of the Cramér-Rao bound, 1/σ² = Σ_o 2 (2π o)² N_o |A_o|² ⟨τ²⟩ / V_o; an unknown γ does not widen it, because n is the speed in the middle.
 
+use super::line::Line;
 use super::path::SpeedPath;
 use crate::channel::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
-use std::f64::consts::{PI, TAU};
-
-/// One line of a quantum, turned back by a path: one sum for each tick.
-pub(super) struct Line {
-    pub(super) order: f64,
-    /// Whether it is the first of its family.
-    pub(super) is_first: bool,
-    /// Whether it stands out of the noise in every half hop.
-    pub(super) is_strong: bool,
-    pub(super) noise_variance: f64,
-    pub(super) samples_per_tick: f64,
-    pub(super) ticks: Vec<Complex<f64>>,
-}
+use std::f64::consts::TAU;
 
 /// What the likelihood says of one block.
 #[derive(Clone, Copy, Debug)]
@@ -59,38 +48,6 @@ impl BlockFit {
     pub(super) fn speed_at(&self, time_s: f64, tick_s: f64) -> f64 {
         self.speed_rev_s + self.slope_rev_s2 * (time_s - self.middle_s(tick_s))
     }
-}
-
-/// Turns a channel back by the shaft's angle times its order and adds up each tick.
-pub(super) fn demodulated(
-    series: &[Complex<f32>],
-    (order, centre_hz, rate_hz): (f64, f64, f64),
-    samples_per_tick: usize,
-    path: &SpeedPath,
-) -> Vec<Complex<f64>> {
-    series
-        .chunks_exact(samples_per_tick)
-        .take(path.ticks())
-        .enumerate()
-        .map(|(tick, samples)| {
-            let (turns, from, to) = path.tick(tick);
-            let start_s = tick as f64 * path.tick_s;
-            let cycles = order * turns - centre_hz * start_s;
-            // exp(−j phase) advances by a step that itself advances: both by multiplication
-            let step_s = 1.0 / rate_hz;
-            let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
-            let mut turn = Complex::from_polar(1.0, -TAU * cycles.fract());
-            let mut step = Complex::from_polar(1.0, -(TAU * (order * from - centre_hz) * step_s + bend));
-            let step_of_step = Complex::from_polar(1.0, -2.0 * bend);
-            let mut sum = Complex::<f64>::default();
-            for z in samples {
-                sum += turn * Complex::new(f64::from(z.re), f64::from(z.im));
-                turn *= step;
-                step *= step_of_step;
-            }
-            sum
-        })
-        .collect()
 }
 
 /// Ticks of a block, turned by a first guess and gathered into cells of equal length, ready for the search.
@@ -266,6 +223,7 @@ impl Cells {
         let mut offset = if grid_cells > 0.0 { self.best_on_grid(grid_cells) } else { 0.0 };
         let mut bend = 0.0;
         let penalised = |value: f64, bend: f64| value - prior * (self.guess.1 + bend).powi(2) / 2.0;
+        let (cell, bend_max) = (self.cell_rev_s(), BEND_CELLS * self.cell_rev_s() / self.span_s);
         let (mut value, mut gradient, mut second) = self.expansion(offset, bend);
         for _ in 0..NEWTON_STEPS {
             let (g0, g1) = (gradient[0], gradient[1] - prior * (self.guess.1 + bend));
@@ -277,6 +235,9 @@ impl Cells {
                 // not on top yet: uphill by what the curvature of a clean line would ask for
                 (g0.signum() * UPHILL_CELLS * self.cell_rev_s(), 0.0)
             };
+            // the likelihood repeats itself far away: cells are finite; a step must not jump there
+            d_offset = d_offset.clamp(-cell, cell);
+            d_bend = d_bend.clamp(-bend_max, bend_max);
             let before = penalised(value, bend);
             let mut halvings = 0;
             loop {
@@ -291,6 +252,10 @@ impl Cells {
             if d_offset.abs() < STEP_MIN_CELLS * self.cell_rev_s() {
                 break;
             }
+        }
+        if offset.abs() > (grid_cells + STRAY_CELLS) * cell {
+            (offset, bend) = (0.0, 0.0);
+            value = self.expansion(offset, bend).0;
         }
         let seen = self.seen_at(offset, bend);
         BlockFit {
@@ -391,5 +356,9 @@ const NEWTON_STEPS: u32 = 8;
 const HALVINGS_MAX: u32 = 4;
 /// Steps below this are none.
 const STEP_MIN_CELLS: f64 = 1e-6;
+/// A slope changes by so many cells over the block's length in one step at most.
+const BEND_CELLS: f64 = 4.0;
+/// A maximum this far beyond where it was looked for is another one.
+const STRAY_CELLS: f64 = 3.0;
 /// A step uphill where the likelihood is not yet curved like a summit.
 const UPHILL_CELLS: f64 = 0.1;

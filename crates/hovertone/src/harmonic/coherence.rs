@@ -5,7 +5,8 @@
 //! to the whole quantum are fitted, each level twice as long as the one before, and the level with the greatest evidence
 //! is taken: the sum over its blocks of the likelihood, less what noise alone would give and five standard deviations of it.
 
-use super::block::{BlockFit, Cells, Line};
+use super::block::{BlockFit, Cells};
+use super::line::Line;
 use super::map::FRAME_HOPS;
 use super::path::SpeedPath;
 use crate::channel::TICKS_PER_HOP;
@@ -127,7 +128,7 @@ pub(super) fn straight_level(lines: &[Line], path: &SpeedPath) -> Level {
         let mut values = vec![0.0; 2 * points + 1];
         blocks.iter().for_each(|(_, cells)| cells.on_grid(step, points, &mut values));
         let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(points);
-        let (offset, bend) = climbed(&blocks, (best as f64 - points as f64) * step);
+        let (offset, bend) = climbed(&blocks, (best as f64 - points as f64) * step, cell);
         (speed, slope) = (speed + offset, slope + bend);
         if count == 1 {
             break;
@@ -139,7 +140,7 @@ pub(super) fn straight_level(lines: &[Line], path: &SpeedPath) -> Level {
 }
 
 /// Newton's method on the sum of all blocks, from a point of the grid; steps that do not climb are not taken.
-fn climbed(blocks: &[(f64, Cells)], offset: f64) -> (f64, f64) {
+fn climbed(blocks: &[(f64, Cells)], offset: f64, cell: f64) -> (f64, f64) {
     let expansion = |offset: f64, bend: f64| {
         let (mut value, mut g, mut h) = (0.0, [0.0; 2], [0.0; 3]);
         for (t, cells) in blocks {
@@ -160,7 +161,10 @@ fn climbed(blocks: &[(f64, Cells)], offset: f64) -> (f64, f64) {
         if !(h[0] < 0.0 && determinant > 0.0) {
             break;
         }
-        let step = ((-h[2] * g[0] + h[1] * g[1]) / determinant, (h[1] * g[0] - h[0] * g[1]) / determinant);
+        let step: (f64, f64) = ((-h[2] * g[0] + h[1] * g[1]) / determinant, (h[1] * g[0] - h[0] * g[1]) / determinant);
+        if step.0.abs() > cell {
+            break;
+        }
         let next = expansion(place.0 + step.0, place.1 + step.1);
         if next.0 <= value {
             break;

@@ -100,6 +100,12 @@ impl SpeedMap {
         Self { lines, speeds_rev_s: (0..=points as usize).map(|index| low + step * index as f64).collect() }
     }
 
+    /// The slowest and fastest speed that is looked for.
+    pub(super) fn limits_rev_s(&self) -> (f64, f64) {
+        let last = self.speeds_rev_s.len() - 1;
+        (self.speeds_rev_s[0], self.speeds_rev_s[last])
+    }
+
     /// The path of a quantum as speeds in the middle of each frame, and how present each line is on it.
     pub(super) fn path_through(&mut self, series: &[&[Complex<f32>]], noise_variances: &[f64], hop_s: f64) -> MapPath {
         let frames =

@@ -7,6 +7,7 @@
 mod block;
 mod coherence;
 mod floor;
+mod line;
 mod map;
 mod path;
 mod track;
@@ -14,9 +15,10 @@ mod track;
 use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
 use crate::span::Span;
 use crate::spectrogram::power_db;
-use block::{BlockFit, Line, demodulated};
+use block::BlockFit;
 use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, polished, straight_level};
 use floor::FloorMeter;
+use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
@@ -155,10 +157,11 @@ impl HarmonicTracer {
             ticks -= FADE_TICKS;
         }
         let threshold = likelihood_min(self.bank.channels.len());
-        let start_s = self.start_s;
+        let (start_s, limits) = (self.start_s, self.map.limits_rev_s());
         match self.level_of_quantum(ticks) {
             Some(Heard::One(level, coheres)) => {
-                let blocks = level.blocks.iter().map(|fit| block_at(fit, coheres, start_s, tick_s, threshold));
+                let blocks =
+                    level.blocks.iter().map(|fit| block_at(fit, coheres, (start_s, tick_s), threshold, limits));
                 self.track.blocks.extend(blocks);
             }
             Some(Heard::Several(centroids)) => {
@@ -309,7 +312,13 @@ fn is_stranger(presence: &LinePresence) -> bool {
     presence.in_band > STRANGER_POWER_MIN && presence.in_band > STRANGER_RATIO * presence.on_path
 }
 
-fn block_at(fit: &BlockFit, coheres: bool, start_s: f64, tick_s: f64, threshold: f64) -> HarmonicBlock {
+fn block_at(
+    fit: &BlockFit,
+    coheres: bool,
+    (start_s, tick_s): (f64, f64),
+    threshold: f64,
+    limits: (f64, f64),
+) -> HarmonicBlock {
     let at = |tick: usize| start_s + tick as f64 * tick_s;
     HarmonicBlock {
         span: Span { from_s: at(fit.tick_from), to_s: at(fit.tick_to) },
@@ -318,7 +327,9 @@ fn block_at(fit: &BlockFit, coheres: bool, start_s: f64, tick_s: f64, threshold:
         std_uncertainty_rev_s: (fit.scatter / fit.information).sqrt(),
         is_several: false,
         level_db: power_db(fit.strongest_power),
-        is_heard: fit.likelihood >= threshold && fit.information > INFORMATION_MIN,
+        is_heard: fit.likelihood >= threshold
+            && fit.information > INFORMATION_MIN
+            && (limits.0..=limits.1).contains(&fit.speed_rev_s),
         is_steady: (fit.tick_to - fit.tick_from) as f64 * tick_s >= STEADY_S_MIN
             && fit.lines_heard >= 2
             && fit.is_first_heard
