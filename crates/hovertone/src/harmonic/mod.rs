@@ -156,12 +156,11 @@ impl HarmonicTracer {
             self.drop_ticks(FADE_TICKS);
             ticks -= FADE_TICKS;
         }
-        let threshold = likelihood_min(self.bank.channels.len());
+        let lines = self.bank.channels.len();
         let (start_s, limits) = (self.start_s, self.map.limits_rev_s());
         match self.level_of_quantum(ticks) {
             Some(Heard::One(level, coheres)) => {
-                let blocks =
-                    level.blocks.iter().map(|fit| block_at(fit, coheres, (start_s, tick_s), threshold, limits));
+                let blocks = level.blocks.iter().map(|fit| block_at(fit, coheres, (start_s, tick_s), (lines, limits)));
                 self.track.blocks.extend(blocks);
             }
             Some(Heard::Several(centroids)) => {
@@ -308,6 +307,11 @@ const NOISE_VARIANCE_MIN: f64 = 1e-16;
 /// Noise below this share of the sound's power is the rounding of the transforms, and keeps its phase like a tone.
 const ROUNDING_SHARE: f64 = 1e-12;
 
+/// So many lines must keep their phase: two of a gear mesh, four of a blade pass, which has many.
+fn steady_lines_min(lines: usize) -> u32 {
+    if lines >= 8 { 4 } else { 2 }
+}
+
 fn is_stranger(presence: &LinePresence) -> bool {
     presence.in_band > STRANGER_POWER_MIN && presence.in_band > STRANGER_RATIO * presence.on_path
 }
@@ -316,9 +320,9 @@ fn block_at(
     fit: &BlockFit,
     coheres: bool,
     (start_s, tick_s): (f64, f64),
-    threshold: f64,
-    limits: (f64, f64),
+    (lines, limits): (usize, (f64, f64)),
 ) -> HarmonicBlock {
+    let threshold = likelihood_min(lines);
     let at = |tick: usize| start_s + tick as f64 * tick_s;
     HarmonicBlock {
         span: Span { from_s: at(fit.tick_from), to_s: at(fit.tick_to) },
@@ -331,7 +335,7 @@ fn block_at(
             && fit.information > INFORMATION_MIN
             && (limits.0..=limits.1).contains(&fit.speed_rev_s),
         is_steady: (fit.tick_to - fit.tick_from) as f64 * tick_s >= STEADY_S_MIN
-            && fit.lines_heard >= 2
+            && fit.lines_heard >= steady_lines_min(lines)
             && fit.is_first_heard
             && coheres
             && fit.likelihood >= STEADY_TIMES * threshold + SEARCH_LIKELIHOOD,

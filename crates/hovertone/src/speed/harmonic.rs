@@ -54,7 +54,7 @@ impl HarmonicTrack {
             method: Method::Harmonic,
             order,
             speed: RotorSpeed::from_rev_s(mean_rev_s),
-            std_uncertainty_rev_s: Some((variance * step_scatter(&blocks)).sqrt()),
+            std_uncertainty_rev_s: Some((variance * step_scatter(&blocks)).max(step_variance(&blocks)).sqrt()),
             spread_rev_s,
             frame_count: points.len(),
             budget: Vec::new(),
@@ -108,6 +108,18 @@ fn variance_of_several(blocks: &[&HarmonicBlock]) -> f64 {
     let speeds: Vec<f64> = blocks.iter().map(|block| block.speed_rev_s).collect();
     let shifts: Vec<f64> = blocks.iter().map(|block| block.std_uncertainty_rev_s).collect();
     std_uncertainty_of_mean(&speeds).unwrap_or(0.0).powi(2) + mean(&shifts).unwrap_or(0.0).powi(2)
+}
+
+/// Variance of the mean that the steps between neighbouring blocks show: a speed that bends within a block is not its straight
+/// line. Wide rather than narrow: each step counts in full.
+fn step_variance(blocks: &[&HarmonicBlock]) -> f64 {
+    let squares: Vec<f64> = blocks
+        .windows(2)
+        .filter(|pair| !pair[0].is_several && !pair[1].is_several)
+        .filter(|pair| (pair[1].span.from_s - pair[0].span.to_s).abs() < 1e-6)
+        .map(|pair| (pair[1].speed_at(pair[0].span.to_s) - pair[0].speed_at(pair[0].span.to_s)).powi(2))
+        .collect();
+    mean(&squares).map_or(0.0, |square| square / blocks.len() as f64)
 }
 
 /// How much more the speed steps from one block to the next than the blocks' uncertainties explain, as a variance ratio; 1 where
