@@ -99,10 +99,9 @@ pub fn tones_from_source(
     let (fundamental_hz_min, fundamental_hz_max) =
         config.tone.band_hz.unwrap_or((discovery.config.fundamental_hz_min, discovery.config.fundamental_hz_max));
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
-    let families =
-        families_from_surveys(&survey.with_hum(), &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
-            !discovery.wants_all && doubt(family) == Some(0)
-        });
+    let families = families_from_surveys(&survey, &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
+        !discovery.wants_all && doubt(family) == Some(0)
+    });
     let Some(rotor) = rotor_among(&families) else { return Ok(nothing(NoTone::NoSeries, families)) };
     let Some(first) = families[rotor].readings.first() else { return Ok(nothing(NoTone::NoSeries, families)) };
     let mut config_of_found = config.clone();

@@ -92,7 +92,7 @@ impl RotorTone {
     }
 }
 
-/// From a recording to the speed of its rotors. Reads the source twice; memory does not grow with its length, but for
+/// From a recording to the speed of its rotors. Reads the source twice, and a third time where a tone is weak and steady; memory does not grow with its length, but for
 /// the list of samples.
 ///
 /// # Errors

@@ -8,7 +8,7 @@
 //!
 //! A line outside the band is suppressed as the window's side lobes are, by more than 70 dB.
 
-use crate::spectrogram::smooth_at_least;
+use crate::spectrogram::{Window, smooth_at_least};
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
@@ -84,9 +84,7 @@ impl ChannelBank {
         Self {
             channels,
             sample_rate_hz,
-            window: (0..block_samples)
-                .map(|n| (0.5 - 0.5 * (TAU * n as f64 / block_samples as f64).cos()) as f32)
-                .collect(),
+            window: Window::Hann.values(block_samples).into_iter().map(|weight| weight as f32).collect(),
             pending: Vec::new(),
             taken_samples: 0,
             block_index: 0,

@@ -182,7 +182,7 @@ impl Cells {
     }
 
     /// J on a grid of speeds around the guess, `points` to either side.
-    pub(super) fn on_grid(&self, step_rev_s: f64, points: usize, values: &mut [f64]) {
+    fn on_grid(&self, step_rev_s: f64, points: usize, values: &mut [f64]) {
         for (order, scale, sums) in self.lines() {
             let turn = |t: f64, offset: f64| Complex::from_polar(1.0, -TAU * order * t * offset);
             let mut cells: Vec<(Complex<f64>, Complex<f64>)> = sums
@@ -206,35 +206,21 @@ impl Cells {
         1.0 / (self.orders.iter().copied().fold(1.0, f64::max) * self.span_s)
     }
 
-    /// The offset of the highest point of a grid that reaches `cells` resolution cells to either side.
-    fn best_on_grid(&self, cells: f64) -> f64 {
-        let step = self.cell_rev_s() / GRID_PER_CELL;
-        let points = (cells * GRID_PER_CELL).round() as usize;
-        let mut values = vec![0.0; 2 * points + 1];
-        self.on_grid(step, points, &mut values);
-        let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(points);
-        (best as f64 - points as f64) * step
-    }
-
     /// The maximum near the guess: a grid of `grid_cells` to either side, then Newton's method. `slope_std_rev_s2` is how fast
     /// the speed may be expected to change; it keeps the slope of a weak block from running away.
     pub(super) fn fit(&self, ticks: (usize, usize), grid_cells: f64, slope_std_rev_s2: f64) -> BlockFit {
         let prior = slope_std_rev_s2.powi(-2);
-        let mut offset = if grid_cells > 0.0 { self.best_on_grid(grid_cells) } else { 0.0 };
+        let mut offset = if grid_cells > 0.0 { best_on_grid([self], grid_cells, GRID_PER_CELL) } else { 0.0 };
         let mut bend = 0.0;
         let penalised = |value: f64, bend: f64| value - prior * (self.guess.1 + bend).powi(2) / 2.0;
         let (cell, bend_max) = (self.cell_rev_s(), BEND_CELLS * self.cell_rev_s() / self.span_s);
         let (mut value, mut gradient, mut second) = self.expansion(offset, bend);
         for _ in 0..NEWTON_STEPS {
             let (g0, g1) = (gradient[0], gradient[1] - prior * (self.guess.1 + bend));
-            let (h00, h01, h11) = (second[0], second[1], second[2] - prior);
-            let determinant = h00 * h11 - h01 * h01;
-            let (mut d_offset, mut d_bend) = if h00 < 0.0 && determinant > 0.0 {
-                ((-h11 * g0 + h01 * g1) / determinant, (h01 * g0 - h00 * g1) / determinant)
-            } else {
-                // not on top yet: uphill by what the curvature of a clean line would ask for
-                (g0.signum() * UPHILL_CELLS * self.cell_rev_s(), 0.0)
-            };
+            let uphill = (g0.signum() * UPHILL_CELLS * cell, 0.0);
+            // not on top yet: uphill by what the curvature of a clean line would ask for
+            let (mut d_offset, mut d_bend) =
+                step_to_summit([g0, g1], [second[0], second[1], second[2] - prior]).unwrap_or(uphill);
             // the likelihood repeats itself far away: cells are finite; a step must not jump there
             d_offset = d_offset.clamp(-cell, cell);
             d_bend = d_bend.clamp(-bend_max, bend_max);
@@ -249,7 +235,7 @@ impl Cells {
                 }
                 (d_offset, d_bend, halvings) = (d_offset / 2.0, d_bend / 2.0, halvings + 1);
             }
-            if d_offset.abs() < STEP_MIN_CELLS * self.cell_rev_s() {
+            if d_offset.abs() < STEP_MIN_CELLS * cell {
                 break;
             }
         }
@@ -331,6 +317,25 @@ impl Cells {
         }
         seen
     }
+}
+
+/// The offset of the highest point of a grid that reaches `cells` resolution cells to either side; of several blocks, all around
+/// their own guesses, the highest point of their sum.
+pub(super) fn best_on_grid<'a>(blocks: impl IntoIterator<Item = &'a Cells>, cells: f64, points_per_cell: f64) -> f64 {
+    let mut blocks = blocks.into_iter().peekable();
+    let Some(step) = blocks.peek().map(|first| first.cell_rev_s() / points_per_cell) else { return 0.0 };
+    let points = (cells * points_per_cell).round() as usize;
+    let mut values = vec![0.0; 2 * points + 1];
+    blocks.for_each(|block| block.on_grid(step, points, &mut values));
+    let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(points);
+    (best as f64 - points as f64) * step
+}
+
+/// Newton's step from a gradient and second derivatives ∂²/∂n², ∂²/∂n∂γ, ∂²/∂γ²; `None` where they are not those of a summit.
+pub(super) fn step_to_summit(g: [f64; 2], h: [f64; 3]) -> Option<(f64, f64)> {
+    let determinant = h[0] * h[2] - h[1] * h[1];
+    (h[0] < 0.0 && determinant > 0.0)
+        .then(|| ((-h[2] * g[0] + h[1] * g[1]) / determinant, (h[1] * g[0] - h[0] * g[1]) / determinant))
 }
 
 /// What a block shows at its maximum.

@@ -5,7 +5,7 @@
 //! to the whole quantum are fitted, each level twice as long as the one before, and the level with the greatest evidence
 //! is taken: the sum over its blocks of the likelihood, less what noise alone would give and five standard deviations of it.
 
-use super::block::{BlockFit, Cells};
+use super::block::{BlockFit, Cells, best_on_grid, step_to_summit};
 use super::line::Line;
 use super::map::FRAME_HOPS;
 use super::path::SpeedPath;
@@ -29,7 +29,7 @@ const STRAIGHT_STEPS: u32 = 4;
 const SLOPE_STD_SHARE_PER_S: f64 = 0.1;
 
 /// The blocks of one level.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Level {
     pub(super) blocks: Vec<BlockFit>,
     evidence: f64,
@@ -123,12 +123,8 @@ pub(super) fn straight_level(lines: &[Line], path: &SpeedPath) -> Level {
             })
             .collect();
         let Some(cell) = blocks.first().map(|(_, cells)| cells.cell_rev_s()) else { break };
-        let step = cell / STRAIGHT_GRID_PER_CELL;
-        let points = (reach_cells * STRAIGHT_GRID_PER_CELL).round() as usize;
-        let mut values = vec![0.0; 2 * points + 1];
-        blocks.iter().for_each(|(_, cells)| cells.on_grid(step, points, &mut values));
-        let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(points);
-        let (offset, bend) = climbed(&blocks, (best as f64 - points as f64) * step, cell);
+        let highest = best_on_grid(blocks.iter().map(|(_, cells)| cells), reach_cells, STRAIGHT_GRID_PER_CELL);
+        let (offset, bend) = climbed(&blocks, highest, cell);
         (speed, slope) = (speed + offset, slope + bend);
         if count == 1 {
             break;
@@ -157,14 +153,7 @@ fn climbed(blocks: &[(f64, Cells)], offset: f64, cell: f64) -> (f64, f64) {
     let mut place = (offset, 0.0);
     let (mut value, mut g, mut h) = expansion(place.0, place.1);
     for _ in 0..STRAIGHT_STEPS {
-        let determinant = h[0] * h[2] - h[1] * h[1];
-        if !(h[0] < 0.0 && determinant > 0.0) {
-            break;
-        }
-        let step: (f64, f64) = ((-h[2] * g[0] + h[1] * g[1]) / determinant, (h[1] * g[0] - h[0] * g[1]) / determinant);
-        if step.0.abs() > cell {
-            break;
-        }
+        let Some(step) = step_to_summit(g, h).filter(|step| step.0.abs() <= cell) else { break };
         let next = expansion(place.0 + step.0, place.1 + step.1);
         if next.0 <= value {
             break;

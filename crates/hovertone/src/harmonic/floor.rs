@@ -1,10 +1,9 @@
 //! The noise around a line: how much of it falls into one sample of a channel.
 
+use super::frame::FrameTransform;
 use crate::statistics::median;
 use realfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use rustfft::FftPlanner;
 
 /// Share of a channel's bins, around its middle, that count: the outermost are the band-pass' own slopes.
 const MIDDLE_SHARE: f64 = 0.8;
@@ -13,11 +12,7 @@ const FRAME_HOPS: usize = 4;
 
 /// Measures the floor of one channel.
 pub(super) struct FloorMeter {
-    plan: Arc<dyn Fft<f32>>,
-    window: Vec<f32>,
-    window_energy: f64,
-    frame: Vec<Complex<f32>>,
-    scratch: Vec<Complex<f32>>,
+    frames: FrameTransform,
     power: Vec<f64>,
     middle: Vec<f64>,
 }
@@ -25,18 +20,7 @@ pub(super) struct FloorMeter {
 impl FloorMeter {
     pub(super) fn new(hop_samples: usize, planner: &mut FftPlanner<f32>) -> Self {
         let length = FRAME_HOPS * hop_samples;
-        let plan = planner.plan_fft_forward(length);
-        let window: Vec<f32> =
-            (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
-        Self {
-            window_energy: window.iter().map(|&w| f64::from(w).powi(2)).sum(),
-            window,
-            frame: vec![Complex::default(); length],
-            scratch: vec![Complex::default(); plan.get_inplace_scratch_len()],
-            power: vec![0.0; length],
-            middle: Vec::new(),
-            plan,
-        }
+        Self { frames: FrameTransform::new(length, 1, planner), power: vec![0.0; length], middle: Vec::new() }
     }
 
     /// Variance of the noise in one complex sample, `E |e|²`: the median over the channel's bins of the mean power
@@ -44,15 +28,11 @@ impl FloorMeter {
     ///
     /// The median of a mean of M exponential values lies 1 / 3M below their mean; that is corrected for.
     pub(super) fn noise_variance(&mut self, series: &[Complex<f32>]) -> Option<f64> {
-        let length = self.window.len();
+        let length = self.frames.length();
         self.power.fill(0.0);
         let mut frames = 0;
         for start in (0..(series.len() + 1).saturating_sub(length)).step_by(length / 2) {
-            for ((into, z), weight) in self.frame.iter_mut().zip(&series[start..]).zip(&self.window) {
-                *into = z * weight;
-            }
-            self.plan.process_with_scratch(&mut self.frame, &mut self.scratch);
-            for (sum, bin) in self.power.iter_mut().zip(&self.frame) {
+            for (sum, bin) in self.power.iter_mut().zip(self.frames.spectrum(&series[start..])) {
                 *sum += f64::from(bin.norm_sqr());
             }
             frames += 1;
@@ -65,7 +45,7 @@ impl FloorMeter {
         // neighbouring frames share half of their sound: two are worth 1.9
         let worth = 1.0 + 0.9 * f64::from(frames - 1);
         let median_of_mean = if frames == 1 { std::f64::consts::LN_2 } else { 1.0 - 1.0 / (3.0 * worth) };
-        Some(middle / self.window_energy / median_of_mean)
+        Some(middle / self.frames.energy / median_of_mean)
     }
 }
 

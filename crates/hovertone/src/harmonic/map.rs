@@ -1,12 +1,11 @@
 //! Where the speed is, roughly: all lines scored together on a grid of speeds in each frame, and the best path through them.
 
+use super::frame::FrameTransform;
 use crate::channel::Channel;
 use crate::statistics::{mean, median};
 use crate::tone::BLADES_MAX;
 use realfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
-use std::f64::consts::TAU;
-use std::sync::Arc;
+use rustfft::FftPlanner;
 
 /// Frames of the map, in hops of the bank: 0.17 s.
 pub(super) const FRAME_HOPS: usize = 2;
@@ -46,11 +45,7 @@ struct Line {
     is_alone: bool,
     centre_hz: f64,
     bin_hz: f64,
-    plan: Arc<dyn Fft<f32>>,
-    window: Vec<f32>,
-    energy: f64,
-    frame: Vec<Complex<f32>>,
-    scratch: Vec<Complex<f32>>,
+    frames: FrameTransform,
     amplitude: Vec<f32>,
 }
 
@@ -74,9 +69,6 @@ impl SpeedMap {
             .iter()
             .map(|channel| {
                 let length = FRAME_HOPS * channel.hop_samples;
-                let window: Vec<f32> =
-                    (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
-                let plan = planner.plan_fft_forward(2 * length);
                 let apart = channels
                     .iter()
                     .map(|other| (other.order - channel.order).abs())
@@ -87,12 +79,8 @@ impl SpeedMap {
                     is_alone: channel.order * (high - low) / 2.0 <= apart * low / 2.0,
                     centre_hz: channel.centre_hz,
                     bin_hz: channel.rate_hz / (2 * length) as f64,
-                    energy: window.iter().map(|&w| f64::from(w).powi(2)).sum(),
-                    window,
-                    frame: vec![Complex::default(); 2 * length],
-                    scratch: vec![Complex::default(); plan.get_inplace_scratch_len()],
                     amplitude: vec![0.0; 2 * length + 1],
-                    plan,
+                    frames: FrameTransform::new(length, 2, planner),
                 }
             })
             .collect();
@@ -109,7 +97,7 @@ impl SpeedMap {
     /// The path of a quantum as speeds in the middle of each frame, and how present each line is on it.
     pub(super) fn path_through(&mut self, series: &[&[Complex<f32>]], noise_variances: &[f64], hop_s: f64) -> MapPath {
         let frames =
-            self.lines.iter().zip(series).map(|(line, series)| series.len() / line.window.len()).min().unwrap_or(0);
+            self.lines.iter().zip(series).map(|(line, series)| series.len() / line.frames.length()).min().unwrap_or(0);
         let mut scores: Vec<Vec<f64>> = Vec::with_capacity(frames);
         let mut amplitudes: Vec<Vec<f32>> = Vec::with_capacity(frames);
         let mut presences = vec![LinePresence::default(); self.lines.len()];
@@ -120,7 +108,7 @@ impl SpeedMap {
             for (((line, series), &noise), row) in
                 self.lines.iter_mut().zip(series).zip(noise_variances).zip(on_grid.chunks_exact_mut(points))
             {
-                line.transform(&series[frame * line.window.len()..], noise);
+                line.transform(&series[frame * line.frames.length()..], noise);
                 line.interpolate(&self.speeds_rev_s, row);
             }
             let peaks: Vec<f32> = on_grid.chunks_exact(points).map(highest).collect();
@@ -180,7 +168,8 @@ impl SpeedMap {
         path.amplitudes.iter().map(|on_grid| self.centroid(on_grid, &path.presences, noise_variances)).collect()
     }
 
-    /// Where the energy of a frame lies, each line weighed by A² / (Φ o): of all strong lines whose band holds no other line of the rotor.
+    /// Where the energy of a frame lies, each line weighed by A² / (Φ o): of all strong lines whose band holds no other line of the
+    /// rotor.
     fn centroid(&self, on_grid: &[f32], presences: &[LinePresence], noise_variances: &[f64]) -> Centroid {
         let points = self.speeds_rev_s.len();
         let mut centroid = Centroid::default();
@@ -191,7 +180,7 @@ impl SpeedMap {
             }
             let peak = highest(row).powi(2);
             // J of a sine of amplitude A in a Hann frame of N samples is A² N / 1.5 V
-            let amplitude_square = 1.5 * f64::from(peak) * noise / line.window.len() as f64;
+            let amplitude_square = 1.5 * f64::from(peak) * noise / line.frames.length() as f64;
             centroid.strongest_power = centroid.strongest_power.max(amplitude_square);
             let floor = (CENTROID_SHARE_MIN * peak).max(NOISE_PEAK_POWER as f32);
             for (amplitude, speed) in row.iter().zip(&self.speeds_rev_s) {
@@ -243,7 +232,8 @@ pub(super) struct MapPath {
     pub(super) presences: Vec<LinePresence>,
     /// The one speed that explains most of all frames.
     pub(super) steady_rev_s: f64,
-    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines, 0 where it is in few of them.
+    /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines, 0 where
+    /// it is in few of them.
     pub(super) beside_share: f64,
     /// Amplitude of every line at every speed, frame by frame.
     amplitudes: Vec<Vec<f32>>,
@@ -252,22 +242,18 @@ pub(super) struct MapPath {
 impl Line {
     /// Amplitude spectrum of a frame in units of the noise: the root of what J would be.
     fn transform(&mut self, series: &[Complex<f32>], noise_variance: f64) {
-        let length = self.window.len();
-        for ((into, z), weight) in self.frame.iter_mut().zip(series).zip(&self.window) {
-            *into = z * weight;
-        }
-        self.frame[length..].fill(Complex::default());
-        self.plan.process_with_scratch(&mut self.frame, &mut self.scratch);
-        let scale = 1.0 / (self.energy * noise_variance).sqrt() as f32;
+        let length = self.frames.length();
+        let scale = 1.0 / (self.frames.energy * noise_variance).sqrt() as f32;
+        let spectrum = self.frames.spectrum(series);
         // from the lowest frequency to the highest
         for (index, into) in self.amplitude.iter_mut().take(2 * length).enumerate() {
-            *into = self.frame[(index + length) % (2 * length)].norm_sqr().sqrt() * scale;
+            *into = spectrum[(index + length) % (2 * length)].norm_sqr().sqrt() * scale;
         }
     }
 
     /// The spectrum at the line's place for each speed.
     fn interpolate(&self, speeds_rev_s: &[f64], row: &mut [f32]) {
-        let length = self.window.len() as f64;
+        let length = self.frames.length() as f64;
         let first = (self.order * speeds_rev_s[0] - self.centre_hz) / self.bin_hz + length;
         let step = self.order * (speeds_rev_s[1] - speeds_rev_s[0]) / self.bin_hz;
         let last = self.amplitude.len() - 2;

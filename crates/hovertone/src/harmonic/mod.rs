@@ -7,6 +7,7 @@
 mod block;
 mod coherence;
 mod floor;
+mod frame;
 mod line;
 mod map;
 mod path;
@@ -202,7 +203,6 @@ impl HarmonicTracer {
         let used: Vec<usize> = (0..channels.len()).filter(|&index| !is_stranger(&presences[index])).collect();
         for (index, (record, presence)) in self.track.lines.iter_mut().zip(presences).enumerate() {
             record.on_path += presence.on_path;
-            record.in_band += presence.in_band;
             record.quanta += 1;
             record.quanta_left_out += u32::from(!used.contains(&index));
         }

@@ -35,7 +35,6 @@ impl HarmonicBlock {
 pub(crate) struct LineRecord {
     pub(crate) order: f64,
     pub(super) on_path: f64,
-    pub(super) in_band: f64,
     /// Likelihood where lines keep their phase.
     pub(super) steady_likelihood: f64,
     pub(crate) quanta: u32,

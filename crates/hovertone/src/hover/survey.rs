@@ -32,10 +32,9 @@ impl Survey {
         Self { rows, bin_hz, ..Self::default() }
     }
 
-    /// All that sounds, hum included.
-    pub(crate) fn with_hum(&self) -> Self {
-        let rows = self.rows_with_hum.as_ref().unwrap_or(&self.rows).clone();
-        Self { rows, bin_hz: self.bin_hz, ..Self::default() }
+    /// The rows as they were heard, hum included.
+    pub(crate) fn rows_with_hum(&self) -> &[Row] {
+        self.rows_with_hum.as_ref().unwrap_or(&self.rows)
     }
 
     /// Mean power spectrum of all that was heard.

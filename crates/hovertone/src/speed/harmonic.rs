@@ -42,10 +42,11 @@ impl HarmonicTrack {
                 (block.std_uncertainty_rev_s * longer.powf(1.5) * part.length_s() / total_s).powi(2)
             })
             .sum();
-        let several: Vec<&HarmonicBlock> =
-            parts.iter().map(|(block, _)| *block).filter(|block| block.is_several).collect();
-        let variance = if several.is_empty() { variance } else { variance.max(variance_of_several(&several)) };
         let blocks: Vec<&HarmonicBlock> = parts.iter().map(|(block, _)| *block).collect();
+        let several: Vec<&HarmonicBlock> = blocks.iter().copied().filter(|block| block.is_several).collect();
+        let variance = if several.is_empty() { variance } else { variance.max(variance_of_several(&several)) };
+        let steps = steps_between(&blocks);
+        let variance = (variance * step_scatter(&steps)).max(step_variance(&steps, blocks.len()));
         let points: Vec<TrackPoint> = self.points_in(span, order);
         let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
         let spread_rev_s = std(&speeds);
@@ -54,7 +55,7 @@ impl HarmonicTrack {
             method: Method::Harmonic,
             order,
             speed: RotorSpeed::from_rev_s(mean_rev_s),
-            std_uncertainty_rev_s: Some((variance * step_scatter(&blocks)).max(step_variance(&blocks)).sqrt()),
+            std_uncertainty_rev_s: Some(variance.sqrt()),
             spread_rev_s,
             frame_count: points.len(),
             budget: Vec::new(),
@@ -110,36 +111,30 @@ fn variance_of_several(blocks: &[&HarmonicBlock]) -> f64 {
     std_uncertainty_of_mean(&speeds).unwrap_or(0.0).powi(2) + mean(&shifts).unwrap_or(0.0).powi(2)
 }
 
-/// Variance of the mean that the steps between neighbouring blocks show: a speed that bends within a block is not its straight
-/// line. Wide rather than narrow: each step counts in full.
-fn step_variance(blocks: &[&HarmonicBlock]) -> f64 {
-    let squares: Vec<f64> = blocks
-        .windows(2)
-        .filter(|pair| !pair[0].is_several && !pair[1].is_several)
-        .filter(|pair| (pair[1].span.from_s - pair[0].span.to_s).abs() < 1e-6)
-        .map(|pair| (pair[1].speed_at(pair[0].span.to_s) - pair[0].speed_at(pair[0].span.to_s)).powi(2))
-        .collect();
-    mean(&squares).map_or(0.0, |square| square / blocks.len() as f64)
-}
-
-/// How much more the speed steps from one block to the next than the blocks' uncertainties explain, as a variance ratio; 1 where
-/// they explain it.
-fn step_scatter(blocks: &[&HarmonicBlock]) -> f64 {
-    let ratios: Vec<f64> = blocks
+/// How the speed steps from one block to the next, and the standard uncertainty of that step; gaps and several rotors left out.
+fn steps_between(blocks: &[&HarmonicBlock]) -> Vec<(f64, f64)> {
+    blocks
         .windows(2)
         .filter(|pair| !pair[0].is_several && !pair[1].is_several)
         .filter(|pair| (pair[1].span.from_s - pair[0].span.to_s).abs() < 1e-6)
         .map(|pair| {
             let border_s = pair[0].span.to_s;
             let step = pair[1].speed_at(border_s) - pair[0].speed_at(border_s);
-            let std = END_STDS * pair[0].std_uncertainty_rev_s.hypot(pair[1].std_uncertainty_rev_s);
-            (step / std).powi(2)
+            (step, END_STDS * pair[0].std_uncertainty_rev_s.hypot(pair[1].std_uncertainty_rev_s))
         })
-        .collect();
-    if ratios.is_empty() {
-        return 1.0;
-    }
-    let count = ratios.len() as f64;
-    let mean = ratios.iter().sum::<f64>() / count;
-    if mean > 1.0 + STEP_SCATTER_STDS * (2.0 / count).sqrt() { mean } else { 1.0 }
+        .collect()
+}
+
+/// Variance of the mean of so many blocks that the steps between them show: a speed that bends within a block is not its
+/// straight line. Wide rather than narrow: each step counts in full.
+fn step_variance(steps: &[(f64, f64)], blocks: usize) -> f64 {
+    let squares: Vec<f64> = steps.iter().map(|(step, _)| step.powi(2)).collect();
+    mean(&squares).map_or(0.0, |square| square / blocks as f64)
+}
+
+/// How much larger the steps are than the blocks' uncertainties explain, as a variance ratio; 1 where they explain them.
+fn step_scatter(steps: &[(f64, f64)]) -> f64 {
+    let ratios: Vec<f64> = steps.iter().map(|(step, std)| (step / std).powi(2)).collect();
+    let limit = 1.0 + STEP_SCATTER_STDS * (2.0 / ratios.len() as f64).sqrt();
+    mean(&ratios).filter(|&ratio| ratio > limit).unwrap_or(1.0)
 }

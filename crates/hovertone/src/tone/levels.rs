@@ -24,8 +24,9 @@ pub(crate) struct LevelRows {
 impl LevelRows {
     /// At most `rows_max` rows of a survey, evenly chosen.
     pub(crate) fn from_survey(survey: &Survey, rows_max: usize) -> Self {
-        let step = survey.rows.len().div_ceil(rows_max.max(1)).max(1);
-        let rows = survey.rows.iter().step_by(step).map(|row| LevelRow {
+        let rows = survey.rows_with_hum();
+        let step = rows.len().div_ceil(rows_max.max(1)).max(1);
+        let rows = rows.iter().step_by(step).map(|row| LevelRow {
             span: row.span,
             level_db: whitened_db(&row.power).into_iter().map(|level| (level as f32).min(LEVEL_DB_MAX)).collect(),
         });
