@@ -6,6 +6,7 @@ mod accuracy;
 mod bench;
 mod ci;
 mod cost;
+mod rotors;
 mod roundtrip;
 mod tidy;
 
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(&root()),
         ["bench", "roundtrip", options @ ..] => roundtrip::run(&root(), options),
         ["bench", "accuracy", options @ ..] => accuracy::run(&root(), options),
+        ["bench", "rotors", options @ ..] => rotors::run(&root(), options),
         ["bench", options @ ..] => bench::run(&root(), options),
         [bench::DECODE_TASK, file] => bench::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),

@@ -1,6 +1,7 @@
 //! Settings: every default stands here once, with its unit and its reason.
 
 use crate::budget_config::BudgetConfig;
+use crate::rotors_config::RotorsConfig;
 use crate::error::ConfigError;
 use crate::method::Method;
 use crate::spectrogram::Window;
@@ -12,6 +13,8 @@ use serde::{Deserialize, Serialize};
 pub struct Config {
     /// Which tone of the rotor is followed.
     pub tone: ToneConfig,
+    /// How many rotors sound, and where they are looked for.
+    pub rotors: RotorsConfig,
     /// Which part of the recording is used.
     pub span: SpanConfig,
     /// How hovering is told from the rest.
@@ -35,6 +38,7 @@ impl Config {
     pub fn for_tone(tone: ToneConfig) -> Self {
         Self {
             tone,
+            rotors: RotorsConfig::default(),
             span: SpanConfig::default(),
             hover: HoverConfig::default(),
             samples: SampleConfig::default(),
@@ -59,6 +63,7 @@ impl Config {
     /// Refuses settings that mean nothing, by name, value and limit.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.tone.check()?;
+        self.rotors.check()?;
         self.span.check()?;
         self.hover.check()?;
         self.samples.check()?;

@@ -14,6 +14,7 @@ mod hover;
 mod method;
 mod pipeline;
 mod ridge;
+mod rotors_config;
 mod sample;
 mod signal;
 mod span;
@@ -38,10 +39,11 @@ pub use hover::{Cut, CutReason, Hover};
 pub use method::Method;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
 pub use ridge::{Peak, Ridge, RidgeFrame, peak_offset_bins};
+pub use rotors_config::RotorsConfig;
 pub use signal::{Signal, SignalSource, SourceError};
 pub use span::Span;
 pub use spectrogram::{Frame, Stft, Window};
-pub use speed::{HarmonicSpeed, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm};
+pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm};
 pub use stream::Progress;
 pub use thrust::{
     Air, Force, GRAVITY_STANDARD_M_S2, LoadSpeeds, LoadThrust, SampleSpeed, SampleThrust, ThrustCoefficients,

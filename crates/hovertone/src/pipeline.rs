@@ -3,18 +3,18 @@
 use crate::channel::ChannelBand;
 use crate::config::Config;
 use crate::error::Error;
-use crate::harmonic::{HarmonicTracer, HarmonicTrack};
+use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorTracer};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
 use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
 use crate::span::Span;
-use crate::speed::{HarmonicWeights, SpeedEstimate, Track, TrackPoint};
+use crate::speed::{HarmonicWeights, RotorEstimate, SpeedEstimate, Track, TrackPoint};
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
 use crate::tone::{
     BLADES_MAX, Band, CombMap, bands_around, bands_worth_following, foreign_series, lines_and_between, lines_around,
-    lines_worth_hearing, search_range_rev_s,
+    lines_between_speeds, lines_worth_hearing, search_range_rev_s,
 };
 use crate::verdict::{
     NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_samples,
@@ -65,6 +65,8 @@ pub struct RotorTone {
     pub speeds: Vec<SpeedEstimate>,
     /// Speed of each frame, by the configured method.
     pub track: Vec<TrackPoint>,
+    /// The rotors one by one, fastest first; empty where they are not told apart.
+    pub rotors: Vec<RotorEstimate>,
     /// The paper's samples, each with one speed for each method.
     pub samples: Vec<SampleSpeeds>,
 }
@@ -191,7 +193,12 @@ pub(crate) fn speed_from_survey(
         Some(track) => track.points,
         None => harmonic.points_in(None, config.tone.order),
     };
-    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, samples, ridges });
+    let rotors = if config.rotors.are_several() {
+        rotors_from_source(source, &hover, speed_rev_s, survey, config, on_progress)?
+    } else {
+        Vec::new()
+    };
+    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
 
@@ -280,4 +287,35 @@ fn lines_from_source(
         Piece::Heard(time_s) => on_progress(Progress { pass: 2, pass_count: PASS_COUNT, time_s }),
     })?;
     Ok((tracers.into_iter().map(RidgeTracer::finish).collect(), harmonic.finish()))
+}
+
+/// Third reading, where there are several rotors: each by itself.
+fn rotors_from_source(
+    source: &mut dyn SignalSource,
+    hover: &Hover,
+    speed_rev_s: f64,
+    survey: &Survey,
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<Vec<RotorEstimate>, Error> {
+    let share = config.rotors.band_half_width_share;
+    let limits_rev_s = (speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share));
+    let lines = lines_between_speeds(limits_rev_s, &config.tone, source.sample_rate_hz());
+    let lines = lines_worth_hearing(lines, survey);
+    let order = config.tone.order.lines_per_turn();
+    let mesh_order = (order > BLADES_MAX).then_some(order);
+    let mut tracer = RotorTracer::new(source.sample_rate_hz(), &lines, mesh_order, config.rotors.count as usize);
+    let mut segments = hover.segments.iter();
+    for_each_piece(source, &hover.segments, |piece| match piece {
+        Piece::Start(time_s) => tracer.restart(time_s, segments.next().map_or(0.0, Span::length_s)),
+        Piece::Samples(samples) => tracer.push(samples),
+        Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
+    })?;
+    let rotor_of = |track: HarmonicTrack| {
+        let speed = track.speed_in(None, config.tone.order)?.with_budget(&config.budget);
+        Some(RotorEstimate { speed, track: track.points_in(None, config.tone.order) })
+    };
+    let mut rotors: Vec<RotorEstimate> = tracer.finish().into_iter().filter_map(rotor_of).collect();
+    rotors.sort_by(|a, b| b.speed.speed.rev_s().total_cmp(&a.speed.speed.rev_s()));
+    Ok(rotors)
 }

@@ -4,7 +4,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The outcomes of `one` for 0 to `count`, in that order. `one` must depend on its number alone.
-pub(super) fn drawn<T: Send>(count: usize, one: impl Fn(usize) -> Result<T, String> + Sync) -> Result<Vec<T>, String> {
+pub(crate) fn drawn<T: Send>(count: usize, one: impl Fn(usize) -> Result<T, String> + Sync) -> Result<Vec<T>, String> {
     let next = AtomicUsize::new(0);
     let outcomes = Mutex::new(Vec::with_capacity(count));
     let workers = std::thread::available_parallelism().map_or(1, usize::from);

@@ -22,6 +22,7 @@ mod workbench;
 
 use crate::bench;
 use document::Document;
+pub(crate) use draws::drawn;
 use std::fs;
 use std::path::Path;
 use workbench::{Workbench, output_of};

@@ -281,7 +281,7 @@ fn second_largest(values: &[f32]) -> f32 {
 /// The path of grid points with the highest sum of scores less (step / σ)² / 2 for each step (Viterbi). The best predecessor
 /// of every point is found in one sweep, by the lower envelope of parabolas (Felzenszwalb and Huttenlocher, Theory of
 /// Computing 8, 2012).
-fn best_path(scores: &[Vec<f64>], step_std: f64) -> Vec<usize> {
+pub(super) fn best_path(scores: &[Vec<f64>], step_std: f64) -> Vec<usize> {
     let Some(first) = scores.first() else { return Vec::new() };
     let points = first.len();
     let curvature = 1.0 / (2.0 * step_std * step_std);

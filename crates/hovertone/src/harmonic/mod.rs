@@ -11,6 +11,8 @@ mod frame;
 mod line;
 mod map;
 mod path;
+mod quanta;
+mod rotors;
 mod track;
 
 use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
@@ -22,6 +24,7 @@ use floor::FloorMeter;
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
+pub(crate) use rotors::RotorTracer;
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
 
 use realfft::num_complex::Complex;
@@ -190,13 +193,7 @@ impl HarmonicTracer {
             .map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP])
             .collect();
         let mean_square = self.squares / self.samples_in.max(1) as f64;
-        let noise_variance_min = NOISE_VARIANCE_MIN.max(ROUNDING_SHARE * mean_square);
-        let noise_variances: Vec<f64> = self
-            .floors
-            .iter_mut()
-            .zip(&series)
-            .map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min))
-            .collect();
+        let noise_variances = noise_variances_of(&mut self.floors, &series, mean_square);
         let seen = self.map.path_through(&series, &noise_variances, hop_s);
         let MapPath { points, presences, steady_rev_s, .. } = &seen;
         let path = SpeedPath::through(points, tick_s, ticks)?;
@@ -306,6 +303,13 @@ fn blocks_of_several(centroids: &[Centroid], start_s: f64, frame_s: f64) -> Vec<
 const NOISE_VARIANCE_MIN: f64 = 1e-16;
 /// Noise below this share of the sound's power is the rounding of the transforms, and keeps its phase like a tone.
 const ROUNDING_SHARE: f64 = 1e-12;
+
+/// The noise in each channel, of a sound of that mean square.
+fn noise_variances_of(floors: &mut [FloorMeter], series: &[&[Complex<f32>]], mean_square: f64) -> Vec<f64> {
+    let noise_variance_min = NOISE_VARIANCE_MIN.max(ROUNDING_SHARE * mean_square);
+    let floors = floors.iter_mut().zip(series);
+    floors.map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min)).collect()
+}
 
 /// So many lines must keep their phase: two of a gear mesh, four of a blade pass, which has many.
 fn steady_lines_min(lines: usize) -> u32 {

@@ -58,6 +58,11 @@ impl SpeedPath {
         self.speeds_rev_s[border]
     }
 
+    /// Mean over all of it.
+    pub(super) fn mean_rev_s(&self) -> f64 {
+        self.turns.last().map_or(0.0, |turns| turns / (self.ticks().max(1) as f64 * self.tick_s))
+    }
+
     /// Turns at the middle of a tick.
     pub(super) fn turns_at_middle(&self, tick: usize) -> f64 {
         let (turns, from, to) = self.tick(tick);

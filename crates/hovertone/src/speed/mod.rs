@@ -78,6 +78,15 @@ pub struct TrackPoint {
     pub level_db: f64,
 }
 
+/// One rotor among several.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RotorEstimate {
+    /// Its mean speed over all of the hover.
+    pub speed: SpeedEstimate,
+    /// Its speed over time.
+    pub track: Vec<TrackPoint>,
+}
+
 /// The harmonics that are used, with their weights. Eq 9 as printed is no average (its weights sum to 1.833 for exact
 /// harmonics); the corrected form weighs each harmonic's speed by the inverse of its variance.
 ///

@@ -86,10 +86,19 @@ pub(crate) fn bands_around(
 /// and the recording can hold them.
 pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: f64) -> Vec<ChannelBand> {
     let order = tone.order.lines_per_turn();
-    let found_rev_s =
-        (speed_rev_s * (1.0 - tone.band_half_width_share), speed_rev_s * (1.0 + tone.band_half_width_share));
-    let (low_rev_s, high_rev_s) =
-        tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| (low_hz / order, high_hz / order));
+    let share = tone.band_half_width_share;
+    let found_rev_s = (speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share));
+    let speeds_rev_s = tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| (low_hz / order, high_hz / order));
+    lines_between_speeds(speeds_rev_s, tone, sample_rate_hz)
+}
+
+/// The same lines, for shafts between two speeds.
+pub(crate) fn lines_between_speeds(
+    (low_rev_s, high_rev_s): (f64, f64),
+    tone: &ToneConfig,
+    sample_rate_hz: f64,
+) -> Vec<ChannelBand> {
+    let order = tone.order.lines_per_turn();
     let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
     let is_blade_pass = order <= BLADES_MAX;
     let blades = tone.blades.map(f64::from).filter(|_| !is_blade_pass);

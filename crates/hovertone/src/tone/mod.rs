@@ -14,7 +14,7 @@ mod reading;
 mod series;
 
 pub use band::Band;
-pub(crate) use band::{bands_around, lines_and_between, lines_around, search_range_rev_s};
+pub(crate) use band::{bands_around, lines_and_between, lines_around, lines_between_speeds, search_range_rev_s};
 pub(crate) use band_choice::{bands_worth_following, lines_worth_hearing};
 pub(crate) use comb::CombMap;
 pub(crate) use family::families_from_surveys;

@@ -1,0 +1,127 @@
+//! A stream of sound → quanta of all channels, each short enough to be analysed at once.
+
+use super::map::FRAME_HOPS;
+use crate::channel::{Channel, ChannelBand, ChannelBank, TICKS_PER_HOP};
+use realfft::num_complex::Complex;
+
+/// Ticks at either end of a stretch in which it fades in or out; their amplitude says nothing.
+const FADE_TICKS: usize = 3;
+
+/// Gathers the channels of stretches of sound and cuts them into quanta of nearly equal length.
+pub(super) struct QuantumCutter {
+    bank: ChannelBank,
+    series: Vec<Vec<Complex<f32>>>,
+    quantum_s_max: f64,
+    /// Start of what lies in `series`.
+    start_s: f64,
+    stretch_start_s: f64,
+    samples_in: u64,
+    /// Sum of their squares.
+    squares: f64,
+    sample_rate_hz: f64,
+    quantum_hops: usize,
+}
+
+/// All channels over a stretch of time.
+pub(super) struct Quantum<'a> {
+    pub(super) channels: &'a [Channel],
+    /// Samples of each channel.
+    pub(super) series: Vec<&'a [Complex<f32>]>,
+    pub(super) start_s: f64,
+    pub(super) tick_s: f64,
+    pub(super) ticks: usize,
+    /// Mean square of the stretch so far.
+    pub(super) mean_square: f64,
+}
+
+impl QuantumCutter {
+    pub(super) fn new(sample_rate_hz: f64, bands: &[ChannelBand], quantum_s_max: f64) -> Self {
+        let bank = ChannelBank::new(sample_rate_hz, bands);
+        Self {
+            series: vec![Vec::new(); bank.channels.len()],
+            bank,
+            quantum_s_max,
+            start_s: 0.0,
+            stretch_start_s: 0.0,
+            samples_in: 0,
+            squares: 0.0,
+            sample_rate_hz,
+            quantum_hops: 1,
+        }
+    }
+
+    pub(super) fn channels(&self) -> &[Channel] {
+        &self.bank.channels
+    }
+
+    pub(super) fn tick_s(&self) -> f64 {
+        self.bank.hop_s() / TICKS_PER_HOP as f64
+    }
+
+    /// A new stretch begins at `start_s` and should last `length_s`; the one before has been taken to its end.
+    pub(super) fn restart(&mut self, start_s: f64, length_s: f64) {
+        self.series.iter_mut().for_each(Vec::clear);
+        self.bank.restart();
+        (self.start_s, self.stretch_start_s, self.samples_in, self.squares) = (start_s, start_s, 0, 0.0);
+        let quanta = (length_s / self.quantum_s_max).ceil().max(1.0);
+        self.quantum_hops = (length_s / quanta / self.bank.hop_s()).ceil().max(1.0) as usize;
+    }
+
+    pub(super) fn push(&mut self, samples: &[f32]) {
+        self.samples_in += samples.len() as u64;
+        self.squares += samples.iter().map(|&sample| f64::from(sample * sample)).sum::<f64>();
+        self.bank.push(samples, &mut self.series);
+    }
+
+    /// Ticks of the next quantum, if it has come in whole. A stretch that ends a little later than it should must not leave a crumb.
+    pub(super) fn ready_ticks(&self) -> Option<usize> {
+        (self.hops() >= self.quantum_hops + self.quantum_hops / 2).then_some(self.quantum_hops * TICKS_PER_HOP)
+    }
+
+    /// The stretch ends here: ticks of what is left, if it is worth anything.
+    pub(super) fn last_ticks(&mut self) -> Option<usize> {
+        self.bank.finish(&mut self.series);
+        let left_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz - self.start_s;
+        let ticks = ((left_s / self.tick_s() + 1e-6) as usize).min(self.hops() * TICKS_PER_HOP);
+        self.samples_in = 0;
+        Some(ticks.saturating_sub(FADE_TICKS)).filter(|&ticks| ticks >= FRAME_HOPS * TICKS_PER_HOP)
+    }
+
+    /// The first ticks of what has come in; where a stretch begins, without those in which it fades in.
+    pub(super) fn quantum(&mut self, mut ticks: usize) -> Quantum<'_> {
+        if self.start_s == self.stretch_start_s && ticks > FADE_TICKS {
+            self.drop_ticks(FADE_TICKS);
+            ticks -= FADE_TICKS;
+        }
+        let series = self.bank.channels.iter().zip(&self.series);
+        Quantum {
+            series: series
+                .map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP])
+                .collect(),
+            channels: &self.bank.channels,
+            start_s: self.start_s,
+            tick_s: self.bank.hop_s() / TICKS_PER_HOP as f64,
+            ticks,
+            mean_square: self.squares / self.samples_in.max(1) as f64,
+        }
+    }
+
+    /// Forgets the first ticks.
+    pub(super) fn drop_ticks(&mut self, ticks: usize) {
+        for (channel, series) in self.bank.channels.iter().zip(&mut self.series) {
+            let samples = (ticks * channel.hop_samples / TICKS_PER_HOP).min(series.len());
+            series.drain(..samples);
+        }
+        self.start_s += ticks as f64 * self.tick_s();
+    }
+
+    fn hops(&self) -> usize {
+        self.bank
+            .channels
+            .iter()
+            .zip(&self.series)
+            .map(|(channel, series)| series.len() / channel.hop_samples)
+            .min()
+            .unwrap_or(0)
+    }
+}

@@ -1,0 +1,127 @@
+//! Where the rotors are, roughly: a path for each through a map of all lines from which the others have been taken away, each in
+//! turn (RELAX), with the best path by Viterbi's algorithm.
+
+use super::super::map::best_path;
+use super::atoms::{ChannelAtoms, REACH_CELLS, hann_lobe};
+use super::mixture::amplitudes;
+use super::spectra::{LineSpectra, Spectra};
+use realfft::num_complex::Complex;
+
+/// Likelihood at which one line has said what it can: beyond it, more power is no more evidence, and what is left of a strong
+/// line after it was taken away must not outvote the lines of a weak rotor.
+const LIKELIHOOD_CAP: f32 = 30.0;
+/// Share of a line's energy that must be left to it by the others.
+const ENERGY_LEFT_MIN: f32 = 0.1;
+/// How much a rotor's speed changes from one frame to the next, as a share.
+const STEP_STD_SHARE: f64 = 0.001;
+/// Points of the grid in a resolution cell of the line that resolves most finely.
+const GRID_PER_CELL: f64 = 2.0;
+/// Times that all rotors are looked for again, the others being known.
+const SWEEPS: usize = 2;
+
+/// Speeds that are looked for, as offsets from the common speed.
+pub(super) struct OffsetGrid {
+    first_rev_s: f64,
+    step_rev_s: f64,
+    points: usize,
+}
+
+impl OffsetGrid {
+    pub(super) fn new((low_rev_s, high_rev_s): (f64, f64), spectra: &Spectra) -> Self {
+        let finest = spectra.lines.iter().map(|line| line.order * line.frame_s).fold(1.0, f64::max);
+        let points = ((high_rev_s - low_rev_s) * finest * GRID_PER_CELL).ceil().max(2.0) as usize + 1;
+        Self { first_rev_s: low_rev_s, step_rev_s: (high_rev_s - low_rev_s) / (points - 1) as f64, points }
+    }
+}
+
+/// The tracks of `count` rotors as offsets from the common speed in each frame.
+pub(super) fn found_tracks(spectra: &Spectra, atoms: &[ChannelAtoms], grid: &OffsetGrid, count: usize) -> Vec<Vec<f64>> {
+    let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;
+    let step_std = STEP_STD_SHARE * middle / grid.step_rev_s;
+    let track_beside = |others: &[&Vec<f64>]| -> Vec<f64> {
+        let scores: Vec<Vec<f64>> = (0..spectra.frames())
+            .map(|frame| {
+                let others: Vec<f64> = others.iter().map(|track| track[frame]).collect();
+                scores_of_frame(spectra, atoms, frame, grid, &others)
+            })
+            .collect();
+        best_path(&scores, step_std).into_iter().map(|place| grid.first_rev_s + place as f64 * grid.step_rev_s).collect()
+    };
+    let mut tracks: Vec<Vec<f64>> = Vec::new();
+    for _ in 0..count {
+        let track = track_beside(&tracks.iter().collect::<Vec<_>>());
+        tracks.push(track);
+    }
+    if count > 1 {
+        for rotor in (0..SWEEPS).flat_map(|_| 0..count) {
+            let others: Vec<&Vec<f64>> =
+                tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
+            tracks[rotor] = track_beside(&others);
+        }
+    }
+    tracks
+}
+
+/// What speaks for one more rotor at each point of the grid, beside others at known offsets.
+fn scores_of_frame(
+    spectra: &Spectra,
+    atoms: &[ChannelAtoms],
+    frame: usize,
+    grid: &OffsetGrid,
+    others_rev_s: &[f64],
+) -> Vec<f64> {
+    let mut scores = vec![0.0f32; grid.points];
+    let mut levels = Vec::new();
+    for (line, atoms) in spectra.lines.iter().zip(atoms) {
+        levels_beside(line, atoms, frame, spectra.common_rev_s[frame], others_rev_s, &mut levels);
+        let first = line.bin_of(line.order * grid.first_rev_s * line.frame_s);
+        let step = line.bin_of(line.order * grid.step_rev_s * line.frame_s) - line.bin_of(0.0);
+        let last = levels.len() - 2;
+        for (index, score) in scores.iter_mut().enumerate() {
+            let place = (first + step * index as f64).max(0.0);
+            let bin = (place as usize).min(last);
+            let share = (place - bin as f64).min(1.0) as f32;
+            let level = levels[bin] + share * (levels[bin + 1] - levels[bin]);
+            let likelihood = level * level;
+            *score += likelihood / (1.0 + likelihood / LIKELIHOOD_CAP);
+        }
+    }
+    scores.into_iter().map(f64::from).collect()
+}
+
+/// The root of what one line's likelihood is in each bin, once other rotors have been taken away.
+fn levels_beside(
+    line: &LineSpectra,
+    atoms: &ChannelAtoms,
+    frame: usize,
+    common_rev_s: f64,
+    others_rev_s: &[f64],
+    levels: &mut Vec<f32>,
+) {
+    let mut left: Vec<Complex<f32>> = line.frame(frame).to_vec();
+    let mut energy_left = vec![1.0f32; left.len()];
+    let (mut places, mut seen) = (Vec::new(), Vec::new());
+    for other in others_rev_s {
+        for order in &atoms.orders {
+            let cells = (order * (common_rev_s + other) - line.order * common_rev_s) * line.frame_s;
+            if let Some(z) = line.at(frame, cells) {
+                places.push(cells);
+                seen.push(z);
+            }
+        }
+    }
+    for (cells, amplitude) in places.iter().zip(amplitudes(&places, &seen)) {
+        let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
+        let from = line.bin_of(cells - REACH_CELLS).ceil().max(0.0) as usize;
+        let to = (line.bin_of(cells + REACH_CELLS).floor() as usize + 1).min(left.len());
+        for bin in from..to {
+            let lobe = hann_lobe(line.cells_of(bin) - cells) as f32;
+            left[bin] -= amplitude * lobe;
+            energy_left[bin] *= 1.0 - lobe * lobe;
+        }
+    }
+    levels.clear();
+    levels.extend(
+        left.iter().zip(&energy_left).map(|(z, energy)| (z.norm_sqr() / energy.max(ENERGY_LEFT_MIN)).sqrt()),
+    );
+}

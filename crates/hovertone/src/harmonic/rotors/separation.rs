@@ -1,0 +1,204 @@
+//! Channels → lines of one rotor each: the amplitudes of all rotors' lines in a channel are solved for together, frame by frame,
+//! and what belongs to the others is taken away.
+
+use super::super::line::Line;
+use super::super::map::STRONG_POWER_MIN;
+use super::super::path::SpeedPath;
+use super::super::quanta::Quantum;
+use super::atoms::ChannelAtoms;
+use super::mixture::amplitudes;
+use super::spectra::{FRAME_TICKS, frame_middle_ticks, phasors};
+use crate::channel::TICKS_PER_HOP;
+use realfft::num_complex::Complex;
+use std::f64::consts::TAU;
+
+/// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
+pub(super) const RESOLVED_CELLS: f64 = 1.25;
+/// A line that is apart from all others in less than this share of a quantum is not heard for its speed.
+const APART_SHARE_MIN: f64 = 0.5;
+
+/// What belongs to one rotor.
+pub(super) struct SeparatedRotor {
+    pub(super) lines: Vec<Line>,
+    /// Amplitude of each channel's own line in each frame, relative to noise; 0 where it is not apart from the others.
+    pub(super) levels: Vec<Vec<f64>>,
+}
+
+/// One line of one rotor in a channel.
+struct Atom {
+    rotor: usize,
+    order: f64,
+    phasors: Vec<Complex<f32>>,
+    /// Amplitude in each frame.
+    amplitudes: Vec<Complex<f64>>,
+}
+
+/// Takes the rotors apart whose speeds are `paths`.
+pub(super) fn separated(
+    quantum: &Quantum<'_>,
+    noise_variances: &[f64],
+    atoms: &[ChannelAtoms],
+    paths: &[SpeedPath],
+    frame_s_of_order: impl Fn(f64) -> f64,
+) -> Vec<SeparatedRotor> {
+    let mut rotors: Vec<SeparatedRotor> =
+        paths.iter().map(|_| SeparatedRotor { lines: Vec::new(), levels: Vec::new() }).collect();
+    for (index, atoms) in atoms.iter().enumerate() {
+        let channel = &quantum.channels[index];
+        let frame_ticks = 2 * ((frame_s_of_order(channel.order) / quantum.tick_s / 2.0).round().max(1.0) as usize);
+        let mut mixed = MixedChannel::new(quantum, index, atoms, paths);
+        let apart = mixed.solve(quantum, index, paths, frame_ticks);
+        mixed.take_away(quantum.ticks);
+        let samples_per_tick = mixed.samples_per_tick;
+        for (rotor, separated) in rotors.iter_mut().enumerate() {
+            let own = mixed.atoms.iter().find(|atom| atom.rotor == rotor && atom.order == channel.order);
+            let apart = &apart[rotor];
+            let power = |amplitude: &Complex<f64>| {
+                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64 / (1.5 * noise_variances[index])
+            };
+            let levels: Vec<f64> = match own {
+                Some(own) => own
+                    .amplitudes
+                    .iter()
+                    .zip(apart)
+                    .map(|(amplitude, &is_apart)| if is_apart { power(amplitude).sqrt() } else { 0.0 })
+                    .collect(),
+                None => vec![0.0; apart.len()],
+            };
+            let frames_apart = apart.iter().filter(|&&is_apart| is_apart).count();
+            if let Some(own) = own.filter(|_| frames_apart as f64 >= APART_SHARE_MIN * apart.len() as f64) {
+                let mean_power = levels.iter().map(|level| level * level).sum::<f64>() / frames_apart.max(1) as f64;
+                separated.lines.push(Line {
+                    order: channel.order,
+                    is_first: channel.is_first,
+                    is_strong: mean_power > STRONG_POWER_MIN,
+                    noise_variance: noise_variances[index],
+                    samples_per_tick: samples_per_tick as f64,
+                    ticks: mixed.ticks_of(own, apart, quantum.ticks),
+                });
+            }
+            separated.levels.push(levels);
+        }
+    }
+    rotors
+}
+
+/// A channel as a sum of atoms.
+struct MixedChannel {
+    samples_per_tick: usize,
+    atoms: Vec<Atom>,
+    /// What no atom explains.
+    rest: Vec<Complex<f32>>,
+}
+
+impl MixedChannel {
+    fn new(quantum: &Quantum<'_>, index: usize, channel_atoms: &ChannelAtoms, paths: &[SpeedPath]) -> Self {
+        let channel = &quantum.channels[index];
+        let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
+        let samples = quantum.ticks * samples_per_tick;
+        let place = |order: f64| (order, channel.centre_hz, channel.rate_hz);
+        let atoms = paths
+            .iter()
+            .enumerate()
+            .flat_map(|(rotor, path)| channel_atoms.orders.iter().map(move |&order| (rotor, path, order)))
+            .filter(|(_, path, order)| (order * path.mean_rev_s() - channel.centre_hz).abs() < channel.rate_hz / 2.0)
+            .map(|(rotor, path, order)| Atom {
+                rotor,
+                order,
+                phasors: phasors(place(order), path, samples_per_tick, samples),
+                amplitudes: Vec::new(),
+            })
+            .collect();
+        Self { samples_per_tick, atoms, rest: quantum.series[index].to_vec() }
+    }
+
+    /// Amplitudes of all atoms in all frames; and for each rotor and frame, whether its own line is apart from those of others.
+    fn solve(&mut self, quantum: &Quantum<'_>, index: usize, paths: &[SpeedPath], frame_ticks: usize) -> Vec<Vec<bool>> {
+        let length = frame_ticks * self.samples_per_tick;
+        let frame_s = frame_ticks as f64 * quantum.tick_s;
+        let window: Vec<f32> =
+            (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
+        let series = quantum.series[index];
+        let own_order = quantum.channels[index].order;
+        let frames = quantum.ticks / FRAME_TICKS;
+        let mut apart = vec![vec![true; frames]; paths.len()];
+        let mut places = vec![0.0; self.atoms.len()];
+        let mut seen = vec![Complex::<f64>::default(); self.atoms.len()];
+        for frame in 0..frames {
+            let middle = frame_middle_ticks(frame) * self.samples_per_tick;
+            let from = middle.saturating_sub(length / 2);
+            let to = (middle + length / 2).min(series.len());
+            let window = &window[from + length / 2 - middle..to + length / 2 - middle];
+            let weight: f64 = window.iter().map(|&w| f64::from(w)).sum();
+            let speed_of = |rotor: usize| paths[rotor].speed_rev_s(frame_middle_ticks(frame));
+            for ((atom, place), seen) in self.atoms.iter().zip(&mut places).zip(&mut seen) {
+                let mut sum = Complex::<f32>::default();
+                for ((z, phasor), weight) in series[from..to].iter().zip(&atom.phasors[from..to]).zip(window) {
+                    sum += z * phasor.conj() * weight;
+                }
+                // relative to the phase in the middle of the frame, so that the lobes between the atoms are real
+                let middle_phasor = atom.phasors[middle.min(atom.phasors.len() - 1)];
+                *seen = Complex::new(f64::from(sum.re), f64::from(sum.im)) * to_f64(middle_phasor) / weight;
+                *place = atom.order * speed_of(atom.rotor) * frame_s;
+            }
+            for (index, atom) in self.atoms.iter().enumerate().filter(|(_, atom)| atom.order == own_order) {
+                let nearest = self.atoms.iter().zip(&places).filter(|(other, _)| other.rotor != atom.rotor);
+                let nearest = nearest.map(|(_, place)| (place - places[index]).abs()).fold(f64::INFINITY, f64::min);
+                apart[atom.rotor][frame] = nearest >= RESOLVED_CELLS;
+            }
+            for (atom, amplitude) in self.atoms.iter_mut().zip(amplitudes(&places, &seen)) {
+                let middle_phasor = atom.phasors[middle.min(atom.phasors.len() - 1)];
+                atom.amplitudes.push(amplitude * to_f64(middle_phasor).conj());
+            }
+        }
+        apart
+    }
+
+    /// Subtracts all atoms.
+    fn take_away(&mut self, ticks: usize) {
+        for atom in &self.atoms {
+            for tick in 0..ticks {
+                let amplitude = atom.amplitude_at(tick);
+                let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
+                let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;
+                for (rest, phasor) in self.rest[samples.clone()].iter_mut().zip(&atom.phasors[samples]) {
+                    *rest -= amplitude * phasor;
+                }
+            }
+        }
+    }
+
+    /// One atom and what is left beside all of them, turned back and summed in each tick. Ticks where the line is not apart
+    /// from others say nothing.
+    fn ticks_of(&self, atom: &Atom, apart: &[bool], ticks: usize) -> Vec<Complex<f64>> {
+        (0..ticks)
+            .map(|tick| {
+                if !apart.get(tick / FRAME_TICKS).copied().unwrap_or(false) {
+                    return Complex::default();
+                }
+                let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;
+                let rest: Complex<f32> =
+                    self.rest[samples.clone()].iter().zip(&atom.phasors[samples]).map(|(z, phasor)| z * phasor.conj()).sum();
+                to_f64(rest) + atom.amplitude_at(tick) * self.samples_per_tick as f64
+            })
+            .collect()
+    }
+}
+
+impl Atom {
+    /// Amplitude in the middle of a tick, between those of the frames.
+    fn amplitude_at(&self, tick: usize) -> Complex<f64> {
+        let place = (tick as f64 + 0.5 - frame_middle_ticks(0) as f64) / FRAME_TICKS as f64;
+        let last = self.amplitudes.len().saturating_sub(1);
+        let before = (place.max(0.0) as usize).min(last);
+        let share = (place - before as f64).clamp(0.0, 1.0);
+        match (self.amplitudes.get(before), self.amplitudes.get((before + 1).min(last))) {
+            (Some(a), Some(b)) => a + (b - a) * share,
+            _ => Complex::default(),
+        }
+    }
+}
+
+fn to_f64(z: Complex<f32>) -> Complex<f64> {
+    Complex::new(f64::from(z.re), f64::from(z.im))
+}

@@ -1,0 +1,162 @@
+//! Spectra of all lines in short frames, turned back by a speed that all rotors share, so that what is left of each rotor is how
+//! far it is from that.
+
+use super::super::frame::FrameTransform;
+use super::super::path::SpeedPath;
+use super::super::quanta::Quantum;
+use crate::channel::TICKS_PER_HOP;
+use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
+use std::f64::consts::{PI, TAU};
+
+/// Ticks from one frame to the next: 0.04 s.
+pub(super) const FRAME_TICKS: usize = TICKS_PER_HOP / 2;
+const ZERO_PAD_FACTOR: usize = 2;
+
+/// The frames of one line.
+pub(super) struct LineSpectra {
+    pub(super) order: f64,
+    /// Length of a frame.
+    pub(super) frame_s: f64,
+    /// Bins to either side of the shared speed.
+    half_bins: usize,
+    /// Frame by frame, from the lowest frequency to the highest; squares are likelihoods. Phases are those in the middle of the
+    /// frame.
+    bins: Vec<Complex<f32>>,
+}
+
+/// All lines over a quantum.
+pub(super) struct Spectra {
+    pub(super) lines: Vec<LineSpectra>,
+    /// Speed that all rotors share, in the middle of each frame.
+    pub(super) common_rev_s: Vec<f64>,
+}
+
+/// Middle of a frame, in ticks.
+pub(super) fn frame_middle_ticks(frame: usize) -> usize {
+    frame * FRAME_TICKS + FRAME_TICKS / 2
+}
+
+impl Spectra {
+    /// Frames along a common path. A line of order o has frames of `√(coherence_turns_s / o)`, so that a rotor
+    /// which leaves the common path by so and so many rev/s per second smears each line over as many cells.
+    pub(super) fn along(
+        quantum: &Quantum<'_>,
+        noise_variances: &[f64],
+        common: &SpeedPath,
+        frame_s_of_order: impl Fn(f64) -> f64,
+        planner: &mut FftPlanner<f32>,
+    ) -> Self {
+        let frames = quantum.ticks / FRAME_TICKS;
+        let lines = quantum
+            .channels
+            .iter()
+            .zip(&quantum.series)
+            .zip(noise_variances)
+            .map(|((channel, series), noise_variance)| {
+                let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
+                let ticks = ((frame_s_of_order(channel.order) / quantum.tick_s / 2.0).round().max(1.0) as usize) * 2;
+                let length = ticks * samples_per_tick;
+                // nothing before the first frame and after the last
+                let mut turned = vec![Complex::default(); length];
+                turned.extend(turned_back(series, (channel.order, channel.centre_hz, channel.rate_hz), common, samples_per_tick));
+                turned.resize(turned.len() + length, Complex::default());
+                let mut transform = FrameTransform::new(length, ZERO_PAD_FACTOR, planner);
+                let scale = 1.0 / (transform.energy * noise_variance).sqrt();
+                let count = ZERO_PAD_FACTOR * length;
+                let to_middle: Vec<Complex<f32>> = (0..count)
+                    .map(|index| {
+                        let bin = index as f64 - (count / 2) as f64;
+                        let phase = TAU * bin / count as f64 * (length as f64 - 1.0) / 2.0;
+                        Complex::new((scale * phase.cos()) as f32, (scale * phase.sin()) as f32)
+                    })
+                    .collect();
+                let mut bins = Vec::with_capacity(frames * count);
+                for frame in 0..frames {
+                    let start = length + frame_middle_ticks(frame) * samples_per_tick - length / 2;
+                    let spectrum = transform.spectrum(&turned[start..]);
+                    bins.extend(to_middle.iter().enumerate().map(|(index, turn)| spectrum[(index + count / 2) % count] * turn));
+                }
+                LineSpectra { order: channel.order, frame_s: ticks as f64 * quantum.tick_s, half_bins: count / 2, bins }
+            })
+            .collect();
+        let common_rev_s = (0..frames).map(|frame| common.speed_rev_s(frame_middle_ticks(frame))).collect();
+        Self { lines, common_rev_s }
+    }
+
+    pub(super) fn frames(&self) -> usize {
+        self.common_rev_s.len()
+    }
+}
+
+impl LineSpectra {
+    pub(super) fn frame(&self, frame: usize) -> &[Complex<f32>] {
+        &self.bins[2 * frame * self.half_bins..2 * (frame + 1) * self.half_bins]
+    }
+
+    /// Where in a frame's bins lies what is so many resolution cells from the shared speed.
+    pub(super) fn bin_of(&self, cells: f64) -> f64 {
+        ZERO_PAD_FACTOR as f64 * cells + self.half_bins as f64
+    }
+
+    /// Resolution cells of a bin from the shared speed.
+    pub(super) fn cells_of(&self, bin: usize) -> f64 {
+        (bin as f64 - self.half_bins as f64) / ZERO_PAD_FACTOR as f64
+    }
+
+    /// The spectrum between its bins, by the cubic through the four around; `None` beyond the edge.
+    pub(super) fn at(&self, frame: usize, cells: f64) -> Option<Complex<f64>> {
+        let place = self.bin_of(cells);
+        let bin = place.floor();
+        let t = place - bin;
+        let bins = self.frame(frame);
+        let first = (bin as usize).checked_sub(1).filter(|first| place >= 1.0 && first + 4 <= bins.len())?;
+        let weights = [
+            -t * (t - 1.0) * (t - 2.0) / 6.0,
+            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+            -(t + 1.0) * t * (t - 2.0) / 2.0,
+            (t + 1.0) * t * (t - 1.0) / 6.0,
+        ];
+        let near = bins[first..first + 4].iter().zip(weights);
+        Some(near.map(|(z, weight)| Complex::new(f64::from(z.re), f64::from(z.im)) * weight).sum())
+    }
+}
+
+/// A channel, turned back by its order times the angle of a path.
+fn turned_back(
+    series: &[Complex<f32>],
+    place: (f64, f64, f64),
+    path: &SpeedPath,
+    samples_per_tick: usize,
+) -> Vec<Complex<f32>> {
+    let mut turned = phasors(place, path, samples_per_tick, series.len());
+    turned.iter_mut().zip(series).for_each(|(phasor, z)| *phasor = z * phasor.conj());
+    turned
+}
+
+/// `exp(j 2π (o turns(t) − f t))` at every sample of a channel around f: a line of order o and amplitude 1, as the channel shows it.
+pub(super) fn phasors(
+    (order, centre_hz, rate_hz): (f64, f64, f64),
+    path: &SpeedPath,
+    samples_per_tick: usize,
+    samples: usize,
+) -> Vec<Complex<f32>> {
+    let mut phasors = Vec::with_capacity(samples);
+    let step_s = 1.0 / rate_hz;
+    for tick in 0..path.ticks() {
+        let (turns, from, to) = path.tick(tick);
+        let cycles = order * turns - centre_hz * tick as f64 * path.tick_s;
+        // the phase advances by a step that itself advances: both by multiplication
+        let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
+        let mut turn = Complex::from_polar(1.0, TAU * cycles.fract());
+        let mut step = Complex::from_polar(1.0, TAU * (order * from - centre_hz) * step_s + bend);
+        let step_of_step = Complex::from_polar(1.0, 2.0 * bend);
+        for _ in 0..samples_per_tick {
+            phasors.push(Complex::new(turn.re as f32, turn.im as f32));
+            turn *= step;
+            step *= step_of_step;
+        }
+    }
+    phasors.truncate(samples);
+    phasors
+}
