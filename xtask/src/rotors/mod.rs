@@ -141,6 +141,11 @@ fn against_truth(tracks: &[&[TrackPoint]], rendered: &Rendered, (from_s, to_s): 
         let off = |rotor: usize, real: usize| said[rotor].map_or(f64::INFINITY, |(speed, _)| (speed - truth[real]).abs());
         let cost = |labelling: &[usize]| (0..4).map(|rotor| off(rotor, labelling[rotor]).min(1.0)).sum::<f64>();
         let best = labellings.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).cloned().unwrap_or_default();
+        if std::env::var("HT_FR").is_ok() {
+            let e: Vec<String> = (0..4).map(|r| said[r].map_or("   -  ".into(), |(v, u)| format!("{:+.3}({:.3})", v - truth[best[r]], u))).collect();
+            let mut t = truth.clone(); t.sort_by(f64::total_cmp);
+            eprintln!("{time_s:.2} {} | {}", e.join(" "), t.windows(2).map(|w| format!("{:.3}", w[1]-w[0])).collect::<Vec<_>>().join(" "));
+        }
         right += usize::from((0..4).all(|rotor| off(rotor, best[rotor]) < tolerance));
         for (rotor, &real) in best.iter().enumerate() {
             if let Some((_, std)) = said[rotor] {

@@ -69,6 +69,18 @@ impl Level {
         heard as f64 / self.blocks.len().max(1) as f64
     }
 
+    /// Times and speeds near both ends of every block that reaches a likelihood.
+    pub(super) fn points(&self, threshold: f64, tick_s: f64) -> Vec<(f64, f64)> {
+        let heard = self.blocks.iter().filter(|block| block.likelihood >= threshold);
+        heard
+            .flat_map(|block| {
+                let reach_s = 0.49 * (block.tick_to - block.tick_from) as f64 * tick_s;
+                let middle_s = block.middle_s(tick_s);
+                [middle_s - reach_s, middle_s + reach_s].map(|time_s| (time_s, block.speed_at(time_s, tick_s)))
+            })
+            .collect()
+    }
+
     /// Whichever explains more.
     pub(super) fn or_better(self, other: Self) -> Self {
         if other.evidence > self.evidence { other } else { self }
@@ -77,8 +89,13 @@ impl Level {
 
 /// Blocks of one hop each around a first guess of the path.
 pub(super) fn first_level(lines: &[Line], path: &SpeedPath) -> Level {
+    level_around(lines, path, FIRST_GUESS_CELLS)
+}
+
+/// The same, where the path is known to within so many resolution cells of the highest line.
+pub(super) fn level_around(lines: &[Line], path: &SpeedPath, reach_cells: f64) -> Level {
     let guess = |from: usize, to: usize| guess_from_path(path, from, to);
-    level(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), FIRST_GUESS_CELLS, guess)
+    level(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), reach_cells, guess)
 }
 
 /// The level with the greatest evidence, starting from a path that is already good.

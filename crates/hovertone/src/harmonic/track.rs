@@ -24,6 +24,18 @@ pub(crate) struct HarmonicBlock {
 }
 
 impl HarmonicBlock {
+    /// The part of it that lies in a stretch of time; less is known of it than of all of it.
+    pub(super) fn within(&self, stretch: Span) -> Option<Self> {
+        let span = self.span.overlap(stretch);
+        let longer = self.span.length_s() / span.length_s();
+        (span.length_s() > 0.0).then(|| Self {
+            span,
+            speed_rev_s: self.speed_at(span.middle_s()),
+            std_uncertainty_rev_s: self.std_uncertainty_rev_s * longer.powf(1.5),
+            ..*self
+        })
+    }
+
     /// Speed at a time.
     pub(crate) fn speed_at(&self, time_s: f64) -> f64 {
         self.speed_rev_s + self.slope_rev_s2 * (time_s - self.span.middle_s())

@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 const SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 /// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there.
 pub(super) const REACH_CELLS: f64 = 6.0;
+/// Below this the quotient of the lobe loses its digits.
+const LOBE_DENOMINATOR_MIN: f32 = 0.02;
 /// Lines closer than this share one lobe; their amplitudes cannot be told apart.
 const SAME_CELLS: f64 = 1e-3;
 
@@ -57,6 +59,41 @@ pub(super) fn hann_lobe(cells: f64) -> f64 {
     }
 }
 
+/// The lobe at equal steps: its sine by recurrence.
+pub(super) struct HannLobes {
+    cells: f32,
+    step_cells: f32,
+    sine: (f32, f32),
+    turn: (f32, f32),
+}
+
+impl HannLobes {
+    pub(super) fn from(cells: f64, step_cells: f64) -> Self {
+        let ((sine, cosine), (turn_sine, turn_cosine)) = ((PI * cells).sin_cos(), (PI * step_cells).sin_cos());
+        Self {
+            cells: cells as f32,
+            step_cells: step_cells as f32,
+            sine: (cosine as f32, sine as f32),
+            turn: (turn_cosine as f32, turn_sine as f32),
+        }
+    }
+}
+
+impl Iterator for HannLobes {
+    type Item = f32;
+
+    fn next(&mut self) -> Option<f32> {
+        let ((re, im), (turn_re, turn_im)) = (self.sine, self.turn);
+        let x = self.cells;
+        // sin(π x) vanishes where the denominator does
+        let below = PI as f32 * x * (1.0 - x * x);
+        let lobe = if below.abs() > LOBE_DENOMINATOR_MIN { im / below } else { hann_lobe(f64::from(x)) as f32 };
+        self.sine = (re * turn_re - im * turn_im, re * turn_im + im * turn_re);
+        self.cells += self.step_cells;
+        Some(lobe)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -74,6 +111,9 @@ mod tests {
             }
             assert!((hann_lobe(cells) - sum / weights).abs() < 1e-3, "{cells}");
             assert_eq!(hann_lobe(cells), hann_lobe(-cells));
+        }
+        for (index, lobe) in HannLobes::from(-5.77, 0.25).take(46).enumerate() {
+            assert!((f64::from(lobe) - hann_lobe(-5.77 + 0.25 * index as f64)).abs() < 1e-4, "{index}");
         }
     }
 }

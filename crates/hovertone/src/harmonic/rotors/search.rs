@@ -2,22 +2,19 @@
 //! turn (RELAX), with the best path by Viterbi's algorithm.
 
 use super::super::map::best_path;
-use super::atoms::{ChannelAtoms, REACH_CELLS, hann_lobe};
-use super::mixture::amplitudes;
+use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
+use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
 use realfft::num_complex::Complex;
 
-/// Likelihood at which one line has said what it can: beyond it, more power is no more evidence, and what is left of a strong
-/// line after it was taken away must not outvote the lines of a weak rotor.
-const LIKELIHOOD_CAP: f32 = 30.0;
 /// Share of a line's energy that must be left to it by the others.
 const ENERGY_LEFT_MIN: f32 = 0.1;
 /// How much a rotor's speed changes from one frame to the next, as a share.
-const STEP_STD_SHARE: f64 = 0.001;
+const STEP_STD_SHARE: f64 = 0.002;
+/// A rotor's own track covers so many points of the grid to either side.
+const OWN_POINTS: usize = 1;
 /// Points of the grid in a resolution cell of the line that resolves most finely.
 const GRID_PER_CELL: f64 = 2.0;
-/// Times that all rotors are looked for again, the others being known.
-const SWEEPS: usize = 2;
 
 /// Speeds that are looked for, as offsets from the common speed.
 pub(super) struct OffsetGrid {
@@ -34,8 +31,15 @@ impl OffsetGrid {
     }
 }
 
-/// The tracks of `count` rotors as offsets from the common speed in each frame.
-pub(super) fn found_tracks(spectra: &Spectra, atoms: &[ChannelAtoms], grid: &OffsetGrid, count: usize) -> Vec<Vec<f64>> {
+/// The tracks of `count` rotors as offsets from the common speed in each frame: those that are not known from `start`, one after the
+/// other, and then `sweeps` times each again beside all others.
+pub(super) fn found_tracks(
+    spectra: &Spectra,
+    atoms: &[ChannelAtoms],
+    grid: &OffsetGrid,
+    start: &[Vec<f64>],
+    (count, sweeps): (usize, usize),
+) -> Vec<Vec<f64>> {
     let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;
     let step_std = STEP_STD_SHARE * middle / grid.step_rev_s;
     let track_beside = |others: &[&Vec<f64>]| -> Vec<f64> {
@@ -47,13 +51,13 @@ pub(super) fn found_tracks(spectra: &Spectra, atoms: &[ChannelAtoms], grid: &Off
             .collect();
         best_path(&scores, step_std).into_iter().map(|place| grid.first_rev_s + place as f64 * grid.step_rev_s).collect()
     };
-    let mut tracks: Vec<Vec<f64>> = Vec::new();
-    for _ in 0..count {
+    let mut tracks: Vec<Vec<f64>> = start.to_vec();
+    while tracks.len() < count {
         let track = track_beside(&tracks.iter().collect::<Vec<_>>());
         tracks.push(track);
     }
     if count > 1 {
-        for rotor in (0..SWEEPS).flat_map(|_| 0..count) {
+        for rotor in (0..sweeps).flat_map(|_| 0..count) {
             let others: Vec<&Vec<f64>> =
                 tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
             tracks[rotor] = track_beside(&others);
@@ -62,8 +66,40 @@ pub(super) fn found_tracks(spectra: &Spectra, atoms: &[ChannelAtoms], grid: &Off
     tracks
 }
 
+/// The path of one rotor where the lines of all rotors have been taken away: it stays on its own track, which is worth `own`
+/// in each frame, or goes where something is left that is worth more.
+pub(super) fn better_track(rest_scores: &[Vec<f64>], own: &[(f64, f64)], grid: &OffsetGrid, middle_rev_s: f64) -> Vec<Option<f64>> {
+    let step_std = STEP_STD_SHARE * middle_rev_s / grid.step_rev_s;
+    let place_of = |offset: f64| ((offset - grid.first_rev_s) / grid.step_rev_s).round().clamp(0.0, grid.points as f64 - 1.0) as usize;
+    let scores: Vec<Vec<f64>> = rest_scores
+        .iter()
+        .zip(own)
+        .map(|(rest, (offset, worth))| {
+            let mut scores = rest.clone();
+            let place = place_of(*offset);
+            for score in &mut scores[place.saturating_sub(OWN_POINTS)..(place + OWN_POINTS + 1).min(grid.points)] {
+                *score = worth.max(*score);
+            }
+            scores
+        })
+        .collect();
+    best_path(&scores, step_std)
+        .into_iter()
+        .zip(own)
+        .map(|(place, (offset, _))| {
+            (place.abs_diff(place_of(*offset)) > OWN_POINTS + 1).then(|| grid.first_rev_s + place as f64 * grid.step_rev_s)
+        })
+        .collect()
+}
+
+/// What a line's likelihood counts for. Its logarithm: what is left of a strong line after it was taken away must not outvote the
+/// lines of a weak rotor.
+pub(super) fn worth(likelihood: f64) -> f64 {
+    likelihood.ln_1p()
+}
+
 /// What speaks for one more rotor at each point of the grid, beside others at known offsets.
-fn scores_of_frame(
+pub(super) fn scores_of_frame(
     spectra: &Spectra,
     atoms: &[ChannelAtoms],
     frame: usize,
@@ -83,7 +119,7 @@ fn scores_of_frame(
             let share = (place - bin as f64).min(1.0) as f32;
             let level = levels[bin] + share * (levels[bin + 1] - levels[bin]);
             let likelihood = level * level;
-            *score += likelihood / (1.0 + likelihood / LIKELIHOOD_CAP);
+            *score += likelihood.ln_1p();
         }
     }
     scores.into_iter().map(f64::from).collect()
@@ -110,14 +146,14 @@ fn levels_beside(
             }
         }
     }
-    for (cells, amplitude) in places.iter().zip(amplitudes(&places, &seen)) {
+    for (cells, amplitude) in places.iter().zip(Mixture::of_steady(&places).amplitudes(&seen)) {
         let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
         let from = line.bin_of(cells - REACH_CELLS).ceil().max(0.0) as usize;
         let to = (line.bin_of(cells + REACH_CELLS).floor() as usize + 1).min(left.len());
-        for bin in from..to {
-            let lobe = hann_lobe(line.cells_of(bin) - cells) as f32;
-            left[bin] -= amplitude * lobe;
-            energy_left[bin] *= 1.0 - lobe * lobe;
+        let lobes = HannLobes::from(line.cells_of(from) - cells, line.cells_of(1) - line.cells_of(0));
+        for ((left, energy), lobe) in left[from..to].iter_mut().zip(&mut energy_left[from..to]).zip(lobes) {
+            *left -= amplitude * lobe;
+            *energy *= 1.0 - lobe * lobe;
         }
     }
     levels.clear();

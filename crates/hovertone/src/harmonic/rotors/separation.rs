@@ -6,7 +6,8 @@ use super::super::map::STRONG_POWER_MIN;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
-use super::mixture::amplitudes;
+use super::mixture::Mixture;
+use super::search::worth;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, phasors};
 use crate::channel::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
@@ -22,6 +23,8 @@ pub(super) struct SeparatedRotor {
     pub(super) lines: Vec<Line>,
     /// Amplitude of each channel's own line in each frame, relative to noise; 0 where it is not apart from the others.
     pub(super) levels: Vec<Vec<f64>>,
+    /// What the rotor's lines are worth in each frame beside those of the others.
+    pub(super) worths: Vec<f64>,
 }
 
 /// One line of one rotor in a channel.
@@ -31,18 +34,22 @@ struct Atom {
     phasors: Vec<Complex<f32>>,
     /// Amplitude in each frame.
     amplitudes: Vec<Complex<f64>>,
+    /// For the channel's own line: share of its energy in each frame that nothing else explains.
+    shares: Vec<f64>,
 }
 
-/// Takes the rotors apart whose speeds are `paths`.
+/// Takes the rotors apart whose speeds are `paths`; and what is left of each channel.
 pub(super) fn separated(
     quantum: &Quantum<'_>,
     noise_variances: &[f64],
     atoms: &[ChannelAtoms],
     paths: &[SpeedPath],
     frame_s_of_order: impl Fn(f64) -> f64,
-) -> Vec<SeparatedRotor> {
-    let mut rotors: Vec<SeparatedRotor> =
-        paths.iter().map(|_| SeparatedRotor { lines: Vec::new(), levels: Vec::new() }).collect();
+) -> (Vec<SeparatedRotor>, Vec<Vec<Complex<f32>>>) {
+    let frames = quantum.ticks / FRAME_TICKS;
+    let nothing = || SeparatedRotor { lines: Vec::new(), levels: Vec::new(), worths: vec![0.0; frames] };
+    let mut rotors: Vec<SeparatedRotor> = paths.iter().map(|_| nothing()).collect();
+    let mut rests = Vec::with_capacity(atoms.len());
     for (index, atoms) in atoms.iter().enumerate() {
         let channel = &quantum.channels[index];
         let frame_ticks = 2 * ((frame_s_of_order(channel.order) / quantum.tick_s / 2.0).round().max(1.0) as usize);
@@ -78,9 +85,16 @@ pub(super) fn separated(
                 });
             }
             separated.levels.push(levels);
+            if let Some(own) = own {
+                let parts = own.amplitudes.iter().zip(&own.shares);
+                for (total, (amplitude, share)) in separated.worths.iter_mut().zip(parts) {
+                    *total += worth(power(amplitude) * share);
+                }
+            }
         }
+        rests.push(mixed.rest);
     }
-    rotors
+    (rotors, rests)
 }
 
 /// A channel as a sum of atoms.
@@ -107,6 +121,7 @@ impl MixedChannel {
                 order,
                 phasors: phasors(place(order), path, samples_per_tick, samples),
                 amplitudes: Vec::new(),
+                shares: Vec::new(),
             })
             .collect();
         Self { samples_per_tick, atoms, rest: quantum.series[index].to_vec() }
@@ -136,9 +151,7 @@ impl MixedChannel {
                 for ((z, phasor), weight) in series[from..to].iter().zip(&atom.phasors[from..to]).zip(window) {
                     sum += z * phasor.conj() * weight;
                 }
-                // relative to the phase in the middle of the frame, so that the lobes between the atoms are real
-                let middle_phasor = atom.phasors[middle.min(atom.phasors.len() - 1)];
-                *seen = Complex::new(f64::from(sum.re), f64::from(sum.im)) * to_f64(middle_phasor) / weight;
+                *seen = to_f64(sum) / weight;
                 *place = atom.order * speed_of(atom.rotor) * frame_s;
             }
             for (index, atom) in self.atoms.iter().enumerate().filter(|(_, atom)| atom.order == own_order) {
@@ -146,9 +159,22 @@ impl MixedChannel {
                 let nearest = nearest.map(|(_, place)| (place - places[index]).abs()).fold(f64::INFINITY, f64::min);
                 apart[atom.rotor][frame] = nearest >= RESOLVED_CELLS;
             }
-            for (atom, amplitude) in self.atoms.iter_mut().zip(amplitudes(&places, &seen)) {
-                let middle_phasor = atom.phasors[middle.min(atom.phasors.len() - 1)];
-                atom.amplitudes.push(amplitude * to_f64(middle_phasor).conj());
+            // what one line sees of another: exactly, because each leaves its frequency along its own path
+            let gram = |a: usize, b: usize| {
+                let mut sum = Complex::<f32>::default();
+                let (a, b) = (&self.atoms[a].phasors[from..to], &self.atoms[b].phasors[from..to]);
+                for ((a, b), weight) in a.iter().zip(b).zip(window) {
+                    sum += b * a.conj() * weight;
+                }
+                to_f64(sum) / weight
+            };
+            let mixture = Mixture::new(&places, gram);
+            let solved = mixture.amplitudes(&seen);
+            for (index, (atom, amplitude)) in self.atoms.iter_mut().zip(solved).enumerate() {
+                atom.amplitudes.push(amplitude);
+                if atom.order == own_order {
+                    atom.shares.push(mixture.share_of_its_own(index));
+                }
             }
         }
         apart
@@ -173,7 +199,7 @@ impl MixedChannel {
     fn ticks_of(&self, atom: &Atom, apart: &[bool], ticks: usize) -> Vec<Complex<f64>> {
         (0..ticks)
             .map(|tick| {
-                if !apart.get(tick / FRAME_TICKS).copied().unwrap_or(false) {
+                if std::env::var("HT_MASK").is_ok() && !apart.get(tick / FRAME_TICKS).copied().unwrap_or(false) {
                     return Complex::default();
                 }
                 let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;

@@ -42,6 +42,7 @@ impl Spectra {
     /// which leaves the common path by so and so many rev/s per second smears each line over as many cells.
     pub(super) fn along(
         quantum: &Quantum<'_>,
+        series: &[&[Complex<f32>]],
         noise_variances: &[f64],
         common: &SpeedPath,
         frame_s_of_order: impl Fn(f64) -> f64,
@@ -51,7 +52,7 @@ impl Spectra {
         let lines = quantum
             .channels
             .iter()
-            .zip(&quantum.series)
+            .zip(series)
             .zip(noise_variances)
             .map(|((channel, series), noise_variance)| {
                 let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;

@@ -1,0 +1,258 @@
+//! Which track is which rotor: where two rotors cross, their tracks may have changed places.
+//!
+//! The labelling of each frame is one of all permutations of the tracks; the best sequence of them (Viterbi) keeps each rotor's
+//! speed continuous and its lines as loud, against each other, as they were: loudness is what tells rotors apart that have
+//! come out of a crossing.
+
+/// A rotor's speed is where its last speed and slopes put it, to within this; further, where its line is not apart from
+/// another rotor's.
+const STEP_STD_REV_S: f64 = 0.05;
+const STEP_STD_REV_S_CLOSE: f64 = 0.15;
+/// A step costs no more than this: a jump is a jump.
+const STEP_COST_MAX: f64 = 25.0;
+/// Slopes beyond this are not believed.
+const SLOPE_REV_S2_MAX: f64 = 6.0;
+/// How well the level of a line is known, in nepers, what one line may cost, and what its word counts beside the speeds': neighbouring
+/// frames hear nearly the same sound.
+const LEVEL_STD: f64 = 0.35;
+const LEVEL_COST_MAX: f64 = 9.0;
+const LEVEL_WEIGHT: f64 = 0.1;
+/// Levels drift over this time.
+const LEVEL_S: f64 = 1.5;
+const PASSES: usize = 4;
+/// More rotors than this have too many permutations: they keep their tracks.
+const ROTORS_MAX: usize = 4;
+
+/// One track in one frame.
+#[derive(Clone, Debug, Default)]
+pub(super) struct TrackFrame {
+    pub(super) speed_rev_s: f64,
+    pub(super) slope_rev_s2: f64,
+    /// Logarithm of each line's level; `None` where it is not apart from another rotor's.
+    pub(super) levels: Vec<Option<f64>>,
+}
+
+/// What is known of the rotors from what came before.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Identity {
+    /// Each rotor's last frame, and the levels that it is known by.
+    last: Vec<TrackFrame>,
+    known: Vec<Vec<Option<f64>>>,
+}
+
+impl Identity {
+    /// For each frame, the track of each rotor: `labelling[frame][rotor]`.
+    pub(super) fn labelled(&mut self, tracks: &[Vec<TrackFrame>], frame_s: f64) -> Vec<Vec<usize>> {
+        let count = tracks.len();
+        let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
+        let unchanged: Vec<usize> = (0..count).collect();
+        if frames == 0 {
+            return Vec::new();
+        }
+        let labellings = if (2..=ROTORS_MAX).contains(&count) { permutations(count) } else { vec![unchanged] };
+        let mut path = vec![0; frames];
+        for pass in 0..PASSES {
+            let templates = if pass == 0 && !self.known.is_empty() {
+                vec![self.known.clone(); frames]
+            } else {
+                self.templates(tracks, &labellings, &path, frame_s, pass == 0)
+            };
+            path = self.best_sequence(tracks, &labellings, &templates, frame_s);
+        }
+        let labelled: Vec<Vec<usize>> = path.iter().map(|&place| labellings[place].clone()).collect();
+        let templates = self.templates(tracks, &labellings, &path, frame_s, false);
+        if let (Some(last), Some(known)) = (labelled.last(), templates.last()) {
+            self.last = last.iter().map(|&track| tracks[track][frames - 1].clone()).collect();
+            self.known = known.clone();
+        }
+        labelled
+    }
+
+    /// The levels that each rotor is expected at in each frame: those of its frames before and after, the nearest counting most;
+    /// at first, those of its whole track. `templates[frame][rotor][line]`.
+    fn templates(
+        &self,
+        tracks: &[Vec<TrackFrame>],
+        labellings: &[Vec<usize>],
+        path: &[usize],
+        frame_s: f64,
+        is_first: bool,
+    ) -> Vec<Vec<Vec<Option<f64>>>> {
+        let keep = if is_first { 1.0 } else { (-frame_s / LEVEL_S).exp() };
+        let lines = tracks.first().and_then(|track| track.first()).map_or(0, |frame| frame.levels.len());
+        let nothing = vec![vec![(0.0, 0.0); lines]; tracks.len()];
+        let mut from_before = nothing.clone();
+        for (sums, known) in from_before.iter_mut().zip(&self.known) {
+            for (sum, level) in sums.iter_mut().zip(known) {
+                if let Some(level) = level {
+                    let weight = LEVEL_S / frame_s;
+                    *sum = (weight * level, weight);
+                }
+            }
+        }
+        let swept = |sums: &mut Vec<Vec<(f64, f64)>>, frame: usize| {
+            for (rotor, sums) in sums.iter_mut().enumerate() {
+                let levels = &tracks[labellings[path[frame]][rotor]][frame].levels;
+                for (sum, level) in sums.iter_mut().zip(levels) {
+                    *sum = (keep * sum.0 + level.unwrap_or(0.0), keep * sum.1 + f64::from(u8::from(level.is_some())));
+                }
+            }
+        };
+        let forward: Vec<_> = (0..path.len())
+            .map(|frame| {
+                swept(&mut from_before, frame);
+                from_before.clone()
+            })
+            .collect();
+        let mut from_after = nothing;
+        let mut templates: Vec<Vec<Vec<Option<f64>>>> = Vec::with_capacity(path.len());
+        for frame in (0..path.len()).rev() {
+            let both = forward[frame].iter().zip(&from_after).map(|(before, after)| {
+                let sums = before.iter().zip(after).map(|(a, b)| (a.0 + keep * b.0, a.1 + keep * b.1));
+                sums.map(|(sum, weight)| (weight > 0.0).then(|| sum / weight)).collect()
+            });
+            templates.push(both.collect());
+            swept(&mut from_after, frame);
+        }
+        templates.reverse();
+        templates
+    }
+
+    fn best_sequence(
+        &self,
+        tracks: &[Vec<TrackFrame>],
+        labellings: &[Vec<usize>],
+        templates: &[Vec<Vec<Option<f64>>>],
+        frame_s: f64,
+    ) -> Vec<usize> {
+        let count = tracks.len();
+        let frame_of = |frame: usize| -> Vec<&TrackFrame> { tracks.iter().map(|track| &track[frame]).collect() };
+        let mut total: Vec<f64> = vec![0.0; labellings.len()];
+        let mut origins: Vec<Vec<usize>> = Vec::with_capacity(templates.len());
+        for (frame, templates) in templates.iter().enumerate() {
+            let now = frame_of(frame);
+            let before = if frame == 0 { self.last.iter().collect() } else { frame_of(frame - 1) };
+            let steps = step_costs(&before, &now, frame_s);
+            let mut origin = vec![0; labellings.len()];
+            let mut next = vec![0.0; labellings.len()];
+            for ((origin, next), labelling) in origin.iter_mut().zip(&mut next).zip(labellings) {
+                let levels: f64 =
+                    labelling.iter().zip(templates).map(|(&track, template)| level_cost(now[track], template)).sum();
+                let (best, cost) = if steps.is_empty() {
+                    (0, 0.0)
+                } else if frame == 0 {
+                    // the rotors of what came before stand in their own order
+                    (0, (0..count).map(|rotor| steps[rotor][labelling[rotor]]).sum())
+                } else {
+                    let cost_from = |from: &Vec<usize>| -> f64 {
+                        (0..count).map(|rotor| steps[from[rotor]][labelling[rotor]]).sum()
+                    };
+                    let costs = labellings.iter().zip(&total).map(|(from, total)| total + cost_from(from));
+                    costs.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
+                };
+                (*origin, *next) = (best, cost + levels);
+            }
+            total = next;
+            origins.push(origin);
+        }
+        let mut place = (0..total.len()).min_by(|&a, &b| total[a].total_cmp(&total[b])).unwrap_or(0);
+        let mut path = vec![place];
+        for origin in origins.iter().skip(1).rev() {
+            place = origin[place];
+            path.push(place);
+        }
+        path.reverse();
+        path
+    }
+}
+
+/// What it costs each rotor of one frame to be each track of the next.
+fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64) -> Vec<Vec<f64>> {
+    let slope = |frame: &TrackFrame| frame.slope_rev_s2.clamp(-SLOPE_REV_S2_MAX, SLOPE_REV_S2_MAX);
+    before
+        .iter()
+        .map(|from| {
+            now.iter()
+                .map(|to| {
+                    let expected = from.speed_rev_s + frame_s * (slope(from) + slope(to)) / 2.0;
+                    let std = if from.is_close() || to.is_close() { STEP_STD_REV_S_CLOSE } else { STEP_STD_REV_S };
+                    ((to.speed_rev_s - expected) / std).powi(2).min(STEP_COST_MAX)
+                })
+                .collect()
+        })
+        .collect()
+}
+
+fn level_cost(frame: &TrackFrame, template: &[Option<f64>]) -> f64 {
+    let costs = frame.levels.iter().zip(template).filter_map(|(level, wanted)| {
+        Some((((*level)? - (*wanted)?) / LEVEL_STD).powi(2).min(LEVEL_COST_MAX))
+    });
+    LEVEL_WEIGHT * costs.sum::<f64>()
+}
+
+impl TrackFrame {
+    /// Whether half of its lines are not apart from another rotor's.
+    fn is_close(&self) -> bool {
+        !self.levels.is_empty() && 2 * self.levels.iter().filter(|level| level.is_none()).count() > self.levels.len()
+    }
+}
+
+fn permutations(count: usize) -> Vec<Vec<usize>> {
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    let shorter = permutations(count - 1);
+    let with_last_at = |place: usize| {
+        shorter.iter().map(move |shorter| {
+            let mut longer = shorter.clone();
+            longer.insert(place, count - 1);
+            longer
+        })
+    };
+    (0..count).rev().flat_map(with_last_at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(speed_rev_s: f64, level: f64) -> TrackFrame {
+        TrackFrame { speed_rev_s, slope_rev_s2: 0.0, levels: vec![Some(level), Some(-level)] }
+    }
+
+    #[test]
+    fn tracks_that_change_places_are_put_right() {
+        let loud = [0.9, -0.4, 0.1];
+        let speeds = [60.0, 60.02, 63.0];
+        // tracks 0 and 1 change places after the tenth frame, which their speeds hardly show
+        let tracks: Vec<Vec<TrackFrame>> = (0..3)
+            .map(|track| {
+                (0..30)
+                    .map(|index| {
+                        let rotor = if index >= 10 && track < 2 { 1 - track } else { track };
+                        frame(speeds[rotor], loud[rotor])
+                    })
+                    .collect()
+            })
+            .collect();
+        let mut identity = Identity::default();
+        let labelled = identity.labelled(&tracks, 0.04);
+        assert!(labelled[..10].iter().all(|labelling| labelling == &labelled[0]));
+        assert!(labelled[10..].iter().all(|labelling| labelling == &labelled[10]));
+        assert_eq!(labelled[0][0], labelled[10][1]);
+        assert_eq!(labelled[0][2], labelled[10][2]);
+        // what comes next keeps the names, whatever the order of the tracks
+        let turned: Vec<Vec<TrackFrame>> = [2, 0, 1].iter().map(|&track| tracks[track][10..].to_vec()).collect();
+        let next = identity.labelled(&turned, 0.04);
+        let of_before = |rotor: usize| tracks[labelled[29][rotor]][29].speed_rev_s;
+        assert!((0..3).all(|rotor| turned[next[0][rotor]][0].speed_rev_s == of_before(rotor)));
+    }
+
+    #[test]
+    fn permutations_are_all_there_once() {
+        let all = permutations(4);
+        assert_eq!((all.len(), &all[0]), (24, &vec![0, 1, 2, 3]));
+        let distinct: std::collections::BTreeSet<_> = all.iter().collect();
+        assert_eq!(distinct.len(), 24);
+    }
+}
