@@ -16,7 +16,7 @@ pub struct RotorsConfig {
 
 impl Default for RotorsConfig {
     fn default() -> Self {
-        Self { count: 1, band_half_width_share: 0.15 }
+        Self { count: 1, band_half_width_share: 0.25 }
     }
 }
 

@@ -117,7 +117,8 @@ fn score(cell: &Cell, seed: u64) -> Option<Score> {
     let mut signal = Signal::new(rendered.samples.clone(), SAMPLE_RATE_HZ);
     let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).ok()?;
     let took_s = started.elapsed().as_secs_f64();
-    let Outcome::Ok(tone) = &analysis.outcome else { return None };
+    let Outcome::Ok(tone) = &analysis.outcome else { eprintln!("{seed}: {:?}", analysis.outcome); return None };
+    eprintln!("{seed} harmonic {:?}", tone.speeds.iter().map(|s| s.speed.rev_s()).collect::<Vec<_>>());
     if tone.rotors.is_empty() {
         return None;
     }
