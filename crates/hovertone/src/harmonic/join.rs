@@ -6,14 +6,19 @@
 //! of a stretch are known as well as the shaft's angle at its two ends, however it wandered in between.
 
 use super::block::{BlockFit, Cells};
-use super::coherence::{Level, likelihood_min};
+use super::coherence::{Level, halved, likelihood_min, polished};
 use super::line::Line;
 use super::path::SpeedPath;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Variance of the angle at the end of a block over that of its mean: of a parabola through phases that scatter.
-const END_VARIANCES: f64 = 9.0;
+/// So much of a stretch of sound says little at either end, where it fades in and out.
+const FADED_S: f64 = 0.013;
+/// A finer level is taken up to this much more variance: what noise does at the ends is known, what a bend does there is only known on
+/// the mean over all blocks.
+const FINER_RATIO: f64 = 1.5;
+/// One or two steps say little of how steps scatter; at 95 % Student's t with two degrees of freedom asks for this.
+const STEPS_FREEDOM_MIN: f64 = 0.4;
 /// The step is looked for so many standard deviations around none …
 const REACH_STDS: f64 = 6.0;
 /// … and what a speed that bends within the block adds, as a phase of the lowest line.
@@ -25,14 +30,84 @@ const NEWTON_STEPS: u32 = 6;
 /// do not agree on the first.
 const ODDS_MIN: f64 = 6.0;
 
-/// Variance of the shaft's angle at the end of a block, turns².
-pub(crate) fn end_variance_turns2(length_s: f64, speed_variance: f64) -> f64 {
-    // a speed known to σ over a length T comes from an angle known to σ T / √12
-    END_VARIANCES * speed_variance * length_s * length_s / 12.0
+/// A block at the end of those that are joined.
+#[derive(Clone, Copy)]
+pub(crate) struct EndBlock {
+    pub(crate) length_s: f64,
+    pub(crate) speed_variance: f64,
+    /// Whether the sound begins or ends there, so that it fades in or out.
+    pub(crate) is_faded: bool,
+}
+
+impl EndBlock {
+    /// Variance of the angle in the middle of the block, if the speed were known: one known to σ over a length T comes from an
+    /// angle known to σ T / √12.
+    fn middle_variance_turns2(&self) -> f64 {
+        self.speed_variance * self.length_s * self.length_s / 12.0
+    }
+
+    /// Where the end lies from the middle of what is heard, over half the length of that.
+    fn end_place(&self) -> f64 {
+        let faded_s = if self.is_faded { FADED_S.min(self.length_s / 2.0) } else { 0.0 };
+        (self.length_s + faded_s) / (self.length_s - faded_s)
+    }
+
+    /// Variance of the angle at the end: of a parabola through phases that scatter, or what steps between such ends show.
+    fn end_variance_turns2(&self, step_variance: f64) -> f64 {
+        let beyond = parabola_variance(self.end_place()) / parabola_variance(1.0);
+        (parabola_variance(1.0) * self.middle_variance_turns2()).max(step_variance / 2.0) * beyond
+    }
+}
+
+/// Variance of a parabola through evenly spread points, over that of their mean; at 1 is the end of the points (Legendre
+/// polynomials).
+fn parabola_variance(place: f64) -> f64 {
+    let x2 = place * place;
+    1.0 + 3.0 * x2 + 5.0 * (1.5 * x2 - 0.5).powi(2)
+}
+
+/// Variance of the turns over blocks that are joined by phase: that of the angle at the two ends. It is also that of a step
+/// between two blocks, where one ends and the other begins. So the steps themselves tell how much more than noise there is:
+/// a speed that bends within its block leaves the straight line at its ends.
+pub(crate) fn joined_variance_turns2(ends: [EndBlock; 2], steps_turns: &[f64]) -> f64 {
+    let squares: f64 = steps_turns.iter().map(|step| step * step).sum();
+    // few steps may happen to be small: Student's t has this variance
+    let of_steps = squares / (steps_turns.len() as f64 - 2.0).max(STEPS_FREEDOM_MIN);
+    ends.iter().map(|end| end.end_variance_turns2(of_steps)).sum()
+}
+
+/// The level itself, or the finer one whose steps are smallest: a speed that bends within its blocks shows in them, and so does noise
+/// where they are too short. The level as it came is the longest that straight lines explain, or nearly so.
+pub(super) fn joined(lines: &[Line], path: &SpeedPath, level: &Level) -> Level {
+    let mut best = polished(lines, path, level);
+    join(lines, path, &mut best);
+    while let Some(variance) = turns_variance(&best, path.tick_s) {
+        let mut finer = halved(lines, path, &best);
+        join(lines, path, &mut finer);
+        if finer.blocks.len() == best.blocks.len() || turns_variance(&finer, path.tick_s).is_none_or(|finer| finer >= FINER_RATIO * variance) {
+            break;
+        }
+        best = finer;
+    }
+    best
+}
+
+/// Variance of the turns over a level; `None` where not all blocks are joined.
+fn turns_variance(level: &Level, tick_s: f64) -> Option<f64> {
+    let (first, last) = (level.blocks.first()?, level.blocks.last()?);
+    let steps: Option<Vec<f64>> =
+        level.blocks.iter().take(level.blocks.len() - 1).map(|block| block.step_to_next_turns).collect();
+    let steps = steps.filter(|steps| !steps.is_empty())?;
+    Some(joined_variance_turns2([first, last].map(|block| end_block(block, tick_s)), &steps))
+}
+
+fn end_block(block: &BlockFit, tick_s: f64) -> EndBlock {
+    let length_s = (block.tick_to - block.tick_from) as f64 * tick_s;
+    EndBlock { length_s, speed_variance: block.scatter / block.information, is_faded: true }
 }
 
 /// Writes into each block by how many turns the next one's line starts ahead of where its own ends, where phases say so.
-pub(super) fn join(lines: &[Line], path: &SpeedPath, level: &mut Level) {
+fn join(lines: &[Line], path: &SpeedPath, level: &mut Level) {
     let threshold = likelihood_min(lines.len());
     let middles: Vec<Middle> = level.blocks.iter().map(|block| Middle::of(block, lines, path)).collect();
     let steps: Vec<Option<f64>> = level
@@ -79,11 +154,7 @@ fn step_between(blocks: [&BlockFit; 2], middles: [&Middle; 2], path: &SpeedPath)
             (TAU * order, across)
         })
         .collect();
-    let variance: f64 = blocks
-        .iter()
-        .zip(half_s)
-        .map(|(block, half_s)| end_variance_turns2(2.0 * half_s, block.scatter / block.information))
-        .sum();
+    let variance: f64 = blocks.iter().map(|block| end_block(block, path.tick_s).end_variance_turns2(0.0)).sum();
     most_likely_step(&lines, variance.sqrt())
 }
 

@@ -18,10 +18,10 @@ use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
 use crate::span::Span;
 use crate::spectrogram::power_db;
 use block::BlockFit;
-use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, polished, straight_level};
+use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, straight_level};
 use floor::FloorMeter;
-pub(crate) use join::end_variance_turns2;
-use join::join;
+pub(crate) use join::{EndBlock, joined_variance_turns2};
+use join::joined;
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
@@ -259,8 +259,7 @@ impl HarmonicTracer {
             .collect();
         let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
         let lines = lines_along(&path);
-        let mut best = polished(&lines, &path, &best);
-        join(&lines, &path, &mut best);
+        let best = joined(&lines, &path, &best);
         if best.blocks.len() <= STEADY_BLOCKS_MAX {
             let likelihoods = line_likelihoods(&lines, &path, &best);
             for (&index, likelihood) in used.iter().zip(likelihoods) {

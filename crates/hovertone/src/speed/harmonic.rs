@@ -1,7 +1,7 @@
 //! Blocks of the harmonic likelihood → shaft speed over a stretch of time, and its track.
 
 use super::{HarmonicSpeed, SpeedEstimate, TrackPoint};
-use crate::harmonic::{HarmonicBlock, HarmonicTrack, end_variance_turns2};
+use crate::harmonic::{HarmonicBlock, HarmonicTrack, EndBlock, joined_variance_turns2};
 use crate::method::Method;
 use crate::span::Span;
 use crate::statistics::{mean, std, std_uncertainty_of_mean};
@@ -10,8 +10,6 @@ use hovertone_vehicle::{Order, RotorSpeed};
 /// Uncertainty of the speed at the end of a block over that in its middle: a straight line through phases that scatter is
 /// known four times as well in the middle.
 const END_STDS: f64 = 4.0;
-/// One or two steps say little of how steps scatter; at 95 % Student's t with two degrees of freedom asks for this.
-const STEPS_FREEDOM_MIN: f64 = 0.4;
 
 impl HarmonicTrack {
     /// Mean speed over a stretch of time: the blocks' own straight lines, each counted for the time that it covers. `None`
@@ -34,7 +32,9 @@ impl HarmonicTrack {
         }
         let runs: Vec<&[Part]> = parts.chunk_by(|part, _| part.block.step_to_next_turns.is_some()).collect();
         let mean_rev_s = runs.iter().map(|run| turns_of(run)).sum::<f64>() / total_s;
-        let variance = runs.iter().map(|run| turns_variance(run)).sum::<f64>() / (total_s * total_s);
+        let is_edge = |time_s: f64| !(0..2).all(|side| parts.iter().any(|part| part.touches(time_s, side)));
+        let variance =
+            runs.iter().map(|run| turns_variance(run, &is_edge)).sum::<f64>() / (total_s * total_s);
         let several: Vec<&HarmonicBlock> = parts.iter().map(|part| part.block).filter(|block| block.is_several).collect();
         let variance = if several.is_empty() { variance } else { variance.max(variance_of_several(&several)) };
         let points: Vec<TrackPoint> = self.points_in(span, order);
@@ -107,6 +107,13 @@ struct Part<'a> {
     span: Span,
 }
 
+impl Part<'_> {
+    /// Whether it begins (0) or ends (1) here.
+    fn touches(&self, time_s: f64, side: usize) -> bool {
+        ([self.span.from_s, self.span.to_s][side] - time_s).abs() < 1e-6
+    }
+}
+
 /// Turns over parts that are joined by phase.
 fn turns_of(run: &[Part]) -> f64 {
     let within: f64 = run.iter().map(|part| part.block.speed_at(part.span.middle_s()) * part.span.length_s()).sum();
@@ -117,22 +124,18 @@ fn steps_of(run: &[Part]) -> impl Iterator<Item = f64> {
     run.iter().take(run.len() - 1).filter_map(|part| part.block.step_to_next_turns)
 }
 
-/// Variance of the turns over parts that are joined by phase. Of a single block: that of its speed. Of several: that of the
-/// angle at the two ends, which is also that of a step between two blocks, where one ends and the other begins. So the steps
-/// themselves tell how much more than noise there is: a speed that bends within its block leaves the straight line at its ends.
-fn turns_variance(run: &[Part]) -> f64 {
+/// Variance of the turns over parts that are joined by phase.
+fn turns_variance(run: &[Part], is_edge: &impl Fn(f64) -> bool) -> f64 {
     let (Some(first), Some(last)) = (run.first(), run.last()) else { return 0.0 };
     if run.len() == 1 {
         // of a part of a block less is known than of all of it
         let longer = first.block.span.length_s() / first.span.length_s();
         return (first.block.std_uncertainty_rev_s * longer.powf(1.5) * first.span.length_s()).powi(2);
     }
-    let of_noise: f64 = [first, last]
-        .map(|part| end_variance_turns2(part.block.span.length_s(), part.block.std_uncertainty_rev_s.powi(2)))
-        .iter()
-        .sum();
-    let squares: f64 = steps_of(run).map(|step| step * step).sum();
-    // few steps may happen to be small: Student's t has this variance
-    let of_steps = squares / (run.len() as f64 - 1.0 - 2.0).max(STEPS_FREEDOM_MIN);
-    of_noise.max(of_steps)
+    let ends = [(first, first.span.from_s), (last, last.span.to_s)].map(|(part, end_s)| EndBlock {
+        length_s: part.block.span.length_s(),
+        speed_variance: part.block.std_uncertainty_rev_s.powi(2),
+        is_faded: is_edge(end_s),
+    });
+    joined_variance_turns2(ends, &steps_of(run).collect::<Vec<f64>>())
 }
