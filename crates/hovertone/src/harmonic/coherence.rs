@@ -195,7 +195,10 @@ pub(super) fn halved(lines: &[Line], path: &SpeedPath, above: &Level) -> Level {
         let middle_s = (from + to) as f64 / 2.0 * path.tick_s;
         let of_block = |block: &&BlockFit| (block.middle_s(path.tick_s) - middle_s).abs();
         let nearest = above.blocks.iter().min_by(|a, b| of_block(a).total_cmp(&of_block(b)));
-        nearest.map_or_else(|| guess_from_path(path, from, to), |block| (block.speed_at(middle_s, path.tick_s), block.slope_rev_s2))
+        nearest.map_or_else(
+            || guess_from_path(path, from, to),
+            |block| (block.speed_at(middle_s, path.tick_s), block.slope_rev_s2),
+        )
     };
     level(lines, path, count, 0.0, line_at)
 }

@@ -13,10 +13,10 @@ use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
 /// So much of a stretch of sound says little at either end, where it fades in and out.
-const FADED_S: f64 = 0.013;
+const FADED_S: f64 = 0.014;
 /// A finer level is taken up to this much more variance: what noise does at the ends is known, what a bend does there is only known on
 /// the mean over all blocks.
-const FINER_RATIO: f64 = 1.5;
+const FINER_RATIO: f64 = 2.5;
 /// One or two steps say little of how steps scatter; at 95 % Student's t with two degrees of freedom asks for this.
 const STEPS_FREEDOM_MIN: f64 = 0.4;
 /// The step is looked for so many standard deviations around none …
@@ -84,7 +84,9 @@ pub(super) fn joined(lines: &[Line], path: &SpeedPath, level: &Level) -> Level {
     while let Some(variance) = turns_variance(&best, path.tick_s) {
         let mut finer = halved(lines, path, &best);
         join(lines, path, &mut finer);
-        if finer.blocks.len() == best.blocks.len() || turns_variance(&finer, path.tick_s).is_none_or(|finer| finer >= FINER_RATIO * variance) {
+        if finer.blocks.len() == best.blocks.len()
+            || turns_variance(&finer, path.tick_s).is_none_or(|finer| finer >= FINER_RATIO * variance)
+        {
             break;
         }
         best = finer;

@@ -1,7 +1,7 @@
 //! Blocks of the harmonic likelihood → shaft speed over a stretch of time, and its track.
 
 use super::{HarmonicSpeed, SpeedEstimate, TrackPoint};
-use crate::harmonic::{HarmonicBlock, HarmonicTrack, EndBlock, joined_variance_turns2};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, joined_variance_turns2};
 use crate::method::Method;
 use crate::span::Span;
 use crate::statistics::{mean, std, std_uncertainty_of_mean};
@@ -33,9 +33,9 @@ impl HarmonicTrack {
         let runs: Vec<&[Part]> = parts.chunk_by(|part, _| part.block.step_to_next_turns.is_some()).collect();
         let mean_rev_s = runs.iter().map(|run| turns_of(run)).sum::<f64>() / total_s;
         let is_edge = |time_s: f64| !(0..2).all(|side| parts.iter().any(|part| part.touches(time_s, side)));
-        let variance =
-            runs.iter().map(|run| turns_variance(run, &is_edge)).sum::<f64>() / (total_s * total_s);
-        let several: Vec<&HarmonicBlock> = parts.iter().map(|part| part.block).filter(|block| block.is_several).collect();
+        let variance = runs.iter().map(|run| turns_variance(run, &is_edge)).sum::<f64>() / (total_s * total_s);
+        let several: Vec<&HarmonicBlock> =
+            parts.iter().map(|part| part.block).filter(|block| block.is_several).collect();
         let variance = if several.is_empty() { variance } else { variance.max(variance_of_several(&several)) };
         let points: Vec<TrackPoint> = self.points_in(span, order);
         let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
