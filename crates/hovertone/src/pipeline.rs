@@ -153,7 +153,8 @@ pub(crate) fn speed_from_survey(
     };
     let mut not_a_line = no_tone_reason(clearest, &config.ridge);
     if not_a_line.is_some() && harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
-        not_a_line = slower_shaft_from_source(source, &hover, &lines, config, on_progress)?;
+        let steady_rev_s = harmonic.speed_in(None, config.tone.order).map_or(speed_rev_s, |found| found.speed.rev_s());
+        not_a_line = slower_shaft_from_source(source, &hover, (&lines, steady_rev_s), config, on_progress)?;
     }
     if let Some(reason) = not_a_line
         .or_else(|| not_held_reason(restless_s(&hover, survey, &map), &hover, tone_hz, &config.hover))
@@ -234,7 +235,7 @@ pub(crate) fn survey_from_source(
 fn slower_shaft_from_source(
     source: &mut dyn SignalSource,
     hover: &Hover,
-    lines: &[ChannelBand],
+    (lines, speed_rev_s): (&[ChannelBand], f64),
     config: &Config,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<Option<NoTone>, Error> {
@@ -242,7 +243,7 @@ fn slower_shaft_from_source(
     if order > BLADES_MAX {
         return Ok(None);
     }
-    let mut harmonic = HarmonicTracer::new(source.sample_rate_hz(), &lines_and_between(lines, order));
+    let mut harmonic = HarmonicTracer::new(source.sample_rate_hz(), &lines_and_between(lines, order, speed_rev_s));
     let mut segments = hover.segments.iter();
     for_each_piece(source, &hover.segments, |piece| match piece {
         Piece::Start(time_s) => harmonic.restart(time_s, segments.next().map_or(0.0, Span::length_s)),

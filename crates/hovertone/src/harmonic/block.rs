@@ -36,6 +36,8 @@ pub(super) struct BlockFit {
     pub(super) is_first_heard: bool,
     /// Power of the strongest line, 1 for a sine of full scale.
     pub(super) strongest_power: f64,
+    /// By how many turns the next block's line starts ahead of where this one ends, where phases say so.
+    pub(super) step_to_next_turns: Option<f64>,
 }
 
 impl BlockFit {
@@ -151,6 +153,11 @@ impl Cells {
         self.lines().map(|(_, scale, sums)| scale * sums.iter().sum::<Complex<f64>>().norm_sqr()).collect()
     }
 
+    /// Order of each line, and its sum at the guess over √(N V): the square of its magnitude is J.
+    pub(super) fn line_sums(&self) -> Vec<(f64, Complex<f64>)> {
+        self.lines().map(|(order, scale, sums)| (order, scale.sqrt() * sums.iter().sum::<Complex<f64>>())).collect()
+    }
+
     /// J, its gradient and its second derivatives at an offset.
     pub(super) fn expansion(&self, offset: f64, bend: f64) -> (f64, [f64; 2], [f64; 3]) {
         let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
@@ -256,6 +263,7 @@ impl Cells {
             lines_heard: seen.lines_heard,
             is_first_heard: seen.is_first_heard,
             strongest_power: seen.strongest_power,
+            step_to_next_turns: None,
         }
     }
 

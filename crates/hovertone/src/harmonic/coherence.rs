@@ -205,6 +205,21 @@ pub(super) fn polished(lines: &[Line], path: &SpeedPath, level: &Level) -> Level
     Level::new(blocks, lines)
 }
 
+/// The next finer level, from what this one says.
+pub(super) fn halved(lines: &[Line], path: &SpeedPath, above: &Level) -> Level {
+    let count = (2 * above.blocks.len()).min(path.ticks().div_ceil(TICKS_PER_HOP / 2));
+    let line_at = |from: usize, to: usize| {
+        let middle_s = (from + to) as f64 / 2.0 * path.tick_s;
+        let of_block = |block: &&BlockFit| (block.middle_s(path.tick_s) - middle_s).abs();
+        let nearest = above.blocks.iter().min_by(|a, b| of_block(a).total_cmp(&of_block(b)));
+        nearest.map_or_else(
+            || guess_from_path(path, from, to),
+            |block| (block.speed_at(middle_s, path.tick_s), block.slope_rev_s2),
+        )
+    };
+    level(lines, path, count, 0.0, line_at)
+}
+
 fn level(
     lines: &[Line],
     path: &SpeedPath,
@@ -226,7 +241,8 @@ fn level(
 /// Start of a block among so many: between half hops, so that blocks of all levels hold the same ones.
 fn border(ticks: usize, index: usize, count: usize) -> usize {
     let half_hop = TICKS_PER_HOP / 2;
-    if index == count { ticks } else { index * ticks.div_ceil(half_hop) / count * half_hop }
+    let halves = ticks.div_ceil(half_hop);
+    if index == count { ticks } else { (index * halves + count / 2) / count * half_hop }
 }
 
 fn slope_std(speed_rev_s: f64) -> f64 {

@@ -8,6 +8,7 @@ mod block;
 mod coherence;
 mod floor;
 mod frame;
+mod join;
 mod line;
 mod map;
 mod path;
@@ -19,8 +20,10 @@ use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
 use crate::span::Span;
 use crate::spectrogram::power_db;
 use block::BlockFit;
-use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, polished, straight_level};
+use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, straight_level};
 use floor::FloorMeter;
+use join::joined;
+pub(crate) use join::{EndBlock, joined_variance_turns2};
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
@@ -32,8 +35,6 @@ use rustfft::FftPlanner;
 
 /// Longest stretch that is taken together. No rotor in flight keeps its phase for longer.
 const QUANTUM_S_MAX: f64 = 10.0;
-/// Ticks at either end of a stretch in which it fades in or out; their amplitude says nothing.
-const FADE_TICKS: usize = 3;
 /// A line whose band holds something this much stronger than what lies on the path is of another sound.
 const STRANGER_RATIO: f64 = 6.0;
 /// … if that stands this far over the noise: the highest of a band's own noise does not.
@@ -133,10 +134,14 @@ impl HarmonicTracer {
         self.bank.finish(&mut self.series);
         let tick_s = self.bank.hop_s() / TICKS_PER_HOP as f64;
         let left_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz - self.start_s;
-        let ticks = ((left_s / tick_s + 1e-6) as usize).min(self.hops() * TICKS_PER_HOP);
-        let ticks = ticks.saturating_sub(FADE_TICKS);
+        // the last tick is heard even if the stretch ends within it: it has faded out by then
+        let ticks = ((left_s / tick_s - 1e-6).ceil() as usize).min(self.hops() * TICKS_PER_HOP);
         if ticks >= FRAME_HOPS * TICKS_PER_HOP {
+            let end_s = self.start_s + left_s;
             self.take_quantum(ticks);
+            if let Some(last) = self.track.blocks.last_mut().filter(|last| last.span.to_s > end_s) {
+                *last = last.until(end_s);
+            }
         }
         self.series.iter_mut().for_each(Vec::clear);
         self.samples_in = 0;
@@ -153,13 +158,9 @@ impl HarmonicTracer {
     }
 
     /// Analyses the first ticks of what has come in, and drops them.
-    fn take_quantum(&mut self, mut ticks: usize) {
+    fn take_quantum(&mut self, ticks: usize) {
         let hop_s = self.bank.hop_s();
         let tick_s = hop_s / TICKS_PER_HOP as f64;
-        if self.start_s == self.stretch_start_s && ticks > FADE_TICKS {
-            self.drop_ticks(FADE_TICKS);
-            ticks -= FADE_TICKS;
-        }
         let lines = self.bank.channels.len();
         let (start_s, limits) = (self.start_s, self.map.limits_rev_s());
         match self.level_of_quantum(ticks) {
@@ -255,7 +256,7 @@ impl HarmonicTracer {
             .collect();
         let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
         let lines = lines_along(&path);
-        let best = polished(&lines, &path, &best);
+        let best = joined(&lines, &path, &best);
         if best.blocks.len() <= STEADY_BLOCKS_MAX {
             let likelihoods = line_likelihoods(&lines, &path, &best);
             for (&index, likelihood) in used.iter().zip(likelihoods) {
@@ -291,6 +292,7 @@ fn blocks_of_several(centroids: &[Centroid], start_s: f64, frame_s: f64) -> Vec<
                 slope_rev_s2: 0.0,
                 std_uncertainty_rev_s: UNKNOWN_LOUDNESS_SHARE * apart_rev_s,
                 level_db: power_db(centroid.strongest_power),
+                step_to_next_turns: None,
                 is_several: true,
                 is_heard: true,
                 is_steady: false,
@@ -333,6 +335,7 @@ fn block_at(
         speed_rev_s: fit.speed_rev_s,
         slope_rev_s2: fit.slope_rev_s2,
         std_uncertainty_rev_s: (fit.scatter / fit.information).sqrt(),
+        step_to_next_turns: fit.step_to_next_turns,
         is_several: false,
         level_db: power_db(fit.strongest_power),
         is_heard: fit.likelihood >= threshold

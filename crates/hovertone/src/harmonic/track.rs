@@ -13,6 +13,8 @@ pub(crate) struct HarmonicBlock {
     pub(crate) slope_rev_s2: f64,
     /// From the curvature of the likelihood.
     pub(crate) std_uncertainty_rev_s: f64,
+    /// By how many turns the next block's line starts ahead of where this one ends, where phases say so.
+    pub(crate) step_to_next_turns: Option<f64>,
     /// Whether several rotors sound, and the speed is their mean.
     pub(crate) is_several: bool,
     /// Level of the strongest line, dB re a full-scale sine.
@@ -39,6 +41,12 @@ impl HarmonicBlock {
     /// Speed at a time.
     pub(crate) fn speed_at(&self, time_s: f64) -> f64 {
         self.speed_rev_s + self.slope_rev_s2 * (time_s - self.span.middle_s())
+    }
+
+    /// The same block, ending a little earlier.
+    pub(super) fn until(&self, to_s: f64) -> Self {
+        let span = Span { to_s, ..self.span };
+        Self { span, speed_rev_s: self.speed_at(span.middle_s()), ..*self }
     }
 }
 

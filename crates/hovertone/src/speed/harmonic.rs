@@ -1,7 +1,7 @@
 //! Blocks of the harmonic likelihood → shaft speed over a stretch of time, and its track.
 
 use super::{HarmonicSpeed, SpeedEstimate, TrackPoint};
-use crate::harmonic::{HarmonicBlock, HarmonicTrack};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, joined_variance_turns2};
 use crate::method::Method;
 use crate::span::Span;
 use crate::statistics::{mean, std, std_uncertainty_of_mean};
@@ -10,8 +10,6 @@ use hovertone_vehicle::{Order, RotorSpeed};
 /// Uncertainty of the speed at the end of a block over that in its middle: a straight line through phases that scatter is
 /// known four times as well in the middle.
 const END_STDS: f64 = 4.0;
-/// Steps from block to block that scatter this many standard deviations more than their uncertainties explain widen them.
-const STEP_SCATTER_STDS: f64 = 3.0;
 
 impl HarmonicTrack {
     /// Mean speed over a stretch of time: the blocks' own straight lines, each counted for the time that it covers. `None`
@@ -21,32 +19,24 @@ impl HarmonicTrack {
     ///   blocks, or the steps between them, scatter more than that explains.
     /// - The wander of the rotor itself is no uncertainty of its mean, as long as there are no gaps.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
-        let parts: Vec<(&HarmonicBlock, Span)> = self
+        let parts: Vec<Part> = self
             .blocks
             .iter()
             .filter(|block| block.is_heard)
-            .map(|block| (block, span.map_or(block.span, |span| block.span.overlap(*span))))
-            .filter(|(_, part)| part.length_s() > 0.0)
+            .map(|block| Part { block, span: span.map_or(block.span, |span| block.span.overlap(*span)) })
+            .filter(|part| part.span.length_s() > 0.0)
             .collect();
-        let total_s: f64 = parts.iter().map(|(_, part)| part.length_s()).sum();
+        let total_s: f64 = parts.iter().map(|part| part.span.length_s()).sum();
         if parts.is_empty() {
             return None;
         }
-        let mean_rev_s: f64 =
-            parts.iter().map(|(block, part)| block.speed_at(part.middle_s()) * part.length_s()).sum::<f64>() / total_s;
-        let variance: f64 = parts
-            .iter()
-            .map(|(block, part)| {
-                // of a part of a block less is known than of all of it
-                let longer = block.span.length_s() / part.length_s();
-                (block.std_uncertainty_rev_s * longer.powf(1.5) * part.length_s() / total_s).powi(2)
-            })
-            .sum();
-        let blocks: Vec<&HarmonicBlock> = parts.iter().map(|(block, _)| *block).collect();
-        let several: Vec<&HarmonicBlock> = blocks.iter().copied().filter(|block| block.is_several).collect();
+        let runs: Vec<&[Part]> = parts.chunk_by(|part, _| part.block.step_to_next_turns.is_some()).collect();
+        let mean_rev_s = runs.iter().map(|run| turns_of(run)).sum::<f64>() / total_s;
+        let is_edge = |time_s: f64| !(0..2).all(|side| parts.iter().any(|part| part.touches(time_s, side)));
+        let variance = runs.iter().map(|run| turns_variance(run, &is_edge)).sum::<f64>() / (total_s * total_s);
+        let several: Vec<&HarmonicBlock> =
+            parts.iter().map(|part| part.block).filter(|block| block.is_several).collect();
         let variance = if several.is_empty() { variance } else { variance.max(variance_of_several(&several)) };
-        let steps = steps_between(&blocks);
-        let variance = (variance * step_scatter(&steps)).max(step_variance(&steps, blocks.len()));
         let points: Vec<TrackPoint> = self.points_in(span, order);
         let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
         let spread_rev_s = std(&speeds);
@@ -111,30 +101,41 @@ fn variance_of_several(blocks: &[&HarmonicBlock]) -> f64 {
     std_uncertainty_of_mean(&speeds).unwrap_or(0.0).powi(2) + mean(&shifts).unwrap_or(0.0).powi(2)
 }
 
-/// How the speed steps from one block to the next, and the standard uncertainty of that step; gaps and several rotors left out.
-fn steps_between(blocks: &[&HarmonicBlock]) -> Vec<(f64, f64)> {
-    blocks
-        .windows(2)
-        .filter(|pair| !pair[0].is_several && !pair[1].is_several)
-        .filter(|pair| (pair[1].span.from_s - pair[0].span.to_s).abs() < 1e-6)
-        .map(|pair| {
-            let border_s = pair[0].span.to_s;
-            let step = pair[1].speed_at(border_s) - pair[0].speed_at(border_s);
-            (step, END_STDS * pair[0].std_uncertainty_rev_s.hypot(pair[1].std_uncertainty_rev_s))
-        })
-        .collect()
+/// A block, or what a stretch of time holds of it.
+struct Part<'a> {
+    block: &'a HarmonicBlock,
+    span: Span,
 }
 
-/// Variance of the mean of so many blocks that the steps between them show: a speed that bends within a block is not its
-/// straight line. Wide rather than narrow: each step counts in full.
-fn step_variance(steps: &[(f64, f64)], blocks: usize) -> f64 {
-    let squares: Vec<f64> = steps.iter().map(|(step, _)| step.powi(2)).collect();
-    mean(&squares).map_or(0.0, |square| square / blocks as f64)
+impl Part<'_> {
+    /// Whether it begins (0) or ends (1) here.
+    fn touches(&self, time_s: f64, side: usize) -> bool {
+        ([self.span.from_s, self.span.to_s][side] - time_s).abs() < 1e-6
+    }
 }
 
-/// How much larger the steps are than the blocks' uncertainties explain, as a variance ratio; 1 where they explain them.
-fn step_scatter(steps: &[(f64, f64)]) -> f64 {
-    let ratios: Vec<f64> = steps.iter().map(|(step, std)| (step / std).powi(2)).collect();
-    let limit = 1.0 + STEP_SCATTER_STDS * (2.0 / ratios.len() as f64).sqrt();
-    mean(&ratios).filter(|&ratio| ratio > limit).unwrap_or(1.0)
+/// Turns over parts that are joined by phase.
+fn turns_of(run: &[Part]) -> f64 {
+    let within: f64 = run.iter().map(|part| part.block.speed_at(part.span.middle_s()) * part.span.length_s()).sum();
+    within + steps_of(run).sum::<f64>()
+}
+
+fn steps_of(run: &[Part]) -> impl Iterator<Item = f64> {
+    run.iter().take(run.len() - 1).filter_map(|part| part.block.step_to_next_turns)
+}
+
+/// Variance of the turns over parts that are joined by phase.
+fn turns_variance(run: &[Part], is_edge: &impl Fn(f64) -> bool) -> f64 {
+    let (Some(first), Some(last)) = (run.first(), run.last()) else { return 0.0 };
+    if run.len() == 1 {
+        // of a part of a block less is known than of all of it
+        let longer = first.block.span.length_s() / first.span.length_s();
+        return (first.block.std_uncertainty_rev_s * longer.powf(1.5) * first.span.length_s()).powi(2);
+    }
+    let ends = [(first, first.span.from_s), (last, last.span.to_s)].map(|(part, end_s)| EndBlock {
+        length_s: part.block.span.length_s(),
+        speed_variance: part.block.std_uncertainty_rev_s.powi(2),
+        is_faded: is_edge(end_s),
+    });
+    joined_variance_turns2(ends, &steps_of(run).collect::<Vec<f64>>())
 }

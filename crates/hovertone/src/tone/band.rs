@@ -12,7 +12,9 @@ use serde::Serialize;
 const USABLE_NYQUIST_SHARE: f64 = 0.98;
 
 /// Harmonics between which other lines are looked for.
-const BETWEEN_LINES: f64 = 8.0;
+const BETWEEN_LINES: u32 = 8;
+/// A steady rotor is looked for again so near to where it was found.
+const STEADY_SHARE: f64 = 0.003;
 
 /// Where the ridge of one harmonic is looked for: the paper's band-pass (figure 7), as a cut of the spectrum. An ideal
 /// band-pass before the transform and a search inside the band after it find the same peak.
@@ -120,23 +122,26 @@ pub(crate) fn lines_between_speeds(
         .collect()
 }
 
-/// The lowest lines of the blade pass and those at halves, thirds, quarters and fifths between: where they sound, the shaft turns
-/// more slowly than assumed.
-pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64) -> Vec<ChannelBand> {
-    let shares = (2..=5).flat_map(|parts: u32| (1..parts).map(move |part| f64::from(part) / f64::from(parts)));
-    let low = || lines.iter().filter(|line| (line.order / order).fract() == 0.0 && line.order <= BETWEEN_LINES * order);
-    let between = low().flat_map(|line| {
-        shares.clone().map(|share| {
-            let times = (line.order - share * order) / line.order;
-            ChannelBand {
-                order: times * line.order,
-                is_first: false,
-                band_hz_low: times * line.band_hz_low,
-                band_hz_high: times * line.band_hz_high,
-            }
+/// The lines of a steady rotor and those at halves, thirds, quarters and fifths between the lowest of its blade pass: where they sound,
+/// the shaft turns more slowly than assumed. They are looked for at its speed alone: among so many lines there are always some
+/// that noise puts in a row at another.
+pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64, speed_rev_s: f64) -> Vec<ChannelBand> {
+    let mut between: Vec<f64> = (2..=5)
+        .flat_map(|parts: u32| (1..parts).map(move |part| f64::from(part) / f64::from(parts)))
+        .flat_map(|share| (0..BETWEEN_LINES).map(move |line| (f64::from(line) + share) * order))
+        .collect();
+    between.sort_by(f64::total_cmp);
+    // a half is two quarters
+    between.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * order);
+    let own = lines.iter().map(|line| (line.order, line.is_first));
+    own.chain(between.into_iter().map(|order| (order, false)))
+        .map(|(order, is_first)| ChannelBand {
+            order,
+            is_first,
+            band_hz_low: order * speed_rev_s * (1.0 - STEADY_SHARE),
+            band_hz_high: order * speed_rev_s * (1.0 + STEADY_SHARE),
         })
-    });
-    lines.iter().copied().chain(between).collect()
+        .collect()
 }
 
 #[cfg(test)]

@@ -115,7 +115,10 @@ impl Claim {
     fn may_be_its_rotor(&self, fundamental_hz: f64) -> bool {
         let near = |order: f64, share: f64| (fundamental_hz / (order * self.shaft_hz) - 1.0).abs() < share;
         let blades = self.orders.first().copied().unwrap_or(1.0);
-        self.orders.iter().any(|&order| near(order, ROTORS_APART_SHARE))
+        // every fourth line of a blade pass is a series too
+        let multiple = (fundamental_hz / (blades * self.shaft_hz)).round().max(1.0);
+        near(multiple * blades, SHAFT_LINE_SHARE)
+            || self.orders.iter().any(|&order| near(order, ROTORS_APART_SHARE))
             || (1..blades as u32).any(|order| near(f64::from(order), OTHER_SHAFTS_SHARE))
     }
 
