@@ -4,9 +4,6 @@ use super::map::FRAME_HOPS;
 use crate::channel::{Channel, ChannelBand, ChannelBank, TICKS_PER_HOP};
 use realfft::num_complex::Complex;
 
-/// Ticks at either end of a stretch in which it fades in or out; their amplitude says nothing.
-const FADE_TICKS: usize = 3;
-
 /// Gathers the channels of stretches of sound and cuts them into quanta of nearly equal length.
 pub(super) struct QuantumCutter {
     bank: ChannelBank,
@@ -78,21 +75,19 @@ impl QuantumCutter {
         (self.hops() >= self.quantum_hops + self.quantum_hops / 2).then_some(self.quantum_hops * TICKS_PER_HOP)
     }
 
-    /// The stretch ends here: ticks of what is left, if it is worth anything.
-    pub(super) fn last_ticks(&mut self) -> Option<usize> {
+    /// The stretch ends here: ticks of what is left, if it is worth anything, and the time of the last sample. The last tick is
+    /// heard even if the stretch ends within it: it has faded out by then.
+    pub(super) fn last_ticks(&mut self) -> Option<(usize, f64)> {
         self.bank.finish(&mut self.series);
-        let left_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz - self.start_s;
-        let ticks = ((left_s / self.tick_s() + 1e-6) as usize).min(self.hops() * TICKS_PER_HOP);
+        let end_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz;
+        let ticks = ((end_s - self.start_s) / self.tick_s() - 1e-6).ceil() as usize;
+        let ticks = ticks.min(self.hops() * TICKS_PER_HOP);
         self.samples_in = 0;
-        Some(ticks.saturating_sub(FADE_TICKS)).filter(|&ticks| ticks >= FRAME_HOPS * TICKS_PER_HOP)
+        (ticks >= FRAME_HOPS * TICKS_PER_HOP).then_some((ticks, end_s))
     }
 
-    /// The first ticks of what has come in; where a stretch begins, without those in which it fades in.
-    pub(super) fn quantum(&mut self, mut ticks: usize) -> Quantum<'_> {
-        if self.start_s == self.stretch_start_s && ticks > FADE_TICKS {
-            self.drop_ticks(FADE_TICKS);
-            ticks -= FADE_TICKS;
-        }
+    /// The first ticks of what has come in.
+    pub(super) fn quantum(&self, ticks: usize) -> Quantum<'_> {
         let series = self.bank.channels.iter().zip(&self.series);
         Quantum {
             series: series

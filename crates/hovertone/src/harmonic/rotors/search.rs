@@ -11,6 +11,9 @@ use realfft::num_complex::Complex;
 const ENERGY_LEFT_MIN: f32 = 0.1;
 /// How much a rotor's speed changes from one frame to the next, as a share.
 const STEP_STD_SHARE: f64 = 0.002;
+/// Likelihoods are cut here, so that the product of so many is still a number.
+const LIKELIHOOD_MAX: f32 = 1e9;
+const LINES_PER_LOGARITHM: usize = 32;
 /// A rotor's own track covers so many points of the grid to either side.
 const OWN_POINTS: usize = 1;
 /// Points of the grid in a resolution cell of the line that resolves most finely.
@@ -29,6 +32,11 @@ impl OffsetGrid {
         let points = ((high_rev_s - low_rev_s) * finest * GRID_PER_CELL).ceil().max(2.0) as usize + 1;
         Self { first_rev_s: low_rev_s, step_rev_s: (high_rev_s - low_rev_s) / (points - 1) as f64, points }
     }
+
+    /// Standard deviation of the step from frame to frame, in points.
+    fn step_std(&self, middle_rev_s: f64) -> f64 {
+        STEP_STD_SHARE * middle_rev_s / self.step_rev_s
+    }
 }
 
 /// The tracks of `count` rotors as offsets from the common speed in each frame: those that are not known from `start`, one after the
@@ -41,7 +49,7 @@ pub(super) fn found_tracks(
     (count, sweeps): (usize, usize),
 ) -> Vec<Vec<f64>> {
     let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;
-    let step_std = STEP_STD_SHARE * middle / grid.step_rev_s;
+    let step_std = grid.step_std(middle);
     let track_beside = |others: &[&Vec<f64>]| -> Vec<f64> {
         let scores: Vec<Vec<f64>> = (0..spectra.frames())
             .map(|frame| {
@@ -66,11 +74,18 @@ pub(super) fn found_tracks(
     tracks
 }
 
-/// The path of one rotor where the lines of all rotors have been taken away: it stays on its own track, which is worth `own`
+/// The track of one rotor where the lines of all rotors have been taken away: it stays at its own offset, which is worth so much
 /// in each frame, or goes where something is left that is worth more.
-pub(super) fn better_track(rest_scores: &[Vec<f64>], own: &[(f64, f64)], grid: &OffsetGrid, middle_rev_s: f64) -> Vec<Option<f64>> {
-    let step_std = STEP_STD_SHARE * middle_rev_s / grid.step_rev_s;
-    let place_of = |offset: f64| ((offset - grid.first_rev_s) / grid.step_rev_s).round().clamp(0.0, grid.points as f64 - 1.0) as usize;
+pub(super) fn better_track(
+    rest_scores: &[Vec<f64>],
+    own: &[(f64, f64)],
+    grid: &OffsetGrid,
+    middle_rev_s: f64,
+) -> Vec<f64> {
+    let place_of = |offset: f64| {
+        let place = ((offset - grid.first_rev_s) / grid.step_rev_s).round();
+        place.clamp(0.0, grid.points as f64 - 1.0) as usize
+    };
     let scores: Vec<Vec<f64>> = rest_scores
         .iter()
         .zip(own)
@@ -83,11 +98,12 @@ pub(super) fn better_track(rest_scores: &[Vec<f64>], own: &[(f64, f64)], grid: &
             scores
         })
         .collect();
-    best_path(&scores, step_std)
+    best_path(&scores, grid.step_std(middle_rev_s))
         .into_iter()
         .zip(own)
         .map(|(place, (offset, _))| {
-            (place.abs_diff(place_of(*offset)) > OWN_POINTS + 1).then(|| grid.first_rev_s + place as f64 * grid.step_rev_s)
+            let is_elsewhere = place.abs_diff(place_of(*offset)) > OWN_POINTS + 1;
+            if is_elsewhere { grid.first_rev_s + place as f64 * grid.step_rev_s } else { *offset }
         })
         .collect()
 }
@@ -106,23 +122,29 @@ pub(super) fn scores_of_frame(
     grid: &OffsetGrid,
     others_rev_s: &[f64],
 ) -> Vec<f64> {
-    let mut scores = vec![0.0f32; grid.points];
+    let mut scores = vec![0.0; grid.points];
+    let mut products = vec![1.0f64; grid.points];
     let mut levels = Vec::new();
-    for (line, atoms) in spectra.lines.iter().zip(atoms) {
+    for (index, (line, atoms)) in spectra.lines.iter().zip(atoms).enumerate() {
         levels_beside(line, atoms, frame, spectra.common_rev_s[frame], others_rev_s, &mut levels);
         let first = line.bin_of(line.order * grid.first_rev_s * line.frame_s);
         let step = line.bin_of(line.order * grid.step_rev_s * line.frame_s) - line.bin_of(0.0);
         let last = levels.len() - 2;
-        for (index, score) in scores.iter_mut().enumerate() {
+        for (index, product) in products.iter_mut().enumerate() {
             let place = (first + step * index as f64).max(0.0);
             let bin = (place as usize).min(last);
             let share = (place - bin as f64).min(1.0) as f32;
             let level = levels[bin] + share * (levels[bin + 1] - levels[bin]);
-            let likelihood = level * level;
-            *score += likelihood.ln_1p();
+            *product *= 1.0 + f64::from((level * level).min(LIKELIHOOD_MAX));
+        }
+        // one logarithm for many lines
+        if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == spectra.lines.len() {
+            for (score, product) in scores.iter_mut().zip(&mut products) {
+                *score += std::mem::replace(product, 1.0).ln();
+            }
         }
     }
-    scores.into_iter().map(f64::from).collect()
+    scores
 }
 
 /// The root of what one line's likelihood is in each bin, once other rotors have been taken away.

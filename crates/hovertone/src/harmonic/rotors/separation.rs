@@ -81,7 +81,7 @@ pub(super) fn separated(
                     is_strong: mean_power > STRONG_POWER_MIN,
                     noise_variance: noise_variances[index],
                     samples_per_tick: samples_per_tick as f64,
-                    ticks: mixed.ticks_of(own, apart, quantum.ticks),
+                    ticks: mixed.ticks_of(own, quantum.ticks),
                 });
             }
             separated.levels.push(levels);
@@ -194,14 +194,10 @@ impl MixedChannel {
         }
     }
 
-    /// One atom and what is left beside all of them, turned back and summed in each tick. Ticks where the line is not apart
-    /// from others say nothing.
-    fn ticks_of(&self, atom: &Atom, apart: &[bool], ticks: usize) -> Vec<Complex<f64>> {
+    /// One atom and what is left beside all of them, turned back and summed in each tick.
+    fn ticks_of(&self, atom: &Atom, ticks: usize) -> Vec<Complex<f64>> {
         (0..ticks)
             .map(|tick| {
-                if std::env::var("HT_MASK").is_ok() && !apart.get(tick / FRAME_TICKS).copied().unwrap_or(false) {
-                    return Complex::default();
-                }
                 let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;
                 let rest: Complex<f32> =
                     self.rest[samples.clone()].iter().zip(&atom.phasors[samples]).map(|(z, phasor)| z * phasor.conj()).sum();

@@ -1,0 +1,181 @@
+//! One quantum of sound → the blocks of each rotor.
+
+use super::super::coherence::{Level, best_level, likelihood_min};
+use super::super::join::joined;
+use super::super::path::SpeedPath;
+use super::super::quanta::Quantum;
+use super::atoms::ChannelAtoms;
+use super::identity::{Identity, TrackFrame};
+use super::retrace::retraced;
+use super::search::{OffsetGrid, better_track, found_tracks, scores_of_frame};
+use super::separation::{SeparatedRotor, separated};
+use super::spectra::{FRAME_TICKS, Spectra, frame_middle_ticks};
+use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
+
+/// A line of order o has frames of `√(this / o)`: rotors of a hovering multirotor leave their common speed by less than 0.7 rev/s per
+/// second, which smears the line over less than two resolution cells.
+const COMMON_TURNS_S: f64 = 3.0;
+/// … before their common speed is known, …
+const FIRST_TURNS_S: f64 = 1.7;
+/// … and along a rotor's own path.
+const OWN_TURNS_S: f64 = 8.0;
+/// A frame is no longer than this: sound in a room loses its phase.
+const FRAME_S_MAX: f64 = 0.4;
+/// Times that each rotor is looked for again beside all others, before and after the common speed is known.
+const FIRST_SWEEPS: usize = 1;
+const SWEEPS: usize = 2;
+/// Times that the rotors are taken apart and their paths drawn again.
+const RETRACES: usize = 2;
+/// The search goes this far beyond what the first one found, as a share of the speed.
+const MARGIN_SHARE: f64 = 0.03;
+/// Frames to either side over which the common speed is averaged.
+const COMMON_FRAMES: usize = 2;
+
+/// What was heard of one rotor.
+pub(super) struct HeardRotor {
+    pub(super) line_count: usize,
+    pub(super) level: Level,
+    path: SpeedPath,
+    /// Level of each line in each frame.
+    levels: Vec<Vec<f64>>,
+}
+
+impl HeardRotor {
+    /// The rotor in each frame.
+    pub(super) fn frames(&self, tick_s: f64) -> Vec<TrackFrame> {
+        let frames = self.levels.first().map_or(0, Vec::len);
+        let reach = FRAME_TICKS / 2;
+        (0..frames)
+            .map(|frame| {
+                let middle = frame_middle_ticks(frame);
+                let (before, after) = (self.path.speed_rev_s(middle - reach), self.path.speed_rev_s(middle + reach));
+                TrackFrame {
+                    speed_rev_s: self.path.speed_rev_s(middle),
+                    slope_rev_s2: (after - before) / (2 * reach) as f64 / tick_s,
+                    levels: self.levels.iter().map(|line| (line[frame] > 0.0).then(|| line[frame].ln())).collect(),
+                }
+            })
+            .collect()
+    }
+}
+
+/// Length of the frames of a line.
+fn frame_s_of_order(turns_s: f64) -> impl Fn(f64) -> f64 {
+    move |order| (turns_s / order).sqrt().min(FRAME_S_MAX)
+}
+
+/// The rotors of a quantum, in no order.
+pub(super) fn rotors_of_quantum(
+    quantum: &Quantum<'_>,
+    noise_variances: &[f64],
+    atoms: &[ChannelAtoms],
+    limits_rev_s: (f64, f64),
+    count: usize,
+    planner: &mut FftPlanner<f32>,
+) -> Vec<HeardRotor> {
+    let (tick_s, ticks) = (quantum.tick_s, quantum.ticks);
+    let time_s = |frame: usize| frame_middle_ticks(frame) as f64 * tick_s;
+    let path_of = |speeds: &mut dyn Iterator<Item = f64>| {
+        let points: Vec<(f64, f64)> = speeds.enumerate().map(|(frame, speed)| (time_s(frame), speed)).collect();
+        SpeedPath::through(&points, tick_s, ticks)
+    };
+    let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
+    let along = |common: &SpeedPath, series: &[&[Complex<f32>]], turns_s: f64, planner: &mut FftPlanner<f32>| {
+        Spectra::along(quantum, series, noise_variances, common, frame_s_of_order(turns_s), planner)
+    };
+
+    // a first search, along no path at all
+    let Some(constant) = path_of(&mut std::iter::once(middle_rev_s)) else { return Vec::new() };
+    let spectra = along(&constant, &quantum.series, FIRST_TURNS_S, planner);
+    let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
+    let first = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS));
+    let Some(common) = path_of(&mut smoothed_mean(&first).into_iter().map(|offset| middle_rev_s + offset)) else {
+        return Vec::new();
+    };
+
+    // another one, along what the rotors share
+    let spectra = along(&common, &quantum.series, COMMON_TURNS_S, planner);
+    let start: Vec<Vec<f64>> = first
+        .iter()
+        .map(|track| track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| middle_rev_s + offset - common).collect())
+        .collect();
+    let grid = OffsetGrid::new(around(&start, MARGIN_SHARE * middle_rev_s), &spectra);
+    let tracks = found_tracks(&spectra, atoms, &grid, &start, (count, SWEEPS));
+    let speeds = tracks.iter().map(|track| track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| common + offset).collect());
+    let mut paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
+
+    // two tracks may share a rotor for a while, and another is left over
+    let apart_along = |paths: &[SpeedPath]| {
+        separated(quantum, noise_variances, atoms, paths, frame_s_of_order(OWN_TURNS_S))
+    };
+    let (rotors, rests) = apart_along(&paths);
+    let rests: Vec<&[Complex<f32>]> = rests.iter().map(Vec::as_slice).collect();
+    let rest = along(&common, &rests, COMMON_TURNS_S, planner);
+    let scores: Vec<Vec<f64>> = (0..rest.frames()).map(|frame| scores_of_frame(&rest, atoms, frame, &grid, &[])).collect();
+    let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
+        let offsets = rest.common_rev_s.iter().enumerate().map(|(frame, common)| path.speed_rev_s(frame_middle_ticks(frame)) - common);
+        let own: Vec<(f64, f64)> = offsets.zip(rotor.worths.iter().copied()).collect();
+        better_track(&scores, &own, &grid, middle_rev_s).iter().zip(&rest.common_rev_s).map(|(offset, common)| common + offset).collect()
+    });
+    paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
+
+    for _ in 0..std::env::var("HT_IT").map_or(RETRACES, |v| v.parse().unwrap()) {
+        let (rotors, _) = apart_along(&paths);
+        let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
+            let path = retraced(&rotor.lines, path, frame_s_of_order(OWN_TURNS_S));
+            (0..ticks / FRAME_TICKS).map(|frame| path.speed_rev_s(frame_middle_ticks(frame))).collect()
+        });
+        paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
+    }
+    let (rotors, _) = apart_along(&paths);
+    paths
+        .into_iter()
+        .zip(rotors)
+        .map(|(path, SeparatedRotor { lines, levels, .. })| {
+            let level = joined(&lines, &path, &best_level(&lines, &path));
+            let points = level.points(likelihood_min(lines.len()), tick_s);
+            let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or(path);
+            HeardRotor { line_count: lines.len(), level, path, levels }
+        })
+        .collect()
+}
+
+/// Lowest and highest of all tracks, and a margin beyond.
+fn around(tracks: &[Vec<f64>], margin: f64) -> (f64, f64) {
+    let all = || tracks.iter().flatten().copied();
+    (all().fold(f64::INFINITY, f64::min) - margin, all().fold(f64::NEG_INFINITY, f64::max) + margin)
+}
+
+/// Paths through the same speeds, so labelled in each frame that each path is as continuous as it can be.
+fn continuous_paths(speeds_rev_s: &[Vec<f64>], quantum: &Quantum<'_>) -> Vec<SpeedPath> {
+    let frame_s = FRAME_TICKS as f64 * quantum.tick_s;
+    let frames: Vec<Vec<TrackFrame>> = speeds_rev_s
+        .iter()
+        .map(|track| track.iter().map(|&speed_rev_s| TrackFrame { speed_rev_s, ..TrackFrame::default() }).collect())
+        .collect();
+    let labelling = Identity::default().labelled(&frames, frame_s);
+    (0..speeds_rev_s.len())
+        .filter_map(|rotor| {
+            let points: Vec<(f64, f64)> = labelling
+                .iter()
+                .enumerate()
+                .map(|(frame, labels)| (frame_middle_ticks(frame) as f64 * quantum.tick_s, speeds_rev_s[labels[rotor]][frame]))
+                .collect();
+            SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+        })
+        .collect()
+}
+
+/// The mean of all tracks in each frame, smoothed.
+fn smoothed_mean(tracks: &[Vec<f64>]) -> Vec<f64> {
+    let frames = tracks.first().map_or(0, Vec::len);
+    let means: Vec<f64> =
+        (0..frames).map(|frame| tracks.iter().map(|track| track[frame]).sum::<f64>() / tracks.len() as f64).collect();
+    (0..frames)
+        .map(|frame| {
+            let near = &means[frame.saturating_sub(COMMON_FRAMES)..(frame + COMMON_FRAMES + 1).min(frames)];
+            near.iter().sum::<f64>() / near.len() as f64
+        })
+        .collect()
+}
