@@ -92,6 +92,8 @@ pub enum NoTone {
     SlowerShaft {
         /// How many of them.
         line_count: usize,
+        /// How fast a shaft would turn that makes them all, if they are of one strength.
+        speed_rev_s: Option<f64>,
     },
     /// A line that comes and goes, without any of its harmonics.
     LonelyLine {
@@ -139,7 +141,7 @@ impl fmt::Display for NoTone {
                 "the tone would be near {tone_hz:.0} Hz, and a codec or the recorder left nothing above {above_hz:.0} Hz; \
                  record without compression, or follow a tone of lower order"
             ),
-            Self::SlowerShaft { line_count } => write!(
+            Self::SlowerShaft { line_count, .. } => write!(
                 f,
                 "a weak steady tone, but {line_count} lines sound between those that the rotor can make: the shaft turns more \
                  slowly than they say"
