@@ -115,6 +115,13 @@ impl fmt::Display for NoTone {
             Self::NoFrame { window_s, hover_s } => {
                 write!(f, "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; ask for shorter frames")
             }
+            Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
+                f,
+                "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames, but these are too few to prove that a \
+                 rotor's would be one in more than {:.0} %; let it hear a longer hover",
+                100.0 * line_share,
+                100.0 * line_share_min
+            ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
                 "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames; a rotor is one in clearly \

@@ -94,10 +94,12 @@ impl HarmonicTrack {
             let parts = |line_order: f64| f64::from(times) * line_order / order;
             let is_part = |line_order: f64| (parts(line_order) - parts(line_order).round()).abs() < 1e-6;
             let mean_of = |is_own: bool| {
-                let of_kind = |line: &&LineRecord| is_between(line) != is_own && line.order <= reach && is_part(line.order);
+                let of_kind =
+                    |line: &&LineRecord| is_between(line) != is_own && line.order <= reach && is_part(line.order);
                 mean(&self.lines.iter().filter(of_kind).map(|line| line.steady_likelihood).collect::<Vec<f64>>())
             };
-            let is_one_series = || mean_of(false).zip(mean_of(true)).is_some_and(|(b, own)| b > SERIES_POWER_SHARE * own);
+            let is_one_series =
+                || mean_of(false).zip(mean_of(true)).is_some_and(|(b, own)| b > SERIES_POWER_SHARE * own);
             heard.iter().all(|&line_order| is_part(line_order)) && is_one_series()
         });
         (heard.len() > 1).then_some(LinesBetween { count: heard.len(), times_slower })
