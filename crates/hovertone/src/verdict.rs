@@ -92,6 +92,8 @@ pub enum NoTone {
     SlowerShaft {
         /// How many of them.
         line_count: usize,
+        /// How fast a shaft would turn that makes them all, if they are of one strength.
+        speed_rev_s: Option<f64>,
     },
     /// A line that comes and goes, without any of its harmonics.
     LonelyLine {
@@ -113,6 +115,13 @@ impl fmt::Display for NoTone {
             Self::NoFrame { window_s, hover_s } => {
                 write!(f, "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; ask for shorter frames")
             }
+            Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
+                f,
+                "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames, but these are too few to prove that a \
+                 rotor's would be one in more than {:.0} %; let it hear a longer hover",
+                100.0 * line_share,
+                100.0 * line_share_min
+            ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
                 "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames; a rotor is one in clearly \
@@ -139,7 +148,7 @@ impl fmt::Display for NoTone {
                 "the tone would be near {tone_hz:.0} Hz, and a codec or the recorder left nothing above {above_hz:.0} Hz; \
                  record without compression, or follow a tone of lower order"
             ),
-            Self::SlowerShaft { line_count } => write!(
+            Self::SlowerShaft { line_count, .. } => write!(
                 f,
                 "a weak steady tone, but {line_count} lines sound between those that the rotor can make: the shaft turns more \
                  slowly than they say"

@@ -102,7 +102,8 @@ fn error_cell(score: &MethodScore) -> String {
     }
 }
 
-/// Both kinds of rotor, each series of lines, both colours; at the ratio where recordings are.
+/// Both kinds of rotor, each series of lines, both colours, at the ratio where recordings are; and the rotor that wanders at every
+/// ratio at which it is heard. Of the steady one the table of bounds says that.
 fn coverage_conditions() -> Vec<Condition> {
     let mut conditions = Vec::new();
     for wanders in [false, true] {
@@ -110,6 +111,10 @@ fn coverage_conditions() -> Vec<Condition> {
         conditions.extend(Tones::ALL.map(|tones| at(tones, Colour::White, 0.0)));
         conditions.push(at(Tones::Both, Colour::Falling, 0.0));
         conditions.push(at(Tones::Both, Colour::White, -10.0));
+    }
+    for snr_db in [-10.0, 10.0, 20.0] {
+        let at = |tones| Condition { tones, colour: Colour::White, snr_db, wanders: true };
+        conditions.extend([Tones::GearMesh, Tones::BladePass].map(at));
     }
     conditions
 }

@@ -149,7 +149,10 @@ pub(super) fn straight_level(lines: &[Line], path: &SpeedPath) -> Level {
         count = count.div_ceil(2);
         reach_cells = NEXT_GUESS_CELLS;
     }
-    level(lines, path, 1, 0.0, |_, _| (speed, slope))
+    // a weak line may have been led astray with its slope: the one without is looked for as well
+    let sloping = level(lines, path, 1, 0.0, |_, _| (speed, slope));
+    let flat = level(lines, path, 1, FIRST_GUESS_CELLS, |_, _| (speed, 0.0));
+    if flat.likelihood() > sloping.likelihood() { flat } else { sloping }
 }
 
 /// Newton's method on the sum of all blocks, from a point of the grid; steps that do not climb are not taken.

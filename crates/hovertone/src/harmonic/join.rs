@@ -22,7 +22,7 @@ const STEPS_FREEDOM_MIN: f64 = 0.4;
 /// The step is looked for so many standard deviations around none …
 const REACH_STDS: f64 = 6.0;
 /// … and what a speed that bends within the block adds, as a phase of the lowest line.
-const BEND_PHASE_RAD: f64 = 0.7;
+const BEND_PHASE_RAD: f64 = 0.1;
 /// Points of the search grid in a turn of the highest line's phase.
 const GRID_PER_CYCLE: f64 = 12.0;
 const NEWTON_STEPS: u32 = 6;
@@ -164,10 +164,15 @@ fn step_between(blocks: [&BlockFit; 2], middles: [&Middle; 2], path: &SpeedPath)
 fn most_likely_step(lines: &[(f64, Complex<f64>)], std_turns: f64) -> Option<f64> {
     let value = |step: f64| -> f64 { lines.iter().map(|(w, z)| (z * Complex::from_polar(1.0, -w * step)).re).sum() };
     let (low, high) = lines.iter().fold((f64::INFINITY, 0.0f64), |(low, high), (w, _)| (low.min(*w), high.max(*w)));
-    let reach = (REACH_STDS * std_turns + BEND_PHASE_RAD / low).min(TAU / low / 2.0);
+    let likely_turns = std_turns + BEND_PHASE_RAD / low;
+    // in a turn of the lowest line all that it can be has come up
+    let reach = (REACH_STDS * likely_turns).min(TAU / low);
     let grid_step = TAU / high / GRID_PER_CYCLE;
     let points = (reach / grid_step).ceil() as i32;
-    let values: Vec<f64> = (-points..=points).map(|point| value(f64::from(point) * grid_step)).collect();
+    let values: Vec<f64> = (-points..=points)
+        .map(|point| f64::from(point) * grid_step)
+        .map(|step| value(step) - (step / likely_turns).powi(2) / 2.0)
+        .collect();
     let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
     let is_summit = |index: &usize| {
         values.get(index.wrapping_sub(1)).is_none_or(|v| *v <= values[*index])

@@ -1,9 +1,13 @@
 //! What the harmonic likelihood says of a hover: blocks of speed, and what each line contributed.
 
 use crate::span::Span;
+use crate::statistics::mean;
 
 /// A line between the assumed ones is there above this likelihood; noise reaches it in one of ten thousand lines and blocks.
 const BETWEEN_LIKELIHOOD_MIN: f64 = 16.0;
+/// Lines between that have this share of the others' power belong to one series with them.
+const SERIES_POWER_SHARE: f64 = 0.5;
+
 /// The speed over one block of sound.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HarmonicBlock {
@@ -62,6 +66,10 @@ pub(crate) struct LineRecord {
 }
 
 impl LineRecord {
+    fn is_heard(&self) -> bool {
+        self.steady_likelihood > BETWEEN_LIKELIHOOD_MIN * f64::from(self.quanta.max(1))
+    }
+
     /// What the line counts for: order squared times power over noise.
     pub(crate) fn weight(&self) -> f64 {
         let heard = 1.0 - f64::from(self.quanta_left_out) / f64::from(self.quanta.max(1));
@@ -87,13 +95,33 @@ impl HarmonicTrack {
 }
 
 impl HarmonicTrack {
-    /// Lines that keep their phase at orders which are no multiple of `order`: those of a shaft that turns more slowly.
-    pub(crate) fn lines_between(&self, order: f64) -> usize {
+    /// Lines that keep their phase at orders which are no multiple of `order`, where there is more than one: those of a shaft that
+    /// turns more slowly.
+    pub(crate) fn lines_between(&self, order: f64) -> Option<LinesBetween> {
         let is_between = |line: &&LineRecord| (line.order / order).fract() != 0.0;
-        self.lines
-            .iter()
-            .filter(is_between)
-            .filter(|line| line.steady_likelihood > BETWEEN_LIKELIHOOD_MIN * f64::from(line.quanta.max(1)))
-            .count()
+        let reach = self.lines.iter().filter(is_between).map(|line| line.order).fold(0.0, f64::max);
+        let heard: Vec<f64> =
+            self.lines.iter().filter(is_between).filter(|line| line.is_heard()).map(|line| line.order).collect();
+        let times_slower = (2..=5u32).find(|&times| {
+            let parts = |line_order: f64| f64::from(times) * line_order / order;
+            let is_part = |line_order: f64| (parts(line_order) - parts(line_order).round()).abs() < 1e-6;
+            let mean_of = |is_own: bool| {
+                let of_kind =
+                    |line: &&LineRecord| is_between(line) != is_own && line.order <= reach && is_part(line.order);
+                mean(&self.lines.iter().filter(of_kind).map(|line| line.steady_likelihood).collect::<Vec<f64>>())
+            };
+            let is_one_series =
+                || mean_of(false).zip(mean_of(true)).is_some_and(|(b, own)| b > SERIES_POWER_SHARE * own);
+            heard.iter().all(|&line_order| is_part(line_order)) && is_one_series()
+        });
+        (heard.len() > 1).then_some(LinesBetween { count: heard.len(), times_slower })
     }
+}
+
+/// Lines between those that a rotor can make.
+pub(crate) struct LinesBetween {
+    pub(crate) count: usize,
+    /// How many times more slowly a shaft turns that makes all of them, if they are as strong as the others: the shaft lines of a
+    /// rotor, which lie there too, are much weaker.
+    pub(crate) times_slower: Option<u32>,
 }
