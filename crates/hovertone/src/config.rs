@@ -52,12 +52,18 @@ impl Config {
 
     /// The estimators that are wanted.
     pub(crate) fn methods(&self) -> impl Iterator<Item = Method> {
-        Method::ALL.into_iter().filter(|&method| self.wants_all_methods || method == self.method)
+        let is_there = |method: &Method| *method != Method::Separated || self.rotors.are_several();
+        let is_wanted = |method: &Method| {
+            // where there is nothing to tell apart, one rotor is heard alone
+            let is_instead = self.method == Method::Separated && *method == Method::Harmonic;
+            self.wants_all_methods || *method == self.method || is_instead
+        };
+        Method::ALL.into_iter().filter(is_there).filter(is_wanted)
     }
 
     /// Whether a method is wanted that reads ridges.
     pub(crate) fn wants_ridges(&self) -> bool {
-        self.methods().any(|method| method != Method::Harmonic)
+        self.methods().any(Method::reads_ridges)
     }
 
     /// Refuses settings that mean nothing, by name, value and limit.

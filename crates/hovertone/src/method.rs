@@ -10,6 +10,8 @@ pub enum Method {
     /// The maximum of the likelihood of all lines together, each weighed by the noise around it.
     #[default]
     Harmonic,
+    /// The same for each of several rotors, told apart; their mean is the speed, and their mean square what carries the weight.
+    Separated,
     /// The loudest frequency of each frame (paper, section 4.1).
     MaximumTrace,
     /// The centre of the Gaussian through all that reaches a share of the loudest (paper, section 4.2).
@@ -18,14 +20,20 @@ pub enum Method {
 
 impl Method {
     /// All methods: ours, then the paper's in its order.
-    pub const ALL: [Self; 3] = [Self::Harmonic, Self::MaximumTrace, Self::Gaussian];
+    pub const ALL: [Self; 4] = [Self::Separated, Self::Harmonic, Self::MaximumTrace, Self::Gaussian];
 
     /// Name in files and flags.
     pub fn name(self) -> &'static str {
         match self {
             Self::Harmonic => "harmonic",
+            Self::Separated => "separated",
             Self::MaximumTrace => "maximum_trace",
             Self::Gaussian => "gaussian",
         }
+    }
+
+    /// Whether it reads ridges.
+    pub(crate) fn reads_ridges(self) -> bool {
+        matches!(self, Self::MaximumTrace | Self::Gaussian)
     }
 }

@@ -3,7 +3,7 @@
 use crate::channel::ChannelBand;
 use crate::config::Config;
 use crate::error::Error;
-use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorTracer};
+use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorTracer, RotorTracks};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
 use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
@@ -18,7 +18,7 @@ use crate::tone::{
 };
 use crate::verdict::{
     NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_samples,
-    warnings_of_hover, warnings_of_speed,
+    warning_of_rotors, warnings_of_hover, warnings_of_speed,
 };
 use crate::warning::Warning;
 use serde::Serialize;
@@ -81,16 +81,21 @@ pub struct SampleSpeeds {
 }
 
 impl SampleSpeeds {
-    /// The sample's speed by one method.
+    /// The sample's speed by one method; by that of a single rotor where several were to be told apart and were not.
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
-        self.speeds.iter().find(|speed| speed.method == method)
+        speed_by(&self.speeds, method)
     }
 }
 
+fn speed_by(speeds: &[SpeedEstimate], method: Method) -> Option<&SpeedEstimate> {
+    let instead = (method == Method::Separated).then_some(Method::Harmonic);
+    [Some(method), instead].into_iter().flatten().find_map(|method| speeds.iter().find(|speed| speed.method == method))
+}
+
 impl RotorTone {
-    /// The mean over the hover by one method.
+    /// The mean over the hover by one method; by that of a single rotor where several were to be told apart and were not.
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
-        self.speeds.iter().find(|speed| speed.method == method)
+        speed_by(&self.speeds, method)
     }
 }
 
@@ -188,12 +193,20 @@ fn speed_near(
     let ridges = chosen.unwrap_or_else(|| clearest.clone());
     let weights = HarmonicWeights::from_ridges(&ridges, &config.ridge, &mut warnings);
     let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, config.tone.order)).collect();
+    let order = config.tone.order;
+    let apart_is_wanted = config.methods().any(|method| method == Method::Separated);
+    let apart = if apart_is_wanted {
+        rotors_from_source(source, &hover, speed_rev_s, survey, config, on_progress)?
+    } else {
+        RotorTracks::default()
+    };
     let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
         config
             .methods()
             .filter_map(|method| match tracks.iter().find(|track| track.method == method) {
                 Some(track) => weights.speed_in(span, track),
-                None => harmonic.speed_in(span, config.tone.order),
+                None if method == Method::Separated => apart.speed_in(span, order),
+                None => harmonic.speed_in(span, order),
             })
             .map(|speed| speed.with_budget(&config.budget))
             .collect()
@@ -216,11 +229,8 @@ fn speed_near(
         Some(track) => track.points,
         None => harmonic.points_in(None, config.tone.order),
     };
-    let rotors = if config.rotors.are_several() {
-        rotors_from_source(source, &hover, speed_rev_s, survey, config, on_progress)?
-    } else {
-        Vec::new()
-    };
+    let rotors = apart.rotors(order, &config.budget);
+    warnings.extend(warning_of_rotors(&rotors, if apart_is_wanted { config.rotors.count } else { 1 }));
     let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
@@ -322,7 +332,7 @@ fn rotors_from_source(
     survey: &Survey,
     config: &Config,
     on_progress: &mut dyn FnMut(Progress),
-) -> Result<Vec<RotorEstimate>, Error> {
+) -> Result<RotorTracks, Error> {
     let share = config.rotors.band_half_width_share;
     let limits_rev_s = (speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share));
     let lines = lines_between_speeds(limits_rev_s, &config.tone, source.sample_rate_hz());
@@ -336,11 +346,5 @@ fn rotors_from_source(
         Piece::Samples(samples) => tracer.push(samples),
         Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
     })?;
-    let rotor_of = |track: HarmonicTrack| {
-        let speed = track.speed_in(None, config.tone.order)?.with_budget(&config.budget);
-        Some(RotorEstimate { speed, track: track.points_in(None, config.tone.order) })
-    };
-    let mut rotors: Vec<RotorEstimate> = tracer.finish().into_iter().filter_map(rotor_of).collect();
-    rotors.sort_by(|a, b| b.speed.speed.rev_s().total_cmp(&a.speed.speed.rev_s()));
-    Ok(rotors)
+    Ok(tracer.finish())
 }

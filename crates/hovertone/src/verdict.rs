@@ -6,7 +6,7 @@ use crate::method::Method;
 use crate::pipeline::SampleSpeeds;
 use crate::ridge::Ridge;
 use crate::span::Span;
-use crate::speed::SpeedEstimate;
+use crate::speed::{RotorEstimate, SpeedEstimate};
 use crate::statistics::{mean, std};
 use crate::warning::Warning;
 use serde::Serialize;
@@ -246,6 +246,12 @@ pub(crate) fn warnings_of_hover(hover: &Hover) -> Vec<Warning> {
 pub(crate) fn warning_of_samples(samples: &[SampleSpeeds]) -> Option<Warning> {
     let fewest = samples.iter().flat_map(|sample| &sample.speeds).map(|speed| speed.frame_count).min()?;
     (fewest < FEW_FRAMES).then_some(Warning::FewFrames { frame_count: fewest })
+}
+
+/// Whether all rotors that there are were told apart.
+pub(crate) fn warning_of_rotors(rotors: &[RotorEstimate], count: u32) -> Option<Warning> {
+    let resolved = rotors.len();
+    (count > 1 && resolved < count as usize).then_some(Warning::RotorsNotApart { resolved, of: count })
 }
 
 /// What the ridges say against the speed.

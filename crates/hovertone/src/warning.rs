@@ -60,6 +60,13 @@ pub enum Warning {
         /// Fewest frames of a sample.
         frame_count: usize,
     },
+    /// Some rotors could not be told apart.
+    RotorsNotApart {
+        /// Rotors that are.
+        resolved: usize,
+        /// Rotors that there are.
+        of: u32,
+    },
     /// The ridge jumps between lines.
     SeveralLines {
         /// Spread of the ridge as a share of its mean.
@@ -92,6 +99,10 @@ impl Warning {
             Self::HoverShorterThanSample { .. } => "record a longer hover, or shorten the samples (length_s)",
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
+            Self::RotorsNotApart { .. } => {
+                "their mean and mean square stand all the same, with a wider uncertainty; a nearer microphone and higher \
+                 harmonics tell more apart"
+            }
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds and the loudest wins; a narrower --band follows one line"
             }
@@ -134,6 +145,7 @@ impl fmt::Display for Warning {
             }
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
             Self::FewFrames { frame_count } => write!(f, "a sample rests on {frame_count} frames only"),
+            Self::RotorsNotApart { resolved, of } => write!(f, "{resolved} of {of} rotors are told apart"),
             Self::SeveralLines { spread_share } => {
                 write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
             }

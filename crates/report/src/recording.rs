@@ -1,7 +1,7 @@
 //! What one recording said, and what it was.
 
 use crate::notice::Notice;
-use hovertone::{Config, Discovery, Outcome, Reading, RotorTone, Span, SpeedAnalysis, SpeedEstimate, ToneFamily};
+use hovertone::{Config, Discovery, Outcome, RotorEstimate, Reading, RotorTone, Span, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use serde::Serialize;
 
 /// What is known of a file that could be opened.
@@ -92,6 +92,11 @@ impl SpeedRecord {
     /// The speed by the configured method; none where several readings of the tone stay plausible.
     pub fn speed(&self) -> Option<&SpeedEstimate> {
         self.tone()?.speed(self.config.method).filter(|_| !self.is_ambiguous())
+    }
+
+    /// The rotors one by one, fastest first, where they were told apart.
+    pub fn rotors(&self) -> &[RotorEstimate] {
+        self.tone().filter(|_| !self.is_ambiguous()).map_or(&[], |tone| &tone.rotors)
     }
 
     /// Mean frequency of the tone that was followed, whether or not its order is settled.

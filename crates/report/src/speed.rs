@@ -6,7 +6,7 @@ use crate::number::{DASH, rounded, significant, uncertainty};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
-use hovertone::{Config, Hover, Method, Reading, SpeedEstimate, TrackPoint, UncertaintyTerm};
+use hovertone::{Config, Hover, Method, Reading, RotorEstimate, Span, SpeedEstimate, TrackPoint, UncertaintyTerm};
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
 
@@ -27,7 +27,11 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
     ]);
     for record in records {
         match record.speed() {
-            Some(speed) => table.push(cells_of_speed(record, speed)),
+            Some(speed) => {
+                table.push(cells_of_speed(record, speed));
+                let rotors = record.rotors().iter().enumerate();
+                rotors.for_each(|(index, rotor)| table.push(cells_of_rotor(index, rotor)));
+            }
             None if record.has_failed() => table.push_words(record.file.clone(), "could not be heard".to_owned()),
             None if record.is_ambiguous() => {
                 table.push_words(record.file.clone(), "a rotor tone that can mean:".to_owned());
@@ -51,6 +55,23 @@ fn cells_of_speed(record: &SpeedRecord, estimate: &SpeedEstimate) -> Vec<String>
         rounded(speed.rpm(), std.map(RotorSpeed::rpm)),
         rounded(speed.rad_s(), std.map(RotorSpeed::rad_s)),
         record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s)),
+    ]
+}
+
+/// One rotor of several.
+fn cells_of_rotor(index: usize, rotor: &RotorEstimate) -> Vec<String> {
+    let estimate = &rotor.speed;
+    let (speed, std_rev_s) = (estimate.speed, estimate.combined_std_uncertainty_rev_s());
+    let std = std_rev_s.map(RotorSpeed::from_rev_s);
+    vec![
+        format!("  rotor {}", index + 1),
+        rounded(speed.tone_hz(estimate.order), std.map(|std| std.tone_hz(estimate.order))),
+        rounded(speed.rev_s(), std_rev_s),
+        uncertainty(std_rev_s),
+        uncertainty(estimate.spread_rev_s),
+        rounded(speed.rpm(), std.map(RotorSpeed::rpm)),
+        rounded(speed.rad_s(), std.map(RotorSpeed::rad_s)),
+        String::new(),
     ]
 }
 
@@ -83,6 +104,10 @@ struct SpeedLine<'a> {
     combined_std_uncertainty_rev_s: Option<f64>,
     uncertainty_budget: Option<&'a [UncertaintyTerm]>,
     spread_rev_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mean_square_rad2_s2: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    rotors: Vec<RotorLine<'a>>,
     from_s: Option<f64>,
     to_s: Option<f64>,
     warnings: &'a [Notice],
@@ -99,6 +124,30 @@ struct SpeedLine<'a> {
     version: &'static str,
 }
 
+/// One rotor of several.
+#[derive(Serialize)]
+struct RotorLine<'a> {
+    speed_rev_s: f64,
+    std_uncertainty_rev_s: Option<f64>,
+    combined_std_uncertainty_rev_s: Option<f64>,
+    spread_rev_s: Option<f64>,
+    mean_square_rad2_s2: Option<f64>,
+    merged: &'a [Span],
+}
+
+impl<'a> From<&'a RotorEstimate> for RotorLine<'a> {
+    fn from(rotor: &'a RotorEstimate) -> Self {
+        Self {
+            speed_rev_s: rotor.speed.speed.rev_s(),
+            std_uncertainty_rev_s: rotor.speed.std_uncertainty_rev_s,
+            combined_std_uncertainty_rev_s: rotor.speed.combined_std_uncertainty_rev_s(),
+            spread_rev_s: rotor.speed.spread_rev_s,
+            mean_square_rad2_s2: rotor.speed.mean_square_rad2_s2,
+            merged: &rotor.merged,
+        }
+    }
+}
+
 /// A recording as one line of JSON, without the line feed.
 ///
 /// # Errors
@@ -109,7 +158,7 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
     serde_json::to_string(&SpeedLine {
         file: &record.file,
         status: record.status(),
-        method: record.config.method,
+        method: estimate.map_or(record.config.method, |estimate| estimate.method),
         order: (record.found.is_none() || estimate.is_some()).then_some(record.config.tone.order),
         tone_hz: record.tone_hz(),
         speed_rev_s: speed.map(RotorSpeed::rev_s),
@@ -119,6 +168,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         combined_std_uncertainty_rev_s: estimate.and_then(SpeedEstimate::combined_std_uncertainty_rev_s),
         uncertainty_budget: estimate.map(|estimate| estimate.budget.as_slice()),
         spread_rev_s: estimate.and_then(|estimate| estimate.spread_rev_s),
+        mean_square_rad2_s2: estimate.and_then(|estimate| estimate.mean_square_rad2_s2),
+        rotors: record.rotors().iter().map(RotorLine::from).collect(),
         from_s: used.map(|used| used.from_s),
         to_s: used.map(|used| used.to_s),
         warnings: &record.notices,
@@ -134,8 +185,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
     })
 }
 
-/// The track of every recording as CSV; with more than one, the file is the first column. A recording without a rotor
-/// tone has no line.
+/// The track of every recording as CSV; with more than one, the file is the first column. Rotors that were told apart have a line
+/// each, and their number, as in the table, in a column `rotor`. A recording without a rotor tone has no line.
 ///
 /// # Errors
 /// None that is known of: memory is written to.
@@ -149,15 +200,33 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
         speed_rev_s: f64,
         std_uncertainty_rev_s: f64,
         level_db: f64,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        rotor: Option<usize>,
     }
+    let has_rotors = records.iter().any(|record| !record.rotors().is_empty());
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
-    let columns = ["file", "time_s", "tone_hz", "speed_rev_s", "std_uncertainty_rev_s", "level_db"];
-    writer.write_record(&columns[usize::from(records.len() == 1)..])?;
+    let mut columns = vec!["time_s", "tone_hz", "speed_rev_s", "std_uncertainty_rev_s", "level_db"];
+    if records.len() != 1 {
+        columns.insert(0, "file");
+    }
+    if has_rotors {
+        columns.push("rotor");
+    }
+    writer.write_record(&columns)?;
     for record in records {
         let file = (records.len() != 1).then_some(record.file.as_str());
-        for point in record.tone().filter(|_| !record.is_ambiguous()).map_or(&[][..], |tone| &tone.track) {
+        let line = |point: &TrackPoint, rotor: Option<usize>| {
             let &TrackPoint { time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db } = point;
-            writer.serialize(Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db })?;
+            Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db, rotor }
+        };
+        let Some(tone) = record.tone().filter(|_| !record.is_ambiguous()) else { continue };
+        for (index, rotor) in tone.rotors.iter().enumerate() {
+            rotor.track.iter().try_for_each(|point| writer.serialize(line(point, Some(index + 1))))?;
+        }
+        if tone.rotors.is_empty() {
+            // among recordings whose rotors were told apart, one without has rotor 0: all of them together
+            let rotor = has_rotors.then_some(0);
+            tone.track.iter().try_for_each(|point| writer.serialize(line(point, rotor)))?;
         }
     }
     crate::samples::text_of(writer)

@@ -11,6 +11,7 @@ pub(crate) const CONSTANT_UNIT: &str = "N s²";
 /// A method as people call it.
 pub fn method_title(method: Method) -> &'static str {
     match method {
+        Method::Separated => "Rotors told apart",
         Method::Harmonic => "Harmonic likelihood",
         Method::MaximumTrace => "Maximum trace",
         Method::Gaussian => "Gaussian approximation",

@@ -3,7 +3,7 @@
 mod sound;
 
 use crate::accuracy::drawn;
-use hovertone::{Config, Outcome, Signal, ToneConfig, TrackPoint, speed_from_source};
+use hovertone::{Config, Method, Outcome, Signal, ToneConfig, TrackPoint, speed_from_source};
 use hovertone_vehicle::Order;
 use sound::{MEAN_REV_S, Rendered, Room, SAMPLE_RATE_HZ, Sound, rendered};
 use std::path::Path;
@@ -113,6 +113,7 @@ fn score(cell: &Cell, seed: u64) -> Option<Score> {
     tone.blades = cell.sound.has_blade_pass.then_some(2);
     let mut config = Config::for_tone(tone);
     config.rotors.count = 4;
+    config.method = Method::Separated;
     let started = Instant::now();
     let mut signal = Signal::new(rendered.samples.clone(), SAMPLE_RATE_HZ);
     let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).ok()?;

@@ -33,7 +33,7 @@ impl Peak {
     /// Frequency by a method.
     pub fn hz(&self, method: Method) -> f64 {
         match method {
-            Method::Harmonic | Method::MaximumTrace => self.maximum_hz,
+            Method::Harmonic | Method::Separated | Method::MaximumTrace => self.maximum_hz,
             Method::Gaussian => self.gaussian_hz,
         }
     }

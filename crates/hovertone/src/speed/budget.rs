@@ -68,6 +68,7 @@ mod tests {
             speed: RotorSpeed::from_rev_s(100.0),
             std_uncertainty_rev_s: Some(0.003),
             spread_rev_s: None,
+            mean_square_rad2_s2: None,
             frame_count: 1,
             harmonics: Vec::new(),
             budget: Vec::new(),

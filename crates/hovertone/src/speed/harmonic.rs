@@ -47,6 +47,7 @@ impl HarmonicTrack {
             speed: RotorSpeed::from_rev_s(mean_rev_s),
             std_uncertainty_rev_s: Some(variance.sqrt()),
             spread_rev_s,
+            mean_square_rad2_s2: None,
             frame_count: points.len(),
             budget: Vec::new(),
             harmonics: self

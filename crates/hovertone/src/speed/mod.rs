@@ -2,6 +2,7 @@
 
 mod budget;
 mod harmonic;
+mod separated;
 
 pub use budget::{UncertaintySource, UncertaintyTerm};
 
@@ -55,6 +56,9 @@ pub struct SpeedEstimate {
     pub std_uncertainty_rev_s: Option<f64>,
     /// Standard deviation of the speed over the frames: the wander of the flight and the noise of the method.
     pub spread_rev_s: Option<f64>,
+    /// Mean of the squared angular speed over time, and over the rotors where they are told apart: what carries the weight.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_square_rad2_s2: Option<f64>,
     /// Frames with a point.
     pub frame_count: usize,
     /// The harmonics that it comes from.
@@ -78,11 +82,20 @@ pub struct TrackPoint {
     pub level_db: f64,
 }
 
+impl SpeedEstimate {
+    /// The speed whose square carries the weight: the root of the mean square where that is known, else the mean.
+    pub fn speed_of_thrust(&self) -> RotorSpeed {
+        self.mean_square_rad2_s2.map_or(self.speed, |square| RotorSpeed::from_rad_s(square.sqrt()))
+    }
+}
+
 /// One rotor among several.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorEstimate {
     /// Its mean speed over all of the hover.
     pub speed: SpeedEstimate,
+    /// When it is closer to another rotor than can be told apart, or not heard.
+    pub merged: Vec<Span>,
     /// Its speed over time.
     pub track: Vec<TrackPoint>,
 }
@@ -165,6 +178,7 @@ impl<'a> HarmonicWeights<'a> {
             speed: RotorSpeed::from_rev_s(mean(&speeds)?),
             std_uncertainty_rev_s: std_uncertainty_of_mean(&speeds),
             spread_rev_s: std(&speeds),
+            mean_square_rad2_s2: None,
             frame_count: speeds.len(),
             budget: Vec::new(),
             harmonics: self
@@ -177,7 +191,7 @@ impl<'a> HarmonicWeights<'a> {
 
     /// The speed of every frame in which at least one harmonic has a point; `None` for a method that does not read ridges.
     pub(crate) fn track(&self, method: Method, order: Order) -> Option<Track> {
-        if method == Method::Harmonic {
+        if !method.reads_ridges() {
             return None;
         }
         let frame_count = self.used.first().map_or(0, |(ridge, _)| ridge.frames.len());

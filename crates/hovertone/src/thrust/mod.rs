@@ -98,7 +98,7 @@ impl TrialSpeeds {
         let sample = |sample: &SampleSpeeds| {
             sample.speed(method).map(|estimate| SampleSpeed {
                 span: sample.span,
-                speed: estimate.speed,
+                speed: estimate.speed_of_thrust(),
                 std_uncertainty_rev_s: estimate.std_uncertainty_rev_s,
                 spread_rev_s: estimate.spread_rev_s,
                 frame_count: estimate.frame_count,
@@ -114,7 +114,7 @@ pub struct SampleSpeed {
     /// When.
     #[serde(flatten)]
     pub span: Span,
-    /// Mean shaft speed.
+    /// Shaft speed: the mean, or where rotors are told apart the root of the mean square over them.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
     /// Standard uncertainty of the mean.

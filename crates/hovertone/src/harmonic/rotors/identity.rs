@@ -8,8 +8,8 @@
 /// another rotor's.
 const STEP_STD_REV_S: f64 = 0.05;
 const STEP_STD_REV_S_CLOSE: f64 = 0.15;
-/// A step costs no more than this: a jump is a jump.
-const STEP_COST_MAX: f64 = 25.0;
+/// Beyond this a step costs less than its square: rotors do jump in a gust, but a wide jump is never as good as a narrow one.
+const STEP_COST: f64 = 8.0;
 /// Slopes beyond this are not believed.
 const SLOPE_REV_S2_MAX: f64 = 6.0;
 /// How well the level of a line is known, in nepers, what one line may cost, and what its word counts beside the speeds': neighbouring
@@ -30,6 +30,8 @@ pub(super) struct TrackFrame {
     pub(super) slope_rev_s2: f64,
     /// Logarithm of each line's level; `None` where it is not apart from another rotor's.
     pub(super) levels: Vec<Option<f64>>,
+    /// Whether its lines are worth more than anything that is left beside all rotors.
+    pub(super) is_heard: bool,
 }
 
 /// What is known of the rotors from what came before.
@@ -176,7 +178,7 @@ fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64) -> Vec<
                 .map(|to| {
                     let expected = from.speed_rev_s + frame_s * (slope(from) + slope(to)) / 2.0;
                     let std = if from.is_close() || to.is_close() { STEP_STD_REV_S_CLOSE } else { STEP_STD_REV_S };
-                    ((to.speed_rev_s - expected) / std).powi(2).min(STEP_COST_MAX)
+                    STEP_COST * (((to.speed_rev_s - expected) / std).powi(2) / STEP_COST).ln_1p()
                 })
                 .collect()
         })
@@ -217,7 +219,7 @@ mod tests {
     use super::*;
 
     fn frame(speed_rev_s: f64, level: f64) -> TrackFrame {
-        TrackFrame { speed_rev_s, slope_rev_s2: 0.0, levels: vec![Some(level), Some(-level)] }
+        TrackFrame { speed_rev_s, levels: vec![Some(level), Some(-level)], ..TrackFrame::default() }
     }
 
     #[test]

@@ -22,7 +22,7 @@ use crate::channel::ChannelBand;
 use crate::span::Span;
 use atoms::{ChannelAtoms, atoms_of};
 use identity::{Identity, TrackFrame};
-use quantum::{HeardRotor, rotors_of_quantum};
+use quantum::{HeardRotor, resolution_rev_s, rotors_of_quantum};
 use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
 
@@ -38,7 +38,25 @@ pub(crate) struct RotorTracer {
     count: usize,
     planner: FftPlanner<f32>,
     identity: Identity,
-    rotors: Vec<HarmonicTrack>,
+    tracks: RotorTracks,
+}
+
+/// The tracks of several rotors.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RotorTracks {
+    pub(crate) rotors: Vec<RotorTrack>,
+    /// How far two rotors must be apart to be told so.
+    pub(crate) resolution_rev_s: f64,
+    /// How long was listened to.
+    pub(crate) length_s: f64,
+}
+
+/// One rotor.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RotorTrack {
+    pub(crate) track: HarmonicTrack,
+    /// When it is closer to another rotor than can be told apart, or not heard.
+    pub(crate) merged: Vec<Span>,
 }
 
 impl RotorTracer {
@@ -50,6 +68,7 @@ impl RotorTracer {
         let limits_rev_s =
             bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order));
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
+        let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, merged: Vec::new() };
         Self {
             floors: cutter.channels().iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect(),
             atoms: atoms_of(cutter.channels(), mesh_order),
@@ -57,7 +76,7 @@ impl RotorTracer {
             count,
             planner,
             identity: Identity::default(),
-            rotors: vec![HarmonicTrack { step_s, ..HarmonicTrack::default() }; count],
+            tracks: RotorTracks { rotors: vec![rotor; count], resolution_rev_s: resolution_rev_s(bands), length_s: 0.0 },
             cutter,
         }
     }
@@ -76,15 +95,15 @@ impl RotorTracer {
     }
 
     /// The rotors, in no order.
-    pub(crate) fn finish(mut self) -> Vec<HarmonicTrack> {
+    pub(crate) fn finish(mut self) -> RotorTracks {
         self.end_stretch();
-        self.rotors
+        self.tracks
     }
 
     fn end_stretch(&mut self) {
         if let Some((ticks, end_s)) = self.cutter.last_ticks() {
             self.take_quantum(ticks);
-            for last in self.rotors.iter_mut().filter_map(|rotor| rotor.blocks.last_mut()) {
+            for last in self.tracks.rotors.iter_mut().filter_map(|rotor| rotor.track.blocks.last_mut()) {
                 *last = last.until(end_s.min(last.span.to_s));
             }
         }
@@ -102,7 +121,18 @@ impl RotorTracer {
         let labelling = self.identity.labelled(&frames, frame_s);
         let blocks: Vec<Vec<HarmonicBlock>> =
             heard.iter().map(|rotor| self.blocks_of(rotor, (start_s, tick_s))).collect();
-        for (rotor, track) in self.rotors.iter_mut().enumerate() {
+        self.tracks.length_s += ticks as f64 * tick_s;
+        let resolution_rev_s = self.tracks.resolution_rev_s;
+        let is_apart = |rotor: usize, frame: usize| {
+            let of = |rotor: usize| &frames[labelling[frame][rotor]][frame];
+            let is_close = |other: usize| (of(other).speed_rev_s - of(rotor).speed_rev_s).abs() < resolution_rev_s;
+            // of two in one place the first stands for both
+            !(0..rotor).any(is_close) && (of(rotor).is_heard || (rotor + 1..labelling[frame].len()).any(is_close))
+        };
+        for (rotor, RotorTrack { track, merged }) in self.tracks.rotors.iter_mut().enumerate() {
+            for frame in (0..labelling.len()).filter(|&frame| !is_apart(rotor, frame)) {
+                extend(merged, Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s });
+            }
             // stretches in which the rotor keeps one track
             let mut from = 0;
             while let Some(first) = labelling.get(from) {
@@ -119,5 +149,13 @@ impl RotorTracer {
     fn blocks_of(&self, rotor: &HeardRotor, place: (f64, f64)) -> Vec<HarmonicBlock> {
         let fits = rotor.level.blocks.iter();
         fits.map(|fit| block_at(fit, true, place, (rotor.line_count, self.limits_rev_s))).collect()
+    }
+}
+
+/// Adds a span to those before it, of which it may continue the last.
+fn extend(spans: &mut Vec<Span>, span: Span) {
+    match spans.last_mut().filter(|last| span.from_s - last.to_s < span.length_s() / 2.0) {
+        Some(last) => last.to_s = span.to_s,
+        None => spans.push(span),
     }
 }

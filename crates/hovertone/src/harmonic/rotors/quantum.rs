@@ -8,8 +8,9 @@ use super::atoms::ChannelAtoms;
 use super::identity::{Identity, TrackFrame};
 use super::retrace::retraced;
 use super::search::{OffsetGrid, better_track, found_tracks, scores_of_frame};
-use super::separation::{SeparatedRotor, separated};
+use super::separation::{RESOLVED_CELLS, SeparatedRotor, separated};
 use super::spectra::{FRAME_TICKS, Spectra, frame_middle_ticks};
+use crate::channel::ChannelBand;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
@@ -26,9 +27,11 @@ const FRAME_S_MAX: f64 = 0.4;
 const FIRST_SWEEPS: usize = 1;
 const SWEEPS: usize = 2;
 /// Times that the rotors are taken apart and their paths drawn again.
-const RETRACES: usize = 2;
+const RETRACES: usize = 1;
 /// The search goes this far beyond what the first one found, as a share of the speed.
 const MARGIN_SHARE: f64 = 0.03;
+/// What is left of a line that does not keep its phase stands around it: a rotor must be worth more than this share of all that is left.
+const HIGH_SHARE: f64 = 0.95;
 /// Frames to either side over which the common speed is averaged.
 const COMMON_FRAMES: usize = 2;
 
@@ -39,6 +42,8 @@ pub(super) struct HeardRotor {
     path: SpeedPath,
     /// Level of each line in each frame.
     levels: Vec<Vec<f64>>,
+    /// In each frame, whether its lines are worth more than anything that is left.
+    are_heard: Vec<bool>,
 }
 
 impl HeardRotor {
@@ -54,6 +59,7 @@ impl HeardRotor {
                     speed_rev_s: self.path.speed_rev_s(middle),
                     slope_rev_s2: (after - before) / (2 * reach) as f64 / tick_s,
                     levels: self.levels.iter().map(|line| (line[frame] > 0.0).then(|| line[frame].ln())).collect(),
+                    is_heard: self.are_heard[frame],
                 }
             })
             .collect()
@@ -63,6 +69,12 @@ impl HeardRotor {
 /// Length of the frames of a line.
 fn frame_s_of_order(turns_s: f64) -> impl Fn(f64) -> f64 {
     move |order| (turns_s / order).sqrt().min(FRAME_S_MAX)
+}
+
+/// How far two rotors must be apart to be told so, by the line that tells it best.
+pub(super) fn resolution_rev_s(bands: &[ChannelBand]) -> f64 {
+    let finest = bands.iter().map(|band| band.order * frame_s_of_order(OWN_TURNS_S)(band.order)).fold(0.0, f64::max);
+    RESOLVED_CELLS / finest
 }
 
 /// The rotors of a quantum, in no order.
@@ -120,7 +132,7 @@ pub(super) fn rotors_of_quantum(
     });
     paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
 
-    for _ in 0..std::env::var("HT_IT").map_or(RETRACES, |v| v.parse().unwrap()) {
+    for _ in 0..RETRACES {
         let (rotors, _) = apart_along(&paths);
         let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
             let path = retraced(&rotor.lines, path, frame_s_of_order(OWN_TURNS_S));
@@ -129,16 +141,26 @@ pub(super) fn rotors_of_quantum(
         paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
     }
     let (rotors, _) = apart_along(&paths);
+    let nulls: Vec<f64> = scores.iter().map(|left| high_score(left)).collect();
     paths
         .into_iter()
         .zip(rotors)
-        .map(|(path, SeparatedRotor { lines, levels, .. })| {
+        .map(|(path, SeparatedRotor { lines, levels, worths })| {
             let level = joined(&lines, &path, &best_level(&lines, &path));
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or(path);
-            HeardRotor { line_count: lines.len(), level, path, levels }
+            let are_heard = worths.iter().zip(&nulls).map(|(worth, null)| worth > null).collect();
+            HeardRotor { line_count: lines.len(), level, path, levels, are_heard }
         })
         .collect()
+}
+
+/// What only a small share of a frame's speeds exceeds when all rotors have been taken away.
+fn high_score(scores: &[f64]) -> f64 {
+    let mut sorted = scores.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let place = (HIGH_SHARE * scores.len() as f64) as usize;
+    sorted.get(place).copied().unwrap_or(0.0)
 }
 
 /// Lowest and highest of all tracks, and a margin beyond.

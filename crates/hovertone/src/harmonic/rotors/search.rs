@@ -6,6 +6,7 @@ use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
 use realfft::num_complex::Complex;
+use std::ops::Range;
 
 /// Share of a line's energy that must be left to it by the others.
 const ENERGY_LEFT_MIN: f32 = 0.1;
@@ -124,18 +125,20 @@ pub(super) fn scores_of_frame(
 ) -> Vec<f64> {
     let mut scores = vec![0.0; grid.points];
     let mut products = vec![1.0f64; grid.points];
-    let mut levels = Vec::new();
+    let mut left = LeftBeside::default();
     for (index, (line, atoms)) in spectra.lines.iter().zip(atoms).enumerate() {
-        levels_beside(line, atoms, frame, spectra.common_rev_s[frame], others_rev_s, &mut levels);
-        let first = line.bin_of(line.order * grid.first_rev_s * line.frame_s);
-        let step = line.bin_of(line.order * grid.step_rev_s * line.frame_s) - line.bin_of(0.0);
-        let last = levels.len() - 2;
-        for (index, product) in products.iter_mut().enumerate() {
-            let place = (first + step * index as f64).max(0.0);
+        let bin_of = |point: usize| line.bin_of(line.order * (grid.first_rev_s + point as f64 * grid.step_rev_s) * line.frame_s);
+        let (first, step) = (bin_of(0), bin_of(1) - bin_of(0));
+        let from = (first.max(0.0) as usize).min(line.frame(frame).len() - 2);
+        let to = (bin_of(grid.points - 1) as usize + 2).clamp(from + 2, line.frame(frame).len());
+        left.take_away(line, atoms, (frame, from..to), spectra.common_rev_s[frame], others_rev_s);
+        let last = left.likelihoods.len() - 2;
+        for (point, product) in products.iter_mut().enumerate() {
+            let place = (first - from as f64 + step * point as f64).max(0.0);
             let bin = (place as usize).min(last);
             let share = (place - bin as f64).min(1.0) as f32;
-            let level = levels[bin] + share * (levels[bin + 1] - levels[bin]);
-            *product *= 1.0 + f64::from((level * level).min(LIKELIHOOD_MAX));
+            let likelihood = left.likelihoods[bin] + share * (left.likelihoods[bin + 1] - left.likelihoods[bin]);
+            *product *= 1.0 + f64::from(likelihood.min(LIKELIHOOD_MAX));
         }
         // one logarithm for many lines
         if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == spectra.lines.len() {
@@ -147,39 +150,62 @@ pub(super) fn scores_of_frame(
     scores
 }
 
-/// The root of what one line's likelihood is in each bin, once other rotors have been taken away.
-fn levels_beside(
-    line: &LineSpectra,
-    atoms: &ChannelAtoms,
-    frame: usize,
-    common_rev_s: f64,
-    others_rev_s: &[f64],
-    levels: &mut Vec<f32>,
-) {
-    let mut left: Vec<Complex<f32>> = line.frame(frame).to_vec();
-    let mut energy_left = vec![1.0f32; left.len()];
-    let (mut places, mut seen) = (Vec::new(), Vec::new());
-    for other in others_rev_s {
-        for order in &atoms.orders {
-            let cells = (order * (common_rev_s + other) - line.order * common_rev_s) * line.frame_s;
-            if let Some(z) = line.at(frame, cells) {
-                places.push(cells);
-                seen.push(z);
+/// A line's likelihood in some bins of a frame, once other rotors have been taken away.
+#[derive(Default)]
+struct LeftBeside {
+    likelihoods: Vec<f32>,
+    left: Vec<Complex<f32>>,
+    energy_left: Vec<f32>,
+    places: Vec<f64>,
+    seen: Vec<Complex<f64>>,
+}
+
+impl LeftBeside {
+    fn take_away(
+        &mut self,
+        line: &LineSpectra,
+        atoms: &ChannelAtoms,
+        (frame, bins): (usize, Range<usize>),
+        common_rev_s: f64,
+        others_rev_s: &[f64],
+    ) {
+        let Self { likelihoods, left, energy_left, places, seen } = self;
+        likelihoods.clear();
+        left.clear();
+        left.extend_from_slice(&line.frame(frame)[bins.clone()]);
+        places.clear();
+        seen.clear();
+        let reached = line.cells_of(bins.start) - REACH_CELLS..line.cells_of(bins.end) + REACH_CELLS;
+        for other in others_rev_s {
+            for order in &atoms.orders {
+                let cells = (order * (common_rev_s + other) - line.order * common_rev_s) * line.frame_s;
+                if let Some(z) = line.at(frame, cells).filter(|_| reached.contains(&cells)) {
+                    places.push(cells);
+                    seen.push(z);
+                }
             }
         }
-    }
-    for (cells, amplitude) in places.iter().zip(Mixture::of_steady(&places).amplitudes(&seen)) {
-        let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
-        let from = line.bin_of(cells - REACH_CELLS).ceil().max(0.0) as usize;
-        let to = (line.bin_of(cells + REACH_CELLS).floor() as usize + 1).min(left.len());
-        let lobes = HannLobes::from(line.cells_of(from) - cells, line.cells_of(1) - line.cells_of(0));
-        for ((left, energy), lobe) in left[from..to].iter_mut().zip(&mut energy_left[from..to]).zip(lobes) {
-            *left -= amplitude * lobe;
-            *energy *= 1.0 - lobe * lobe;
+        if places.is_empty() {
+            likelihoods.extend(left.iter().map(Complex::norm_sqr));
+            return;
         }
+        energy_left.clear();
+        energy_left.resize(left.len(), 1.0);
+        for (cells, amplitude) in places.iter().zip(Mixture::of_steady(places).amplitudes(seen)) {
+            let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
+            let bin_of = |cells: f64| line.bin_of(cells) - bins.start as f64;
+            let from = bin_of(cells - REACH_CELLS).ceil().max(0.0) as usize;
+            let to = ((bin_of(cells + REACH_CELLS).floor() + 1.0).max(0.0) as usize).min(left.len());
+            if from >= to {
+                continue;
+            }
+            let lobes = HannLobes::from(line.cells_of(bins.start + from) - cells, line.cells_of(1) - line.cells_of(0));
+            for ((left, energy), lobe) in left[from..to].iter_mut().zip(&mut energy_left[from..to]).zip(lobes) {
+                *left -= amplitude * lobe;
+                *energy *= 1.0 - lobe * lobe;
+            }
+        }
+        likelihoods.extend(left.iter().zip(energy_left).map(|(z, energy)| z.norm_sqr() / energy.max(ENERGY_LEFT_MIN)));
     }
-    levels.clear();
-    levels.extend(
-        left.iter().zip(&energy_left).map(|(z, energy)| (z.norm_sqr() / energy.max(ENERGY_LEFT_MIN)).sqrt()),
-    );
 }
+
