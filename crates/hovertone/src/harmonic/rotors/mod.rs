@@ -146,9 +146,26 @@ impl RotorTracer {
         }
     }
 
+    /// The blocks of a rotor. One in which its lines do not keep their phase, or are too weak for that, is the line that the search
+    /// followed, known as well as the search resolves.
     fn blocks_of(&self, rotor: &HeardRotor, place: (f64, f64)) -> Vec<HarmonicBlock> {
         let fits = rotor.level.blocks.iter();
-        fits.map(|fit| block_at(fit, true, place, (rotor.line_count, self.limits_rev_s))).collect()
+        fits.map(|fit| {
+            let block = block_at(fit, true, place, (rotor.line_count, self.limits_rev_s));
+            if block.is_heard {
+                return block;
+            }
+            let (from, to) = (rotor.traced.speed_rev_s(fit.tick_from), rotor.traced.speed_rev_s(fit.tick_to));
+            HarmonicBlock {
+                speed_rev_s: (from + to) / 2.0,
+                slope_rev_s2: (to - from) / block.span.length_s(),
+                std_uncertainty_rev_s: self.tracks.resolution_rev_s,
+                step_to_next_turns: None,
+                is_heard: true,
+                ..block
+            }
+        })
+        .collect()
     }
 }
 

@@ -39,6 +39,8 @@ const COMMON_FRAMES: usize = 2;
 pub(super) struct HeardRotor {
     pub(super) line_count: usize,
     pub(super) level: Level,
+    /// Its path as the search has it, and as the blocks that stand out of the noise have it.
+    pub(super) traced: SpeedPath,
     path: SpeedPath,
     /// Level of each line in each frame.
     levels: Vec<Vec<f64>>,
@@ -148,9 +150,10 @@ pub(super) fn rotors_of_quantum(
         .map(|(path, SeparatedRotor { lines, levels, worths })| {
             let level = joined(&lines, &path, &best_level(&lines, &path));
             let points = level.points(likelihood_min(lines.len()), tick_s);
-            let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or(path);
+            let traced = path;
+            let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or_else(|| traced.clone());
             let are_heard = worths.iter().zip(&nulls).map(|(worth, null)| worth > null).collect();
-            HeardRotor { line_count: lines.len(), level, path, levels, are_heard }
+            HeardRotor { line_count: lines.len(), level, traced, path, levels, are_heard }
         })
         .collect()
 }
