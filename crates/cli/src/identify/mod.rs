@@ -73,9 +73,10 @@ pub(crate) fn identify(
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
     let experiment = &source.experiment;
+    let settings = experiment.thrust_settings();
     let tables = Method::ALL
         .iter()
-        .map(|&method| thrust_from_loads(&loads_of(experiment, &inputs, method), method, experiment.rotor_count))
+        .map(|&method| thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings))
         .collect();
     Ok(Identified { source, method, inputs, tables })
 }

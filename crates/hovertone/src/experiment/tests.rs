@@ -38,11 +38,14 @@ fn a_preset_fills_what_the_file_leaves_out() {
     assert_eq!((experiment.rotor_count, experiment.loads.len()), (4, 2));
     assert_eq!(experiment.config.tone.blades, Some(2));
     assert!(experiment.config.tone.speed_max.rev_s() < 200.0, "the preset's range narrows the search");
-    let Force::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, gravity_m_s2 } = experiment.loads[1].force else {
+    let Force::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, gravity_m_s2, gravity_std_m_s2 } =
+        experiment.loads[1].force
+    else {
         panic!("a hover has a weight");
     };
     assert_eq!((vehicle_mass_kg, added_mass_kg, mass_std_kg), (0.413, 0.031, 0.0005));
     assert!((gravity_m_s2 - 9.7848).abs() < 1e-4);
+    assert_eq!(gravity_std_m_s2, 0.0005);
 }
 
 #[test]
