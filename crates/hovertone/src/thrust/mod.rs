@@ -4,6 +4,8 @@
 mod balance;
 mod bootstrap;
 mod budget;
+#[cfg(test)]
+mod campaign_tests;
 mod drift;
 mod fit;
 mod load_points;
