@@ -49,10 +49,11 @@ pub use spectrogram::{Frame, Stft, Window};
 pub use speed::{HarmonicSpeed, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm};
 pub use stream::Progress;
 pub use thrust::{
-    Air, BudgetInput, BudgetLine, COVERAGE_FACTOR, Drift, DriftKind, Force, ForceLaw, ForcePoint,
-    GRAVITY_STANDARD_M_S2, InterceptLaw, LawAgreement, LawProbability, LoadRange, LoadSpeeds, LoadThrust, PointNoise,
-    PointVerdict, PowerLaw, SampleSpeed, SampleThrust, SquareLawFit, ThrustCoefficients, ThrustSettings, ThrustTable,
-    TrialBootstrap, TrialSpeeds, TrialThrust, UncertaintyBudget, UncertaintyInputs, gravity_m_s2, square_law_fit,
+    Air, BudgetInput, BudgetLine, COVERAGE_FACTOR, Drift, DriftKind, FlightPlan, Force, ForceLaw, ForcePoint,
+    GRAVITY_STANDARD_M_S2, HeardHover, InterceptLaw, LawAgreement, LawProbability, LoadRange, LoadSpeeds, LoadThrust,
+    PlanError, PlanWish, PointNoise, PointVerdict, PowerLaw, SampleSpeed, SampleThrust, SquareLawFit,
+    ThrustCoefficients, ThrustSettings, ThrustTable, TrialBootstrap, TrialSpeeds, TrialThrust, UncertaintyBudget,
+    UncertaintyInputs, figure_of_merit, flight_plan, gravity_m_s2, mass_from_hover, square_law_fit,
     thrust_constant_n_s2, thrust_from_loads,
 };
 pub use tone::{Band, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};

@@ -3,7 +3,7 @@
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
 use crate::config::{Config, SpanConfig, ToneConfig};
 use crate::method::Method;
-use crate::thrust::{Force, GRAVITY_STANDARD_M_S2, gravity_m_s2};
+use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, gravity_m_s2};
 use hovertone_vehicle::{Order, Vehicle, find_preset};
 
 /// A mass this many times off the preset's was written in grams, or is another vehicle's.
@@ -48,8 +48,13 @@ impl ExperimentFile {
             self.loads.iter().map(|load| self.resolve_load(load, preset, rotor_count)).collect::<Result<_, _>>()?;
         let own_diameter_m = self.vehicle.propeller_diameter_m;
         own_diameter_m.map_or(Ok(0.0), |diameter_m| positive("vehicle.propeller_diameter_m", diameter_m))?;
-        if let Some(air) = self.air {
+        // the place that gives gravity also gives the air's pressure, where no barometer was read
+        let air = self.air.map(|air| Air { height_m: air.height_m.or(self.vehicle.height_m), ..air });
+        if let Some(air) = air {
             air.check()?;
+            if air.pressure_hpa.is_none() && air.height_m.is_none() {
+                return Err(missing("air.pressure_hpa", "write the pressure at the place, or air.height_m"));
+            }
         }
         self.uncertainty.check()?;
         Ok(Experiment {
@@ -58,7 +63,7 @@ impl ExperimentFile {
             propeller_diameter_m: own_diameter_m
                 .or_else(|| preset.and_then(|preset| Some(preset.propeller_diameter_m.as_ref()?.value))),
             config,
-            air: self.air,
+            air,
             uncertainty: self.uncertainty,
             loads,
         })

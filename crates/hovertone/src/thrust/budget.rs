@@ -12,6 +12,9 @@ use serde::Serialize;
 /// Coverage factor of the expanded uncertainty: about 95 %.
 pub const COVERAGE_FACTOR: f64 = 2.0;
 
+/// The t distribution of fewer degrees of freedom has no standard deviation; that of this many is taken.
+const FREEDOM_MIN: f64 = 3.0;
+
 /// Inputs of a thrust constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -274,7 +277,8 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     let per_rad_s = -2.0 * sensitivity.constant_n_s2 / rad_s;
     let freedom = campaign.speed_freedom;
     // a mean of few trials is more uncertain than its standard error (JCGM 101: the t distribution's standard deviation)
-    let few = if freedom > 2.0 { (freedom / (freedom - 2.0)).sqrt() } else { 1.0 };
+    let known = freedom.max(FREEDOM_MIN);
+    let few = (known / (known - 2.0)).sqrt();
     let statistics = few
         * 2.0
         * sensitivity.independent(campaign, |load| {

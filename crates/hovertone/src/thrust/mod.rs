@@ -1,33 +1,41 @@
 //! Speeds and known forces → thrust constant: the square law through all loads with its uncertainty budget, and per sample, per
 //! trial and per load as the paper averages.
 
+mod air;
 mod balance;
 mod bootstrap;
 mod budget;
 #[cfg(test)]
 mod campaign_tests;
+mod dimensionless;
 mod drift;
 mod fit;
 mod load_points;
 mod load_range;
+mod plan;
 mod point_verdict;
 mod square_law;
 #[cfg(test)]
 mod tests;
 mod uncertainty_inputs;
+mod weighing;
 
-pub use balance::{Air, GRAVITY_STANDARD_M_S2, ThrustCoefficients, gravity_m_s2, thrust_constant_n_s2};
+pub use air::Air;
+pub use balance::{GRAVITY_STANDARD_M_S2, gravity_m_s2, thrust_constant_n_s2};
 pub use bootstrap::TrialBootstrap;
 pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget};
+pub use dimensionless::{ThrustCoefficients, figure_of_merit};
 pub use drift::{Drift, DriftKind};
 pub use fit::thrust_from_loads;
 pub use load_range::LoadRange;
+pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
 pub use point_verdict::PointVerdict;
 pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, PointNoise, PowerLaw, SquareLawFit,
     square_law_fit,
 };
 pub use uncertainty_inputs::UncertaintyInputs;
+pub use weighing::{HeardHover, mass_from_hover};
 
 use crate::budget_config::BudgetConfig;
 use crate::method::Method;
