@@ -6,9 +6,11 @@
 //! recording   what one recording said                     speed        its table row, its JSON, its track
 //! thrust      the paper's tables, any vehicle             results      results.json, samples.csv
 //! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
+//! adequacy    how well the square law holds, the laws beside it, the uncertainty budget
 //! flight      what a simulated flight was like            tones        tone families and what each can mean
 //! ```
 
+mod adequacy;
 mod comparison;
 mod cuts;
 mod flight;
@@ -23,6 +25,7 @@ mod thrust;
 mod tones;
 mod vehicles;
 
+pub use adequacy::{adequacy_text, laws_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use cuts::cuts_in_words;
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};

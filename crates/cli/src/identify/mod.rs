@@ -13,7 +13,8 @@ use crate::speed::ending_of;
 use crate::terminal::Terminal;
 use hovertone::{Experiment, LoadSpeeds, Method, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
-    Identification, InputRecord, Notice, method_title, results_json, samples_csv, thrust_summary, thrust_table,
+    Identification, InputRecord, Notice, adequacy_text, method_title, results_json, samples_csv, thrust_summary,
+    thrust_table,
 };
 use recordings::jobs_of;
 use std::fs;
@@ -90,6 +91,7 @@ fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> 
             name: load.name.clone(),
             force: load.force,
             rotors_running: load.rotors_running,
+            power_w: load.power_w,
             trials: inputs
                 .iter()
                 .filter(|input| input.load == load.name)
@@ -124,8 +126,8 @@ impl Identified {
 
     /// The answer under the tables.
     pub(crate) fn summary(&self) -> String {
-        let experiment = &self.source.experiment;
-        thrust_summary(&self.tables, self.method, experiment.air, experiment.propeller_diameter_m)
+        thrust_summary(&self.tables, self.method)
+            + &self.identification().reported().map_or(String::new(), adequacy_text)
     }
 
     fn in_words(&self) -> String {

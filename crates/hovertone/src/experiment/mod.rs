@@ -126,6 +126,8 @@ pub struct LoadSection {
     pub thrust_std_n: Option<f64>,
     /// Rotors that run; all of them in a hover.
     pub rotors_running: Option<u32>,
+    /// Power that they take together, for the figure of merit.
+    pub power_w: Option<f64>,
     /// Its recordings: names or patterns.
     pub recordings: Vec<String>,
     /// Start of the part to use, in every recording of this load.
@@ -162,6 +164,8 @@ pub struct ExperimentLoad {
     pub force: Force,
     /// How many rotors balance it.
     pub rotors_running: u32,
+    /// Power that they take together, where known.
+    pub power_w: Option<f64>,
     /// Names or patterns of its recordings.
     pub recordings: Vec<String>,
     /// Which part of them is used.
@@ -173,6 +177,7 @@ impl Experiment {
     pub fn thrust_settings(&self) -> ThrustSettings {
         ThrustSettings {
             propeller_diameter_m: self.propeller_diameter_m,
+            air_density_kg_m3: self.air.map(|air| air.density_kg_m3()),
             clock_ppm: self.config.budget.clock_ppm,
             uncertainty: self.uncertainty,
             ..ThrustSettings::for_rotors(self.rotor_count)

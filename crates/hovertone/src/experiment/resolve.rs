@@ -125,7 +125,15 @@ impl ExperimentFile {
         }
         let span = SpanConfig { from_s: load.from_s, to_s: load.to_s };
         span.check()?;
-        Ok(ExperimentLoad { name: load.name.clone(), force, rotors_running, recordings: load.recordings.clone(), span })
+        let power_w = load.power_w.map(|power_w| positive(&named("power_w"), power_w)).transpose()?;
+        Ok(ExperimentLoad {
+            name: load.name.clone(),
+            force,
+            rotors_running,
+            power_w,
+            recordings: load.recordings.clone(),
+            span,
+        })
     }
 
     fn weight(

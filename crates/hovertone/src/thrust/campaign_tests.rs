@@ -41,6 +41,7 @@ fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds {
         name: name.to_owned(),
         force,
         rotors_running: 4,
+        power_w: None,
         trials: trials_rad_s.iter().enumerate().map(trial).collect(),
     }
 }

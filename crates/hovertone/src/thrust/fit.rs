@@ -2,6 +2,7 @@
 
 use super::bootstrap::trial_bootstrap;
 use super::budget::budget_of_fit;
+use super::dimensionless::{ThrustCoefficients, figure_of_merit};
 use super::drift::drifts;
 use super::load_points::{Campaign, HeardLoad, whole_vehicle_factor};
 use super::point_verdict::PointVerdict;
@@ -34,14 +35,23 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
     let campaign = Campaign::of(loads, rotor_count);
     let fit = square_law_fit(&campaign.points, campaign.noise).ok();
     let budget = fit.as_ref().map(|fit| budget_of_fit(&campaign, fit, settings));
-    let rows = rows(loads, &campaign, fit.as_ref(), rotor_count);
+    let rows = rows(loads, &campaign, fit.as_ref(), settings);
     let plain = mean_over_loads(&campaign, &rows);
     let trials: usize = campaign.loads.iter().map(|load| load.trials_rad_s.len()).sum();
     let total = fit.as_ref().zip(budget.as_ref()).map(|(fit, budget)| answer(fit, budget, trials)).or(plain);
     let per_rotor = total.map(|total| total.scaled(1.0 / f64::from(rotor_count)));
+    let air = settings.propeller_diameter_m.zip(settings.air_density_kg_m3);
+    let coefficients = per_rotor
+        .zip(air)
+        .map(|(constant, (diameter_m, density))| ThrustCoefficients::of_rotor(constant.value, diameter_m, density));
     let drifts = drifts(&campaign);
     let mut warnings = warnings_of(loads, &campaign, &rows, fit.as_ref());
     warnings.extend(drifts.iter().copied().map(Warning::ConstantDrifts));
+    warnings.extend(
+        coefficients
+            .filter(|coefficients| !coefficients.is_plausible)
+            .map(|coefficients| Warning::ImplausibleThrustCoefficient { propeller: coefficients.propeller }),
+    );
     if settings.follows_loudest && loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
         warnings.push(Warning::LoudestRotor);
     }
@@ -53,6 +63,7 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
         thrust_constant_total_n_s2: total,
         thrust_constant_per_rotor_n_s2: per_rotor,
         plain_mean_total_n_s2: plain,
+        coefficients,
         fit,
         budget,
         drifts,
@@ -73,13 +84,13 @@ fn rows(
     loads: &[LoadSpeeds],
     campaign: &Campaign<'_>,
     fit: Option<&SquareLawFit>,
-    rotor_count: u32,
+    settings: &ThrustSettings,
 ) -> Vec<LoadThrust> {
     let row = |(index, load): (usize, &LoadSpeeds)| {
         let place = campaign.loads.iter().position(|heard| heard.index == index);
         let heard = place.and_then(|place| campaign.loads.get(place));
         let verdict = place.and_then(|place| fit?.points.get(place));
-        row_of_load(load, heard, verdict, rotor_count)
+        row_of_load(load, heard, verdict, settings)
     };
     loads.iter().enumerate().map(row).collect()
 }
@@ -88,8 +99,9 @@ fn row_of_load(
     load: &LoadSpeeds,
     heard: Option<&HeardLoad<'_>>,
     verdict: Option<&PointVerdict>,
-    rotor_count: u32,
+    settings: &ThrustSettings,
 ) -> LoadThrust {
+    let rotor_count = settings.rotor_count.max(1);
     let force_n = load.force.newtons();
     let factor = whole_vehicle_factor(load.rotors_running, rotor_count);
     let constant = |speed: RotorSpeed| factor * thrust_constant_n_s2(force_n, speed);
@@ -122,11 +134,19 @@ fn row_of_load(
         thrust_constant_total_n_s2: total,
         thrust_constant_per_rotor_n_s2: total.map(|total| total.scaled(1.0 / f64::from(rotor_count))),
         fits: verdict.and_then(|verdict| verdict.fits),
+        figure_of_merit: figure_of_merit_of(load, settings),
         p_value: verdict.and_then(|verdict| verdict.p_value),
         mass_that_fits_kg: mass_of(verdict.and_then(|verdict| verdict.force_that_fits_n)),
         mass_that_fits_std_kg: mass_of(verdict.and_then(|verdict| verdict.force_that_fits_std_n)),
         trials,
     }
+}
+
+/// Of one of the rotors that run, which share thrust and power alike.
+fn figure_of_merit_of(load: &LoadSpeeds, settings: &ThrustSettings) -> Option<f64> {
+    let running = f64::from(load.rotors_running.max(1));
+    let (thrust_n, power_w) = (load.force.newtons() / running, load.power_w? / running);
+    Some(figure_of_merit(thrust_n, power_w, settings.propeller_diameter_m?, settings.air_density_kg_m3?))
 }
 
 fn row_of_trial(trial: &TrialSpeeds, constant: &dyn Fn(RotorSpeed) -> f64) -> TrialThrust {

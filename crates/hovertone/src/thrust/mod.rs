@@ -109,6 +109,8 @@ pub struct ThrustSettings {
     pub rotor_count: u32,
     /// Diameter of its propellers, where known.
     pub propeller_diameter_m: Option<f64>,
+    /// Density of the air, where known.
+    pub air_density_kg_m3: Option<f64>,
     /// How far the recorder's clock may be off, in millionths: a half width.
     pub clock_ppm: f64,
     /// Whether the speeds are those of a single ridge, which follows the loudest rotor.
@@ -123,6 +125,7 @@ impl ThrustSettings {
         Self {
             rotor_count,
             propeller_diameter_m: None,
+            air_density_kg_m3: None,
             clock_ppm: BudgetConfig::default().clock_ppm,
             follows_loudest: true,
             uncertainty: UncertaintyInputs::default(),
@@ -139,6 +142,8 @@ pub struct LoadSpeeds {
     pub force: Force,
     /// How many rotors balance it.
     pub rotors_running: u32,
+    /// Power that they take together, where known.
+    pub power_w: Option<f64>,
     /// Its trials.
     pub trials: Vec<TrialSpeeds>,
 }
@@ -204,6 +209,8 @@ pub struct ThrustTable {
     pub fit: Option<SquareLawFit>,
     /// All that makes the constant of the whole vehicle uncertain.
     pub budget: Option<UncertaintyBudget>,
+    /// The constant of one rotor without its dimension, where air and diameter are known.
+    pub coefficients: Option<ThrustCoefficients>,
     /// Its scatter when trials are drawn anew: to be compared with what the budget says of the speeds.
     pub bootstrap: Option<TrialBootstrap>,
     /// What drifts beyond chance.
@@ -236,6 +243,8 @@ pub struct LoadThrust {
     pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
     /// Whether it agrees with the other loads; absent where there is nothing to compare.
     pub fits: Option<bool>,
+    /// Figure of merit, where power, air and diameter are known.
+    pub figure_of_merit: Option<f64>,
     /// Chance that a right load is as far from the others as this one.
     pub p_value: Option<f64>,
     /// Mass that would agree with the other loads, where this one does not …

@@ -157,6 +157,7 @@ fn expected(wish: &PlanWish, load_count: usize, trials_per_load: usize, trial_s:
                     gravity_std_m_s2: wish.gravity_std_m_s2,
                 },
                 rotors_running: wish.settings.rotor_count,
+                power_w: None,
                 trials: (0..trials_per_load).map(trial).collect(),
             }
         })

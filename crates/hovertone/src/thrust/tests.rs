@@ -39,6 +39,7 @@ fn load(name: &str, mass_g: f64, rpm: f64, std_rpm: f64) -> LoadSpeeds {
             gravity_std_m_s2: 0.0,
         },
         rotors_running: 4,
+        power_w: None,
         trials: trials.to_vec(),
     }
 }
