@@ -12,6 +12,8 @@ pub struct IdentifiedRotor {
     pub thrust_constant_n_s2: f64,
     /// Its expanded uncertainty, k = 2; absent where nothing tells.
     pub expanded_uncertainty_n_s2: Option<f64>,
+    /// Constant of the whole vehicle by weighing and speeds alone: its standard uncertainty.
+    pub measured_std_total_n_s2: Option<f64>,
     /// Rotors of the vehicle.
     pub rotor_count: u32,
     /// Mass of the vehicle without added load; absent where only bench runs were heard.
@@ -28,6 +30,8 @@ pub struct IdentifiedRotor {
     pub torque_constant_n_m_s2: Option<f64>,
     /// Command (0 to 1) at which it hovers, where somebody read it.
     pub hover_command: Option<f64>,
+    /// Order of the tone by which it was heard.
+    pub tone_order: Option<f64>,
     /// Where the numbers come from, for a comment.
     pub origin: String,
 }
@@ -89,34 +93,39 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
     let constant: Option<Constant> = serde_json::from_value(constant.clone())?;
     let constant = constant.ok_or(ResultsError::NothingIdentified)?;
     positive("thrust_constant_per_rotor_n_s2", constant.value)?;
-    let experiment = results.pointer("/settings/experiment");
-    let experiment = experiment.ok_or(ResultsError::Missing { what: "settings.experiment" })?;
-    let rotor_count = experiment.get("rotor_count").and_then(Value::as_u64).and_then(|count| u32::try_from(count).ok());
-    let rotor_count = rotor_count.ok_or(ResultsError::Missing { what: "settings.experiment.rotor_count" })?;
+    let number_at = |pointer: &str| results.pointer(pointer).and_then(Value::as_f64);
+    // of `identify`, or of `fit`
+    let rotor_count = results.pointer("/settings/experiment/rotor_count").or_else(|| results.get("rotor_count"));
+    let rotor_count = rotor_count.and_then(Value::as_u64).and_then(|count| u32::try_from(count).ok());
+    let rotor_count = rotor_count.ok_or(ResultsError::Missing { what: "the number of rotors" })?;
     positive("rotor_count", f64::from(rotor_count))?;
-    let budgeted = results.pointer("/uncertainty_budget/expanded_uncertainty_n_s2").and_then(Value::as_f64);
-    let hover = unladen_hover(&results, experiment);
-    let text_at = |pointer: &str| results.pointer(pointer).and_then(Value::as_str).unwrap_or("?").to_owned();
+    let budgeted = number_at("/uncertainty_budget/expanded_uncertainty_n_s2");
+    let hover = results.pointer("/settings/experiment").and_then(|experiment| unladen_hover(&results, experiment));
+    let text = |pointer: &str| results.pointer(pointer).and_then(Value::as_str);
+    let file = text("/settings/file").or(text("/file")).unwrap_or("?");
+    let sha256 = text("/settings/sha256").or(text("/sha256")).unwrap_or("?");
     Ok(IdentifiedRotor {
-        vehicle_name: experiment.get("vehicle_name").and_then(Value::as_str).unwrap_or("vehicle").to_owned(),
+        vehicle_name: text("/settings/experiment/vehicle_name").or(text("/group")).unwrap_or("vehicle").to_owned(),
         thrust_constant_n_s2: constant.value,
         expanded_uncertainty_n_s2: budgeted
             .map(|total| total / f64::from(rotor_count))
             .or(constant.std_uncertainty.map(|std| 2.0 * std)),
+        measured_std_total_n_s2: constant.std_uncertainty.map(|std| std * f64::from(rotor_count)),
         rotor_count,
         mass_kg: hover.map(|hover| hover.mass_kg),
         hover_speed_rad_s: hover.and_then(|hover| hover.speed_rad_s),
         gravity_m_s2: hover.map_or(9.80665, |hover| hover.gravity_m_s2),
-        propeller_diameter_m: experiment.get("propeller_diameter_m").and_then(Value::as_f64),
-        air_density_kg_m3: results.pointer("/thrust_coefficients/density_kg_m3").and_then(Value::as_f64),
-        torque_constant_n_m_s2: None,
+        propeller_diameter_m: number_at("/settings/experiment/propeller_diameter_m")
+            .or(number_at("/propeller_diameter_m")),
+        air_density_kg_m3: number_at("/thrust_coefficients/density_kg_m3"),
+        torque_constant_n_m_s2: number_at("/torque_constant_per_rotor_n_m_s2"),
         hover_command: None,
+        tone_order: number_at("/settings/experiment/config/tone/order"),
         origin: format!(
-            "hovertone {} from {} (sha256 {}), method {}",
-            text_at("/version"),
-            text_at("/settings/file"),
-            text_at("/settings/sha256").chars().take(12).collect::<String>(),
-            text_at("/method")
+            "hovertone {} from {file} (sha256 {}){}",
+            text("/version").unwrap_or("?"),
+            sha256.chars().take(12).collect::<String>(),
+            text("/method").map_or(String::new(), |method| format!(", method {method}"))
         ),
     })
 }

@@ -50,11 +50,11 @@ pub use speed::{HarmonicSpeed, SpeedEstimate, TrackPoint, UncertaintySource, Unc
 pub use stream::Progress;
 pub use thrust::{
     Air, BudgetInput, BudgetLine, COVERAGE_FACTOR, Drift, DriftKind, FlightPlan, Force, ForceLaw, ForcePoint,
-    GRAVITY_STANDARD_M_S2, HeardHover, InterceptLaw, LawAgreement, LawProbability, LoadRange, LoadSpeeds, LoadThrust,
-    PlanError, PlanWish, PointNoise, PointVerdict, PowerLaw, SampleSpeed, SampleThrust, SquareLawFit,
+    GRAVITY_STANDARD_M_S2, Gravity, HeardHover, InterceptLaw, LawAgreement, LawProbability, LoadRange, LoadSpeeds,
+    LoadThrust, PlanError, PlanWish, PointNoise, PointVerdict, PowerLaw, SampleSpeed, SampleThrust, SquareLawFit,
     ThrustCoefficients, ThrustSettings, ThrustTable, TrialBootstrap, TrialSpeeds, TrialThrust, UncertaintyBudget,
-    UncertaintyInputs, figure_of_merit, flight_plan, gravity_m_s2, mass_from_hover, square_law_fit,
-    thrust_constant_n_s2, thrust_from_loads,
+    UncertaintyInputs, WeighedHover, figure_of_merit, flight_plan, gravity_m_s2, square_law_fit, thrust_constant_n_s2,
+    thrust_from_loads, torque_constant_n_m_s2, warnings_of_points, weighed_hover,
 };
 pub use tone::{Band, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use verdict::NoTone;

@@ -5,12 +5,13 @@ mod recordings;
 
 pub(crate) use experiment_file::ExperimentSource;
 
-use crate::args::{HearingArguments, IdentifyArguments};
+use crate::args::HearingArguments;
 use crate::failure::{Ending, Failure};
 use crate::progress::Progress;
 use crate::recording::{Hearing, hear_all};
 use crate::speed::ending_of;
 use crate::terminal::Terminal;
+use crate::thrust_args::IdentifyArguments;
 use hovertone::{Experiment, LoadSpeeds, Method, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
     Identification, InputRecord, Notice, adequacy_text, method_title, results_json, samples_csv, thrust_summary,

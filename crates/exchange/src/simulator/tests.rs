@@ -8,6 +8,8 @@ fn rotor() -> IdentifiedRotor {
         vehicle_name: "Parrot AR.Drone (the paper's) -- test".to_owned(),
         thrust_constant_n_s2: 7.07753e-6,
         expanded_uncertainty_n_s2: Some(1.4e-7),
+        measured_std_total_n_s2: None,
+        tone_order: None,
         rotor_count: 4,
         mass_kg: Some(0.413),
         hover_speed_rad_s: Some(378.07),

@@ -3,7 +3,7 @@
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
 use crate::config::{Config, SpanConfig, ToneConfig};
 use crate::method::Method;
-use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, gravity_m_s2};
+use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, Gravity};
 use hovertone_vehicle::{Order, Vehicle, find_preset};
 
 /// A mass this many times off the preset's was written in grams, or is another vehicle's.
@@ -11,11 +11,6 @@ const MASS_FACTOR_MAX: f64 = 10.0;
 /// Gravity is 9.764 m/s² on the highest equatorial mountain and 9.834 at the poles.
 const GRAVITY_M_S2_MIN: f64 = 9.70;
 const GRAVITY_M_S2_MAX: f64 = 9.90;
-/// Standard uncertainty of gravity by latitude and height: rock below and the height that people write.
-const GRAVITY_STD_M_S2: f64 = 0.0005;
-/// Where neither gravity nor place is given it may be anything from 9.780 at the equator to 9.832 at the poles: the standard
-/// deviation of a rectangle of that width.
-const GRAVITY_UNKNOWN_STD_M_S2: f64 = 0.015;
 /// Standard uncertainty of a kitchen scale that shows whole grams.
 const MASS_STD_KG: f64 = 0.0005;
 
@@ -145,30 +140,29 @@ impl ExperimentFile {
         let mass_kg = self.vehicle.mass_kg.or_else(|| preset.and_then(|preset| Some(preset.mass_kg.as_ref()?.value)));
         let mass_kg =
             mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
-        let (gravity, gravity_std_m_s2) =
-            match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
-                (Some(gravity), None, None) => (gravity, GRAVITY_STD_M_S2),
-                (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= 90.0 => {
-                    (gravity_m_s2(latitude_deg, height_m.unwrap_or(0.0)), GRAVITY_STD_M_S2)
-                }
-                (None, None, None) => (GRAVITY_STANDARD_M_S2, GRAVITY_UNKNOWN_STD_M_S2),
-                (None, Some(latitude_deg), _) => {
-                    return Err(ExperimentError::OutOfRange {
-                        name: "vehicle.latitude_deg".to_owned(),
-                        value: latitude_deg,
-                        must_be: "must lie between -90 and 90",
-                    });
-                }
-                (Some(_), _, _) => {
-                    return Err(ExperimentError::Contradiction {
-                        what: "vehicle has both gravity_m_s2 and a place".to_owned(),
-                        hint: "write either gravity_m_s2, or latitude_deg and height_m",
-                    });
-                }
-                (None, None, Some(_)) => {
-                    return Err(missing("vehicle.latitude_deg", "height_m alone does not tell gravity"));
-                }
-            };
+        let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
+            (Some(gravity), None, None) => Gravity::given(gravity),
+            (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= 90.0 => {
+                Gravity::at_place(latitude_deg, height_m.unwrap_or(0.0))
+            }
+            (None, None, None) => Gravity::UNKNOWN,
+            (None, Some(latitude_deg), _) => {
+                return Err(ExperimentError::OutOfRange {
+                    name: "vehicle.latitude_deg".to_owned(),
+                    value: latitude_deg,
+                    must_be: "must lie between -90 and 90",
+                });
+            }
+            (Some(_), _, _) => {
+                return Err(ExperimentError::Contradiction {
+                    what: "vehicle has both gravity_m_s2 and a place".to_owned(),
+                    hint: "write either gravity_m_s2, or latitude_deg and height_m",
+                });
+            }
+            (None, None, Some(_)) => {
+                return Err(missing("vehicle.latitude_deg", "height_m alone does not tell gravity"));
+            }
+        };
         positive("vehicle.mass_kg", mass_kg)?;
         if let Some(known_kg) = preset.and_then(|preset| Some(preset.mass_kg.as_ref()?.value))
             && !(known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&mass_kg)
@@ -184,10 +178,10 @@ impl ExperimentFile {
             vehicle_mass_kg: mass_kg,
             added_mass_kg,
             mass_std_kg: self.mass_std_kg()?,
-            gravity_m_s2: on_earth(gravity)?,
+            gravity_m_s2: on_earth(gravity.m_s2)?,
             gravity_std_m_s2: not_negative(
                 "vehicle.gravity_std_m_s2",
-                self.vehicle.gravity_std_m_s2.unwrap_or(gravity_std_m_s2),
+                self.vehicle.gravity_std_m_s2.unwrap_or(gravity.std_m_s2),
             )?,
         })
     }

@@ -30,7 +30,10 @@ pub struct Air {
 impl Air {
     /// What is wrong with it, by name, value and limit: air that one can fly in, so that pascals, kelvins and shares are
     /// told from hectopascals, degrees and per cent.
-    pub(crate) fn check(&self) -> Result<(), ConfigError> {
+    ///
+    /// # Errors
+    /// The first number that is outside of its limits.
+    pub fn check(&self) -> Result<(), ConfigError> {
         let given =
             |name, value: Option<f64>, min, max| value.map_or(Ok(()), |value| check_range(name, value, min, max));
         given("temperature_c", self.temperature_c, -60.0, 60.0)?;

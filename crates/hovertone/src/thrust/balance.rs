@@ -5,6 +5,36 @@ use hovertone_vehicle::RotorSpeed;
 /// Standard gravity, where no local value is given.
 pub const GRAVITY_STANDARD_M_S2: f64 = 9.80665;
 
+/// Standard uncertainty of gravity by latitude and height, or as somebody wrote it: rock below, and heights as people know them.
+const GRAVITY_STD_M_S2: f64 = 0.0005;
+/// Where neither gravity nor place is given it may be anything from 9.780 at the equator to 9.832 at the poles: the standard
+/// deviation of a rectangle of that width.
+const GRAVITY_UNKNOWN_STD_M_S2: f64 = 0.015;
+
+/// Local gravity, as well as it is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gravity {
+    /// The value.
+    pub m_s2: f64,
+    /// Its standard uncertainty.
+    pub std_m_s2: f64,
+}
+
+impl Gravity {
+    /// Somewhere on Earth.
+    pub const UNKNOWN: Self = Self { m_s2: GRAVITY_STANDARD_M_S2, std_m_s2: GRAVITY_UNKNOWN_STD_M_S2 };
+
+    /// As somebody wrote it.
+    pub fn given(m_s2: f64) -> Self {
+        Self { m_s2, std_m_s2: GRAVITY_STD_M_S2 }
+    }
+
+    /// At a latitude and a height above the sea.
+    pub fn at_place(latitude_deg: f64, height_m: f64) -> Self {
+        Self::given(gravity_m_s2(latitude_deg, height_m))
+    }
+}
+
 /// C = f / ω² in N s² (N per (rad/s)²), eq 3 solved for the constant.
 ///
 /// With `force_n` the whole weight, as in the paper's tables, it is the constant of the whole vehicle: the sum over its

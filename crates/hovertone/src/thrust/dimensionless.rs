@@ -1,6 +1,8 @@
 //! The thrust constant of one rotor without its dimension, and whether a propeller can have it.
 
 use crate::discovery_config::DiscoveryConfig;
+use crate::regression::{FitPoint, proportional_fit};
+use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
@@ -37,6 +39,14 @@ impl ThrustCoefficients {
 pub fn figure_of_merit(thrust_n: f64, power_w: f64, propeller_diameter_m: f64, density_kg_m3: f64) -> f64 {
     let area_m2 = PI * propeller_diameter_m.powi(2) / 4.0;
     thrust_n * (thrust_n / (2.0 * density_kg_m3 * area_m2)).sqrt() / power_w
+}
+
+/// Torque of one rotor over its squared speed, N m/(rad/s)²: least squares through the origin over pairs of speed and torque,
+/// whose sign is the direction of the rotor and left out. `None` without pairs.
+pub fn torque_constant_n_m_s2(pairs: &[(RotorSpeed, f64)]) -> Option<f64> {
+    let point = |(speed, torque): &(RotorSpeed, f64)| FitPoint::with_y_std(speed.rad_s().powi(2), *torque, 1.0);
+    let points: Vec<FitPoint> = pairs.iter().map(point).collect();
+    proportional_fit(&points).ok().map(|fit| fit.slope.abs())
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::dimensionless::{ThrustCoefficients, figure_of_merit};
 use super::drift::drifts;
 use super::load_points::{Campaign, HeardLoad, whole_vehicle_factor};
 use super::point_verdict::PointVerdict;
-use super::square_law::{ForceLaw, SquareLawFit, square_law_fit};
+use super::square_law::{ForceLaw, ForcePoint, SquareLawFit, square_law_fit};
 use super::{
     LoadSpeeds, LoadThrust, SampleThrust, ThrustSettings, ThrustTable, TrialSpeeds, TrialThrust, UncertaintyBudget,
     thrust_constant_n_s2,
@@ -45,7 +45,7 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
         .zip(air)
         .map(|(constant, (diameter_m, density))| ThrustCoefficients::of_rotor(constant.value, diameter_m, density));
     let drifts = drifts(&campaign);
-    let mut warnings = warnings_of(loads, &campaign, &rows, fit.as_ref());
+    let mut warnings = warnings_of(&campaign, &rows, fit.as_ref());
     warnings.extend(drifts.iter().copied().map(Warning::ConstantDrifts));
     warnings.extend(
         coefficients
@@ -201,12 +201,7 @@ fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estim
     })
 }
 
-fn warnings_of(
-    loads: &[LoadSpeeds],
-    campaign: &Campaign<'_>,
-    rows: &[LoadThrust],
-    fit: Option<&SquareLawFit>,
-) -> Vec<Warning> {
+fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&SquareLawFit>) -> Vec<Warning> {
     let left_out = |(load, recording): &(String, String)| Warning::TrialLeftOut {
         load: load.clone(),
         recording: recording.clone(),
@@ -224,22 +219,38 @@ fn warnings_of(
     if kinds(true) && kinds(false) {
         warnings.push(Warning::MixedBenchAndHover);
     }
-    let Some(fit) = fit else { return warnings };
-    let forces = || campaign.loads.iter().map(|load| load.force_n);
-    let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
-    if loads.len() == 1 {
-        warnings.push(Warning::SingleLoad);
-    } else if campaign.loads.len() > 1 && most / least - 1.0 < EQUAL_FORCES_SHARE {
-        warnings.push(Warning::EqualLoads { count: campaign.loads.len() });
-    } else {
-        warnings.extend(fit.range.filter(|range| !range.shows_intercept).map(Warning::NarrowLoadRange));
-        warnings.extend(law_warning(fit));
-    }
+    warnings.extend(fit.map(|fit| range_warnings(&campaign.points, fit)).unwrap_or_default());
     warnings
 }
 
+/// That loads are too few or too much alike, or ask for another law.
+fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit) -> Vec<Warning> {
+    let forces = || points.iter().map(|point| point.force_n);
+    let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
+    if points.len() == 1 {
+        vec![Warning::SingleLoad]
+    } else if most / least - 1.0 < EQUAL_FORCES_SHARE {
+        vec![Warning::EqualLoads { count: points.len() }]
+    } else {
+        let narrow = fit.range.filter(|range| !range.shows_intercept).map(Warning::NarrowLoadRange);
+        narrow.into_iter().chain(law_warning(fit)).collect()
+    }
+}
+
+/// What weakens a fit of the rows of a table.
+pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit) -> Vec<Warning> {
+    let misfit = |point: &PointVerdict| Warning::LoadDoesNotFit {
+        name: point.name.clone(),
+        mass_that_fits_kg: None,
+        mass_that_fits_std_kg: None,
+        is_left_out: point.is_gross,
+    };
+    let misfits = fit.points.iter().filter(|point| point.fits == Some(false)).map(misfit);
+    misfits.chain(range_warnings(points, fit)).collect()
+}
+
 /// That the evidence prefers another law than the one that simulators have.
-pub(super) fn law_warning(fit: &SquareLawFit) -> Option<Warning> {
+fn law_warning(fit: &SquareLawFit) -> Option<Warning> {
     let law = fit.laws.iter().find(|law| law.law == fit.preferred && law.law != ForceLaw::Square)?;
     Some(Warning::OtherLawPreferred { law: law.law, probability: law.probability })
 }

@@ -21,12 +21,12 @@ mod uncertainty_inputs;
 mod weighing;
 
 pub use air::Air;
-pub use balance::{GRAVITY_STANDARD_M_S2, gravity_m_s2, thrust_constant_n_s2};
+pub use balance::{GRAVITY_STANDARD_M_S2, Gravity, gravity_m_s2, thrust_constant_n_s2};
 pub use bootstrap::TrialBootstrap;
 pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget};
-pub use dimensionless::{ThrustCoefficients, figure_of_merit};
+pub use dimensionless::{ThrustCoefficients, figure_of_merit, torque_constant_n_m_s2};
 pub use drift::{Drift, DriftKind};
-pub use fit::thrust_from_loads;
+pub use fit::{thrust_from_loads, warnings_of_points};
 pub use load_range::LoadRange;
 pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
 pub use point_verdict::PointVerdict;
@@ -35,7 +35,7 @@ pub use square_law::{
     square_law_fit,
 };
 pub use uncertainty_inputs::UncertaintyInputs;
-pub use weighing::{HeardHover, mass_from_hover};
+pub use weighing::{HeardHover, WeighedHover, weighed_hover};
 
 use crate::budget_config::BudgetConfig;
 use crate::method::Method;

@@ -6,7 +6,7 @@ use crate::regression::{
     Agreement, FitError, FitPoint, LineFit, ParameterPrior, ProportionalFit, line_fit, log_evidence_ratio,
     proportional_fit,
 };
-use hovertone_vehicle::{Ending, Estimate};
+use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -36,6 +36,30 @@ pub struct ForcePoint {
 }
 
 impl ForcePoint {
+    /// A shaft speed and a force, each with its standard uncertainty; 0 where nobody states it.
+    pub fn from_speed(name: String, speed: RotorSpeed, speed_std_rad_s: f64, force_n: f64, force_std_n: f64) -> Self {
+        let rad_s = speed.rad_s();
+        Self {
+            name,
+            speed_square_rad2_s2: rad_s.powi(2),
+            speed_square_std_rad2_s2: 2.0 * rad_s * speed_std_rad_s,
+            force_n,
+            force_std_n,
+        }
+    }
+
+    /// The same of a mass that hovers.
+    pub fn from_mass(
+        name: String,
+        speed: RotorSpeed,
+        speed_std_rad_s: f64,
+        mass_kg: f64,
+        mass_std_kg: f64,
+        gravity_m_s2: f64,
+    ) -> Self {
+        Self::from_speed(name, speed, speed_std_rad_s, mass_kg * gravity_m_s2, mass_std_kg * gravity_m_s2)
+    }
+
     /// Constant that follows from this point alone.
     pub fn thrust_constant_n_s2(&self) -> f64 {
         self.force_n / self.speed_square_rad2_s2
