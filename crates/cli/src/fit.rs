@@ -98,7 +98,9 @@ fn fitted_table(
         group.rows.iter().filter_map(|row| Some((RotorSpeed::from_rad_s(row.speed_rad_s), row.torque_n_m?))).collect();
     let coefficients =
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
-    let mut warnings = warnings_of_points(&points, &fit);
+    let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
+    let gravity_of_masses = group.rows.iter().all(is_mass).then_some(plan.gravity.m_s2);
+    let mut warnings = warnings_of_points(&points, &fit, gravity_of_masses);
     warnings.extend(
         coefficients
             .filter(|both| !both.is_plausible)

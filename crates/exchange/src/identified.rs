@@ -105,7 +105,10 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
     let file = text("/settings/file").or(text("/file")).unwrap_or("?");
     let sha256 = text("/settings/sha256").or(text("/sha256")).unwrap_or("?");
     Ok(IdentifiedRotor {
-        vehicle_name: text("/settings/experiment/vehicle_name").or(text("/group")).unwrap_or("vehicle").to_owned(),
+        vehicle_name: text("/settings/experiment/vehicle_name")
+            .or(text("/group").filter(|group| !group.is_empty()))
+            .unwrap_or("a rotor on a thrust stand")
+            .to_owned(),
         thrust_constant_n_s2: constant.value,
         expanded_uncertainty_n_s2: budgeted
             .map(|total| total / f64::from(rotor_count))

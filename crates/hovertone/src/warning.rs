@@ -158,7 +158,7 @@ impl Warning {
                 "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
             }
             Self::LoudestRotor => {
-                "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %, and its uncertainty does not show it"
+                "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; the ± of the tables does not show it, the budget counts it"
             }
         }
     }
@@ -215,12 +215,12 @@ impl fmt::Display for Warning {
             Self::NarrowLoadRange(range) => {
                 write!(
                     f,
-                    "the loads differ by {:.0} % only, which leaves an intercept open to ±{:.1} % of the force",
-                    100.0 * (range.force_ratio - 1.0),
+                    "the largest force is only {:.2} times the smallest, which leaves an intercept open to ±{:.1} % of the force",
+                    range.force_ratio,
                     100.0 * range.intercept_std_share
                 )?;
                 match range.force_ratio_needed {
-                    Some(ratio) => write!(f, "; the heaviest {ratio:.1} times the lightest would do"),
+                    Some(ratio) => write!(f, "; {ratio:.1} times would do"),
                     None => f.write_str("; no range would do without more or longer trials"),
                 }
             }

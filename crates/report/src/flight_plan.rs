@@ -7,7 +7,8 @@ use hovertone::{FlightPlan, PlanWish};
 pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let steps = plan.load_count - 1;
     let added: Vec<String> = (0..plan.load_count)
-        .map(|load| significant(1e3 * wish.added_mass_kg_max * load as f64 / steps as f64, 3) + " g")
+        .map(|load| 1e3 * wish.added_mass_kg_max * load as f64 / steps as f64)
+        .map(|added_g| if added_g == 0.0 { "nothing".to_owned() } else { significant(added_g, 3) + " g" })
         .collect();
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {

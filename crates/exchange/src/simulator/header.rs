@@ -5,12 +5,12 @@ use crate::units::ConstantUnits;
 
 /// Digits that are written: more than any uncertainty, few enough to read.
 pub(super) fn number(value: f64) -> String {
-    format!("{value:.7e}")
+    if (0.1..1e5).contains(&value.abs()) { plain(value) } else { format!("{value:.7e}") }
 }
 
 /// The same without an exponent where that is how people write it.
 pub(super) fn plain(value: f64) -> String {
-    let text = format!("{value:.7}");
+    let text = format!("{value:.8}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -18,7 +18,7 @@ pub(super) fn plain(value: f64) -> String {
 pub(super) fn lines(rotor: &IdentifiedRotor) -> Vec<String> {
     let units = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);
     let mut lines = vec![
-        format!("{}: thrust constant of ONE rotor, T = C_f w^2, from the sound of its hover", rotor.vehicle_name),
+        format!("{}: thrust constant of ONE rotor, T = C_f w^2", rotor.vehicle_name),
         rotor.origin.clone(),
         match rotor.expanded_uncertainty_n_s2 {
             Some(expanded) => format!(
@@ -36,7 +36,7 @@ pub(super) fn lines(rotor: &IdentifiedRotor) -> Vec<String> {
             number(units.g_rpm2())
         ),
         format!(
-            "all {} rotors together: {} N/(rad/s)^2",
+            "{} rotors together: {} N/(rad/s)^2",
             rotor.rotor_count,
             number(units.n_s2() * f64::from(rotor.rotor_count))
         ),

@@ -283,9 +283,8 @@ fn leave_out_resting(rows: &mut Vec<(String, StandRow)>, notes: &mut Vec<String>
         let share = 100.0 * AT_REST_SHARE;
         let count = before - rows.len();
         let rpm = AT_REST_SHARE * fastest * 60.0 / TAU;
-        notes.push(format!(
-            "{count} rows are left out: below {share:.0} % of the fastest speed ({rpm:.0} rpm), or at rest"
-        ));
+        notes
+            .push(format!("rows left out, below {share:.0} % of the fastest speed ({rpm:.0} rpm) or at rest: {count}"));
     }
 }
 

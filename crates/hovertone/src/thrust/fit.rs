@@ -237,12 +237,13 @@ fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit) -> Vec<Warning> {
     }
 }
 
-/// What weakens a fit of the rows of a table.
-pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit) -> Vec<Warning> {
+/// What weakens a fit of the rows of a table. Gravity is given where the rows are masses that hover.
+pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s2: Option<f64>) -> Vec<Warning> {
+    let mass_kg = |force_n: Option<f64>| Some(force_n? / gravity_m_s2?);
     let misfit = |point: &PointVerdict| Warning::LoadDoesNotFit {
         name: point.name.clone(),
-        mass_that_fits_kg: None,
-        mass_that_fits_std_kg: None,
+        mass_that_fits_kg: mass_kg(point.force_that_fits_n),
+        mass_that_fits_std_kg: mass_kg(point.force_that_fits_std_n),
         is_left_out: point.is_gross,
     };
     let misfits = fit.points.iter().filter(|point| point.fits == Some(false)).map(misfit);

@@ -174,7 +174,9 @@ pub struct SquareLawFit {
     pub agreement: Option<LawAgreement>,
     /// Root mean square of the residuals over the largest force.
     pub residual_rms_share: f64,
-    /// Root mean square of the uncertainty that the points themselves leave in C, before any scatter; what budgets start from.
+    /// Largest residual over the largest force.
+    pub residual_max_share: f64,
+    /// The uncertainty that the points themselves leave in C, before any scatter; what budgets start from.
     pub(super) own_std_n_s2: f64,
     /// How much each point decides: C is the mean of the points' own constants with these weights. 0 for those left out.
     pub(super) shares: Vec<f64>,
@@ -216,13 +218,15 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
     let power_law = power_law(&kept, noise);
     let laws = law_probabilities(&kept, with_intercept.as_ref(), power_law.as_ref(), noise);
     let largest_n = kept.iter().map(|point| point.force_n).fold(0.0, f64::max);
-    let squares: f64 = kept.iter().map(|p| (p.force_n - fit.slope * p.speed_square_rad2_s2).powi(2)).sum();
+    let residuals = || kept.iter().map(|p| (p.force_n - fit.slope * p.speed_square_rad2_s2).abs());
+    let squares: f64 = residuals().map(|residual| residual.powi(2)).sum();
     let agreement = agreement_of(fit.agreement, noise);
     let ending = if kept.len() > 1 { Ending::Solved } else { Ending::SingleObservation };
     Ok(SquareLawFit {
         thrust_constant_n_s2: Estimate { value: fit.slope, std_uncertainty: scattered_std(fit, noise), ending },
         agreement,
         residual_rms_share: (squares / kept.len() as f64).sqrt() / largest_n,
+        residual_max_share: residuals().fold(0.0, f64::max) / largest_n,
         own_std_n_s2: fit.slope_std,
         shares: shares(points, &gross, &fit, noise),
         preferred: preferred(&laws),
