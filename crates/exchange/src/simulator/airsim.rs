@@ -34,11 +34,11 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> Result<String, ModelError> {
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let field = |name: &str| -> Option<f64> {
         let code = text.lines().map(|line| line.split("//").next().unwrap_or(""));
-        let values = code.filter_map(|line| {
+        let mut values = code.filter_map(|line| {
             let (key, value) = line.split_once('=')?;
             (key.split_whitespace().last()? == name).then(|| value.trim().trim_end_matches(';').trim_end_matches('f'))
         });
-        values.last()?.parse().ok()
+        values.next_back()?.parse().ok()
     };
     let (coefficient, density, diameter_m) = (field("C_T"), field("air_density"), field("propeller_diameter"));
     let (Some(coefficient), Some(density), Some(diameter_m)) = (coefficient, density, diameter_m) else {

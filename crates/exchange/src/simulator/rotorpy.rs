@@ -26,11 +26,11 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let entry = |name: &str| -> Option<f64> {
         let line = text.lines().map(str::trim_start).filter(|line| !line.starts_with('#'));
-        let value = line.filter_map(|line| {
+        let mut value = line.filter_map(|line| {
             let (key, value) = line.split_once(':')?;
             (key.trim().trim_matches(['\'', '"']) == name).then_some(value)
         });
-        let value = value.last()?.split(['#', ',']).next()?.trim();
+        let value = value.next_back()?.split(['#', ',']).next()?.trim();
         value.parse().ok()
     };
     let k_eta = entry("k_eta").ok_or(ModelError::Unknown)?;
