@@ -25,6 +25,14 @@ An experiment file:
   added_mass_kg = 0.031
   recordings = [\"small_hull/*.mov\"]
 
+  [air]                       # for C_T; or height_m alone
+  temperature_c = 22.0
+  pressure_hpa = 1003.0
+
+  [uncertainty]               # for the budget; all have defaults (docs/formats.md)
+  rotor_spread_share = 0.0058
+  hover_height_m = 1.0
+
   [[load]]                    # or a bench run: thrust from a scale
   name = \"bench\"
   thrust_n = 0.099

@@ -62,8 +62,8 @@ fn fitted(loads: &[LoadSpeeds]) -> ThrustTable {
     thrust_from_loads(loads, Method::Harmonic, &ThrustSettings::for_rotors(4))
 }
 
-/// A campaign with everything that the budget knows drawn from what the budget says of it: whether the truth lies within U.
-fn truth_is_covered(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usize, trial_std: f64) -> bool {
+/// A campaign with everything that the budget knows drawn from what the budget says of it.
+fn campaign(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usize, trial_std: f64) -> ThrustTable {
     let mut random = rand_pcg::Pcg64::seed_from_u64(seed);
     let inputs = &settings.uncertainty;
     let mut normal = |std: f64| Normal::new(0.0, std).unwrap().sample(&mut random);
@@ -92,14 +92,21 @@ fn truth_is_covered(seed: u64, settings: &ThrustSettings, added_kg: &[f64], tria
             load(&format!("load {index}"), weight(*added), &heard)
         })
         .collect();
-    let table = thrust_from_loads(&loads, Method::Harmonic, settings);
-    let error = table.thrust_constant_total_n_s2.unwrap().value - TRUTH_N_S2;
-    error.abs() <= table.budget.unwrap().expanded_uncertainty_n_s2
+    thrust_from_loads(&loads, Method::Harmonic, settings)
 }
 
-fn coverage(settings: &ThrustSettings, added_kg: &[f64], trials: usize, trial_std: f64) -> f64 {
-    let covered = (0..CAMPAIGNS).filter(|&seed| truth_is_covered(seed, settings, added_kg, trials, trial_std)).count();
-    covered as f64 / CAMPAIGNS as f64
+/// How often the truth lies within U, and how often a load that is right is named as one that is not, or a trial left out.
+fn coverage_and_alarms(settings: &ThrustSettings, added_kg: &[f64], trials: usize, trial_std: f64) -> (f64, f64) {
+    let (mut covered, mut alarms) = (0, 0);
+    for seed in 0..CAMPAIGNS {
+        let table = campaign(seed, settings, added_kg, trials, trial_std);
+        let error = table.thrust_constant_total_n_s2.unwrap().value - TRUTH_N_S2;
+        covered += usize::from(error.abs() <= table.budget.unwrap().expanded_uncertainty_n_s2);
+        let named = table.loads.iter().any(|row| row.fits == Some(false));
+        let left_out = table.warnings.iter().any(|warning| matches!(warning, Warning::TrialLeftOut { .. }));
+        alarms += usize::from(named || left_out);
+    }
+    (covered as f64 / CAMPAIGNS as f64, alarms as f64 / CAMPAIGNS as f64)
 }
 
 /// The promise of k = 2: 93 to 97 %. The paper's campaign by a single ridge, then with every rotor told apart, where scatter
@@ -114,9 +121,11 @@ fn five_hundred_campaigns_are_covered_as_stated() {
         ("much scatter, few trials", &separated, &[0.0, 0.031, 0.049], 3, 0.01),
         ("five loads over a wide range", &separated, &[0.0, 0.1, 0.2, 0.3, 0.4], 4, 0.005),
     ] {
-        let coverage = coverage(settings, added_kg, trials, trial_std);
-        println!("{name}: {:.1} %", 100.0 * coverage);
+        let (coverage, alarms) = coverage_and_alarms(settings, added_kg, trials, trial_std);
+        println!("{name}: {:.1} % covered, {:.1} % false alarms", 100.0 * coverage, 100.0 * alarms);
         assert!((0.93..=0.97).contains(&coverage), "{name}: {coverage}");
+        // one campaign in twenty is what the test promises; 500 show that to 1 %
+        assert!(alarms <= 0.08, "{name}: {alarms}");
     }
 }
 
