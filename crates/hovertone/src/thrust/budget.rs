@@ -2,7 +2,7 @@
 //! sensitivity and its share.
 
 use super::load_points::{Campaign, HeardLoad};
-use super::square_law::{PointNoise, SquareLawFit, scatter_factor};
+use super::square_law::{LawAgreement, SquareLawFit, scatter_factor};
 use super::uncertainty_inputs::UncertaintyInputs;
 use super::{Force, ThrustSettings};
 use crate::regression::Agreement;
@@ -331,17 +331,19 @@ fn of_flight(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     ]
 }
 
-/// Where loads disagree, what their scatter adds to what their uncertainties say.
+/// What the scatter of the loads adds to what their uncertainties say: where they disagree, and where nobody knows any.
 fn of_scatter(fit: &SquareLawFit, campaign: &Campaign<'_>) -> Option<BudgetLine> {
-    let agreement = fit.agreement?;
-    let agreement = Agreement { chi_square: agreement.chi_square, degrees_of_freedom: agreement.degrees_of_freedom };
-    let factor = match campaign.noise {
-        PointNoise::FromResiduals => return None,
-        noise => scatter_factor(agreement, noise)?,
+    let compared = fit.points.iter().filter(|point| !point.is_gross).count();
+    let (extra, freedom) = match fit.agreement {
+        Some(LawAgreement { chi_square, degrees_of_freedom, .. }) => {
+            let factor = scatter_factor(Agreement { chi_square, degrees_of_freedom }, campaign.noise)?;
+            (fit.own_std_n_s2 * (factor.powi(2) - 1.0).max(0.0).sqrt(), degrees_of_freedom)
+        }
+        None if compared > 1 => (fit.thrust_constant_n_s2.std_uncertainty?, compared - 1),
+        None => return None,
     };
-    let extra = fit.own_std_n_s2 * (factor.powi(2) - 1.0).max(0.0).sqrt();
     (extra > 0.0).then(|| BudgetLine {
-        degrees_of_freedom: Some(agreement.degrees_of_freedom as f64),
+        degrees_of_freedom: Some(freedom as f64),
         ..line(BudgetInput::LoadScatter, "N s²", fit.thrust_constant_n_s2.value, extra, 1.0)
     })
 }

@@ -300,6 +300,26 @@ fn a_power_law_is_seen_over_a_wide_range() {
 }
 
 #[test]
+fn loads_without_any_uncertainty_have_that_of_their_scatter() {
+    let mut loads = exact_hovers(&[0.0, 0.05, 0.2, 0.1], 1);
+    for (load, offset) in loads.iter_mut().zip([1.0, -1.0, -1.0, 1.0]) {
+        if let Force::Weight { mass_std_kg, .. } = &mut load.force {
+            *mass_std_kg = 0.0;
+        }
+        for sample in load.trials.iter_mut().flat_map(|trial| &mut trial.samples) {
+            sample.std_uncertainty_rev_s = None;
+            sample.speed = RotorSpeed::from_rad_s(sample.speed.rad_s() * (1.0 + 0.002 * offset));
+        }
+    }
+    let table = fitted(&loads);
+    let total = table.thrust_constant_total_n_s2.unwrap();
+    // four constants 0.4 % off either way: their mean is known to about 0.4 %·√(4/3)/√4
+    let expected = 0.004 * (4.0f64 / 3.0).sqrt() / 2.0;
+    assert!((total.std_uncertainty.unwrap() / total.value / expected - 1.0).abs() < 0.1, "{total:?}");
+    assert!(table.budget.unwrap().lines.iter().any(|line| line.input == BudgetInput::LoadScatter));
+}
+
+#[test]
 fn points_that_mean_nothing_are_refused_by_number() {
     let good = ForcePoint {
         name: "a".to_owned(),
