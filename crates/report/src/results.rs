@@ -67,6 +67,7 @@ struct MethodResults<'a> {
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
     plain_mean_total_n_s2: Option<Estimate>,
+    expanded_uncertainty_total_n_s2: Option<f64>,
     loads: Vec<Load<'a>>,
 }
 
@@ -115,6 +116,7 @@ fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S:
             thrust_constant_total_n_s2: table.thrust_constant_total_n_s2,
             thrust_constant_per_rotor_n_s2: table.thrust_constant_per_rotor_n_s2,
             plain_mean_total_n_s2: table.plain_mean_total_n_s2,
+            expanded_uncertainty_total_n_s2: table.budget.as_ref().map(|budget| budget.expanded_uncertainty_n_s2),
             loads: loads_of(table),
         };
         (table.method.name(), results)
