@@ -1,5 +1,6 @@
 //! `results.json` → what simulators want to know.
 
+use crate::units::GRAVITY_STANDARD_M_S2;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -117,7 +118,7 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
         rotor_count,
         mass_kg: hover.map(|hover| hover.mass_kg),
         hover_speed_rad_s: hover.and_then(|hover| hover.speed_rad_s),
-        gravity_m_s2: hover.map_or(9.80665, |hover| hover.gravity_m_s2),
+        gravity_m_s2: hover.map_or(GRAVITY_STANDARD_M_S2, |hover| hover.gravity_m_s2),
         propeller_diameter_m: number_at("/settings/experiment/propeller_diameter_m")
             .or(number_at("/propeller_diameter_m")),
         air_density_kg_m3: number_at("/thrust_coefficients/density_kg_m3"),

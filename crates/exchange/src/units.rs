@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 /// Standard gravity: what a gram-force is.
-const GRAVITY_STANDARD_M_S2: f64 = 9.80665;
+pub(crate) const GRAVITY_STANDARD_M_S2: f64 = 9.80665;
 
 /// A thrust constant of one rotor, kept in N/(rad/s)².
 #[derive(Clone, Copy, Debug, PartialEq)]

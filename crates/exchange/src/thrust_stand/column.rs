@@ -1,10 +1,9 @@
 //! Headers → quantities and units.
 
+use crate::units::GRAVITY_STANDARD_M_S2;
 use csv::StringRecord;
 use std::f64::consts::TAU;
 
-/// Standard gravity: what a gram-force is.
-const GRAVITY_STANDARD_M_S2: f64 = 9.80665;
 /// A pound.
 const POUND_KG: f64 = 0.453_592_37;
 

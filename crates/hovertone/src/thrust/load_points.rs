@@ -1,5 +1,6 @@
 //! Loads and their trials → points of force and squared speed with what is uncertain about each.
 
+use super::point_verdict::{CONSTANTS_FOR_GROSS, is_off_by_a_factor};
 use super::square_law::{ForcePoint, PointNoise};
 use super::{Force, LoadSpeeds, TrialSpeeds};
 use crate::statistics::{mean, median};
@@ -10,11 +11,6 @@ use hovertone_vehicle::RotorSpeed;
 pub(super) const FREEDOM_OF_FRAMES: f64 = 20.0;
 /// Degrees of freedom from which the scatter of the trials tells their uncertainty better than the frames do.
 const FREEDOM_OF_TRIALS_MIN: usize = 4;
-/// A trial whose constant is so many times the median of all trials, or below it, heard another harmonic or another machine.
-const GROSS_FACTOR: f64 = 2.0;
-/// Fewest trials among which one can be told to be off by a factor.
-const TRIALS_FOR_GROSS: usize = 3;
-
 /// A load in which a rotor was heard.
 pub(super) struct HeardLoad<'a> {
     /// Its place among all loads.
@@ -122,9 +118,9 @@ fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> Vec<Vec<bool>> {
         })
         .collect();
     let known: Vec<f64> = constants.iter().flatten().flatten().copied().collect();
-    let middle = median(&known).filter(|_| known.len() >= TRIALS_FOR_GROSS);
+    let middle = median(&known).filter(|_| known.len() >= CONSTANTS_FOR_GROSS);
     let is_gross = |constant: &Option<f64>| match (constant, middle) {
-        (Some(constant), Some(middle)) => !(middle / GROSS_FACTOR..=middle * GROSS_FACTOR).contains(constant),
+        (Some(constant), Some(middle)) => is_off_by_a_factor(*constant, middle),
         _ => false,
     };
     constants

@@ -1,15 +1,17 @@
 //! Whether each point agrees with the others, and which force would.
 
-use super::square_law::{DISAGREEMENT_CHANCE, ForcePoint, PointNoise, law_through_origin, scatter_factor};
+use super::square_law::{
+    DISAGREEMENT_CHANCE, ForcePoint, PointNoise, agreement_of, law_through_origin, scatter_factor,
+};
 use crate::statistics::median;
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, FisherSnedecor, Normal, StudentsT};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// A point whose constant is so many times the median, or so many times below it, is another unit, another octave or another
 /// flight, and no load.
 const GROSS_FACTOR: f64 = 2.0;
-/// Fewest points among which one can be told to be off by a factor.
-const POINTS_FOR_GROSS: usize = 3;
+/// Fewest constants among which one can be told to be off by a factor.
+pub(super) const CONSTANTS_FOR_GROSS: usize = 3;
 
 /// One point against the others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,13 +34,16 @@ pub struct PointVerdict {
     pub force_that_fits_std_n: Option<f64>,
 }
 
+/// Whether a constant is another unit's, another octave's or another flight's than that of most.
+pub(super) fn is_off_by_a_factor(constant_n_s2: f64, middle_n_s2: f64) -> bool {
+    !(middle_n_s2 / GROSS_FACTOR..=middle_n_s2 * GROSS_FACTOR).contains(&constant_n_s2)
+}
+
 /// Points whose own constant is off by a factor from the median.
 pub(super) fn gross_points(points: &[ForcePoint]) -> Vec<bool> {
     let constants: Vec<f64> = points.iter().map(ForcePoint::thrust_constant_n_s2).collect();
-    let middle = median(&constants).filter(|_| points.len() >= POINTS_FOR_GROSS);
-    let is_gross = |constant: &f64| {
-        middle.is_some_and(|middle| !(middle / GROSS_FACTOR..=middle * GROSS_FACTOR).contains(constant))
-    };
+    let middle = median(&constants).filter(|_| points.len() >= CONSTANTS_FOR_GROSS);
+    let is_gross = |constant: &f64| middle.is_some_and(|middle| is_off_by_a_factor(*constant, middle));
     let gross: Vec<bool> = constants.iter().map(is_gross).collect();
     // where half of them are, nobody knows which half
     if 2 * gross.iter().filter(|gross| **gross).count() < points.len() { gross } else { vec![false; points.len()] }
@@ -137,15 +142,10 @@ fn together_disagree(points: &[ForcePoint], kept: &[usize], noise: PointNoise) -
         }
         _ => {
             let of: Vec<&ForcePoint> = kept.iter().map(|&index| &points[index]).collect();
-            law_through_origin(&of, noise).ok().and_then(|fit| {
-                let freedom = fit.agreement.degrees_of_freedom as f64;
-                match noise {
-                    PointNoise::Measured { degrees_of_freedom } => FisherSnedecor::new(freedom, degrees_of_freedom)
-                        .ok()
-                        .map(|distribution| distribution.sf(fit.agreement.chi_square / freedom)),
-                    _ => fit.agreement.p_value(),
-                }
-            })
+            law_through_origin(&of, noise)
+                .ok()
+                .and_then(|fit| agreement_of(fit.agreement, noise))
+                .map(|law| law.p_value)
         }
     };
     p_value.is_some_and(|p_value| p_value < DISAGREEMENT_CHANCE)

@@ -266,7 +266,7 @@ pub(super) fn scatter_factor(agreement: Agreement, noise: PointNoise) -> Option<
     }
 }
 
-fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<LawAgreement> {
+pub(super) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<LawAgreement> {
     let freedom = agreement.degrees_of_freedom as f64;
     let p_value = match noise {
         PointNoise::FromResiduals => None,
