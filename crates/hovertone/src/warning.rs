@@ -4,6 +4,9 @@ use crate::thrust::{Drift, DriftKind, ForceLaw, LoadRange};
 use serde::Serialize;
 use std::fmt;
 
+/// Names that a warning lists.
+const NAMES_MAX: usize = 5;
+
 /// Something that weakens a result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
@@ -77,6 +80,13 @@ pub enum Warning {
         /// Off by a factor, and left out of the fit.
         is_left_out: bool,
     },
+    /// Many rows of a table disagree with the others.
+    RowsDoNotFit {
+        /// Their names.
+        names: Vec<String>,
+        /// Off by a factor, and left out of the fit.
+        are_left_out: bool,
+    },
     /// A trial is off by a factor from all others, and left out of the fit.
     TrialLeftOut {
         /// Its load.
@@ -137,6 +147,9 @@ impl Warning {
             }
             Self::LoadDoesNotFit { mass_that_fits_kg: None, is_left_out: false, .. } => {
                 "check the thrust and the recordings of that load"
+            }
+            Self::RowsDoNotFit { .. } => {
+                "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"
             }
             Self::TrialLeftOut { .. } => "hear it again: another harmonic or another machine may have been followed",
             Self::LoadDoesNotFit { is_left_out: true, .. } => "check its mass, its unit and its recordings",
@@ -205,6 +218,14 @@ impl fmt::Display for Warning {
                     (None, _) => {}
                 }
                 if *is_left_out { f.write_str("; it is off by a factor and left out") } else { Ok(()) }
+            }
+            Self::RowsDoNotFit { names, are_left_out } => {
+                let shown = names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ");
+                write!(f, "{} rows do not fit the others: {shown}", names.len())?;
+                if names.len() > NAMES_MAX {
+                    f.write_str(", …")?;
+                }
+                if *are_left_out { f.write_str("; they are off by a factor and left out") } else { Ok(()) }
             }
             Self::TrialLeftOut { load, recording } => {
                 write!(f, "{recording} of load \"{load}\" is off by a factor from all other trials and left out")

@@ -112,6 +112,19 @@ fn bad_tables_are_refused_or_flagged() {
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
 }
 
+/// A log at 44 Hz, spinning up and down: hundreds of rows, most of them sound.
+#[test]
+fn a_log_of_a_stand_is_fitted_without_a_flood_of_warnings() {
+    let Some(data) = recordings("logs") else { return };
+    let log = data.join("rcbenchmark_command_steps.csv");
+    let run = hovertone(&["fit", text(&log), "--json"]).ends_with(0);
+    let fit = run.json_lines().remove(0);
+    assert!(number(&fit, "/row_count") > 500.0);
+    assert!(fit["notices"].as_array().unwrap().len() < 10, "{}", fit["notices"]);
+    assert!(fit["notices"].to_string().contains("rows do not fit the others: line "), "{}", fit["notices"]);
+    assert!(number(&fit, "/torque_constant_per_rotor_n_m_s2") > 0.0);
+}
+
 #[test]
 fn a_plan_tells_before_flying() {
     let plan = |wanted: &str, more: &[&str]| {

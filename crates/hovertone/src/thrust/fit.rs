@@ -19,6 +19,9 @@ use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 /// Loads whose forces differ by less than this share are equal: nothing of the law can be seen.
 const EQUAL_FORCES_SHARE: f64 = 0.005;
 
+/// Rows of a table that are each worth a warning of their own.
+const MISFITS_BY_NAME: usize = 3;
+
 /// The thrust constant from loads.
 ///
 /// The answer is the constant of the square law through all loads, each with the uncertainty of its force and of its speed
@@ -246,8 +249,22 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
         mass_that_fits_std_kg: mass_kg(point.force_that_fits_std_n),
         is_left_out: point.is_gross,
     };
-    let misfits = fit.points.iter().filter(|point| point.fits == Some(false)).map(misfit);
-    misfits.chain(range_warnings(points, fit)).collect()
+    let misfits: Vec<&PointVerdict> = fit.points.iter().filter(|point| point.fits == Some(false)).collect();
+    let mut warnings: Vec<Warning> = if misfits.len() <= MISFITS_BY_NAME {
+        misfits.into_iter().map(misfit).collect()
+    } else {
+        let named = |are_left_out: bool| {
+            let of_kind = misfits.iter().filter(|point| point.is_gross == are_left_out);
+            Warning::RowsDoNotFit { names: of_kind.map(|point| point.name.clone()).collect(), are_left_out }
+        };
+        [true, false]
+            .map(named)
+            .into_iter()
+            .filter(|warning| !matches!(warning, Warning::RowsDoNotFit { names, .. } if names.is_empty()))
+            .collect()
+    };
+    warnings.extend(range_warnings(points, fit));
+    warnings
 }
 
 /// That the evidence prefers another law than the one that simulators have.
