@@ -1,4 +1,4 @@
-//! What CI does and a person types: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask bench`.
+//! What CI does and a person types: `cargo xtask ci`, `tidy`, `bench`, `validate`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
@@ -9,6 +9,7 @@ mod cost;
 mod rotors;
 mod roundtrip;
 mod tidy;
+mod validate;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -17,6 +18,7 @@ const HELP: &str = "cargo xtask <task>
 
   ci      all that continuous integration checks: tidy, format, clippy, tests, documentation
   tidy    rules of the house that no compiler knows
+  validate  what is exported, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
   bench   speed and memory of decoding and of `hovertone speed` on 30-minute files, as ratios
           [--minutes N] for shorter ones
   bench roundtrip   simulate, identify, compare with the truth: a hundred random hovers
@@ -34,6 +36,7 @@ fn main() -> ExitCode {
         ["bench", "roundtrip", options @ ..] => roundtrip::run(&root(), options),
         ["bench", "accuracy", options @ ..] => accuracy::run(&root(), options),
         ["bench", "rotors", options @ ..] => rotors::run(&root(), options),
+        ["validate"] => validate::run(&root()),
         ["bench", options @ ..] => bench::run(&root(), options),
         [bench::DECODE_TASK, file] => bench::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),

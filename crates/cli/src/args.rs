@@ -1,5 +1,6 @@
 //! What was typed. What it means is found out by each command's `resolve`.
 
+use crate::thrust_args::{CompareArguments, ExportArguments, FitArguments, IdentifyArguments, WeighArguments};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use hovertone::Method;
@@ -13,6 +14,11 @@ Examples:
   hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
   hovertone tones hover.mp4                   which tones it holds, and what each can mean
   hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
+  hovertone fit stand.csv                     the same fit on a thrust stand's table
+  hovertone fit --plan --mass-kg 0.413        how much flying a wanted uncertainty needs
+  hovertone weigh loaded.mov --constant out/results.json   what it lifts, by its sound
+  hovertone export out/results.json --to gazebo            lines for a simulator
+  hovertone compare out/results.json iris.sdf              a simulator's model against what was heard
   hovertone simulate scenario.toml -o out     a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
 
@@ -41,6 +47,10 @@ pub(crate) enum Command {
     Speed(Box<SpeedArguments>),
     Tones(Box<TonesArguments>),
     Identify(IdentifyArguments),
+    Fit(Box<FitArguments>),
+    Weigh(Box<WeighArguments>),
+    Export(ExportArguments),
+    Compare(CompareArguments),
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),
@@ -201,62 +211,6 @@ pub(crate) struct HearingArguments {
     pub(crate) no_progress: bool,
 }
 
-const IDENTIFY_EXAMPLES: &str = "\
-An experiment file:
-  [vehicle]
-  preset = \"ardrone\"          # or rotors, blades, gear = { pinion = 8, wheel = 69 }
-  mass_kg = 0.413             # ready to fly, from a kitchen scale
-
-  [tone]
-  order = 69                  # lines per turn: blades, or the gear's wheel; \"auto\" takes the vehicle's
-
-  [[load]]
-  name = \"no hull\"
-  recordings = [\"no_hull/*.mov\"]
-
-  [[load]]
-  name = \"small hull\"
-  added_mass_kg = 0.031
-  recordings = [\"small_hull/*.mov\"]
-
-  [[load]]                    # or a bench run: thrust from a scale
-  name = \"bench\"
-  thrust_n = 0.099
-  rotors_running = 1
-  recordings = [\"48000.wav\"]
-
-`hovertone demo` writes a complete one, with its recordings.
-
-Examples:
-  hovertone identify experiment.toml
-  hovertone identify experiment.toml -o results
-  hovertone identify examples/crazyflie-bench.toml --data-root DIR";
-
-/// Thrust constant from recordings of hovers with known masses, or of bench runs
-///
-/// Prints tables like the paper's, by the harmonic likelihood and by both of its methods, and the constant of the whole vehicle and of one rotor.
-#[derive(Args, Debug)]
-#[command(after_help = IDENTIFY_EXAMPLES)]
-pub(crate) struct IdentifyArguments {
-    /// What was flown, with which masses, and where the recordings are
-    #[arg(value_name = "EXPERIMENT.toml")]
-    pub(crate) experiment: PathBuf,
-    /// Write results.json and samples.csv there
-    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
-    pub(crate) output: Option<PathBuf>,
-    /// Print results.json instead of the tables
-    #[arg(long, help_heading = "Output")]
-    pub(crate) json: bool,
-    /// Folder that the names of the recordings start from [default: the folder of the experiment file]
-    #[arg(long, value_name = "DIR", help_heading = "Reading files")]
-    pub(crate) data_root: Option<PathBuf>,
-    /// The method whose constant is reported; all are computed [default: harmonic]
-    #[arg(long, value_parser = method_parser())]
-    pub(crate) method: Option<Method>,
-    #[command(flatten)]
-    pub(crate) hearing: HearingArguments,
-}
-
 /// The paper's experiment in simulated flight: three loads, five trials each, identified like anybody's recordings
 ///
 /// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the truth about every rotor; identifies the files; and
@@ -338,7 +292,7 @@ pub(crate) struct VehiclesArguments {
     pub(crate) json: bool,
 }
 
-fn method_parser() -> impl TypedValueParser<Value = Method> {
+pub(crate) fn method_parser() -> impl TypedValueParser<Value = Method> {
     let named = |name: String| Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method");
     PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(named)
 }

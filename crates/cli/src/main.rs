@@ -4,21 +4,27 @@
 //! to stdout and to files, everything for people to stderr.
 
 mod args;
+mod compare;
 mod demo;
+mod export;
 mod failure;
 mod files;
+mod fit;
 mod identify;
 mod nearest;
 mod output_folder;
+mod place;
 mod progress;
 mod recording;
 mod simulate;
 mod speed;
 mod terminal;
+mod thrust_args;
 mod toml_file;
 mod tones;
 mod vehicles;
 mod wav;
+mod weigh;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -33,6 +39,10 @@ fn main() -> ExitCode {
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
         Command::Tones(arguments) => tones::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),
+        Command::Fit(arguments) => fit::run(arguments, &mut terminal),
+        Command::Weigh(arguments) => weigh::run(arguments, &mut terminal),
+        Command::Export(arguments) => export::run(arguments, &mut terminal),
+        Command::Compare(arguments) => compare::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),

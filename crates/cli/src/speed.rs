@@ -115,7 +115,7 @@ pub(crate) fn default_method(config: &Config) -> Method {
 
 /// The tone that is meant: `--order` wins, then the gear, then the blades, then the vehicle. Blades that are known
 /// beside a gear help to find its tone. `None` where it has to be found.
-fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
+pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
     let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
     let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
     let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {

@@ -13,6 +13,7 @@ mod harmonic;
 mod hover;
 mod method;
 mod pipeline;
+mod regression;
 mod ridge;
 mod rotors_config;
 mod sample;
@@ -38,6 +39,10 @@ pub use experiment::{
 pub use hover::{Cut, CutReason, Hover};
 pub use method::Method;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
+pub use regression::{
+    Agreement, FitError, FitPoint, LineFit, ParameterPrior, ProportionalFit, line_fit, log_evidence_ratio,
+    proportional_fit,
+};
 pub use ridge::{Peak, Ridge, RidgeFrame, peak_offset_bins};
 pub use rotors_config::RotorsConfig;
 pub use signal::{Signal, SignalSource, SourceError};
@@ -46,8 +51,12 @@ pub use spectrogram::{Frame, Stft, Window};
 pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm};
 pub use stream::Progress;
 pub use thrust::{
-    Air, Force, GRAVITY_STANDARD_M_S2, LoadSpeeds, LoadThrust, SampleSpeed, SampleThrust, ThrustCoefficients,
-    ThrustTable, TrialSpeeds, TrialThrust, gravity_m_s2, thrust_constant_n_s2, thrust_from_loads,
+    Air, BudgetInput, BudgetLine, COVERAGE_FACTOR, Drift, DriftKind, FlightPlan, Force, ForceLaw, ForcePoint,
+    GRAVITY_STANDARD_M_S2, Gravity, HeardHover, InterceptLaw, LawAgreement, LawProbability, LoadRange, LoadSpeeds,
+    LoadThrust, PlanError, PlanWish, PointNoise, PointVerdict, PowerLaw, SampleSpeed, SampleThrust, SquareLawFit,
+    ThrustCoefficients, ThrustSettings, ThrustTable, TrialBootstrap, TrialSpeeds, TrialThrust, UncertaintyBudget,
+    UncertaintyInputs, WeighedHover, figure_of_merit, flight_plan, gravity_m_s2, square_law_fit, thrust_constant_n_s2,
+    thrust_from_loads, torque_constant_n_m_s2, warnings_of_points, weighed_hover,
 };
 pub use tone::{Band, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use verdict::NoTone;

@@ -6,12 +6,19 @@
 //! recording   what one recording said                     speed        its table row, its JSON, its track
 //! thrust      the paper's tables, any vehicle             results      results.json, samples.csv
 //! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
+//! adequacy    how well the square law holds, the laws beside it, the uncertainty budget
+//! fitted_table  a thrust stand's table, fitted            flight_plan  how much flying a wish needs
+//! models      simulators' models beside what was heard   weighed      what hovers, by its sound
 //! flight      what a simulated flight was like            tones        tone families and what each can mean
 //! ```
 
+mod adequacy;
 mod comparison;
 mod cuts;
+mod fitted_table;
 mod flight;
+mod flight_plan;
+mod models;
 mod notice;
 mod number;
 mod recording;
@@ -22,10 +29,15 @@ mod text_table;
 mod thrust;
 mod tones;
 mod vehicles;
+mod weighed;
 
+pub use adequacy::{adequacy_text, laws_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use cuts::cuts_in_words;
+pub use fitted_table::{FittedTable, fitted_table_json, fitted_table_text};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
+pub use flight_plan::flight_plan_text;
+pub use models::{ComparedModel, models_json, models_text};
 pub use notice::Notice;
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{Identification, InputRecord, results_json};
@@ -35,6 +47,7 @@ pub use text_table::wrapped;
 pub use thrust::{method_title, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
 pub use vehicles::{vehicles_json, vehicles_text};
+pub use weighed::{weighed_json, weighed_text};
 
 /// Version of the program that made an output.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -3,8 +3,9 @@
 use crate::VERSION;
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
-use crate::thrust::coefficients_of;
-use hovertone::{Experiment, Hover, Method, ThrustCoefficients, ThrustTable};
+use hovertone::{
+    Drift, Experiment, Hover, Method, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap, UncertaintyBudget,
+};
 use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::{Serialize, Serializer};
 
@@ -46,7 +47,12 @@ struct Results<'a> {
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
     method: Method,
+    plain_mean_total_n_s2: Option<Estimate>,
     thrust_coefficients: Option<ThrustCoefficients>,
+    uncertainty_budget: Option<&'a UncertaintyBudget>,
+    bootstrap: Option<TrialBootstrap>,
+    fit: Option<&'a SquareLawFit>,
+    drifts: &'a [Drift],
     #[serde(serialize_with = "by_method")]
     methods: &'a [ThrustTable],
     loads: Vec<Load<'a>>,
@@ -60,6 +66,8 @@ struct Results<'a> {
 struct MethodResults<'a> {
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    plain_mean_total_n_s2: Option<Estimate>,
+    expanded_uncertainty_total_n_s2: Option<f64>,
     loads: Vec<Load<'a>>,
 }
 
@@ -77,7 +85,10 @@ struct Load<'a> {
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
     fits: Option<bool>,
+    p_value: Option<f64>,
     mass_that_fits_kg: Option<f64>,
+    mass_that_fits_std_kg: Option<f64>,
+    figure_of_merit: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -104,6 +115,8 @@ fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S:
         let results = MethodResults {
             thrust_constant_total_n_s2: table.thrust_constant_total_n_s2,
             thrust_constant_per_rotor_n_s2: table.thrust_constant_per_rotor_n_s2,
+            plain_mean_total_n_s2: table.plain_mean_total_n_s2,
+            expanded_uncertainty_total_n_s2: table.budget.as_ref().map(|budget| budget.expanded_uncertainty_n_s2),
             loads: loads_of(table),
         };
         (table.method.name(), results)
@@ -127,7 +140,10 @@ fn loads_of(table: &ThrustTable) -> Vec<Load<'_>> {
             thrust_constant_total_n_s2: row.thrust_constant_total_n_s2,
             thrust_constant_per_rotor_n_s2: row.thrust_constant_per_rotor_n_s2,
             fits: row.fits,
+            p_value: row.p_value,
             mass_that_fits_kg: row.mass_that_fits_kg,
+            mass_that_fits_std_kg: row.mass_that_fits_std_kg,
+            figure_of_merit: row.figure_of_merit,
         })
         .collect()
 }
@@ -143,7 +159,12 @@ pub fn results_json(identification: &Identification<'_>) -> Result<String, serde
         thrust_constant_total_n_s2: reported.and_then(|table| table.thrust_constant_total_n_s2),
         thrust_constant_per_rotor_n_s2: reported.and_then(|table| table.thrust_constant_per_rotor_n_s2),
         method,
-        thrust_coefficients: coefficients_of(tables, method, experiment.air, experiment.propeller_diameter_m),
+        plain_mean_total_n_s2: reported.and_then(|table| table.plain_mean_total_n_s2),
+        thrust_coefficients: reported.and_then(|table| table.coefficients),
+        uncertainty_budget: reported.and_then(|table| table.budget.as_ref()),
+        bootstrap: reported.and_then(|table| table.bootstrap),
+        fit: reported.and_then(|table| table.fit.as_ref()),
+        drifts: reported.map_or(&[], |table| &table.drifts),
         methods: tables,
         loads: reported.map(loads_of).unwrap_or_default(),
         warnings: reported.map(|table| table.warnings.iter().map(Notice::from).collect()).unwrap_or_default(),

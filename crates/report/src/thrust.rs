@@ -2,7 +2,7 @@
 
 use crate::number::{DASH, PowerOfTen, rounded, significant, uncertainty, with_uncertainty};
 use crate::text_table::{Column, TextTable};
-use hovertone::{Air, LoadThrust, Method, ThrustCoefficients, ThrustTable};
+use hovertone::{LoadThrust, Method, ThrustTable};
 use hovertone_vehicle::{Estimate, RotorSpeed};
 
 /// Unit of every thrust constant: newton per (rad/s)².
@@ -98,14 +98,10 @@ fn units_of(table: &ThrustTable) -> (PowerOfTen, PowerOfTen) {
     )
 }
 
-/// The answer: the constant of the whole vehicle and of one rotor by every method, and which of them is reported.
+/// The answer: the constant of the whole vehicle and of one rotor by every method, which of them is reported, and the paper's
+/// plain mean of the loads beside it.
 /// Where the air and the propeller's diameter are known, C_T in both conventions follows.
-pub fn thrust_summary(
-    tables: &[ThrustTable],
-    reported: Method,
-    air: Option<Air>,
-    propeller_diameter_m: Option<f64>,
-) -> String {
+pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
     let values = |constant: &dyn Fn(&ThrustTable) -> Option<Estimate>| -> PowerOfTen {
         PowerOfTen::of(tables.iter().filter_map(|table| Some(constant(table)?.value)))
     };
@@ -115,6 +111,7 @@ pub fn thrust_summary(
         Column::words("thrust constant C_f = F/ω²"),
         Column::numbers("whole vehicle", &total_unit.unit(CONSTANT_UNIT)),
         Column::numbers("one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
+        Column::numbers("plain mean", &total_unit.unit(CONSTANT_UNIT)),
     ]);
     for table in tables {
         let mark = if table.method == reported { " (reported)" } else { "" };
@@ -122,9 +119,10 @@ pub fn thrust_summary(
             format!("{}{mark}", method_title(table.method)),
             constant_cell(table.thrust_constant_total_n_s2, total_unit),
             constant_cell(table.thrust_constant_per_rotor_n_s2, rotor_unit),
+            constant_cell(table.plain_mean_total_n_s2, total_unit),
         ]);
     }
-    let coefficients = coefficients_of(tables, reported, air, propeller_diameter_m);
+    let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {
         format!(
             "\nC_T of one rotor: {} = T/(ρ n² D⁴), or {} = T/(ρ A (ωR)²); air {} kg/m³\n",
@@ -134,15 +132,4 @@ pub fn thrust_summary(
         )
     });
     text.render() + &coefficients
-}
-
-/// C_T of one rotor by the reported method.
-pub(crate) fn coefficients_of(
-    tables: &[ThrustTable],
-    reported: Method,
-    air: Option<Air>,
-    propeller_diameter_m: Option<f64>,
-) -> Option<ThrustCoefficients> {
-    let constant = tables.iter().find(|table| table.method == reported)?.thrust_constant_per_rotor_n_s2?;
-    Some(ThrustCoefficients::of_rotor(constant.value, propeller_diameter_m?, air?.density_kg_m3()))
 }

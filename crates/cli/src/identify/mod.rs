@@ -5,15 +5,17 @@ mod recordings;
 
 pub(crate) use experiment_file::ExperimentSource;
 
-use crate::args::{HearingArguments, IdentifyArguments};
+use crate::args::HearingArguments;
 use crate::failure::{Ending, Failure};
 use crate::progress::Progress;
 use crate::recording::{Hearing, hear_all};
 use crate::speed::ending_of;
 use crate::terminal::Terminal;
+use crate::thrust_args::IdentifyArguments;
 use hovertone::{Experiment, LoadSpeeds, Method, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
-    Identification, InputRecord, Notice, method_title, results_json, samples_csv, thrust_summary, thrust_table,
+    Identification, InputRecord, Notice, adequacy_text, method_title, results_json, samples_csv, thrust_summary,
+    thrust_table,
 };
 use recordings::jobs_of;
 use std::fs;
@@ -73,9 +75,10 @@ pub(crate) fn identify(
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
     let experiment = &source.experiment;
+    let settings = experiment.thrust_settings();
     let tables = Method::ALL
         .iter()
-        .map(|&method| thrust_from_loads(&loads_of(experiment, &inputs, method), method, experiment.rotor_count))
+        .map(|&method| thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings))
         .collect();
     Ok(Identified { source, method, inputs, tables })
 }
@@ -89,6 +92,7 @@ fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> 
             name: load.name.clone(),
             force: load.force,
             rotors_running: load.rotors_running,
+            power_w: load.power_w,
             trials: inputs
                 .iter()
                 .filter(|input| input.load == load.name)
@@ -123,8 +127,8 @@ impl Identified {
 
     /// The answer under the tables.
     pub(crate) fn summary(&self) -> String {
-        let experiment = &self.source.experiment;
-        thrust_summary(&self.tables, self.method, experiment.air, experiment.propeller_diameter_m)
+        thrust_summary(&self.tables, self.method)
+            + &self.identification().reported().map_or(String::new(), adequacy_text)
     }
 
     fn in_words(&self) -> String {

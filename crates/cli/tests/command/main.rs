@@ -11,5 +11,6 @@ mod roundtrip;
 mod simulate;
 mod speed;
 mod testkit;
+mod thrust;
 mod tones;
 mod usage;

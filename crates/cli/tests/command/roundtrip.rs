@@ -19,8 +19,8 @@ const ONE_ROTOR_SHARE: f64 = SPREAD_SHARE;
 const MEDIAN_SHARE: f64 = ONE_ROTOR_SHARE / 2.0;
 const COVERAGE_FACTOR: f64 = 2.0;
 
-/// Error and standard uncertainty of C_f as shares of the truth, by method.
-fn trip(folder: &Path, seed: u64) -> Vec<(f64, f64)> {
+/// Error, standard uncertainty by weighing and speeds, and expanded uncertainty of the budget, as shares of the truth, by method.
+fn trip(folder: &Path, seed: u64) -> Vec<(f64, f64, f64)> {
     fs::create_dir_all(folder).unwrap();
     let file = ScenarioFile::random_hover(seed, DURATION_S, SPREAD_SHARE);
     fs::write(folder.join("scenario.toml"), toml::to_string(&file).unwrap()).unwrap();
@@ -40,7 +40,8 @@ fn trip(folder: &Path, seed: u64) -> Vec<(f64, f64)> {
         .map(|method| {
             let constant = &results["methods"][method]["thrust_constant_total_n_s2"];
             let of = |field: &str| constant[field].as_f64().unwrap() / true_total;
-            (of("value") - 1.0, of("std_uncertainty"))
+            let expanded = results["methods"][method]["expanded_uncertainty_total_n_s2"].as_f64().unwrap();
+            (of("value") - 1.0, of("std_uncertainty"), expanded / true_total)
         })
         .to_vec()
 }
@@ -50,16 +51,18 @@ fn ten_random_hovers_come_back() {
     let folder = tempfile::tempdir().unwrap();
     let trips: Vec<_> = (1..=SCENARIO_COUNT).map(|seed| trip(&folder.path().join(seed.to_string()), seed)).collect();
     for (index, method) in METHODS.iter().enumerate() {
-        let answers: Vec<(f64, f64)> = trips.iter().map(|trip| trip[index]).collect();
+        let answers: Vec<(f64, f64, f64)> = trips.iter().map(|trip| trip[index]).collect();
         let mut within = 0;
-        for (seed, &(error, std)) in (1..).zip(&answers) {
+        for (seed, &(error, std, expanded)) in (1..).zip(&answers) {
             println!("{method}, seed {seed}: {:+.2} %, U {:.2} %", 100.0 * error, 100.0 * COVERAGE_FACTOR * std);
             assert!(error.abs() < GROSS_SHARE, "{method}, seed {seed}: {error}");
             // what it says of itself, and what one ridge for four rotors can add to it
             assert!(error.abs() < ONE_ROTOR_SHARE + 3.0 * std, "{method}, seed {seed}: {error} ± {std}");
+            // the budget knows that one ridge stands for four rotors
+            assert!(error.abs() <= expanded, "{method}, seed {seed}: {error}, U of the budget {expanded}");
             within += u32::from(error.abs() <= COVERAGE_FACTOR * std);
         }
-        let mut errors: Vec<f64> = answers.iter().map(|(error, _)| error.abs()).collect();
+        let mut errors: Vec<f64> = answers.iter().map(|(error, ..)| error.abs()).collect();
         errors.sort_by(f64::total_cmp);
         assert!(errors[errors.len() / 2] < MEDIAN_SHARE, "{method}: {errors:?}");
         // of answers that are within U by a chance of 0.9, fewer than 6 of 10 are so in 1 of 600 lists of seeds

@@ -61,14 +61,43 @@ fn an_unknown_key_is_underlined_and_has_a_nearest_name() {
 }
 
 #[test]
+fn forces_and_places_must_be_possible() {
+    refuses(&["fit"], &["TABLE.csv"]);
+    refuses(&["fit", "--plan"], &["--mass-kg"]);
+    refuses(&["fit", "--plan", "--mass-kg", "-1"], &["vehicle_mass_kg = -1", "above 0"]);
+    refuses(&["fit", "--plan", "--mass-kg", "NaN"], &["vehicle_mass_kg = NaN"]);
+    refuses(&["fit", "a.csv", "--latitude-deg", "100"], &["latitude_deg = 100", "-90 and 90"]);
+    refuses(&["fit", "a.csv", "--gravity-m-s2", "1.6"], &["Earth"]);
+    refuses(&["fit", "a.csv", "--temperature-c", "293", "--diameter-m", "0.2"], &["temperature_c = 293"]);
+    refuses(&["fit", "a.csv", "--diameter-m", "25"], &["diameter_m = 25"]);
+    refuses(&["export", "a.json"], &["--to"]);
+    refuses(&["export", "a.json", "--to", "unreal"], &["gazebo", "rotorpy"]);
+    refuses(&["weigh", "a.wav"], &["--constant"]);
+    refuses(&["weigh", "a.wav", "--constant-n-s2", "0", "--blades", "2"], &["thrust constant = 0"]);
+    refuses(&["weigh", "a.wav", "--constant-n-s2", "2.8e-5"], &["which tone", "--vehicle"]);
+}
+
+#[test]
 fn help_and_version_are_data() {
     let version = hovertone(&["--version"]).ends_with(0);
     assert_eq!(version.stdout.trim_end(), format!("hovertone {}", env!("CARGO_PKG_VERSION")));
     let help = hovertone(&["--help"]).ends_with(0).stdout;
-    for command in ["speed", "tones", "identify", "demo", "simulate", "vehicles", "Exit codes"] {
+    for command in [
+        "speed",
+        "tones",
+        "identify",
+        "fit",
+        "weigh",
+        "export",
+        "compare",
+        "demo",
+        "simulate",
+        "vehicles",
+        "Exit codes",
+    ] {
         assert!(help.contains(command), "{command}");
     }
-    for command in ["speed", "tones", "identify", "demo", "simulate", "vehicles"] {
+    for command in ["speed", "tones", "identify", "fit", "weigh", "export", "compare", "demo", "simulate", "vehicles"] {
         let help = hovertone(&[command, "--help"]).ends_with(0).stdout;
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
     }

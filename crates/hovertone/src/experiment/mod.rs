@@ -7,7 +7,7 @@ mod tests;
 
 use crate::config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig};
 use crate::error::ConfigError;
-use crate::thrust::{Air, Force};
+use crate::thrust::{Air, Force, ThrustSettings, UncertaintyInputs};
 use hovertone_vehicle::{Gear, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,9 @@ pub struct ExperimentFile {
     pub hover: HoverConfig,
     /// The air, for the thrust coefficients.
     pub air: Option<Air>,
+    /// How large the effects may be that no recording shows.
+    #[serde(default)]
+    pub uncertainty: UncertaintyInputs,
     /// The loads.
     #[serde(default, rename = "load")]
     pub loads: Vec<LoadSection>,
@@ -59,6 +62,8 @@ pub struct VehicleSection {
     pub mass_std_kg: Option<f64>,
     /// Local gravity …
     pub gravity_m_s2: Option<f64>,
+    /// Its standard uncertainty
+    pub gravity_std_m_s2: Option<f64>,
     /// … or where it was flown: latitude
     pub latitude_deg: Option<f64>,
     /// and height above the sea.
@@ -121,6 +126,8 @@ pub struct LoadSection {
     pub thrust_std_n: Option<f64>,
     /// Rotors that run; all of them in a hover.
     pub rotors_running: Option<u32>,
+    /// Power that they take together, for the figure of merit.
+    pub power_w: Option<f64>,
     /// Its recordings: names or patterns.
     pub recordings: Vec<String>,
     /// Start of the part to use, in every recording of this load.
@@ -142,6 +149,8 @@ pub struct Experiment {
     pub config: Config,
     /// The air, where known.
     pub air: Option<Air>,
+    /// How large the effects may be that no recording shows.
+    pub uncertainty: UncertaintyInputs,
     /// The loads.
     pub loads: Vec<ExperimentLoad>,
 }
@@ -155,10 +164,25 @@ pub struct ExperimentLoad {
     pub force: Force,
     /// How many rotors balance it.
     pub rotors_running: u32,
+    /// Power that they take together, where known.
+    pub power_w: Option<f64>,
     /// Names or patterns of its recordings.
     pub recordings: Vec<String>,
     /// Which part of them is used.
     pub span: SpanConfig,
+}
+
+impl Experiment {
+    /// What a thrust constant needs to be known beside its loads.
+    pub fn thrust_settings(&self) -> ThrustSettings {
+        ThrustSettings {
+            propeller_diameter_m: self.propeller_diameter_m,
+            air_density_kg_m3: self.air.map(|air| air.density_kg_m3()),
+            clock_ppm: self.config.budget.clock_ppm,
+            uncertainty: self.uncertainty,
+            ..ThrustSettings::for_rotors(self.rotor_count)
+        }
+    }
 }
 
 impl ExperimentLoad {

@@ -3,7 +3,7 @@
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
 use crate::config::{Config, SpanConfig, ToneConfig};
 use crate::method::Method;
-use crate::thrust::{Force, GRAVITY_STANDARD_M_S2, gravity_m_s2};
+use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, Gravity};
 use hovertone_vehicle::{Order, Vehicle, find_preset};
 
 /// A mass this many times off the preset's was written in grams, or is another vehicle's.
@@ -43,16 +43,23 @@ impl ExperimentFile {
             self.loads.iter().map(|load| self.resolve_load(load, preset, rotor_count)).collect::<Result<_, _>>()?;
         let own_diameter_m = self.vehicle.propeller_diameter_m;
         own_diameter_m.map_or(Ok(0.0), |diameter_m| positive("vehicle.propeller_diameter_m", diameter_m))?;
-        if let Some(air) = self.air {
+        // the place that gives gravity also gives the air's pressure, where no barometer was read
+        let air = self.air.map(|air| Air { height_m: air.height_m.or(self.vehicle.height_m), ..air });
+        if let Some(air) = air {
             air.check()?;
+            if air.pressure_hpa.is_none() && air.height_m.is_none() {
+                return Err(missing("air.pressure_hpa", "write the pressure at the place, or air.height_m"));
+            }
         }
+        self.uncertainty.check()?;
         Ok(Experiment {
             vehicle_name: preset.map_or("own vehicle", |preset| preset.name).to_owned(),
             rotor_count,
             propeller_diameter_m: own_diameter_m
                 .or_else(|| preset.and_then(|preset| Some(preset.propeller_diameter_m.as_ref()?.value))),
             config,
-            air: self.air,
+            air,
+            uncertainty: self.uncertainty,
             loads,
         })
     }
@@ -113,7 +120,15 @@ impl ExperimentFile {
         }
         let span = SpanConfig { from_s: load.from_s, to_s: load.to_s };
         span.check()?;
-        Ok(ExperimentLoad { name: load.name.clone(), force, rotors_running, recordings: load.recordings.clone(), span })
+        let power_w = load.power_w.map(|power_w| positive(&named("power_w"), power_w)).transpose()?;
+        Ok(ExperimentLoad {
+            name: load.name.clone(),
+            force,
+            rotors_running,
+            power_w,
+            recordings: load.recordings.clone(),
+            span,
+        })
     }
 
     fn weight(
@@ -126,11 +141,11 @@ impl ExperimentFile {
         let mass_kg =
             mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
         let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
-            (Some(gravity), None, None) => gravity,
+            (Some(gravity), None, None) => Gravity::given(gravity),
             (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= 90.0 => {
-                gravity_m_s2(latitude_deg, height_m.unwrap_or(0.0))
+                Gravity::at_place(latitude_deg, height_m.unwrap_or(0.0))
             }
-            (None, None, None) => GRAVITY_STANDARD_M_S2,
+            (None, None, None) => Gravity::UNKNOWN,
             (None, Some(latitude_deg), _) => {
                 return Err(ExperimentError::OutOfRange {
                     name: "vehicle.latitude_deg".to_owned(),
@@ -163,7 +178,11 @@ impl ExperimentFile {
             vehicle_mass_kg: mass_kg,
             added_mass_kg,
             mass_std_kg: self.mass_std_kg()?,
-            gravity_m_s2: on_earth(gravity)?,
+            gravity_m_s2: on_earth(gravity.m_s2)?,
+            gravity_std_m_s2: not_negative(
+                "vehicle.gravity_std_m_s2",
+                self.vehicle.gravity_std_m_s2.unwrap_or(gravity.std_m_s2),
+            )?,
         })
     }
 }

@@ -38,11 +38,14 @@ fn a_preset_fills_what_the_file_leaves_out() {
     assert_eq!((experiment.rotor_count, experiment.loads.len()), (4, 2));
     assert_eq!(experiment.config.tone.blades, Some(2));
     assert!(experiment.config.tone.speed_max.rev_s() < 200.0, "the preset's range narrows the search");
-    let Force::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, gravity_m_s2 } = experiment.loads[1].force else {
+    let Force::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, gravity_m_s2, gravity_std_m_s2 } =
+        experiment.loads[1].force
+    else {
         panic!("a hover has a weight");
     };
     assert_eq!((vehicle_mass_kg, added_mass_kg, mass_std_kg), (0.413, 0.031, 0.0005));
     assert!((gravity_m_s2 - 9.7848).abs() < 1e-4);
+    assert_eq!(gravity_std_m_s2, 0.0005);
 }
 
 #[test]
@@ -80,6 +83,10 @@ fn what_means_nothing_is_refused_by_name() {
         ("\"ardrone\"", "\"ardrone9\"", "ardrone9"),
         ("height_m = 650.0", "mass_kg = 413", "kg"),
         ("height_m = 650.0", "mass_kg = nan", "mass_kg"),
+        ("height_m = 650.0", "mass_kg = 0.0", "mass_kg"),
+        ("height_m = 650.0", "mass_kg = -0.4", "mass_kg"),
+        ("height_m = 650.0", "mass_kg = inf", "mass_kg"),
+        ("height_m = 650.0", "gravity_std_m_s2 = -1.0", "gravity_std_m_s2"),
         ("height_m = 650.0", "mass_std_kg = -1.0", "mass_std_kg"),
         ("height_m = 650.0", "gravity_m_s2 = 9.8", "gravity"),
         ("latitude_deg = -20.76", "latitude_deg = 200.0", "latitude"),
@@ -97,6 +104,10 @@ fn what_means_nothing_is_refused_by_name() {
         ("[\"small_hull/*.mov\"]", "[]", "recordings"),
         ("[tone]", "[air]\ntemperature_c = 298.0\npressure_hpa = 937.0\n[tone]", "temperature_c"),
         ("[tone]", "[air]\ntemperature_c = 25.0\npressure_hpa = 93700.0\n[tone]", "pressure_hpa"),
+        ("[tone]", "[air]\ntemperature_c = 25.0\nheight_m = 20000.0\n[tone]", "height_m"),
+        ("[tone]", "[uncertainty]\ntilt_deg_max = 90.0\n[tone]", "tilt_deg_max"),
+        ("[tone]", "[uncertainty]\ntilt = 2.0\n[tone]", "tilt"),
+        ("recordings = [\"small_hull/*.mov\"]", "power_w = -5.0\nrecordings = [\"a\"]", "power_w"),
         ("[tone]", "[samples]\nlength_s = 0.0\n[tone]", "length_s"),
     ] {
         let message = refusal(from, to);

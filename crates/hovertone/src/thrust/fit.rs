@@ -1,57 +1,110 @@
-//! The paper's averages, with uncertainty and a check whether the loads agree.
+//! From the speeds of all trials to the thrust constant: the fit and its budget, and the paper's averages beside them.
 
-use super::{LoadSpeeds, LoadThrust, SampleThrust, ThrustTable, TrialSpeeds, TrialThrust, thrust_constant_n_s2};
+use super::bootstrap::trial_bootstrap;
+use super::budget::budget_of_fit;
+use super::dimensionless::{ThrustCoefficients, figure_of_merit};
+use super::drift::drifts;
+use super::load_points::{Campaign, HeardLoad, whole_vehicle_factor};
+use super::point_verdict::PointVerdict;
+use super::square_law::{ForceLaw, ForcePoint, SquareLawFit, square_law_fit};
+use super::{
+    LoadSpeeds, LoadThrust, SampleThrust, ThrustSettings, ThrustTable, TrialSpeeds, TrialThrust, UncertaintyBudget,
+    thrust_constant_n_s2,
+};
 use crate::method::Method;
 use crate::statistics::{mean, std};
 use crate::warning::Warning;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Degrees of freedom of an uncertainty that comes from the frames of one trial: some hundred frames of a hover are worth
-/// about so many independent ones.
-const FREEDOM_OF_FRAMES: f64 = 20.0;
-/// A load that is right is said to disagree with this chance: the usual level of such tests.
-const DISAGREEMENT_CHANCE: f64 = 0.05;
+/// Loads whose forces differ by less than this share are equal: nothing of the law can be seen.
+const EQUAL_FORCES_SHARE: f64 = 0.005;
 
-/// The thrust constant from loads, as the paper's tables have it: per load from the mean speed of all its samples
-/// (C = F / ω̄², not the mean of the samples' constants), over all as the plain mean of the loads. The square of the mean
-/// in place of the mean of the squares makes C too large by the square of the relative spread: 0.015 % at the paper's 1.23 %.
+/// Rows of a table that are each worth a warning of their own.
+const MISFITS_BY_NAME: usize = 3;
+
+/// The thrust constant from loads.
 ///
-/// The standard uncertainty of a load combines the scatter of its trials' mean speeds (or, with a single trial, of the
-/// frames) and the weighing: u²(C)/C² = u²(F)/F² + 4 u²(ω)/ω². Over the loads, what they share (the vehicle's weighing)
-/// does not average out, and where the loads scatter more than their uncertainties say, their scatter is taken.
+/// The answer is the constant of the square law through all loads, each with the uncertainty of its force and of its speed
+/// (York). Speeds are means of trials; their uncertainty is the scatter of the trials about the means of their loads, all
+/// pooled. What all loads share (the vehicle's weighing) does not average out; where loads disagree, their scatter is taken.
+/// The stated standard uncertainty is that of weighing and speeds; the budget adds what nobody measured, foremost that a single
+/// ridge follows the loudest rotor.
 ///
-/// Not in it: that a single ridge follows the loudest rotor (2 to 4 % in C with rotors 1 to 2 % apart), which no
-/// statistics of the ridge can show. The table warns of it.
-pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, rotor_count: u32) -> ThrustTable {
-    let rotor_count = rotor_count.max(1);
-    let mut rows: Vec<LoadThrust> = loads.iter().map(|load| row_of_load(load, rotor_count)).collect();
-    judge_loads(loads, &mut rows);
-    let total = mean_over_loads(loads, &rows);
-    let mut warnings: Vec<Warning> = rows
-        .iter()
-        .filter(|row| row.fits == Some(false))
-        .map(|row| Warning::LoadDoesNotFit { name: row.name.clone(), mass_that_fits_kg: row.mass_that_fits_kg })
-        .collect();
-    if loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
+/// Beside it stands what the paper's tables have: per load from the mean speed of all its samples (C = F / ω̄², not the mean
+/// of the samples' constants), over all as the plain mean of the loads. The square of the mean in place of the mean of the
+/// squares makes C too large by the square of the relative spread: 0.015 % at the paper's 1.23 %.
+pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &ThrustSettings) -> ThrustTable {
+    let rotor_count = settings.rotor_count.max(1);
+    let campaign = Campaign::of(loads, rotor_count);
+    let fit = square_law_fit(&campaign.points, campaign.noise).ok();
+    let budget = fit.as_ref().map(|fit| budget_of_fit(&campaign, fit, settings));
+    let rows = rows(loads, &campaign, fit.as_ref(), settings);
+    let plain = mean_over_loads(&campaign, &rows);
+    let trials: usize = campaign.loads.iter().map(|load| load.trials_rad_s.len()).sum();
+    let total = fit.as_ref().zip(budget.as_ref()).map(|(fit, budget)| answer(fit, budget, trials)).or(plain);
+    let per_rotor = total.map(|total| total.scaled(1.0 / f64::from(rotor_count)));
+    let air = settings.propeller_diameter_m.zip(settings.air_density_kg_m3);
+    let coefficients = per_rotor
+        .zip(air)
+        .map(|(constant, (diameter_m, density))| ThrustCoefficients::of_rotor(constant.value, diameter_m, density));
+    let drifts = drifts(&campaign);
+    let mut warnings = warnings_of(&campaign, &rows, fit.as_ref());
+    warnings.extend(drifts.iter().copied().map(Warning::ConstantDrifts));
+    warnings.extend(
+        coefficients
+            .filter(|coefficients| !coefficients.is_plausible)
+            .map(|coefficients| Warning::ImplausibleThrustCoefficient { propeller: coefficients.propeller }),
+    );
+    if settings.follows_loudest && loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
         warnings.push(Warning::LoudestRotor);
     }
     ThrustTable {
         method,
         rotor_count,
+        bootstrap: fit.as_ref().and_then(|fit| trial_bootstrap(&campaign, fit)),
         loads: rows,
         thrust_constant_total_n_s2: total,
-        thrust_constant_per_rotor_n_s2: total.map(|total| total.scaled(1.0 / f64::from(rotor_count))),
+        thrust_constant_per_rotor_n_s2: per_rotor,
+        plain_mean_total_n_s2: plain,
+        coefficients,
+        fit,
+        budget,
+        drifts,
         warnings,
     }
 }
 
-/// Factor from the constant of the rotors that run to that of the whole vehicle: 1 in a hover.
-fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64 {
-    f64::from(rotor_count) / f64::from(rotors_running.max(1))
+fn answer(fit: &SquareLawFit, budget: &UncertaintyBudget, trials: usize) -> Estimate {
+    let std = budget.measured_std_n_s2();
+    Estimate {
+        value: fit.thrust_constant_n_s2.value,
+        std_uncertainty: (std > 0.0).then_some(std),
+        ending: if trials > 1 { Ending::Solved } else { Ending::SingleObservation },
+    }
 }
 
-fn row_of_load(load: &LoadSpeeds, rotor_count: u32) -> LoadThrust {
+fn rows(
+    loads: &[LoadSpeeds],
+    campaign: &Campaign<'_>,
+    fit: Option<&SquareLawFit>,
+    settings: &ThrustSettings,
+) -> Vec<LoadThrust> {
+    let row = |(index, load): (usize, &LoadSpeeds)| {
+        let place = campaign.loads.iter().position(|heard| heard.index == index);
+        let heard = place.and_then(|place| campaign.loads.get(place));
+        let verdict = place.and_then(|place| fit?.points.get(place));
+        row_of_load(load, heard, verdict, settings)
+    };
+    loads.iter().enumerate().map(row).collect()
+}
+
+fn row_of_load(
+    load: &LoadSpeeds,
+    heard: Option<&HeardLoad<'_>>,
+    verdict: Option<&PointVerdict>,
+    settings: &ThrustSettings,
+) -> LoadThrust {
+    let rotor_count = settings.rotor_count.max(1);
     let force_n = load.force.newtons();
     let factor = whole_vehicle_factor(load.rotors_running, rotor_count);
     let constant = |speed: RotorSpeed| factor * thrust_constant_n_s2(force_n, speed);
@@ -59,29 +112,44 @@ fn row_of_load(load: &LoadSpeeds, rotor_count: u32) -> LoadThrust {
     let samples = || load.trials.iter().flat_map(|trial| &trial.samples);
     let speeds: Vec<f64> = samples().map(|sample| sample.speed.rad_s()).collect();
     let speed = mean(&speeds).map(RotorSpeed::from_rad_s);
-    let std_uncertainty_rad_s = speed_std_uncertainty_rad_s(load, &trials);
+    let speed_std_share = heard.map(|heard| heard.speed_std_share).filter(|share| *share > 0.0);
     let total = speed.map(|speed| {
         let (alone, shared) = load.force.relative_std();
-        let relative = std_uncertainty_rad_s.map(|std| (2.0 * std / speed.rad_s()).hypot(alone).hypot(shared));
+        let relative = speed_std_share.map(|share| (2.0 * share).hypot(alone).hypot(shared));
         let heard = trials.iter().filter(|trial| trial.speed.is_some()).count();
         let ending = if heard > 1 { Ending::Solved } else { Ending::SingleObservation };
         let value = constant(speed);
         Estimate { value, std_uncertainty: relative.map(|relative| relative * value), ending }
     });
+    // forces of the verdict are those of the whole vehicle
+    let mass_of = |force_n: Option<f64>| {
+        let (force_n, mass_kg) = (force_n?, load.force.mass_kg()?);
+        Some(mass_kg * force_n / load.force.newtons())
+    };
     LoadThrust {
         name: load.name.clone(),
         mass_kg: load.force.mass_kg(),
         force_n,
         rotors_running: load.rotors_running,
         speed,
-        std_uncertainty_rad_s,
+        std_uncertainty_rad_s: speed.zip(speed_std_share).map(|(speed, share)| speed.rad_s() * share),
         spread_rad_s: spread_rad_s(load, &speeds),
         thrust_constant_total_n_s2: total,
         thrust_constant_per_rotor_n_s2: total.map(|total| total.scaled(1.0 / f64::from(rotor_count))),
-        fits: None,
-        mass_that_fits_kg: None,
+        fits: verdict.and_then(|verdict| verdict.fits),
+        figure_of_merit: figure_of_merit_of(load, settings),
+        p_value: verdict.and_then(|verdict| verdict.p_value),
+        mass_that_fits_kg: mass_of(verdict.and_then(|verdict| verdict.force_that_fits_n)),
+        mass_that_fits_std_kg: mass_of(verdict.and_then(|verdict| verdict.force_that_fits_std_n)),
         trials,
     }
+}
+
+/// Of one of the rotors that run, which share thrust and power alike.
+fn figure_of_merit_of(load: &LoadSpeeds, settings: &ThrustSettings) -> Option<f64> {
+    let running = f64::from(load.rotors_running.max(1));
+    let (thrust_n, power_w) = (load.force.newtons() / running, load.power_w? / running);
+    Some(figure_of_merit(thrust_n, power_w, settings.propeller_diameter_m?, settings.air_density_kg_m3?))
 }
 
 fn row_of_trial(trial: &TrialSpeeds, constant: &dyn Fn(RotorSpeed) -> f64) -> TrialThrust {
@@ -99,22 +167,6 @@ fn row_of_trial(trial: &TrialSpeeds, constant: &dyn Fn(RotorSpeed) -> f64) -> Tr
     }
 }
 
-/// Standard uncertainty of a load's mean speed: from the scatter of its trials (their windows overlap and share a flight,
-/// so trials are what counts) or from the frames within them, whichever is larger; a single trial has only its frames.
-fn speed_std_uncertainty_rad_s(load: &LoadSpeeds, trials: &[TrialThrust]) -> Option<f64> {
-    let means: Vec<f64> = trials.iter().filter_map(|trial| Some(trial.speed?.rad_s())).collect();
-    let within: Vec<f64> = load
-        .trials
-        .iter()
-        .flat_map(|trial| &trial.samples)
-        .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.std_uncertainty_rev_s?).rad_s()))
-        .collect();
-    let count = means.len().max(1) as f64;
-    let by_frames = mean(&within).map(|std| std / count.sqrt());
-    // two or three trials can agree by chance better than their frames allow
-    std(&means).map(|scatter| scatter / count.sqrt()).into_iter().chain(by_frames).reduce(f64::max)
-}
-
 /// Spread of the speed over all frames of a load: within the samples and between them.
 fn spread_rad_s(load: &LoadSpeeds, speeds: &[f64]) -> Option<f64> {
     let squares: Vec<f64> = load
@@ -126,74 +178,97 @@ fn spread_rad_s(load: &LoadSpeeds, speeds: &[f64]) -> Option<f64> {
     Some((mean(&squares)? + std(speeds).unwrap_or_default().powi(2)).sqrt())
 }
 
-/// A load's constant with the variance that it has alone (what all loads share cancels in a comparison) and the degrees of
-/// freedom that its trials leave.
-struct Alone {
-    value: f64,
-    variance: f64,
-    degrees_of_freedom: f64,
+/// The paper's average: the plain mean of the loads. Its uncertainty is what the loads' own and shared ones make of it, or the
+/// loads' scatter where that is larger.
+fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estimate> {
+    let heard: Vec<(&HeardLoad<'_>, Estimate)> = campaign
+        .loads
+        .iter()
+        .filter_map(|load| Some((load, rows.get(load.index)?.thrust_constant_total_n_s2?)))
+        .collect();
+    let values: Vec<f64> = heard.iter().map(|(_, total)| total.value).collect();
+    let count = values.len() as f64;
+    let value = mean(&values)?;
+    let alone = |(load, total): &(&HeardLoad<'_>, Estimate)| {
+        total.value * (2.0 * load.speed_std_share).hypot(load.own_force_std_n / load.force_n)
+    };
+    let by_parts = heard.iter().map(|load| alone(load).powi(2)).sum::<f64>().sqrt() / count;
+    let by_scatter = std(&values).map_or(0.0, |scatter| scatter / count.sqrt());
+    let shared: Vec<f64> = heard.iter().map(|(load, total)| total.value * load.load.force.relative_std().1).collect();
+    let std_uncertainty = by_parts.max(by_scatter).hypot(mean(&shared).unwrap_or_default());
+    let trials: usize = campaign.loads.iter().map(|load| load.trials_rad_s.len()).sum();
+    Some(Estimate {
+        value,
+        std_uncertainty: (std_uncertainty > 0.0).then_some(std_uncertainty),
+        ending: if trials > 1 { Ending::Solved } else { Ending::SingleObservation },
+    })
 }
 
-/// Leaves each load out in turn and asks by Student's test whether it agrees with the rest (Welch and Satterthwaite's
-/// degrees of freedom).
-fn judge_loads(loads: &[LoadSpeeds], rows: &mut [LoadThrust]) {
-    let alone: Vec<Option<Alone>> = loads.iter().zip(&*rows).map(|(load, row)| alone_of(load, row)).collect();
-    for (index, row) in rows.iter_mut().enumerate() {
-        let others: Vec<&Alone> = alone
-            .iter()
-            .enumerate()
-            .filter(|&(other, _)| other != index)
-            .filter_map(|(_, alone)| alone.as_ref())
-            .collect();
-        let values: Vec<f64> = others.iter().map(|other| other.value).collect();
-        let (Some(own), Some(expected)) = (&alone[index], mean(&values)) else { continue };
-        // the difference's variances: this load's, and each other's share of their mean
-        let parts: Vec<(f64, f64)> = std::iter::once((own.variance, own.degrees_of_freedom))
-            .chain(others.iter().map(|o| (o.variance / (others.len() as f64).powi(2), o.degrees_of_freedom)))
-            .collect();
-        let variance: f64 = parts.iter().map(|(variance, _)| variance).sum();
-        let degrees_of_freedom =
-            variance.powi(2) / parts.iter().map(|(variance, dof)| variance.powi(2) / dof).sum::<f64>();
-        let Ok(student) = StudentsT::new(0.0, 1.0, degrees_of_freedom) else { continue };
-        let apart_stds_max = student.inverse_cdf(1.0 - DISAGREEMENT_CHANCE / 2.0);
-        let fits = (own.value - expected).abs() <= apart_stds_max * variance.sqrt();
-        row.fits = Some(fits);
-        row.mass_that_fits_kg = row.mass_kg.filter(|_| !fits).map(|mass_kg| mass_kg * expected / own.value);
+fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&SquareLawFit>) -> Vec<Warning> {
+    let left_out = |(load, recording): &(String, String)| Warning::TrialLeftOut {
+        load: load.clone(),
+        recording: recording.clone(),
+    };
+    let mut warnings: Vec<Warning> = campaign.gross_trials.iter().map(left_out).collect();
+    let is_gross =
+        |name: &str| fit.is_some_and(|fit| fit.points.iter().any(|point| point.is_gross && point.name == name));
+    warnings.extend(rows.iter().filter(|row| row.fits == Some(false)).map(|row| Warning::LoadDoesNotFit {
+        name: row.name.clone(),
+        mass_that_fits_kg: row.mass_that_fits_kg,
+        mass_that_fits_std_kg: row.mass_that_fits_std_kg,
+        is_left_out: is_gross(&row.name),
+    }));
+    let kinds = |is_hover: bool| campaign.loads.iter().any(|load| load.is_hover() == is_hover);
+    if kinds(true) && kinds(false) {
+        warnings.push(Warning::MixedBenchAndHover);
+    }
+    warnings.extend(fit.map(|fit| range_warnings(&campaign.points, fit)).unwrap_or_default());
+    warnings
+}
+
+/// That loads are too few or too much alike, or ask for another law.
+fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit) -> Vec<Warning> {
+    let forces = || points.iter().map(|point| point.force_n);
+    let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
+    if points.len() == 1 {
+        vec![Warning::SingleLoad]
+    } else if most / least - 1.0 < EQUAL_FORCES_SHARE {
+        vec![Warning::EqualLoads { count: points.len() }]
+    } else {
+        let narrow = fit.range.filter(|range| !range.shows_intercept).map(Warning::NarrowLoadRange);
+        narrow.into_iter().chain(law_warning(fit)).collect()
     }
 }
 
-/// Variance of a load's constant without what all loads share: its speed's and its own weighing's.
-fn variance_alone(load: &LoadSpeeds, row: &LoadThrust) -> Option<f64> {
-    let speed_share = 2.0 * row.std_uncertainty_rad_s? / row.speed?.rad_s();
-    Some((row.thrust_constant_total_n_s2?.value * speed_share.hypot(load.force.relative_std().0)).powi(2))
+/// What weakens a fit of the rows of a table. Gravity is given where the rows are masses that hover.
+pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s2: Option<f64>) -> Vec<Warning> {
+    let mass_kg = |force_n: Option<f64>| Some(force_n? / gravity_m_s2?);
+    let misfit = |point: &PointVerdict| Warning::LoadDoesNotFit {
+        name: point.name.clone(),
+        mass_that_fits_kg: mass_kg(point.force_that_fits_n),
+        mass_that_fits_std_kg: mass_kg(point.force_that_fits_std_n),
+        is_left_out: point.is_gross,
+    };
+    let misfits: Vec<&PointVerdict> = fit.points.iter().filter(|point| point.fits == Some(false)).collect();
+    let mut warnings: Vec<Warning> = if misfits.len() <= MISFITS_BY_NAME {
+        misfits.into_iter().map(misfit).collect()
+    } else {
+        let named = |are_left_out: bool| {
+            let of_kind = misfits.iter().filter(|point| point.is_gross == are_left_out);
+            Warning::RowsDoNotFit { names: of_kind.map(|point| point.name.clone()).collect(), are_left_out }
+        };
+        [true, false]
+            .map(named)
+            .into_iter()
+            .filter(|warning| !matches!(warning, Warning::RowsDoNotFit { names, .. } if names.is_empty()))
+            .collect()
+    };
+    warnings.extend(range_warnings(points, fit));
+    warnings
 }
 
-fn alone_of(load: &LoadSpeeds, row: &LoadThrust) -> Option<Alone> {
-    let value = row.thrust_constant_total_n_s2?.value;
-    let heard = row.trials.iter().filter(|trial| trial.speed.is_some()).count();
-    // a single trial's uncertainty comes from its many frames
-    let degrees_of_freedom = if heard > 1 { heard as f64 - 1.0 } else { FREEDOM_OF_FRAMES };
-    let variance = variance_alone(load, row)?;
-    (variance > 0.0).then_some(Alone { value, variance, degrees_of_freedom })
-}
-
-fn mean_over_loads(loads: &[LoadSpeeds], rows: &[LoadThrust]) -> Option<Estimate> {
-    let heard: Vec<(&LoadSpeeds, &LoadThrust, Estimate)> =
-        loads.iter().zip(rows).filter_map(|(load, row)| Some((load, row, row.thrust_constant_total_n_s2?))).collect();
-    let values: Vec<f64> = heard.iter().map(|(.., total)| total.value).collect();
-    let count = values.len() as f64;
-    let value = mean(&values)?;
-    let alone: Option<f64> = heard.iter().map(|(load, row, _)| variance_alone(load, row)).sum();
-    let shared: Vec<f64> = heard.iter().map(|(load, _, total)| total.value * load.force.relative_std().1).collect();
-    let by_parts = alone.map(|squares| squares.sqrt() / count);
-    let by_scatter = std(&values).map(|scatter| scatter / count.sqrt());
-    let std_uncertainty =
-        by_parts.into_iter().chain(by_scatter).reduce(f64::max).map(|std| std.hypot(mean(&shared).unwrap_or_default()));
-    let trials = heard.iter().flat_map(|(_, row, _)| &row.trials).filter(|trial| trial.speed.is_some()).count();
-    let is_solved = trials > 1 && std_uncertainty.is_some();
-    Some(Estimate {
-        value,
-        std_uncertainty,
-        ending: if is_solved { Ending::Solved } else { Ending::SingleObservation },
-    })
+/// That the evidence prefers another law than the one that simulators have.
+fn law_warning(fit: &SquareLawFit) -> Option<Warning> {
+    let law = fit.laws.iter().find(|law| law.law == fit.preferred && law.law != ForceLaw::Square)?;
+    Some(Warning::OtherLawPreferred { law: law.law, probability: law.probability })
 }

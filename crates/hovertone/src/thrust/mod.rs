@@ -1,13 +1,43 @@
-//! Speeds and known forces → thrust constant: per sample, per trial, per load and over all, as the paper averages.
+//! Speeds and known forces → thrust constant: the square law through all loads with its uncertainty budget, and per sample, per
+//! trial and per load as the paper averages.
 
+mod air;
 mod balance;
+mod bootstrap;
+mod budget;
+#[cfg(test)]
+mod campaign_tests;
+mod dimensionless;
+mod drift;
 mod fit;
+mod load_points;
+mod load_range;
+mod plan;
+mod point_verdict;
+mod square_law;
 #[cfg(test)]
 mod tests;
+mod uncertainty_inputs;
+mod weighing;
 
-pub use balance::{Air, GRAVITY_STANDARD_M_S2, ThrustCoefficients, gravity_m_s2, thrust_constant_n_s2};
-pub use fit::thrust_from_loads;
+pub use air::Air;
+pub use balance::{GRAVITY_STANDARD_M_S2, Gravity, gravity_m_s2, thrust_constant_n_s2};
+pub use bootstrap::TrialBootstrap;
+pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget};
+pub use dimensionless::{ThrustCoefficients, figure_of_merit, torque_constant_n_m_s2};
+pub use drift::{Drift, DriftKind};
+pub use fit::{thrust_from_loads, warnings_of_points};
+pub use load_range::LoadRange;
+pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
+pub use point_verdict::PointVerdict;
+pub use square_law::{
+    ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, PointNoise, PowerLaw, SquareLawFit,
+    square_law_fit,
+};
+pub use uncertainty_inputs::UncertaintyInputs;
+pub use weighing::{HeardHover, WeighedHover, weighed_hover};
 
+use crate::budget_config::BudgetConfig;
 use crate::method::Method;
 use crate::pipeline::{RotorTone, SampleSpeeds};
 use crate::span::Span;
@@ -29,6 +59,8 @@ pub enum Force {
         mass_std_kg: f64,
         /// Local gravity.
         gravity_m_s2: f64,
+        /// Its standard uncertainty.
+        gravity_std_m_s2: f64,
     },
     /// A bench run: thrust read from a scale.
     Thrust {
@@ -70,6 +102,37 @@ impl Force {
     }
 }
 
+/// What a constant needs to be known beside its loads.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ThrustSettings {
+    /// Rotors of the vehicle.
+    pub rotor_count: u32,
+    /// Diameter of its propellers, where known.
+    pub propeller_diameter_m: Option<f64>,
+    /// Density of the air, where known.
+    pub air_density_kg_m3: Option<f64>,
+    /// How far the recorder's clock may be off, in millionths: a half width.
+    pub clock_ppm: f64,
+    /// Whether the speeds are those of a single ridge, which follows the loudest rotor.
+    pub follows_loudest: bool,
+    /// How large the effects may be that nobody measured.
+    pub uncertainty: UncertaintyInputs,
+}
+
+impl ThrustSettings {
+    /// Of a vehicle with so many rotors, all else by default.
+    pub fn for_rotors(rotor_count: u32) -> Self {
+        Self {
+            rotor_count,
+            propeller_diameter_m: None,
+            air_density_kg_m3: None,
+            clock_ppm: BudgetConfig::default().clock_ppm,
+            follows_loudest: true,
+            uncertainty: UncertaintyInputs::default(),
+        }
+    }
+}
+
 /// One load: a known force and the trials flown with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadSpeeds {
@@ -79,6 +142,8 @@ pub struct LoadSpeeds {
     pub force: Force,
     /// How many rotors balance it.
     pub rotors_running: u32,
+    /// Power that they take together, where known.
+    pub power_w: Option<f64>,
     /// Its trials.
     pub trials: Vec<TrialSpeeds>,
 }
@@ -134,10 +199,22 @@ pub struct ThrustTable {
     pub rotor_count: u32,
     /// One row for each load.
     pub loads: Vec<LoadThrust>,
-    /// Constant of the whole vehicle, the plain mean over the loads as in the paper; absent where nothing was heard.
+    /// Constant of the whole vehicle by the fit, uncertain by weighing and speeds; absent where nothing was heard.
     pub thrust_constant_total_n_s2: Option<Estimate>,
     /// Constant of one rotor: the total over the number of rotors.
     pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    /// Constant of the whole vehicle as the paper has it: the plain mean over the loads.
+    pub plain_mean_total_n_s2: Option<Estimate>,
+    /// The fit: the law's agreement, the laws beside it, each load against the others.
+    pub fit: Option<SquareLawFit>,
+    /// All that makes the constant of the whole vehicle uncertain.
+    pub budget: Option<UncertaintyBudget>,
+    /// The constant of one rotor without its dimension, where air and diameter are known.
+    pub coefficients: Option<ThrustCoefficients>,
+    /// Its scatter when trials are drawn anew: to be compared with what the budget says of the speeds.
+    pub bootstrap: Option<TrialBootstrap>,
+    /// What drifts beyond chance.
+    pub drifts: Vec<Drift>,
     /// What weakens the result.
     pub warnings: Vec<Warning>,
 }
@@ -166,8 +243,14 @@ pub struct LoadThrust {
     pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
     /// Whether it agrees with the other loads; absent where there is nothing to compare.
     pub fits: Option<bool>,
-    /// Mass that would agree with the other loads.
+    /// Figure of merit, where power, air and diameter are known.
+    pub figure_of_merit: Option<f64>,
+    /// Chance that a right load is as far from the others as this one.
+    pub p_value: Option<f64>,
+    /// Mass that would agree with the other loads, where this one does not …
     pub mass_that_fits_kg: Option<f64>,
+    /// … and its standard uncertainty.
+    pub mass_that_fits_std_kg: Option<f64>,
     /// Its trials.
     pub trials: Vec<TrialThrust>,
 }

@@ -36,8 +36,10 @@ fn load(name: &str, mass_g: f64, rpm: f64, std_rpm: f64) -> LoadSpeeds {
             added_mass_kg: (mass_g - 413.0) * 1e-3,
             mass_std_kg: 0.0005,
             gravity_m_s2: 9.80,
+            gravity_std_m_s2: 0.0,
         },
         rotors_running: 4,
+        power_w: None,
         trials: trials.to_vec(),
     }
 }
@@ -45,7 +47,7 @@ fn load(name: &str, mass_g: f64, rpm: f64, std_rpm: f64) -> LoadSpeeds {
 fn table(number: usize, masses_g: [f64; 3]) -> ThrustTable {
     let loads: Vec<LoadSpeeds> =
         (0..3).map(|row| load(ROWS[row].0, masses_g[row], ROWS[row].2[number - 1], STD_RPM[row])).collect();
-    thrust_from_loads(&loads, Method::MaximumTrace, 4)
+    thrust_from_loads(&loads, Method::MaximumTrace, &ThrustSettings::for_rotors(4))
 }
 
 /// The constant in the unit of the paper's column, to its last printed digit.
@@ -101,7 +103,7 @@ fn a_bench_run_tells_of_one_rotor() {
     let mut bench = load("bench", 413.0, 20000.0, 10.0);
     bench.force = Force::Thrust { thrust_n: 0.1, thrust_std_n: 0.0 };
     bench.rotors_running = 1;
-    let table = thrust_from_loads(&[bench], Method::MaximumTrace, 4);
+    let table = thrust_from_loads(&[bench], Method::MaximumTrace, &ThrustSettings::for_rotors(4));
     let expected = 0.1 / RotorSpeed::from_rpm(20000.0).rad_s().powi(2);
     assert!((table.thrust_constant_per_rotor_n_s2.unwrap().value / expected - 1.0).abs() < 1e-12);
     assert!((table.thrust_constant_total_n_s2.unwrap().value / (4.0 * expected) - 1.0).abs() < 1e-12);
@@ -113,10 +115,14 @@ fn a_bench_run_tells_of_one_rotor() {
 fn loads_without_a_tone_leave_a_gap_and_not_a_number() {
     let mut silent = load("silent", 444.0, 3700.0, 40.0);
     silent.trials.iter_mut().for_each(|trial| trial.samples.clear());
-    let table = thrust_from_loads(&[load("heard", 413.0, 3610.0, 40.0), silent.clone()], Method::Gaussian, 4);
+    let table = thrust_from_loads(
+        &[load("heard", 413.0, 3610.0, 40.0), silent.clone()],
+        Method::Gaussian,
+        &ThrustSettings::for_rotors(4),
+    );
     assert!(table.loads[1].thrust_constant_total_n_s2.is_none());
     assert!(table.thrust_constant_total_n_s2.is_some());
-    let nothing = thrust_from_loads(&[silent], Method::Gaussian, 4);
+    let nothing = thrust_from_loads(&[silent], Method::Gaussian, &ThrustSettings::for_rotors(4));
     assert!(nothing.thrust_constant_total_n_s2.is_none());
 }
 
@@ -146,7 +152,7 @@ fn coverage_and_false_alarms(trials_per_load: usize) -> (f64, f64) {
                 load
             })
             .collect();
-        let table = thrust_from_loads(&loads, Method::MaximumTrace, 4);
+        let table = thrust_from_loads(&loads, Method::MaximumTrace, &ThrustSettings::for_rotors(4));
         let total = table.thrust_constant_total_n_s2.unwrap();
         within += u32::from((total.value - truth_n_s2).abs() <= 2.0 * total.std_uncertainty.unwrap());
         alarms += table.loads.iter().filter(|load| load.fits == Some(false)).count();

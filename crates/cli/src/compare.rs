@@ -1,0 +1,31 @@
+//! `hovertone compare`: simulators' models against what was heard.
+
+use crate::export::identified;
+use crate::failure::{Ending, Failure};
+use crate::terminal::Terminal;
+use crate::thrust_args::CompareArguments;
+use hovertone_exchange::model_from_text;
+use hovertone_report::{ComparedModel, models_json, models_text};
+use std::fs;
+use std::path::Path;
+
+/// Reads all models and prints them beside the results.
+pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let heard = identified(&arguments.results)?;
+    let models: Vec<ComparedModel> = arguments.models.iter().map(|path| model_of(path)).collect::<Result<_, _>>()?;
+    let text = if arguments.json {
+        models_json(&models, &heard).map_err(Failure::internal)?
+    } else {
+        models_text(&models, &heard)
+    };
+    terminal.data(&text)?;
+    Ok(Ending::Done)
+}
+
+fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
+    let text = fs::read_to_string(path)
+        .map_err(|error| Failure::failed(format!("the model cannot be read: {error}"), "check its name", path))?;
+    let hint = "`hovertone compare --help` lists the files that it reads";
+    let model = model_from_text(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))?;
+    Ok(ComparedModel { file: path.display().to_string(), model })
+}

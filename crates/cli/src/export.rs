@@ -1,0 +1,55 @@
+//! `hovertone export`: lines to paste into a simulator's model.
+
+use crate::failure::{Ending, Failure};
+use crate::terminal::Terminal;
+use crate::thrust_args::ExportArguments;
+use hovertone_exchange::{IdentifiedRotor, export_text, identified_from_results};
+use std::fs;
+use std::path::Path;
+
+/// Writes or prints the lines.
+pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let rotor = resolve(arguments)?;
+    let text = export_text(&rotor, arguments.to)
+        .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
+    match &arguments.output {
+        Some(path) => {
+            fs::write(path, text).map_err(|error| Failure::cannot_write(&error, path))?;
+            terminal.say(&format!("written: {}", path.display()));
+        }
+        None => terminal.data(&text)?,
+    }
+    Ok(Ending::Done)
+}
+
+fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
+    let rotor = identified(&arguments.results)?;
+    for (name, value) in [
+        ("torque_constant_n_m_s2", arguments.torque_constant_n_m_s2),
+        ("hover_command", arguments.hover_command),
+        ("diameter_m", arguments.diameter_m),
+        ("air_density_kg_m3", arguments.air_density_kg_m3),
+    ] {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+            return Err(Failure::usage(
+                format!("{name} = {value}, must be a number above 0"),
+                "see `hovertone export --help`",
+            ));
+        }
+    }
+    Ok(IdentifiedRotor {
+        torque_constant_n_m_s2: arguments.torque_constant_n_m_s2.or(rotor.torque_constant_n_m_s2),
+        hover_command: arguments.hover_command,
+        propeller_diameter_m: arguments.diameter_m.or(rotor.propeller_diameter_m),
+        air_density_kg_m3: arguments.air_density_kg_m3.or(rotor.air_density_kg_m3),
+        ..rotor
+    })
+}
+
+/// Reads results.json.
+pub(crate) fn identified(path: &Path) -> Result<IdentifiedRotor, Failure> {
+    let text = fs::read_to_string(path)
+        .map_err(|error| Failure::failed(format!("the results cannot be read: {error}"), "check the name", path))?;
+    let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
+    identified_from_results(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))
+}

@@ -1,0 +1,180 @@
+//! `hovertone fit`: the thrust constant from tables, and the plan of a campaign.
+
+use crate::failure::{Ending, Failure};
+use crate::files::sha256_of_bytes;
+use crate::place::{air_density_kg_m3, gravity_of};
+use crate::terminal::Terminal;
+use crate::thrust_args::FitArguments;
+use hovertone::{
+    ForcePoint, Gravity, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, figure_of_merit, flight_plan,
+    square_law_fit, torque_constant_n_m_s2, warnings_of_points,
+};
+use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
+use hovertone_report::{FittedTable, Notice, fitted_table_json, fitted_table_text, flight_plan_text};
+use hovertone_vehicle::RotorSpeed;
+use std::fs;
+use std::path::Path;
+
+/// A quarter of its mass is what most multirotors carry safely.
+const ADDED_MASS_SHARE: f64 = 0.25;
+/// Rotors of most multirotors.
+const ROTORS_OF_MOST: u32 = 4;
+
+/// What the arguments mean.
+struct Plan {
+    gravity: Gravity,
+    rotor_count: u32,
+    diameter_m: Option<f64>,
+    density_kg_m3: Option<f64>,
+}
+
+/// Fits all tables, or plans a campaign.
+pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let gravity = gravity_of(&arguments.place)?;
+    if let Some(mass_kg) = arguments.plan.mass_kg.filter(|_| arguments.plan.plan) {
+        return plan_campaign(arguments, mass_kg, gravity, terminal);
+    }
+    let plan = Plan {
+        gravity,
+        rotor_count: arguments.rotors.unwrap_or(1),
+        diameter_m: arguments.air.diameter_m,
+        density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
+    };
+    let mut is_first = true;
+    for path in &arguments.tables {
+        for table in fitted_tables(path, &plan)? {
+            if arguments.json {
+                terminal.data(&(fitted_table_json(&table).map_err(Failure::internal)? + "\n"))?;
+                continue;
+            }
+            if !std::mem::take(&mut is_first) {
+                terminal.data("\n")?;
+            }
+            terminal.data(&fitted_table_text(&table))?;
+            terminal.flush()?;
+            for notice in &table.notices {
+                terminal.warning(notice, "");
+            }
+        }
+    }
+    Ok(Ending::Done)
+}
+
+fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> {
+    let bytes = fs::read(path)
+        .map_err(|error| Failure::failed(format!("the table cannot be read: {error}"), "check its name", path))?;
+    let text = String::from_utf8_lossy(&bytes);
+    let table = table_from_csv(&text).map_err(|error| table_failure(&error, path))?;
+    let sha256 = sha256_of_bytes(&bytes);
+    table.groups.iter().map(|group| fitted_table(group, &table, path, &sha256, plan)).collect()
+}
+
+fn table_failure(error: &TableError, path: &Path) -> Failure {
+    let hint = match error {
+        TableError::NoColumn { .. } => "`hovertone fit --help` says how columns are known",
+        TableError::NotCsv(_) => "give a CSV file whose first line names the columns",
+        TableError::NoRow => "check that the speed is not 0 in all rows: the tachometer may not have been connected",
+        _ => "correct the cell, or remove the row",
+    };
+    Failure::Usage { what: error.to_string(), hint: hint.to_owned(), path: Some(path.to_owned()) }
+}
+
+fn fitted_table(
+    group: &StandGroup,
+    table: &StandTable,
+    path: &Path,
+    sha256: &str,
+    plan: &Plan,
+) -> Result<FittedTable, Failure> {
+    let points: Vec<ForcePoint> = group.rows.iter().map(|row| point_of(row, plan)).collect();
+    let is_stated = group.rows.iter().any(|row| row.force_std.is_some() || row.speed_std_rad_s.is_some());
+    let noise = if is_stated { PointNoise::Stated } else { PointNoise::FromResiduals };
+    let fit = square_law_fit(&points, noise)
+        .map_err(|error| Failure::failed(error.to_string(), "check the rows of this table", path))?;
+    let total = fit.thrust_constant_n_s2;
+    let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
+    let air = plan.diameter_m.zip(plan.density_kg_m3);
+    let torques: Vec<(RotorSpeed, f64)> =
+        group.rows.iter().filter_map(|row| Some((RotorSpeed::from_rad_s(row.speed_rad_s), row.torque_n_m?))).collect();
+    let coefficients =
+        air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
+    let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
+    let gravity_of_masses = group.rows.iter().all(is_mass).then_some(plan.gravity.m_s2);
+    let mut warnings = warnings_of_points(&points, &fit, gravity_of_masses);
+    warnings.extend(
+        coefficients
+            .filter(|both| !both.is_plausible)
+            .map(|both| hovertone::Warning::ImplausibleThrustCoefficient { propeller: both.propeller }),
+    );
+    let notes = table.notes.iter().map(|note| Notice::new(note, ""));
+    Ok(FittedTable {
+        file: path.display().to_string(),
+        sha256: sha256.to_owned(),
+        group: group.name.clone(),
+        speed_column: table.speed_column.clone(),
+        force_column: table.force_column.clone(),
+        row_count: points.len(),
+        thrust_constant_total_n_s2: total,
+        thrust_constant_per_rotor_n_s2: per_rotor,
+        rotor_count: plan.rotor_count,
+        thrust_coefficients: coefficients,
+        propeller_diameter_m: plan.diameter_m,
+        figure_of_merit: merit_of(group, &points, plan),
+        torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques),
+        notices: notes.chain(warnings.iter().map(Notice::from)).collect(),
+        fit,
+    })
+}
+
+fn point_of(row: &StandRow, plan: &Plan) -> ForcePoint {
+    let (name, speed) = (format!("line {}", row.line_number), RotorSpeed::from_rad_s(row.speed_rad_s));
+    let (speed_std, force_std) = (row.speed_std_rad_s.unwrap_or(0.0), row.force_std.unwrap_or(0.0));
+    match row.force {
+        StandForce::Thrust { thrust_n } => ForcePoint::from_speed(name, speed, speed_std, thrust_n, force_std),
+        StandForce::Mass { mass_kg } => {
+            ForcePoint::from_mass(name, speed, speed_std, mass_kg, force_std, plan.gravity.m_s2)
+        }
+    }
+}
+
+/// Of one rotor at the largest thrust: there the offsets of the stand matter least.
+fn merit_of(group: &StandGroup, points: &[ForcePoint], plan: &Plan) -> Option<f64> {
+    let rotors = f64::from(plan.rotor_count);
+    let rows = group.rows.iter().zip(points).filter_map(|(row, point)| Some((point.force_n, row.power_w?)));
+    let (thrust_n, power_w) = rows.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(figure_of_merit(thrust_n / rotors, power_w / rotors, plan.diameter_m?, plan.density_kg_m3?))
+}
+
+fn plan_campaign(
+    arguments: &FitArguments,
+    mass_kg: f64,
+    gravity: Gravity,
+    terminal: &mut Terminal,
+) -> Result<Ending, Failure> {
+    let asked = &arguments.plan;
+    let wish = PlanWish {
+        expanded_share: asked.wanted_share,
+        vehicle_mass_kg: mass_kg,
+        added_mass_kg_max: asked.added_mass_kg.unwrap_or(ADDED_MASS_SHARE * mass_kg),
+        mass_std_kg: asked.mass_std_kg,
+        gravity_m_s2: gravity.m_s2,
+        gravity_std_m_s2: gravity.std_m_s2,
+        speed_spread_share: asked.speed_spread_share,
+        correlation_time_s: asked.correlation_s,
+        settings: ThrustSettings {
+            follows_loudest: !asked.rotors_told_apart,
+            propeller_diameter_m: arguments.air.diameter_m,
+            ..ThrustSettings::for_rotors(arguments.rotors.unwrap_or(ROTORS_OF_MOST))
+        },
+    };
+    let plan = flight_plan(&wish).map_err(|error| {
+        Failure::usage(error.to_string(), "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-told-apart)")
+    })?;
+    let text = if arguments.json {
+        serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"
+    } else {
+        flight_plan_text(&plan, &wish)
+    };
+    terminal.data(&text)?;
+    Ok(Ending::Done)
+}

@@ -1,0 +1,234 @@
+//! `hovertone fit`, `export`, `compare` and `weigh` on numbers whose truth is known.
+
+use crate::testkit::{files_in, hovertone, recordings, steady_hover, text, write_hover};
+use hovertone_vehicle::RotorSpeed;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The paper's table 1 as a CSV, with its speeds' standard errors over 25 samples.
+fn paper_table(folder: &Path, big_hull_g: u32) -> PathBuf {
+    let path = folder.join("paper.csv");
+    let rows = format!(
+        "mass_g,mass_std_g,rpm,speed_std_rpm\n413,0.5,3610.3438,8.89832\n444,0.5,3742.0275,9.67626\n{big_hull_g},0.5,3820.1625,9.54946\n"
+    );
+    fs::write(&path, rows).unwrap();
+    path
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer} in {value}"))
+}
+
+#[test]
+fn the_papers_rows_fit_with_462_g_and_not_with_472() {
+    let folder = tempfile::tempdir().unwrap();
+    let fit = |big_hull_g: u32| {
+        let table = paper_table(folder.path(), big_hull_g);
+        let arguments = ["fit", text(&table), "--rotors", "4", "--gravity-m-s2", "9.8", "--json"];
+        hovertone(&arguments).ends_with(0).json_lines().remove(0)
+    };
+    let right = fit(462);
+    assert!((number(&right, "/thrust_constant_total_n_s2/value") - 2.8314e-5).abs() < 5e-10);
+    assert!((number(&right, "/thrust_constant_total_n_s2/std_uncertainty") - 0.0084e-5).abs() < 5e-9);
+    let rotor = number(&right, "/thrust_constant_per_rotor_n_s2/value");
+    assert!((rotor * 4.0 - number(&right, "/thrust_constant_total_n_s2/value")).abs() < 1e-18);
+    assert!(number(&right, "/fit/agreement/chi_square") < 0.1);
+    assert!(right.to_string().contains("only 1.12 times the smallest"), "{right}");
+    let wrong = fit(472);
+    assert!((number(&wrong, "/fit/agreement/p_value") - 0.0055).abs() < 2e-4);
+    let misfits: Vec<&Value> =
+        wrong["fit"]["points"].as_array().unwrap().iter().filter(|point| point["fits"] == false).collect();
+    assert_eq!(misfits.len(), 1);
+    let mass_g = 1e3 * number(misfits[0], "/force_that_fits_n") / 9.8;
+    assert!((mass_g - 462.4).abs() < 0.5, "{mass_g}");
+    let words = hovertone(&["fit", text(&paper_table(folder.path(), 472)), "--gravity-m-s2", "9.8"]).ends_with(0);
+    assert!(words.stderr.contains("\"line 4\" does not fit the others; 462."), "{}", words.stderr);
+}
+
+/// Constants and exponents as the README of the recordings has them, to its digits.
+#[test]
+fn thrust_stands_as_their_readme_says() {
+    let Some(data) = recordings("thrust-stands") else { return };
+    let mut fits: Vec<Value> = Vec::new();
+    for path in files_in(&data, ".csv") {
+        fits.extend(hovertone(&["fit", text(&path), "--json"]).ends_with(0).json_lines());
+    }
+    assert_eq!(fits.len(), 7, "three runs and four motors");
+    for (name, constant, unit) in
+        [("b4_7", 6.1, 1e-7), ("g8_11", 1.45, 1e-6), ("m8_11", 1.36, 1e-6), ("DJI 9450", 1.12, 1e-5)]
+    {
+        let is_named = |fit: &&Value| {
+            fit["file"].as_str().unwrap().contains(name) || fit["group"].as_str().unwrap().contains(name)
+        };
+        let fit = fits.iter().find(is_named).unwrap();
+        let found = number(fit, "/thrust_constant_per_rotor_n_s2/value") / unit;
+        let digits = if constant == 6.1 { 0.05 } else { 0.005 };
+        assert!((found - constant).abs() <= digits, "{name}: {found}");
+        let residual_percent = (100.0 * number(fit, "/fit/residual_max_share")).round();
+        assert!((1.0..=3.0).contains(&residual_percent), "{name}: {residual_percent} % of full scale");
+    }
+    for fit in &fits {
+        let exponent = number(fit, "/fit/power_law/exponent/value");
+        assert!((1.95..2.25).contains(&exponent), "{exponent}: 2.0 to 2.2");
+    }
+    let m8_11 = fits.iter().find(|fit| fit["file"].as_str().unwrap().contains("m8_11")).unwrap();
+    assert!(m8_11["notices"].to_string().contains("other sign"), "{m8_11}");
+    let bitcraze = recordings("crazyflie-propeller").unwrap().join("pwm_to_thrust.csv");
+    let fit = hovertone(&["fit", text(&bitcraze), "--rotors", "4", "--json"]).ends_with(0).json_lines().remove(0);
+    assert!((number(&fit, "/thrust_constant_per_rotor_n_s2/value") - 2.218e-8).abs() < 5e-12);
+    assert!((number(&fit, "/fit/power_law/exponent/value") - 2.15).abs() < 0.005);
+}
+
+#[test]
+fn bad_tables_are_refused_or_flagged() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv");
+    let run = |rows: &str| {
+        fs::write(&path, rows).unwrap();
+        hovertone(&["fit", text(&path), "--json"])
+    };
+    for (rows, words) in [
+        ("rpm,mass_g\n3600,0\n", &["line 2", "above 0", "table.csv"][..]),
+        ("rpm,mass_g\n3600,-413\n", &["line 2", "above 0"]),
+        ("rpm,mass_g\n3600,NaN\n", &["line 2", "no number"]),
+        ("rpm,volts\n3600,11\n", &["rpm, volts", "--help"]),
+        ("rpm,thrust_n\n0,1\n", &["nothing to fit"]),
+    ] {
+        let refused = run(rows).ends_with(2);
+        assert!(refused.stdout.is_empty());
+        assert!(words.iter().all(|word| refused.stderr.contains(word)), "{rows:?}: {}", refused.stderr);
+    }
+    let one = run("rpm,mass_g\n3600,413\n").ends_with(0).json_lines().remove(0);
+    assert!(one["notices"].to_string().contains("only one load"), "{one}");
+    let equal = run("rpm,mass_g\n3600,413\n3610,413\n3605,413\n").ends_with(0).json_lines().remove(0);
+    assert!(equal["notices"].to_string().contains("weigh the same"), "{equal}");
+    // 300 % too heavy
+    let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
+    assert!(outlier["notices"].to_string().contains("\\\"line 4\\\" does not fit"), "{outlier}");
+    assert!(outlier["notices"].to_string().contains("left out"), "{outlier}");
+    let expected = 0.4 * 9.80665 / RotorSpeed::from_rpm(3600.0).rad_s().powi(2);
+    let found = number(&outlier, "/thrust_constant_total_n_s2/value");
+    assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
+}
+
+/// A log at 44 Hz, spinning up and down: hundreds of rows, most of them sound.
+#[test]
+fn a_log_of_a_stand_is_fitted_without_a_flood_of_warnings() {
+    let Some(data) = recordings("logs") else { return };
+    let log = data.join("rcbenchmark_command_steps.csv");
+    let run = hovertone(&["fit", text(&log), "--json"]).ends_with(0);
+    let fit = run.json_lines().remove(0);
+    assert!(number(&fit, "/row_count") > 500.0);
+    assert!(fit["notices"].as_array().unwrap().len() < 10, "{}", fit["notices"]);
+    assert!(fit["notices"].to_string().contains("rows do not fit the others: line "), "{}", fit["notices"]);
+    assert!(number(&fit, "/torque_constant_per_rotor_n_m_s2") > 0.0);
+}
+
+#[test]
+fn a_plan_tells_before_flying() {
+    let plan = |wanted: &str, more: &[&str]| {
+        let mut arguments =
+            vec!["fit", "--plan", "--mass-kg", "0.413", "--added-mass-kg", "0.1", "--wanted-share", wanted];
+        arguments.extend(more);
+        hovertone(&arguments)
+    };
+    let words = plan("0.025", &["--latitude-deg", "-20.3"]).ends_with(0).stdout;
+    for word in ["loads", "trials", "s of hover", "k = 2", "loudest rotor"] {
+        assert!(words.contains(word), "{words}");
+    }
+    let unreachable = plan("0.005", &[]).ends_with(2).stderr;
+    assert!(unreachable.contains("loudest rotor") && unreachable.contains("--rotors-told-apart"), "{unreachable}");
+    let apart = plan("0.01", &["--rotors-told-apart", "--latitude-deg", "-20.3", "--json"]).ends_with(0).stdout;
+    let plan: Value = serde_json::from_str(&apart).unwrap();
+    assert!(number(&plan, "/expanded_share") <= 0.01 && number(&plan, "/load_count") >= 3.0);
+    hovertone(&["fit", "--plan"]).ends_with(2);
+}
+
+const TRUTH_TOTAL_N_S2: f64 = 2.83e-5;
+
+fn hover_of(mass_kg: f64) -> RotorSpeed {
+    RotorSpeed::from_rad_s((mass_kg * 9.8 / TRUTH_TOTAL_N_S2).sqrt())
+}
+
+/// A vehicle heard once, with its results.
+fn identified(folder: &Path) -> PathBuf {
+    for (name, mass_kg) in [("bare", 0.413), ("laden", 0.463)] {
+        write_hover(&folder.join(format!("{name}.wav")), steady_hover("ardrone", hover_of(mass_kg), 4.0));
+    }
+    let toml = "[vehicle]\npreset = \"ardrone\"\ngravity_m_s2 = 9.8\npropeller_diameter_m = 0.2\n[air]\ntemperature_c = 25.0\n\
+                pressure_hpa = 1010.0\nhumidity_percent = 70.0\n[[load]]\nname = \"bare\"\nrecordings = [\"bare.wav\"]\n";
+    fs::write(folder.join("experiment.toml"), toml).unwrap();
+    let out = folder.join("out");
+    hovertone(&["identify", text(&folder.join("experiment.toml")), "-o", text(&out)]).ends_with(0);
+    out.join("results.json")
+}
+
+#[test]
+fn results_are_exported_compared_and_weigh_a_payload() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = identified(folder.path());
+    let formats = [
+        "gazebo",
+        "px4",
+        "rotors",
+        "gym-pybullet-drones",
+        "rotorpy",
+        "flightmare",
+        "airsim",
+        "crazyflow",
+        "json",
+        "yaml",
+    ];
+    let mut models = vec!["compare", "--json", text(&results)];
+    let paths: Vec<PathBuf> = formats.iter().map(|format| folder.path().join(format)).collect();
+    for (format, path) in formats.iter().zip(&paths) {
+        hovertone(&["export", text(&results), "--to", format, "-o", text(path)]).ends_with(0);
+        models.push(text(path));
+    }
+    let compared = hovertone(&models).ends_with(0).json_lines();
+    assert_eq!(compared.len(), formats.len());
+    for row in compared {
+        assert!((number(&row, "/over_heard") - 1.0).abs() < 1e-6, "{row}");
+        let hovers = number(&row, "/hover_speed_rad_s");
+        assert!((hovers / hover_of(0.413).rad_s() - 1.0).abs() < 1e-3, "{row}");
+    }
+    let table = hovertone(&["compare", text(&results), text(&paths[0])]).ends_with(0).stdout;
+    assert!(
+        table.contains("motorConstant [N/(rad/s)^2]") && table.contains(&format!("{:.0}", hover_of(0.413).rpm())),
+        "{table}"
+    );
+    let laden = folder.path().join("laden.wav");
+    let weighed = hovertone(&["weigh", text(&laden), "--constant", text(&results), "--json"]).ends_with(0).stdout;
+    let weighed: Value = serde_json::from_str(&weighed).unwrap();
+    let payload_kg = number(&weighed, "/payload_kg/value");
+    assert!((payload_kg - 0.050).abs() < 2.0 * number(&weighed, "/payload_kg/std_uncertainty"), "{weighed}");
+    assert!((payload_kg - 0.050).abs() < 0.002, "{weighed}");
+    let words = hovertone(&["weigh", text(&laden), "--constant", text(&results)]).ends_with(0).stdout;
+    assert!(words.contains("payload: ") && words.contains(" g"), "{words}");
+}
+
+#[test]
+fn what_cannot_be_exported_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("results.json");
+    for (content, words) in [
+        ("nonsense", "no results.json"),
+        ("{}", "missing"),
+        ("{\"thrust_constant_per_rotor_n_s2\": null, \"rotor_count\": 4}", "nothing was identified"),
+        ("{\"thrust_constant_per_rotor_n_s2\": {\"value\": -1.0}, \"rotor_count\": 4}", "above 0"),
+    ] {
+        fs::write(&path, content).unwrap();
+        let run = hovertone(&["export", text(&path), "--to", "gazebo"]).ends_with(1);
+        assert!(run.stderr.contains(words), "{content}: {}", run.stderr);
+    }
+    fs::write(&path, "{\"thrust_constant_per_rotor_n_s2\": {\"value\": 7e-6}, \"rotor_count\": 4}").unwrap();
+    let bare = hovertone(&["export", text(&path), "--to", "airsim"]).ends_with(2).stderr;
+    assert!(bare.contains("--air-density-kg-m3"), "{bare}");
+    hovertone(&["export", text(&path), "--to", "airsim", "--diameter-m", "0.2", "--air-density-kg-m3", "1.2"])
+        .ends_with(0);
+    hovertone(&["export", text(&path), "--to", "gazebo", "--torque-constant-n-m-s2", "-1"]).ends_with(2);
+    fs::write(folder.path().join("model.sdf"), "<a/>").unwrap();
+    let model = folder.path().join("model.sdf");
+    assert!(hovertone(&["compare", text(&path), text(&model)]).ends_with(1).stderr.contains("motorConstant"));
+}

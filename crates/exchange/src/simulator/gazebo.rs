@@ -1,0 +1,44 @@
+//! SDF of Gazebo (gz-sim and classic) and PX4: one motor plugin for each rotor, motorConstant in N/(rad/s)², momentConstant in m.
+
+use super::header::{missing_torque, number, xml_comment};
+use super::xml::{numbers_in, parsed, rooted, shared};
+use super::{ModelError, SimulatorFormat, SimulatorModel};
+use crate::identified::IdentifiedRotor;
+
+pub(super) fn write(rotor: &IdentifiedRotor) -> String {
+    let moment = match rotor.moment_constant_m() {
+        Some(moment_m) => format!("<momentConstant>{}</momentConstant> <!-- torque/thrust, m -->", number(moment_m)),
+        None => format!("<!-- {} -->", missing_torque("momentConstant")),
+    };
+    let plugins: String = (0..rotor.rotor_count)
+        .map(|index| {
+            format!(
+                "<plugin filename=\"gz-sim-multicopter-motor-model-system\" name=\"gz::sim::systems::MulticopterMotorModel\">\n\
+                 \x20 <!-- classic: name='motor_{index}' filename='libgazebo_motor_model.so', the same elements -->\n\
+                 \x20 <jointName>rotor_{index}_joint</jointName>\n\
+                 \x20 <linkName>rotor_{index}</linkName>\n\
+                 \x20 <motorNumber>{index}</motorNumber>\n\
+                 \x20 <motorType>velocity</motorType>\n\
+                 \x20 <!-- turningDirection, timeConstantUp, timeConstantDown, maxRotVelocity: keep yours -->\n\
+                 \x20 <motorConstant>{}</motorConstant> <!-- N/(rad/s)^2 -->\n\
+                 \x20 {moment}\n\
+                 </plugin>\n",
+                number(rotor.thrust_constant_n_s2)
+            )
+        })
+        .collect();
+    xml_comment(rotor) + &plugins
+}
+
+pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
+    let rooted = rooted(text);
+    let document = parsed(&rooted, "SDF")?;
+    let constants = numbers_in(&document, "motorConstant");
+    let masses = numbers_in(&document, "mass");
+    Ok(SimulatorModel {
+        rotor_count: u32::try_from(constants.len()).ok(),
+        mass_kg: (!masses.is_empty()).then(|| masses.iter().sum()),
+        moment_constant_m: numbers_in(&document, "momentConstant").first().copied(),
+        ..SimulatorModel::square(SimulatorFormat::Gazebo, shared(&constants)?)
+    })
+}

@@ -1,0 +1,50 @@
+//! URDF of gym-pybullet-drones: `<properties kf=… km=…>`, kf in N/rpm², km in N m/rpm².
+
+use super::header::{missing_torque, number, plain, xml_comment};
+use super::xml::{parsed, rooted};
+use super::{ModelError, SimulatorFormat, SimulatorModel};
+use crate::identified::IdentifiedRotor;
+use crate::units::ConstantUnits;
+
+/// Its drones are quadrotors, all of them.
+const ROTOR_COUNT: u32 = 4;
+
+pub(super) fn write(rotor: &IdentifiedRotor) -> String {
+    let kf = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2).n_rpm2();
+    let mut attributes = format!("kf=\"{}\"", number(kf));
+    if let Some(torque) = rotor.torque_constant_n_m_s2 {
+        attributes += &format!(" km=\"{}\"", number(ConstantUnits::from_n_s2(torque).n_rpm2()));
+    }
+    if let Some(diameter_m) = rotor.propeller_diameter_m {
+        attributes += &format!(" prop_radius=\"{}\"", plain(diameter_m / 2.0));
+    }
+    let mut text = xml_comment(rotor);
+    text += "<!-- kf in N/rpm^2, km in N m/rpm^2; arm, thrust2weight and the other attributes: keep yours -->\n";
+    if rotor.torque_constant_n_m_s2.is_none() {
+        text += &format!("<!-- {} -->\n", missing_torque("km"));
+    }
+    text += &format!("<properties {attributes} />\n");
+    if let Some(mass_kg) = rotor.mass_kg {
+        text +=
+            &format!("<link name=\"base_link\"><inertial><mass value=\"{}\" /></inertial></link>\n", plain(mass_kg));
+    }
+    text
+}
+
+pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
+    let rooted = rooted(text);
+    let document = parsed(&rooted, "URDF")?;
+    let attribute = |element: &str, name: &str| -> Vec<f64> {
+        let elements = document.descendants().filter(|node| node.tag_name().name() == element);
+        elements.filter_map(|node| node.attribute(name)?.trim().parse().ok()).collect()
+    };
+    let first = |name: &str| attribute("properties", name).first().copied();
+    let kf = first("kf").ok_or(ModelError::Unknown)?;
+    let masses = attribute("mass", "value");
+    Ok(SimulatorModel {
+        rotor_count: Some(ROTOR_COUNT),
+        mass_kg: (!masses.is_empty()).then(|| masses.iter().sum()),
+        moment_constant_m: first("km").map(|km| km / kf),
+        ..SimulatorModel::square(SimulatorFormat::GymPybulletDrones, ConstantUnits::from_n_rpm2(kf).n_s2())
+    })
+}

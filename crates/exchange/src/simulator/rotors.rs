@@ -1,0 +1,42 @@
+//! xacro of RotorS: properties, motor_constant in N/(rad/s)² (its files say kg·m/s², a slip), moment_constant in m.
+
+use super::header::{missing_torque, number, plain, xml_comment};
+use super::xml::{parsed, rooted};
+use super::{ModelError, SimulatorFormat, SimulatorModel};
+use crate::identified::IdentifiedRotor;
+
+pub(super) fn write(rotor: &IdentifiedRotor) -> String {
+    let property = |name: &str, value: String, unit: &str| {
+        format!("<xacro:property name=\"{name}\" value=\"{value}\" /> <!-- [{unit}] -->\n")
+    };
+    let mut text = xml_comment(rotor);
+    text += &rotor.mass_kg.map_or(String::new(), |mass_kg| property("mass", plain(mass_kg), "kg"));
+    text += &rotor
+        .propeller_diameter_m
+        .map_or(String::new(), |diameter_m| property("radius_rotor", plain(diameter_m / 2.0), "m"));
+    text += &property("motor_constant", number(rotor.thrust_constant_n_s2), "N/(rad/s)^2 = kg m");
+    text += &match rotor.moment_constant_m() {
+        Some(moment_m) => property("moment_constant", number(moment_m), "m"),
+        None => format!("<!-- {} -->\n", missing_torque("moment_constant")),
+    };
+    text
+}
+
+pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
+    let rooted = rooted(text);
+    let document = parsed(&rooted, "xacro")?;
+    let property = |name: &str| -> Option<f64> {
+        let named = document
+            .descendants()
+            .find(|node| node.tag_name().name() == "property" && node.attribute("name") == Some(name));
+        named?.attribute("value")?.trim().parse().ok()
+    };
+    let rotors = document.descendants().filter(|node| node.tag_name().name() == "vertical_rotor").count();
+    Ok(SimulatorModel {
+        rotor_count: u32::try_from(rotors).ok().filter(|count| *count > 0),
+        // the frame's alone: rotors have a mass of their own
+        mass_kg: property("mass").map(|frame_kg| frame_kg + rotors as f64 * property("mass_rotor").unwrap_or(0.0)),
+        moment_constant_m: property("moment_constant"),
+        ..SimulatorModel::square(SimulatorFormat::Rotors, property("motor_constant").ok_or(ModelError::Unknown)?)
+    })
+}

@@ -1,0 +1,293 @@
+//! Tables of speed and thrust: RCbenchmark's CSV, and anybody's with a header → speeds and forces in SI.
+
+mod column;
+#[cfg(test)]
+mod tests;
+
+use column::{Column, Quantity, columns_of};
+use csv::StringRecord;
+use std::f64::consts::TAU;
+
+/// A row whose speed is below this share of the fastest stands still: idling rotors and offsets of the scale.
+const AT_REST_SHARE: f64 = 0.1;
+
+/// What a row says of the force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StandForce {
+    /// A thrust.
+    Thrust {
+        /// Newtons.
+        thrust_n: f64,
+    },
+    /// A mass that hovers.
+    Mass {
+        /// Kilograms.
+        mass_kg: f64,
+    },
+}
+
+/// One row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StandRow {
+    /// Line of the file, counted from 1.
+    pub line_number: u64,
+    /// Shaft speed.
+    pub speed_rad_s: f64,
+    /// Its standard uncertainty, where the table has it.
+    pub speed_std_rad_s: Option<f64>,
+    /// Thrust or mass.
+    pub force: StandForce,
+    /// Standard uncertainty of that, in its unit.
+    pub force_std: Option<f64>,
+    /// Power of the shaft, from a torque; else electrical power, from its column or volts and amperes.
+    pub power_w: Option<f64>,
+    /// Torque.
+    pub torque_n_m: Option<f64>,
+}
+
+/// The rows that belong to one rotor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StandGroup {
+    /// What its columns of words say; empty where there are none.
+    pub name: String,
+    /// Its rows.
+    pub rows: Vec<StandRow>,
+}
+
+/// A table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StandTable {
+    /// Its groups, in the order in which they appear.
+    pub groups: Vec<StandGroup>,
+    /// Header of the column that is taken for the speed.
+    pub speed_column: String,
+    /// Header of the column that is taken for the force.
+    pub force_column: String,
+    /// What was left out or turned round, and why.
+    pub notes: Vec<String>,
+}
+
+/// Why a table cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// No CSV.
+    #[error("this is no table with a header: {0}")]
+    NotCsv(#[from] csv::Error),
+    /// A column is missing.
+    #[error("no column holds {what}; the columns are: {columns}")]
+    NoColumn {
+        /// What was looked for.
+        what: &'static str,
+        /// The headers.
+        columns: String,
+    },
+    /// A cell that is no number.
+    #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
+    NotANumber {
+        /// Line, counted from 1.
+        line: u64,
+        /// Header.
+        column: String,
+        /// What stands there.
+        cell: String,
+    },
+    /// A number that means nothing.
+    #[error("line {line}, column \"{column}\": {value}, {must_be}")]
+    OutOfRange {
+        /// Line, counted from 1.
+        line: u64,
+        /// Header.
+        column: String,
+        /// What stands there.
+        value: f64,
+        /// What is allowed.
+        must_be: &'static str,
+    },
+    /// No row with a turning rotor.
+    #[error("no row has both a speed and a thrust: there is nothing to fit")]
+    NoRow,
+}
+
+/// Reads a table. Columns are known by their headers: a speed (rpm, rad/s, rev/s), a thrust (N, g, gf, kg, kgf, lbf) or a mass
+/// that hovers (kg, g), their standard uncertainties (the same with "std"), power, volts, amperes, torque. Columns of words
+/// make groups.
+///
+/// # Errors
+/// No header, no speed, no force, a cell that is no number, masses that are zero or negative, no usable row.
+pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
+    let text = text.trim_start_matches('\u{feff}');
+    let first_line = text.lines().next().unwrap_or_default();
+    let delimiter = if first_line.matches(';').count() > first_line.matches(',').count() { b';' } else { b',' };
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let headers = reader.headers()?.clone();
+    let records: Vec<StringRecord> = reader.records().collect::<Result<_, _>>()?;
+    let columns = columns_of(&headers, &records);
+    let names = || headers.iter().filter(|header| !header.is_empty()).collect::<Vec<_>>().join(", ");
+    let missing = |what| TableError::NoColumn { what, columns: names() };
+    let speed = best(&columns, &records, Quantity::Speed).ok_or_else(|| missing("a speed (rpm, rad/s or rev/s)"))?;
+    let force = best(&columns, &records, Quantity::Thrust)
+        .or_else(|| best(&columns, &records, Quantity::Mass))
+        .ok_or_else(|| missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"))?;
+    let reader = RowReader { columns: &columns, speed, force };
+    let mut rows: Vec<(String, StandRow)> = Vec::new();
+    for record in &records {
+        if let Some(row) = reader.row(record)? {
+            rows.push((reader.group(record), row));
+        }
+    }
+    let mut notes = Vec::new();
+    turn_round(&mut rows, &mut notes);
+    leave_out_resting(&mut rows, &mut notes);
+    if rows.is_empty() {
+        return Err(TableError::NoRow);
+    }
+    let mut groups: Vec<StandGroup> = Vec::new();
+    for (name, row) in rows {
+        match groups.iter_mut().find(|group| group.name == name) {
+            Some(group) => group.rows.push(row),
+            None => groups.push(StandGroup { name, rows: vec![row] }),
+        }
+    }
+    Ok(StandTable { groups, speed_column: speed.header.clone(), force_column: force.header.clone(), notes })
+}
+
+/// The column of a quantity that says most: an optical tachometer that was not connected has a column of zeros.
+fn best<'a>(columns: &'a [Column], records: &[StringRecord], quantity: Quantity) -> Option<&'a Column> {
+    let told = |column: &&Column| {
+        let tells = |record: &&StringRecord| column.number(record).is_some_and(|number| number.abs() > 0.0);
+        records.iter().filter(tells).count()
+    };
+    let candidates: Vec<&Column> = columns.iter().filter(|column| column.quantity == Some(quantity)).collect();
+    // of equals the first
+    candidates.into_iter().rev().max_by_key(told)
+}
+
+struct RowReader<'a> {
+    columns: &'a [Column],
+    speed: &'a Column,
+    force: &'a Column,
+}
+
+impl RowReader<'_> {
+    /// A row with speed and force; none where either is empty.
+    fn row(&self, record: &StringRecord) -> Result<Option<StandRow>, TableError> {
+        let (Some(speed_rad_s), Some(force)) = (checked(self.speed, record)?, checked(self.force, record)?) else {
+            return Ok(None);
+        };
+        let is_mass = self.force.quantity == Some(Quantity::Mass);
+        if is_mass && force <= 0.0 {
+            return Err(TableError::OutOfRange {
+                line: line_of(record),
+                column: self.force.header.clone(),
+                value: force,
+                must_be: "a mass that hovers must be above 0",
+            });
+        }
+        let std = |quantity: Quantity| -> Result<Option<f64>, TableError> {
+            let Some(column) = self.columns.iter().find(|column| column.quantity == Some(quantity)) else {
+                return Ok(None);
+            };
+            match checked(column, record)? {
+                Some(value) if value < 0.0 => Err(TableError::OutOfRange {
+                    line: line_of(record),
+                    column: column.header.clone(),
+                    value,
+                    must_be: "a standard uncertainty must be 0 or more",
+                }),
+                value => Ok(value),
+            }
+        };
+        let other = |quantity: Quantity| {
+            let column = self.columns.iter().find(|column| column.quantity == Some(quantity))?;
+            column.number(record)
+        };
+        let torque_n_m = other(Quantity::Torque);
+        let shaft_w = other(Quantity::ShaftPower).or(torque_n_m.map(|torque| (torque * speed_rad_s).abs()));
+        let electrical_w =
+            other(Quantity::ElectricalPower).or_else(|| Some(other(Quantity::Voltage)? * other(Quantity::Current)?));
+        let power_w = shaft_w.filter(|power| *power > 0.0).or(electrical_w.filter(|power| *power > 0.0));
+        Ok(Some(StandRow {
+            line_number: line_of(record),
+            speed_rad_s,
+            speed_std_rad_s: std(Quantity::SpeedStd)?,
+            force: if is_mass { StandForce::Mass { mass_kg: force } } else { StandForce::Thrust { thrust_n: force } },
+            force_std: std(if is_mass { Quantity::MassStd } else { Quantity::ThrustStd })?,
+            power_w,
+            torque_n_m,
+        }))
+    }
+
+    fn group(&self, record: &StringRecord) -> String {
+        let words = self.columns.iter().filter(|column| column.is_words);
+        words.filter_map(|column| record.get(column.index)).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A number in SI; none in an empty cell.
+fn checked(column: &Column, record: &StringRecord) -> Result<Option<f64>, TableError> {
+    let cell = record.get(column.index).unwrap_or_default();
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    let number = column.number(record).filter(|number| number.is_finite());
+    number.map(Some).ok_or_else(|| TableError::NotANumber {
+        line: line_of(record),
+        column: column.header.clone(),
+        cell: cell.to_owned(),
+    })
+}
+
+fn line_of(record: &StringRecord) -> u64 {
+    record.position().map_or(0, csv::Position::line)
+}
+
+/// A stand that pulls shows negative thrust; a row against the sign of most is left out.
+fn turn_round(rows: &mut Vec<(String, StandRow)>, notes: &mut Vec<String>) {
+    let thrust = |row: &StandRow| match row.force {
+        StandForce::Thrust { thrust_n } => thrust_n,
+        StandForce::Mass { mass_kg } => mass_kg,
+    };
+    let fastest = fastest_rad_s(rows);
+    let turning = rows.iter().filter(|(_, row)| row.speed_rad_s.abs() >= AT_REST_SHARE * fastest);
+    let sum: f64 = turning.map(|(_, row)| thrust(row)).sum();
+    if sum < 0.0 {
+        notes.push("thrust is negative: taken with the other sign (a matter of mounting)".to_owned());
+        for (_, row) in rows.iter_mut() {
+            if let StandForce::Thrust { thrust_n } = &mut row.force {
+                *thrust_n = -*thrust_n;
+            }
+        }
+    }
+    for (_, row) in rows.iter_mut() {
+        row.speed_rad_s = row.speed_rad_s.abs();
+    }
+    let against = |row: &StandRow| thrust(row) <= 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest;
+    for (_, row) in rows.iter().filter(|(_, row)| against(row)) {
+        let what = "thrust is zero or against the sign of the others";
+        notes.push(format!("line {} is left out: {what}", row.line_number));
+    }
+    rows.retain(|(_, row)| !against(row));
+}
+
+fn leave_out_resting(rows: &mut Vec<(String, StandRow)>, notes: &mut Vec<String>) {
+    let fastest = fastest_rad_s(rows);
+    let before = rows.len();
+    rows.retain(|(_, row)| row.speed_rad_s > 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest);
+    if rows.len() < before {
+        let share = 100.0 * AT_REST_SHARE;
+        let count = before - rows.len();
+        let rpm = AT_REST_SHARE * fastest * 60.0 / TAU;
+        notes
+            .push(format!("rows left out, below {share:.0} % of the fastest speed ({rpm:.0} rpm) or at rest: {count}"));
+    }
+}
+
+fn fastest_rad_s(rows: &[(String, StandRow)]) -> f64 {
+    rows.iter().map(|(_, row)| row.speed_rad_s.abs()).fold(0.0, f64::max)
+}

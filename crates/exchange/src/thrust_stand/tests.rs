@@ -1,0 +1,66 @@
+//! Tables as stands write them, and as they should not be.
+
+use super::*;
+
+fn thrusts(table: &StandTable) -> Vec<f64> {
+    let thrust = |row: &StandRow| match row.force {
+        StandForce::Thrust { thrust_n } => thrust_n,
+        StandForce::Mass { .. } => panic!("a thrust"),
+    };
+    table.groups.iter().flat_map(|group| &group.rows).map(thrust).collect()
+}
+
+#[test]
+fn a_table_of_rcbenchmark() {
+    let text = "\u{feff}Time (s),Thrust (gf),Voltage (V),Current (A),Motor Electrical Speed (RPM),Motor Optical Speed (RPM),App message,\n\
+                0,-1.3,11.1,0.03,2,0,,\n1,-100.0,11.1,1,4122,0,,\n2,-400.0,11.0,2,8244,0,,\n";
+    let table = table_from_csv(text).unwrap();
+    assert_eq!(
+        (table.speed_column.as_str(), table.force_column.as_str()),
+        ("Motor Electrical Speed (RPM)", "Thrust (gf)")
+    );
+    assert_eq!(table.groups.len(), 1);
+    let rows = &table.groups[0].rows;
+    assert_eq!(rows.iter().map(|row| row.line_number).collect::<Vec<_>>(), [3, 4]);
+    assert!((thrusts(&table)[1] - 0.4 * 9.80665).abs() < 1e-12);
+    assert!((rows[1].power_w.unwrap() - 22.0).abs() < 1e-12 && rows[1].torque_n_m.is_none());
+    assert_eq!(table.notes.len(), 2, "{:?}", table.notes);
+}
+
+#[test]
+fn words_make_groups_and_uncertainties_are_read() {
+    let text =
+        "motor;mass_g;mass_std_g;rpm;speed_std_rpm\na;413;0.5;3610;8.9\nb;444;0.5;3742;9.7\na;462;0.5;3820;9.5\n";
+    let table = table_from_csv(text).unwrap();
+    assert_eq!(table.groups.iter().map(|group| group.name.as_str()).collect::<Vec<_>>(), ["a", "b"]);
+    let row = table.groups[0].rows[1];
+    assert_eq!(row.force, StandForce::Mass { mass_kg: 0.462 });
+    assert_eq!(row.force_std, Some(0.0005));
+    assert!((row.speed_std_rad_s.unwrap() - 9.5 * TAU / 60.0).abs() < 1e-12);
+}
+
+#[test]
+fn what_means_nothing_is_refused_with_its_line() {
+    for (text, words) in [
+        ("rpm,mass_kg\n3610,0\n", ["line 2", "above 0"]),
+        ("rpm,mass_kg\n3610,0.4\n3700,-0.4\n", ["line 3", "above 0"]),
+        ("rpm,mass_kg\n3610,NaN\n", ["line 2", "no number"]),
+        ("rpm,thrust_n\n3610,heavy\n", ["line 2", "heavy"]),
+        ("rpm,thrust_n,thrust_std_n\n3610,1,-1\n", ["line 2", "0 or more"]),
+        ("rpm,volts\n1,2\n", ["thrust", "rpm, volts"]),
+        ("a,thrust_n\n1,2\n", ["speed", "a, thrust_n"]),
+        ("rpm,thrust_n\n0,0\n", ["nothing", "fit"]),
+        ("rpm,thrust_n\n", ["nothing", "fit"]),
+        ("", ["speed", "columns"]),
+    ] {
+        let message = table_from_csv(text).unwrap_err().to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{text:?}: {message}");
+    }
+}
+
+#[test]
+fn a_thrust_against_the_others_is_left_out_and_said() {
+    let table = table_from_csv("rpm,thrust_n\n1000,0.1\n2000,-0.4\n3000,0.9\n").unwrap();
+    assert_eq!(thrusts(&table), [0.1, 0.9]);
+    assert!(table.notes[0].contains("line 3"), "{:?}", table.notes);
+}

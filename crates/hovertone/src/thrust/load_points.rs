@@ -1,0 +1,183 @@
+//! Loads and their trials → points of force and squared speed with what is uncertain about each.
+
+use super::point_verdict::{CONSTANTS_FOR_GROSS, is_off_by_a_factor};
+use super::square_law::{ForcePoint, PointNoise};
+use super::{Force, LoadSpeeds, TrialSpeeds};
+use crate::statistics::{mean, median};
+use hovertone_vehicle::RotorSpeed;
+
+/// Degrees of freedom of an uncertainty that comes from the frames of one trial: some hundred frames of a hover are worth
+/// about so many independent ones.
+pub(super) const FREEDOM_OF_FRAMES: f64 = 20.0;
+/// Degrees of freedom from which the scatter of the trials tells their uncertainty better than the frames do.
+const FREEDOM_OF_TRIALS_MIN: usize = 4;
+/// A load in which a rotor was heard.
+pub(super) struct HeardLoad<'a> {
+    /// Its place among all loads.
+    pub(super) index: usize,
+    pub(super) load: &'a LoadSpeeds,
+    /// Mean shaft speeds of its trials, those that are off by a factor left out.
+    pub(super) trials_rad_s: Vec<f64>,
+    /// Mean of those.
+    pub(super) speed_rad_s: f64,
+    /// Relative standard uncertainty of that mean …
+    pub(super) speed_std_share: f64,
+    /// … and the part of it that the method itself says.
+    pub(super) estimator_std_share: f64,
+    /// Force of the whole vehicle.
+    pub(super) force_n: f64,
+    /// What this load's force is uncertain by alone, not together with others.
+    pub(super) own_force_std_n: f64,
+}
+
+/// All that was heard, ready to be fitted.
+pub(super) struct Campaign<'a> {
+    pub(super) loads: Vec<HeardLoad<'a>>,
+    pub(super) points: Vec<ForcePoint>,
+    pub(super) noise: PointNoise,
+    /// Degrees of freedom of the speeds' uncertainty.
+    pub(super) speed_freedom: f64,
+    /// Trials that are off by a factor: load and recording.
+    pub(super) gross_trials: Vec<(String, String)>,
+}
+
+impl<'a> Campaign<'a> {
+    /// Trial means are what counts: the samples of a trial overlap and share a flight.
+    pub(super) fn of(loads: &'a [LoadSpeeds], rotor_count: u32) -> Self {
+        let gross = gross_trials(loads, rotor_count);
+        let mut heard: Vec<HeardLoad<'a>> = loads
+            .iter()
+            .enumerate()
+            .filter_map(|(index, load)| heard_load(index, load, rotor_count, &gross[index]))
+            .collect();
+        let speed_freedom = settle_speed_std(&mut heard);
+        let points: Vec<ForcePoint> = heard.iter().map(HeardLoad::point).collect();
+        let share = |of: &dyn Fn(&HeardLoad<'_>) -> f64| heard.iter().map(|load| of(load).powi(2)).sum::<f64>();
+        let speed_share = share(&|load| 2.0 * load.speed_std_share);
+        let all_share = speed_share + share(&|load| load.own_force_std_n / load.force_n);
+        // Welch and Satterthwaite: what is known beside the scatter makes the whole better known
+        let degrees_of_freedom = speed_freedom * (all_share / speed_share.max(f64::MIN_POSITIVE)).powi(2);
+        let names = gross.iter().zip(loads).flat_map(|(gross, load)| {
+            let named = load.trials.iter().zip(gross).filter(|(_, gross)| **gross);
+            named.map(|(trial, _)| (load.name.clone(), trial.recording.clone()))
+        });
+        Self {
+            points,
+            noise: PointNoise::Measured { degrees_of_freedom },
+            speed_freedom,
+            gross_trials: names.collect(),
+            loads: heard,
+        }
+    }
+}
+
+impl HeardLoad<'_> {
+    fn point(&self) -> ForcePoint {
+        let square = self.speed_rad_s.powi(2);
+        ForcePoint {
+            name: self.load.name.clone(),
+            speed_square_rad2_s2: square,
+            speed_square_std_rad2_s2: 2.0 * square * self.speed_std_share,
+            force_n: self.force_n,
+            force_std_n: self.own_force_std_n,
+        }
+    }
+
+    /// Whether the whole vehicle flies: a hover, not a bench.
+    pub(super) fn is_hover(&self) -> bool {
+        matches!(self.load.force, Force::Weight { .. })
+    }
+
+    /// Mean length of what was used of a trial.
+    pub(super) fn trial_s(&self) -> Option<f64> {
+        let length = |trial: &TrialSpeeds| {
+            let from_s = trial.samples.iter().map(|sample| sample.span.from_s).reduce(f64::min)?;
+            let to_s = trial.samples.iter().map(|sample| sample.span.to_s).reduce(f64::max)?;
+            Some(to_s - from_s)
+        };
+        mean(&self.load.trials.iter().filter_map(length).collect::<Vec<_>>())
+    }
+}
+
+/// Factor from the force of the rotors that run to that of the whole vehicle: 1 in a hover.
+pub(super) fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64 {
+    f64::from(rotor_count) / f64::from(rotors_running.max(1))
+}
+
+fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
+    mean(&trial.samples.iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
+}
+
+/// For each load, which of its trials are off by a factor. A load all of whose trials are is judged as a load.
+fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> Vec<Vec<bool>> {
+    let constants: Vec<Vec<Option<f64>>> = loads
+        .iter()
+        .map(|load| {
+            let force_n = load.force.newtons() * whole_vehicle_factor(load.rotors_running, rotor_count);
+            load.trials.iter().map(|trial| Some(force_n / trial_rad_s(trial)?.powi(2))).collect()
+        })
+        .collect();
+    let known: Vec<f64> = constants.iter().flatten().flatten().copied().collect();
+    let middle = median(&known).filter(|_| known.len() >= CONSTANTS_FOR_GROSS);
+    let is_gross = |constant: &Option<f64>| match (constant, middle) {
+        (Some(constant), Some(middle)) => is_off_by_a_factor(*constant, middle),
+        _ => false,
+    };
+    constants
+        .iter()
+        .map(|trials| {
+            let gross: Vec<bool> = trials.iter().map(is_gross).collect();
+            let has_sound_one = trials.iter().zip(&gross).any(|(constant, gross)| constant.is_some() && !gross);
+            if has_sound_one { gross } else { vec![false; trials.len()] }
+        })
+        .collect()
+}
+
+fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &[bool]) -> Option<HeardLoad<'a>> {
+    let kept = || load.trials.iter().zip(gross).filter(|(_, gross)| !**gross).map(|(trial, _)| trial);
+    let trials_rad_s: Vec<f64> = kept().filter_map(trial_rad_s).collect();
+    let speed_rad_s = mean(&trials_rad_s)?;
+    let within: Vec<f64> = kept()
+        .flat_map(|trial| &trial.samples)
+        .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.std_uncertainty_rev_s?).rad_s()))
+        .collect();
+    let estimator = mean(&within).map_or(0.0, |std| std / (trials_rad_s.len() as f64).sqrt());
+    let factor = whole_vehicle_factor(load.rotors_running, rotor_count);
+    let force_n = load.force.newtons() * factor;
+    Some(HeardLoad {
+        index,
+        load,
+        trials_rad_s,
+        speed_rad_s,
+        speed_std_share: estimator / speed_rad_s,
+        estimator_std_share: estimator / speed_rad_s,
+        force_n,
+        own_force_std_n: force_n * load.force.relative_std().0,
+    })
+}
+
+/// Settles the uncertainty of every load's speed: from the scatter of all trials about the means of their loads, pooled, since
+/// five trials alone tell theirs to a third only. Gives back its degrees of freedom.
+fn settle_speed_std(loads: &mut [HeardLoad<'_>]) -> f64 {
+    let freedom: usize = loads.iter().map(|load| load.trials_rad_s.len() - 1).sum();
+    let squares: f64 = loads
+        .iter()
+        .flat_map(|load| load.trials_rad_s.iter().map(|trial| (trial / load.speed_rad_s - 1.0).powi(2)))
+        .sum();
+    let scatter = (freedom > 0).then(|| (squares / freedom as f64).sqrt());
+    let mut by_frames = true;
+    for load in loads {
+        let of_scatter = scatter.map(|scatter| scatter / (load.trials_rad_s.len() as f64).sqrt());
+        load.speed_std_share = match of_scatter {
+            Some(of_scatter) if freedom >= FREEDOM_OF_TRIALS_MIN => {
+                by_frames = false;
+                of_scatter
+            }
+            // two or three trials can agree by chance better than their frames allow
+            Some(of_scatter) => of_scatter.max(load.estimator_std_share),
+            None => load.estimator_std_share,
+        };
+        load.estimator_std_share = load.estimator_std_share.min(load.speed_std_share);
+    }
+    if by_frames { FREEDOM_OF_FRAMES } else { freedom as f64 }
+}

@@ -1,0 +1,119 @@
+//! Whether a constant can be signed: how well the square law holds, which law the evidence prefers, and the uncertainty budget.
+
+use crate::number::{DASH, PowerOfTen, significant, uncertainty, with_uncertainty};
+use crate::text_table::{Column, TextTable};
+use crate::thrust::CONSTANT_UNIT;
+use hovertone::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget};
+
+/// Contributions below this share of the constant are not worth a line for people; the JSON has them.
+const NEGLIGIBLE_SHARE: f64 = 1e-6;
+
+/// Laws and budget of one method's table; nothing where there is no fit.
+pub fn adequacy_text(table: &ThrustTable) -> String {
+    let (Some(fit), Some(budget)) = (&table.fit, &table.budget) else { return String::new() };
+    let constant_n_s2 = fit.thrust_constant_n_s2.value;
+    let unit = PowerOfTen::of([constant_n_s2]);
+    let signed = with_uncertainty(unit.scale(constant_n_s2), Some(unit.scale(budget.expanded_uncertainty_n_s2)));
+    format!(
+        "\n{}\n{}{}\nC_f, whole vehicle = ({signed}) {}, k = 2 ({:.2} %)\n",
+        laws_text(fit),
+        budget_table(budget, constant_n_s2),
+        cross_check(table.bootstrap, constant_n_s2),
+        unit.unit(CONSTANT_UNIT),
+        100.0 * budget.expanded_share,
+    )
+}
+
+/// How well the square law holds, and the laws beside it with their probabilities.
+pub fn laws_text(fit: &SquareLawFit) -> String {
+    let unit = PowerOfTen::of([fit.thrust_constant_n_s2.value]);
+    let constant = |constant: hovertone_vehicle::Estimate| {
+        let std = constant.std_uncertainty.map(|std| unit.scale(std));
+        with_uncertainty(unit.scale(constant.value), std)
+    };
+    let mut text = TextTable::new(vec![
+        Column::words("law"),
+        Column::numbers("C_f", &unit.unit(CONSTANT_UNIT)),
+        Column::numbers("F₀", "N"),
+        Column::numbers("exponent", ""),
+        Column::numbers("probability", "%"),
+    ]);
+    let probability = |law: ForceLaw| {
+        let known = fit.laws.iter().find(|known| known.law == law);
+        known.map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
+    };
+    let mut row = |law: ForceLaw, cells: [String; 3]| {
+        let mark = if law == fit.preferred && fit.laws.len() > 1 { " (preferred)" } else { "" };
+        let [constant, intercept, exponent] = cells;
+        text.push(vec![format!("{}{mark}", law.formula()), constant, intercept, exponent, probability(law)]);
+    };
+    row(ForceLaw::Square, [constant(fit.thrust_constant_n_s2), "0".to_owned(), "2".to_owned()]);
+    if let Some(law) = fit.with_intercept {
+        let intercept = with_uncertainty(law.intercept_n.value, law.intercept_n.std_uncertainty);
+        row(ForceLaw::SquareWithIntercept, [constant(law.thrust_constant_n_s2), intercept, "2".to_owned()]);
+    }
+    if let Some(law) = fit.power_law {
+        let exponent = with_uncertainty(law.exponent.value, law.exponent.std_uncertainty);
+        row(ForceLaw::Power, [DASH.to_owned(), "0".to_owned(), exponent]);
+    }
+    let agreement = match fit.agreement {
+        Some(agreement) => format!(
+            "χ² = {} with {} degrees of freedom, p = {}; residuals {:.2} % of full scale\n",
+            significant(agreement.chi_square, 3),
+            agreement.degrees_of_freedom,
+            significant(agreement.p_value, 2),
+            100.0 * fit.residual_rms_share
+        ),
+        None if fit.points.len() > 1 => {
+            format!("residuals {:.2} % of full scale\n", 100.0 * fit.residual_rms_share)
+        }
+        None => String::new(),
+    };
+    text.render() + &agreement
+}
+
+/// The budget, largest contribution first; what contributes nothing is left to the JSON.
+fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> String {
+    let mut lines: Vec<&BudgetLine> =
+        budget.lines.iter().filter(|line| line.contribution_n_s2 > NEGLIGIBLE_SHARE * constant_n_s2).collect();
+    lines.sort_by(|a, b| b.contribution_n_s2.total_cmp(&a.contribution_n_s2));
+    let mut text = TextTable::new(vec![
+        Column::words("uncertainty budget"),
+        Column::numbers("value", ""),
+        Column::numbers("u", ""),
+        Column::words("unit"),
+        Column::numbers("c u / C_f", "%"),
+        Column::numbers("share", "%"),
+    ]);
+    for line in lines {
+        text.push(vec![
+            line.input.title().to_owned(),
+            if line.value == 0.0 { "0".to_owned() } else { significant(line.value, 5) },
+            uncertainty(Some(line.std_uncertainty)),
+            line.unit.to_owned(),
+            significant(100.0 * line.contribution_n_s2 / constant_n_s2, 2),
+            format!("{:.1}", 100.0 * line.share),
+        ]);
+    }
+    let combined = 100.0 * budget.combined_std_uncertainty_n_s2 / constant_n_s2;
+    text.push(vec![
+        "combined".to_owned(),
+        String::new(),
+        String::new(),
+        String::new(),
+        significant(combined, 2),
+        "100.0".to_owned(),
+    ]);
+    text.render()
+}
+
+fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
+    bootstrap.map_or(String::new(), |drawn| {
+        format!(
+            "trials drawn anew {} times (seed {}): {} %, to be compared with both lines of the speed together\n",
+            drawn.draws,
+            drawn.seed,
+            significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2)
+        )
+    })
+}

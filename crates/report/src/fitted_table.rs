@@ -1,0 +1,94 @@
+//! A thrust stand's table, fitted.
+
+use crate::VERSION;
+use crate::adequacy::laws_text;
+use crate::notice::Notice;
+use crate::number::{PowerOfTen, significant, with_uncertainty};
+use crate::thrust::CONSTANT_UNIT;
+use hovertone::{SquareLawFit, ThrustCoefficients};
+use hovertone_vehicle::Estimate;
+use serde::Serialize;
+
+/// The rows of one rotor, fitted.
+#[derive(Clone, Debug, Serialize)]
+pub struct FittedTable {
+    /// Name of the file.
+    pub file: String,
+    /// SHA-256 of its bytes, in hexadecimal.
+    pub sha256: String,
+    /// What its columns of words say.
+    pub group: String,
+    /// Header of the speed.
+    pub speed_column: String,
+    /// Header of the force.
+    pub force_column: String,
+    /// Rows that were read.
+    pub row_count: usize,
+    /// Constant of the rotors of a row together.
+    pub thrust_constant_total_n_s2: Estimate,
+    /// Constant of one rotor.
+    pub thrust_constant_per_rotor_n_s2: Estimate,
+    /// Rotors that share the force of a row.
+    pub rotor_count: u32,
+    /// The fit of the whole force of a row.
+    pub fit: SquareLawFit,
+    /// C_T, where air and diameter are known.
+    pub thrust_coefficients: Option<ThrustCoefficients>,
+    /// Diameter of the propellers, where known.
+    pub propeller_diameter_m: Option<f64>,
+    /// Figure of merit at the largest force, where power, air and diameter are known.
+    pub figure_of_merit: Option<f64>,
+    /// Torque of one rotor over its squared speed, where the table has torques.
+    pub torque_constant_per_rotor_n_m_s2: Option<f64>,
+    /// What was left out or turned round, and what weakens the fit.
+    pub notices: Vec<Notice>,
+}
+
+#[derive(Serialize)]
+struct Versioned<'a> {
+    #[serde(flatten)]
+    table: &'a FittedTable,
+    version: &'static str,
+}
+
+/// One line of JSON, without a line feed.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn fitted_table_json(table: &FittedTable) -> Result<String, serde_json::Error> {
+    serde_json::to_string(&Versioned { table, version: VERSION })
+}
+
+/// The answer and the laws beside it.
+pub fn fitted_table_text(table: &FittedTable) -> String {
+    let constant = table.thrust_constant_per_rotor_n_s2;
+    let unit = PowerOfTen::of([constant.value]);
+    let group = if table.group.is_empty() { String::new() } else { format!(": {}", table.group) };
+    let std = constant.std_uncertainty.map(|std| unit.scale(std));
+    let mut text = format!(
+        "{}{group}\n{} rows, {} against {}\n\n{}\nC_f, one rotor = ({}) {}\n",
+        table.file,
+        table.row_count,
+        table.force_column,
+        table.speed_column,
+        laws_text(&table.fit),
+        with_uncertainty(unit.scale(constant.value), std),
+        unit.unit(CONSTANT_UNIT),
+    );
+    if let Some(both) = table.thrust_coefficients {
+        text += &format!(
+            "C_T = {} = T/(ρ n² D⁴), or {} = T/(ρ A (ωR)²); air {} kg/m³\n",
+            significant(both.propeller, 4),
+            significant(both.rotorcraft, 4),
+            significant(both.density_kg_m3, 4)
+        );
+    }
+    if let Some(merit) = table.figure_of_merit {
+        text += &format!("figure of merit at the largest thrust = {}\n", significant(merit, 3));
+    }
+    if let Some(torque) = table.torque_constant_per_rotor_n_m_s2 {
+        let unit = PowerOfTen::of([torque]);
+        text += &format!("C_τ, one rotor = {} {}\n", significant(unit.scale(torque), 4), unit.unit("N m s²"));
+    }
+    text
+}

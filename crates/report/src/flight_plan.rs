@@ -1,0 +1,32 @@
+//! How much flying a wish needs.
+
+use crate::number::significant;
+use hovertone::{FlightPlan, PlanWish};
+
+/// The plan in words, and what else it would show.
+pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
+    let steps = plan.load_count - 1;
+    let added: Vec<String> = (0..plan.load_count)
+        .map(|load| 1e3 * wish.added_mass_kg_max * load as f64 / steps as f64)
+        .map(|added_g| if added_g == 0.0 { "nothing".to_owned() } else { significant(added_g, 3) + " g" })
+        .collect();
+    let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
+    let intercept = match plan.force_ratio_for_intercept {
+        Some(ratio) if ratio <= range => "these loads also show an intercept of 2 % of the force".to_owned(),
+        Some(ratio) => format!(
+            "to test the square law against an intercept the heaviest must weigh {ratio:.2} times the lightest; these reach {range:.2}"
+        ),
+        None => "no range of loads shows an intercept with so few trials".to_owned(),
+    };
+    format!(
+        "{} loads (add {}), {} trials of each, {:.0} s of hover in each trial: {:.1} minutes of hover\n\
+         expected: C_f to {:.2} % (k = 2), most of it from the {}\n{intercept}\n",
+        plan.load_count,
+        added.join(", "),
+        plan.trials_per_load,
+        plan.trial_s,
+        plan.hover_s / 60.0,
+        100.0 * plan.expanded_share,
+        plan.largest.title(),
+    )
+}

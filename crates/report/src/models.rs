@@ -1,0 +1,106 @@
+//! Simulators' models beside what was heard.
+
+use crate::VERSION;
+use crate::number::{DASH, PowerOfTen, significant};
+use crate::text_table::{Column, TextTable};
+use crate::thrust::{CONSTANT_UNIT, grams};
+use hovertone_exchange::{IdentifiedRotor, SimulatorModel};
+use hovertone_vehicle::RotorSpeed;
+use serde::Serialize;
+
+/// A model that was read.
+#[derive(Clone, Debug)]
+pub struct ComparedModel {
+    /// Name of its file.
+    pub file: String,
+    /// What it says.
+    pub model: SimulatorModel,
+}
+
+#[derive(Serialize)]
+struct Compared<'a> {
+    file: &'a str,
+    format: &'static str,
+    constant_name: &'static str,
+    constant_unit: &'static str,
+    thrust_constant_per_rotor_n_s2: f64,
+    thrust_constant_at_hover_n_s2: f64,
+    over_heard: f64,
+    mass_kg: Option<f64>,
+    rotor_count: Option<u32>,
+    hover_speed_rad_s: Option<f64>,
+    heard_hover_speed_rad_s: Option<f64>,
+    version: &'static str,
+}
+
+fn compared<'a>(compared: &'a ComparedModel, heard: &IdentifiedRotor) -> Compared<'a> {
+    let model = &compared.model;
+    let speed_rad_s = heard.hover_speed_rad_s.or(heard.hover_speed_by_balance_rad_s());
+    let at_hover = speed_rad_s.map_or(model.thrust_constant_n_s2, |speed| model.constant_at_n_s2(speed));
+    let thrust_n = heard.mass_kg.map(|mass_kg| mass_kg * heard.gravity_m_s2 / f64::from(heard.rotor_count));
+    let (constant_name, constant_unit) = model.format.constant();
+    Compared {
+        file: &compared.file,
+        format: model.format.name(),
+        constant_name,
+        constant_unit,
+        thrust_constant_per_rotor_n_s2: model.thrust_constant_n_s2,
+        thrust_constant_at_hover_n_s2: at_hover,
+        over_heard: at_hover / heard.thrust_constant_n_s2,
+        mass_kg: model.mass_kg,
+        rotor_count: model.rotor_count,
+        hover_speed_rad_s: thrust_n.and_then(|thrust_n| model.speed_rad_s(thrust_n)),
+        heard_hover_speed_rad_s: speed_rad_s,
+        version: VERSION,
+    }
+}
+
+/// One object per line and model.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn models_json(models: &[ComparedModel], heard: &IdentifiedRotor) -> Result<String, serde_json::Error> {
+    let lines = models.iter().map(|model| Ok(serde_json::to_string(&compared(model, heard))? + "\n"));
+    lines.collect()
+}
+
+/// A row for each model, under what was heard. The speed is that at which the model would carry the vehicle that was heard.
+pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor) -> String {
+    let rows: Vec<Compared<'_>> = models.iter().map(|model| compared(model, heard)).collect();
+    let constants = rows.iter().map(|row| row.thrust_constant_at_hover_n_s2);
+    let unit = PowerOfTen::of(constants.chain([heard.thrust_constant_n_s2]));
+    let mut text = TextTable::new(vec![
+        Column::words("model"),
+        Column::words("constant"),
+        Column::numbers("C_f, one rotor", &unit.unit(CONSTANT_UNIT)),
+        Column::numbers("over heard", ""),
+        Column::numbers("its mass", "g"),
+        Column::numbers("hovers at", "rpm"),
+    ]);
+    let rpm = |rad_s: Option<f64>| rad_s.map_or(DASH.to_owned(), |s| format!("{:.0}", RotorSpeed::from_rad_s(s).rpm()));
+    text.push(vec![
+        format!("{} as heard", heard.vehicle_name),
+        String::new(),
+        significant(unit.scale(heard.thrust_constant_n_s2), 5),
+        "1".to_owned(),
+        heard.mass_kg.map_or(DASH.to_owned(), grams),
+        rpm(heard.hover_speed_rad_s.or(heard.hover_speed_by_balance_rad_s())),
+    ]);
+    for row in rows {
+        text.push(vec![
+            row.file.to_owned(),
+            format!("{} [{}]", row.constant_name, row.constant_unit),
+            significant(unit.scale(row.thrust_constant_at_hover_n_s2), 5),
+            significant(row.over_heard, 4),
+            row.mass_kg.map_or(DASH.to_owned(), grams),
+            rpm(row.hover_speed_rad_s),
+        ]);
+    }
+    let mut words = text.render();
+    if let Some(expanded) = heard.expanded_uncertainty_n_s2 {
+        let percent = 100.0 * expanded / heard.thrust_constant_n_s2;
+        words +=
+            &format!("what was heard is sure to {percent:.2} % (k = 2); speeds are for the vehicle that was heard\n");
+    }
+    words
+}

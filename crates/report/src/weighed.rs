@@ -1,0 +1,40 @@
+//! What hovers, by its sound.
+
+use crate::VERSION;
+use crate::number::{rounded, with_uncertainty};
+use hovertone::WeighedHover;
+use hovertone_vehicle::Estimate;
+use serde::Serialize;
+
+#[derive(Serialize)]
+struct Weighed<'a> {
+    #[serde(flatten)]
+    weighed: &'a WeighedHover,
+    version: &'static str,
+}
+
+/// JSON, ending with a line feed.
+///
+/// # Errors
+/// None that is known of: the types can all be written.
+pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error> {
+    Ok(serde_json::to_string_pretty(&Weighed { weighed, version: VERSION })? + "\n")
+}
+
+/// Mass and payload in grams, with their standard uncertainties.
+pub fn weighed_text(weighed: &WeighedHover) -> String {
+    let grams = |mass_kg: Estimate| {
+        let mass = mass_kg.scaled(1e3);
+        with_uncertainty(mass.value, mass.std_uncertainty) + " g"
+    };
+    let mut text = format!(
+        "hovers at {} rpm ({} recordings)\nmass: {}\n",
+        rounded(weighed.speed.rpm(), Some(0.1)),
+        weighed.recording_count,
+        grams(weighed.mass_kg)
+    );
+    if let Some(payload_kg) = weighed.payload_kg {
+        text += &format!("payload: {}\n", grams(payload_kg));
+    }
+    text
+}

@@ -1,0 +1,69 @@
+//! `cargo xtask validate`: what is exported, in the hands of programs that are not ours.
+
+use crate::ci::cargo;
+use crate::target;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What pip is asked for; the script was written for these.
+const PACKAGES: [&str; 2] = ["rotorpy==3.0.0", "pyyaml"];
+const FORMATS: [&str; 9] =
+    ["gazebo", "rotors", "gym-pybullet-drones", "rotorpy", "flightmare", "airsim", "crazyflow", "json", "yaml"];
+/// The preset has no diameter: any will do, for what is written and read with the same one.
+const AIRSIM_NEEDS: [&str; 4] = ["--diameter-m", "0.2", "--air-density-kg-m3", "1.17"];
+
+/// Runs the demo, exports it to all formats, lets rotorpy hover with it, and writes `validation/rotorpy/hover.json`.
+pub(crate) fn run(root: &Path) -> Result<(), String> {
+    let folder = target(root).join("validate");
+    let exports = folder.join("exports");
+    fs::create_dir_all(&exports).map_err(|error| format!("{}: {error}", exports.display()))?;
+    cargo(root, &["build", "--locked", "-p", "hovertone-cli"], &[])?;
+    let hovertone = target(root).join("debug").join("hovertone");
+    let demo = folder.join("demo");
+    run_quietly(Command::new(&hovertone).arg("demo").arg("--no-progress").arg("-o").arg(&demo))?;
+    let results = demo.join("results.json");
+    for format in FORMATS {
+        let more: &[&str] = if format == "airsim" { &AIRSIM_NEEDS } else { &[] };
+        let out = exports.join(format);
+        run_quietly(
+            Command::new(&hovertone).arg("export").arg(&results).args(["--to", format]).args(more).arg("-o").arg(out),
+        )?;
+    }
+    let python = python_with_rotorpy(&folder)?;
+    let scripts = root.join("validation").join("rotorpy");
+    let out = scripts.join("hover.json");
+    let status = Command::new(python)
+        .arg(scripts.join("hover.py"))
+        .args([&results, &exports, &out])
+        .status()
+        .map_err(|error| format!("python: {error}"))?;
+    if !status.success() {
+        return Err("rotorpy does not hover as it was heard".to_owned());
+    }
+    println!("written: {}", out.display());
+    Ok(())
+}
+
+/// A Python of its own with rotorpy, kept between runs.
+fn python_with_rotorpy(folder: &Path) -> Result<PathBuf, String> {
+    let venv = folder.join("venv");
+    let python = venv.join("bin").join("python");
+    if !python.exists() {
+        run_quietly(Command::new("python3").args(["-m", "venv"]).arg(&venv))?;
+    }
+    run_quietly(
+        Command::new(&python).args(["-m", "pip", "install", "-q", "--disable-pip-version-check"]).args(PACKAGES),
+    )?;
+    Ok(python)
+}
+
+/// Runs a command and shows what it said only when it failed.
+fn run_quietly(command: &mut Command) -> Result<(), String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|error| format!("{name}: {error}"))?;
+    if output.status.success() {
+        return Ok(());
+    }
+    Err(format!("{name} failed: {}", String::from_utf8_lossy(&output.stderr).trim()))
+}
