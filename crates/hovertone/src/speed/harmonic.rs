@@ -11,12 +11,15 @@ use hovertone_vehicle::{Order, RotorSpeed};
 /// known four times as well in the middle.
 const END_STDS: f64 = 4.0;
 
+/// Borders of blocks nearer than this are one.
+const SAME_TIME_S: f64 = 1e-6;
+
 impl HarmonicTrack {
-    /// Mean speed over a stretch of time: the blocks' own straight lines, each counted for the time that it covers. `None`
-    /// where nothing is heard.
+    /// Mean speed over a stretch of time: the turns of the blocks and of the steps between them, over the time that they cover.
+    /// `None` where nothing is heard.
     ///
-    /// - Uncertainty: from the curvature of each block's likelihood, which noise makes; widened where the phases within the
-    ///   blocks, or the steps between them, scatter more than that explains.
+    /// - Uncertainty: of a block, from the curvature of its likelihood, which noise makes, widened where its phases scatter more
+    ///   than that explains; of blocks that are joined by phase, from the angle at their two ends.
     /// - The wander of the rotor itself is no uncertainty of its mean, as long as there are no gaps.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
         let parts: Vec<Part> = self
@@ -32,7 +35,7 @@ impl HarmonicTrack {
         }
         let runs: Vec<&[Part]> = parts.chunk_by(|part, _| part.block.step_to_next_turns.is_some()).collect();
         let mean_rev_s = runs.iter().map(|run| turns_of(run)).sum::<f64>() / total_s;
-        let is_edge = |time_s: f64| !(0..2).all(|side| parts.iter().any(|part| part.touches(time_s, side)));
+        let is_edge = |time_s: f64| self.is_edge(time_s);
         let variance = runs.iter().map(|run| turns_variance(run, &is_edge)).sum::<f64>() / (total_s * total_s);
         let several: Vec<&HarmonicBlock> =
             parts.iter().map(|part| part.block).filter(|block| block.is_several).collect();
@@ -66,6 +69,13 @@ impl HarmonicTrack {
                 })
                 .collect(),
         })
+    }
+
+    /// Whether a stretch of sound begins or ends here: a block does, and no other ends or begins.
+    fn is_edge(&self, time_s: f64) -> bool {
+        let is_here = |border_s: f64| (border_s - time_s).abs() < SAME_TIME_S;
+        let touches = |block: &&HarmonicBlock| is_here(block.span.from_s) || is_here(block.span.to_s);
+        self.blocks.iter().filter(touches).count() == 1
     }
 
     /// The speed at every step of the track, gaps left out.
@@ -106,13 +116,6 @@ fn variance_of_several(blocks: &[&HarmonicBlock]) -> f64 {
 struct Part<'a> {
     block: &'a HarmonicBlock,
     span: Span,
-}
-
-impl Part<'_> {
-    /// Whether it begins (0) or ends (1) here.
-    fn touches(&self, time_s: f64, side: usize) -> bool {
-        ([self.span.from_s, self.span.to_s][side] - time_s).abs() < 1e-6
-    }
 }
 
 /// Turns over parts that are joined by phase.
