@@ -93,9 +93,10 @@ fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), 
     };
     let mut config = Config::for_tone(tone);
     let analysis = &arguments.analysis;
-    let of_vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
+    let of_vehicle =
+        arguments.tone.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
     config.rotors.count = arguments.known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
-    config.method = analysis.method.unwrap_or(default_method(&config));
+    config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.span.from_s = analysis.from;
@@ -106,11 +107,6 @@ fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), 
     config.ridge.gaussian_threshold_share = threshold_share.unwrap_or(config.ridge.gaussian_threshold_share);
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
     Ok((config, discovery))
-}
-
-/// Several rotors are told apart where it is known that there are several.
-pub(crate) fn default_method(config: &Config) -> Method {
-    if config.rotors.count > 1 { Method::Separated } else { Method::default() }
 }
 
 /// The tone that is meant: `--order` wins, then the gear, then the blades, then the vehicle. Blades that are known

@@ -1,9 +1,9 @@
 //! Settings: every default stands here once, with its unit and its reason.
 
 use crate::budget_config::BudgetConfig;
-use crate::rotors_config::RotorsConfig;
 use crate::error::ConfigError;
 use crate::method::Method;
+use crate::rotors_config::RotorsConfig;
 use crate::spectrogram::Window;
 use hovertone_vehicle::{Order, RotorSpeed, ShaftSpeedRange};
 use serde::{Deserialize, Serialize};

@@ -22,6 +22,11 @@ impl Method {
     /// All methods: ours, then the paper's in its order.
     pub const ALL: [Self; 4] = [Self::Separated, Self::Harmonic, Self::MaximumTrace, Self::Gaussian];
 
+    /// What is recommended for so many rotors at once: they are told apart.
+    pub fn for_rotors(count: u32) -> Self {
+        if count > 1 { Self::Separated } else { Self::default() }
+    }
+
     /// Name in files and flags.
     pub fn name(self) -> &'static str {
         match self {

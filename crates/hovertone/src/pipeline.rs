@@ -17,8 +17,8 @@ use crate::tone::{
     lines_between_speeds, lines_worth_hearing, search_range_rev_s,
 };
 use crate::verdict::{
-    NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_samples,
-    warning_of_rotors, warnings_of_hover, warnings_of_speed,
+    NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_rotors,
+    warning_of_samples, warnings_of_hover, warnings_of_speed,
 };
 use crate::warning::Warning;
 use serde::Serialize;

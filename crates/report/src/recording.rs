@@ -1,7 +1,9 @@
 //! What one recording said, and what it was.
 
 use crate::notice::Notice;
-use hovertone::{Config, Discovery, Outcome, RotorEstimate, Reading, RotorTone, Span, SpeedAnalysis, SpeedEstimate, ToneFamily};
+use hovertone::{
+    Config, Discovery, Outcome, Reading, RotorEstimate, RotorTone, Span, SpeedAnalysis, SpeedEstimate, ToneFamily,
+};
 use serde::Serialize;
 
 /// What is known of a file that could be opened.

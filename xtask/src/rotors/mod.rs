@@ -71,11 +71,14 @@ pub(crate) fn run(_root: &Path, options: &[&str]) -> Result<(), String> {
     let option = |name: &str| options.iter().position(|option| *option == name).and_then(|at| options.get(at + 1));
     let seeds = option("--seeds").map_or(Ok(20), |text| text.parse::<usize>()).map_err(|error| error.to_string())?;
     let only = option("--only").copied();
-    println!("cell                          heard  set  identity  median %  mean square %  worst %  covered  x real time | wanted: set identity median mean square");
+    println!(
+        "cell                          heard  set  identity  median %  mean square %  worst %  covered  x real time | wanted: set identity median mean square"
+    );
     for cell in cells().iter().filter(|cell| only.is_none_or(|only| cell.name.contains(only))) {
         let scores = drawn(seeds, |seed| Ok(score(cell, 1000 + seed as u64)))?;
         let heard: Vec<&Score> = scores.iter().flatten().collect();
-        let mean = |of: &dyn Fn(&Score) -> f64| heard.iter().map(|score| of(score)).sum::<f64>() / heard.len().max(1) as f64;
+        let mean =
+            |of: &dyn Fn(&Score) -> f64| heard.iter().map(|score| of(score)).sum::<f64>() / heard.len().max(1) as f64;
         let mut errors: Vec<f64> = heard.iter().flat_map(|score| score.errors.iter().copied()).collect();
         errors.sort_by(f64::total_cmp);
         let rms = mean(&|score| score.mean_square_error.powi(2)).sqrt();
@@ -98,7 +101,14 @@ pub(crate) fn run(_root: &Path, options: &[&str]) -> Result<(), String> {
         if option("--each").is_some() {
             for (seed, score) in scores.iter().enumerate() {
                 if let Some(score) = score {
-                    println!("    {:>4} heard {} set {:.3} identity {:.3} mean square {:.4}", 1000 + seed, score.resolved, score.set, score.identity, 100.0 * score.mean_square_error);
+                    println!(
+                        "    {:>4} heard {} set {:.3} identity {:.3} mean square {:.4}",
+                        1000 + seed,
+                        score.resolved,
+                        score.set,
+                        score.identity,
+                        100.0 * score.mean_square_error
+                    );
                 }
             }
         }
@@ -118,7 +128,10 @@ fn score(cell: &Cell, seed: u64) -> Option<Score> {
     let mut signal = Signal::new(rendered.samples.clone(), SAMPLE_RATE_HZ);
     let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).ok()?;
     let took_s = started.elapsed().as_secs_f64();
-    let Outcome::Ok(tone) = &analysis.outcome else { eprintln!("{seed}: {:?}", analysis.outcome); return None };
+    let Outcome::Ok(tone) = &analysis.outcome else {
+        eprintln!("{seed}: {:?}", analysis.outcome);
+        return None;
+    };
     eprintln!("{seed} harmonic {:?}", tone.speeds.iter().map(|s| s.speed.rev_s()).collect::<Vec<_>>());
     if tone.rotors.is_empty() {
         return None;
@@ -131,22 +144,37 @@ fn score(cell: &Cell, seed: u64) -> Option<Score> {
     Some(score)
 }
 
-fn against_truth(tracks: &[&[TrackPoint]], rendered: &Rendered, (from_s, to_s): (f64, f64), spacing_share: f64) -> Score {
+fn against_truth(
+    tracks: &[&[TrackPoint]],
+    rendered: &Rendered,
+    (from_s, to_s): (f64, f64),
+    spacing_share: f64,
+) -> Score {
     let tolerance = (0.4 * spacing_share * MEAN_REV_S).max(0.05);
-    let frames: Vec<f64> = (0..).map(|frame| from_s + FRAME_S * f64::from(frame)).take_while(|time| *time < to_s).collect();
+    let frames: Vec<f64> =
+        (0..).map(|frame| from_s + FRAME_S * f64::from(frame)).take_while(|time| *time < to_s).collect();
     let labellings = permutations(4);
     let (mut right, mut errors, mut covered, mut counted) = (0usize, Vec::new(), 0usize, 0usize);
     let mut identities = vec![0usize; labellings.len()];
     for time_s in &frames {
         let truth = rendered.speeds_at(*time_s);
-        let said: Vec<Option<(f64, f64)>> = (0..4).map(|rotor| at(tracks.get(rotor).copied().unwrap_or_default(), *time_s)).collect();
-        let off = |rotor: usize, real: usize| said[rotor].map_or(f64::INFINITY, |(speed, _)| (speed - truth[real]).abs());
+        let said: Vec<Option<(f64, f64)>> =
+            (0..4).map(|rotor| at(tracks.get(rotor).copied().unwrap_or_default(), *time_s)).collect();
+        let off =
+            |rotor: usize, real: usize| said[rotor].map_or(f64::INFINITY, |(speed, _)| (speed - truth[real]).abs());
         let cost = |labelling: &[usize]| (0..4).map(|rotor| off(rotor, labelling[rotor]).min(1.0)).sum::<f64>();
         let best = labellings.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).cloned().unwrap_or_default();
         if std::env::var("HT_FR").is_ok() {
-            let e: Vec<String> = (0..4).map(|r| said[r].map_or("   -  ".into(), |(v, u)| format!("{:+.3}({:.3})", v - truth[best[r]], u))).collect();
-            let mut t = truth.clone(); t.sort_by(f64::total_cmp);
-            eprintln!("{time_s:.2} {} | {}", e.join(" "), t.windows(2).map(|w| format!("{:.3}", w[1]-w[0])).collect::<Vec<_>>().join(" "));
+            let e: Vec<String> = (0..4)
+                .map(|r| said[r].map_or("   -  ".into(), |(v, u)| format!("{:+.3}({:.3})", v - truth[best[r]], u)))
+                .collect();
+            let mut t = truth.clone();
+            t.sort_by(f64::total_cmp);
+            eprintln!(
+                "{time_s:.2} {} | {}",
+                e.join(" "),
+                t.windows(2).map(|w| format!("{:.3}", w[1] - w[0])).collect::<Vec<_>>().join(" ")
+            );
         }
         right += usize::from((0..4).all(|rotor| off(rotor, best[rotor]) < tolerance));
         for (rotor, &real) in best.iter().enumerate() {

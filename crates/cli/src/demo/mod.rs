@@ -21,7 +21,8 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     folder::write_truth(folder, &truths)?;
     let source = ExperimentSource::read(&experiment)?;
     let hearing = Hearing { wants_hash: true, wants_samples: true, ..Hearing::default() };
-    let identified = identify(source, None, hearing, Method::default(), !arguments.no_progress)?;
+    let method = source.experiment.config.method;
+    let identified = identify(source, None, hearing, method, !arguments.no_progress)?;
     let mut text = format!(
         "The paper's experiment in simulated flight: {} loads, {} recordings, seed {}\n",
         LOADS.len(),

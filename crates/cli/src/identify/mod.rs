@@ -12,7 +12,7 @@ use crate::recording::{Hearing, hear_all};
 use crate::speed::ending_of;
 use crate::terminal::Terminal;
 use crate::thrust_args::IdentifyArguments;
-use hovertone::{Experiment, LoadSpeeds, Method, ThrustTable, TrialSpeeds, thrust_from_loads};
+use hovertone::{Experiment, LoadSpeeds, Method, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
     Identification, InputRecord, Notice, adequacy_text, method_title, results_json, samples_csv, thrust_summary,
     thrust_table,
@@ -33,7 +33,7 @@ pub(crate) struct Identified {
 pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let source = ExperimentSource::read(&arguments.experiment)?;
     let hearing = hearing_of(&arguments.hearing, arguments.json || arguments.output.is_some());
-    let method = arguments.method.unwrap_or_default();
+    let method = arguments.method.unwrap_or(source.experiment.config.method);
     let data_root = arguments.data_root.as_deref();
     let identified = identify(source, data_root, hearing, method, !arguments.hearing.no_progress)?;
     if arguments.json {
@@ -75,12 +75,25 @@ pub(crate) fn identify(
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
     let experiment = &source.experiment;
-    let settings = experiment.thrust_settings();
     let tables = Method::ALL
-        .iter()
-        .map(|&method| thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings))
+        .into_iter()
+        .filter(|&method| method != Method::Separated || experiment.loads.iter().any(|load| load.rotors_running > 1))
+        .map(|method| {
+            let settings = ThrustSettings {
+                follows_loudest: method != Method::Separated || !are_apart(experiment, &inputs),
+                ..experiment.thrust_settings()
+            };
+            thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings)
+        })
         .collect();
     Ok(Identified { source, method, inputs, tables })
+}
+
+/// Whether the rotors were told apart in every recording of several.
+fn are_apart(experiment: &Experiment, inputs: &[InputRecord]) -> bool {
+    let has_several =
+        |input: &&InputRecord| experiment.loads.iter().any(|load| load.name == input.load && load.rotors_running > 1);
+    inputs.iter().filter(has_several).filter_map(|input| input.record.tone()).all(|tone| !tone.rotors.is_empty())
 }
 
 /// The speeds of all loads by one method. A recording without a rotor tone is no trial.

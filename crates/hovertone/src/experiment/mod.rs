@@ -7,6 +7,7 @@ mod tests;
 
 use crate::config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig};
 use crate::error::ConfigError;
+use crate::rotors_config::RotorsConfig;
 use crate::thrust::{Air, Force, ThrustSettings, UncertaintyInputs};
 use hovertone_vehicle::{Gear, Order, QuantityError};
 use serde::{Deserialize, Serialize};
@@ -188,7 +189,8 @@ impl Experiment {
 impl ExperimentLoad {
     /// The settings for a recording of this load.
     pub fn config(&self, experiment: &Experiment) -> Config {
-        Config { span: self.span, ..experiment.config.clone() }
+        let rotors = RotorsConfig { count: self.rotors_running, ..experiment.config.rotors };
+        Config { span: self.span, rotors, ..experiment.config.clone() }
     }
 }
 

@@ -30,7 +30,7 @@ impl ExperimentFile {
             spectrogram: self.spectrogram,
             ridge: self.ridge,
             hover: self.hover,
-            method: Method::default(),
+            method: Method::for_rotors(rotor_count),
             wants_all_methods: true,
             ..Config::for_tone(self.resolve_tone(preset)?)
         };

@@ -27,7 +27,7 @@ pub(crate) use join::{EndBlock, joined_variance_turns2};
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
-pub(crate) use rotors::{RotorTrack, RotorTracer, RotorTracks};
+pub(crate) use rotors::{RotorTracer, RotorTrack, RotorTracks};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
 
 use realfft::num_complex::Complex;

@@ -90,9 +90,7 @@ impl QuantumCutter {
     pub(super) fn quantum(&self, ticks: usize) -> Quantum<'_> {
         let series = self.bank.channels.iter().zip(&self.series);
         Quantum {
-            series: series
-                .map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP])
-                .collect(),
+            series: series.map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP]).collect(),
             channels: &self.bank.channels,
             start_s: self.start_s,
             tick_s: self.bank.hop_s() / TICKS_PER_HOP as f64,

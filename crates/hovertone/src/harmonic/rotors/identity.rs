@@ -186,9 +186,11 @@ fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64) -> Vec<
 }
 
 fn level_cost(frame: &TrackFrame, template: &[Option<f64>]) -> f64 {
-    let costs = frame.levels.iter().zip(template).filter_map(|(level, wanted)| {
-        Some((((*level)? - (*wanted)?) / LEVEL_STD).powi(2).min(LEVEL_COST_MAX))
-    });
+    let costs = frame
+        .levels
+        .iter()
+        .zip(template)
+        .filter_map(|(level, wanted)| Some((((*level)? - (*wanted)?) / LEVEL_STD).powi(2).min(LEVEL_COST_MAX)));
     LEVEL_WEIGHT * costs.sum::<f64>()
 }
 

@@ -70,13 +70,21 @@ impl RotorTracer {
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
         let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, merged: Vec::new() };
         Self {
-            floors: cutter.channels().iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect(),
+            floors: cutter
+                .channels()
+                .iter()
+                .map(|channel| FloorMeter::new(channel.hop_samples, &mut planner))
+                .collect(),
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s,
             count,
             planner,
             identity: Identity::default(),
-            tracks: RotorTracks { rotors: vec![rotor; count], resolution_rev_s: resolution_rev_s(bands), length_s: 0.0 },
+            tracks: RotorTracks {
+                rotors: vec![rotor; count],
+                resolution_rev_s: resolution_rev_s(bands),
+                length_s: 0.0,
+            },
             cutter,
         }
     }
@@ -113,8 +121,14 @@ impl RotorTracer {
         let quantum = self.cutter.quantum(ticks);
         let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
         let noise_variances = noise_variances_of(&mut self.floors, &quantum.series, quantum.mean_square);
-        let heard =
-            rotors_of_quantum(&quantum, &noise_variances, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
+        let heard = rotors_of_quantum(
+            &quantum,
+            &noise_variances,
+            &self.atoms,
+            self.limits_rev_s,
+            self.count,
+            &mut self.planner,
+        );
         self.cutter.drop_ticks(ticks);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
@@ -131,7 +145,10 @@ impl RotorTracer {
         };
         for (rotor, RotorTrack { track, merged }) in self.tracks.rotors.iter_mut().enumerate() {
             for frame in (0..labelling.len()).filter(|&frame| !is_apart(rotor, frame)) {
-                extend(merged, Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s });
+                extend(
+                    merged,
+                    Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s },
+                );
             }
             // stretches in which the rotor keeps one track
             let mut from = 0;

@@ -112,25 +112,37 @@ pub(super) fn rotors_of_quantum(
     let spectra = along(&common, &quantum.series, COMMON_TURNS_S, planner);
     let start: Vec<Vec<f64>> = first
         .iter()
-        .map(|track| track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| middle_rev_s + offset - common).collect())
+        .map(|track| {
+            track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| middle_rev_s + offset - common).collect()
+        })
         .collect();
     let grid = OffsetGrid::new(around(&start, MARGIN_SHARE * middle_rev_s), &spectra);
     let tracks = found_tracks(&spectra, atoms, &grid, &start, (count, SWEEPS));
-    let speeds = tracks.iter().map(|track| track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| common + offset).collect());
+    let speeds = tracks
+        .iter()
+        .map(|track| track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| common + offset).collect());
     let mut paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
 
     // two tracks may share a rotor for a while, and another is left over
-    let apart_along = |paths: &[SpeedPath]| {
-        separated(quantum, noise_variances, atoms, paths, frame_s_of_order(OWN_TURNS_S))
-    };
+    let apart_along =
+        |paths: &[SpeedPath]| separated(quantum, noise_variances, atoms, paths, frame_s_of_order(OWN_TURNS_S));
     let (rotors, rests) = apart_along(&paths);
     let rests: Vec<&[Complex<f32>]> = rests.iter().map(Vec::as_slice).collect();
     let rest = along(&common, &rests, COMMON_TURNS_S, planner);
-    let scores: Vec<Vec<f64>> = (0..rest.frames()).map(|frame| scores_of_frame(&rest, atoms, frame, &grid, &[])).collect();
+    let scores: Vec<Vec<f64>> =
+        (0..rest.frames()).map(|frame| scores_of_frame(&rest, atoms, frame, &grid, &[])).collect();
     let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
-        let offsets = rest.common_rev_s.iter().enumerate().map(|(frame, common)| path.speed_rev_s(frame_middle_ticks(frame)) - common);
+        let offsets = rest
+            .common_rev_s
+            .iter()
+            .enumerate()
+            .map(|(frame, common)| path.speed_rev_s(frame_middle_ticks(frame)) - common);
         let own: Vec<(f64, f64)> = offsets.zip(rotor.worths.iter().copied()).collect();
-        better_track(&scores, &own, &grid, middle_rev_s).iter().zip(&rest.common_rev_s).map(|(offset, common)| common + offset).collect()
+        better_track(&scores, &own, &grid, middle_rev_s)
+            .iter()
+            .zip(&rest.common_rev_s)
+            .map(|(offset, common)| common + offset)
+            .collect()
     });
     paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
 
@@ -185,7 +197,9 @@ fn continuous_paths(speeds_rev_s: &[Vec<f64>], quantum: &Quantum<'_>) -> Vec<Spe
             let points: Vec<(f64, f64)> = labelling
                 .iter()
                 .enumerate()
-                .map(|(frame, labels)| (frame_middle_ticks(frame) as f64 * quantum.tick_s, speeds_rev_s[labels[rotor]][frame]))
+                .map(|(frame, labels)| {
+                    (frame_middle_ticks(frame) as f64 * quantum.tick_s, speeds_rev_s[labels[rotor]][frame])
+                })
                 .collect();
             SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
         })

@@ -43,7 +43,8 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
             let to = (middle + half_ticks).min(line.ticks.len());
             let first = from + half_ticks - middle;
             for (score, turns) in scores.iter_mut().zip(turns.chunks_exact(length)) {
-                let sum: Complex<f64> = line.ticks[from..to].iter().zip(&turns[first..]).map(|(z, turn)| z * turn).sum();
+                let sum: Complex<f64> =
+                    line.ticks[from..to].iter().zip(&turns[first..]).map(|(z, turn)| z * turn).sum();
                 *score += sum.norm_sqr() / energy;
             }
         }

@@ -58,7 +58,10 @@ pub(super) fn found_tracks(
                 scores_of_frame(spectra, atoms, frame, grid, &others)
             })
             .collect();
-        best_path(&scores, step_std).into_iter().map(|place| grid.first_rev_s + place as f64 * grid.step_rev_s).collect()
+        best_path(&scores, step_std)
+            .into_iter()
+            .map(|place| grid.first_rev_s + place as f64 * grid.step_rev_s)
+            .collect()
     };
     let mut tracks: Vec<Vec<f64>> = start.to_vec();
     while tracks.len() < count {
@@ -127,7 +130,8 @@ pub(super) fn scores_of_frame(
     let mut products = vec![1.0f64; grid.points];
     let mut left = LeftBeside::default();
     for (index, (line, atoms)) in spectra.lines.iter().zip(atoms).enumerate() {
-        let bin_of = |point: usize| line.bin_of(line.order * (grid.first_rev_s + point as f64 * grid.step_rev_s) * line.frame_s);
+        let bin_of =
+            |point: usize| line.bin_of(line.order * (grid.first_rev_s + point as f64 * grid.step_rev_s) * line.frame_s);
         let (first, step) = (bin_of(0), bin_of(1) - bin_of(0));
         let from = (first.max(0.0) as usize).min(line.frame(frame).len() - 2);
         let to = (bin_of(grid.points - 1) as usize + 2).clamp(from + 2, line.frame(frame).len());
@@ -208,4 +212,3 @@ impl LeftBeside {
         likelihoods.extend(left.iter().zip(energy_left).map(|(z, energy)| z.norm_sqr() / energy.max(ENERGY_LEFT_MIN)));
     }
 }
-

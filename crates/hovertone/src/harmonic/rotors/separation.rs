@@ -128,7 +128,13 @@ impl MixedChannel {
     }
 
     /// Amplitudes of all atoms in all frames; and for each rotor and frame, whether its own line is apart from those of others.
-    fn solve(&mut self, quantum: &Quantum<'_>, index: usize, paths: &[SpeedPath], frame_ticks: usize) -> Vec<Vec<bool>> {
+    fn solve(
+        &mut self,
+        quantum: &Quantum<'_>,
+        index: usize,
+        paths: &[SpeedPath],
+        frame_ticks: usize,
+    ) -> Vec<Vec<bool>> {
         let length = frame_ticks * self.samples_per_tick;
         let frame_s = frame_ticks as f64 * quantum.tick_s;
         let window: Vec<f32> =
@@ -199,8 +205,11 @@ impl MixedChannel {
         (0..ticks)
             .map(|tick| {
                 let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;
-                let rest: Complex<f32> =
-                    self.rest[samples.clone()].iter().zip(&atom.phasors[samples]).map(|(z, phasor)| z * phasor.conj()).sum();
+                let rest: Complex<f32> = self.rest[samples.clone()]
+                    .iter()
+                    .zip(&atom.phasors[samples])
+                    .map(|(z, phasor)| z * phasor.conj())
+                    .sum();
                 to_f64(rest) + atom.amplitude_at(tick) * self.samples_per_tick as f64
             })
             .collect()

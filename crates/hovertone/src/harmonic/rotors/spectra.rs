@@ -60,7 +60,12 @@ impl Spectra {
                 let length = ticks * samples_per_tick;
                 // nothing before the first frame and after the last
                 let mut turned = vec![Complex::default(); length];
-                turned.extend(turned_back(series, (channel.order, channel.centre_hz, channel.rate_hz), common, samples_per_tick));
+                turned.extend(turned_back(
+                    series,
+                    (channel.order, channel.centre_hz, channel.rate_hz),
+                    common,
+                    samples_per_tick,
+                ));
                 turned.resize(turned.len() + length, Complex::default());
                 let mut transform = FrameTransform::new(length, ZERO_PAD_FACTOR, planner);
                 let scale = 1.0 / (transform.energy * noise_variance).sqrt();
@@ -76,7 +81,9 @@ impl Spectra {
                 for frame in 0..frames {
                     let start = length + frame_middle_ticks(frame) * samples_per_tick - length / 2;
                     let spectrum = transform.spectrum(&turned[start..]);
-                    bins.extend(to_middle.iter().enumerate().map(|(index, turn)| spectrum[(index + count / 2) % count] * turn));
+                    bins.extend(
+                        to_middle.iter().enumerate().map(|(index, turn)| spectrum[(index + count / 2) % count] * turn),
+                    );
                 }
                 LineSpectra { order: channel.order, frame_s: ticks as f64 * quantum.tick_s, half_bins: count / 2, bins }
             })
