@@ -23,6 +23,8 @@ const HELP: &str = "cargo xtask <task>
           [--minutes N] for shorter ones
   bench roundtrip   simulate, identify, compare with the truth: a hundred random hovers
           [--count N] for fewer, [--spread SHARE] for rotors more alike or less
+  bench rotors      four rotors from one microphone against the truth of every instant: docs/rotors.md
+          [--seeds N] for fewer, [--only WORDS] to print some of its sounds, clip by clip
   bench accuracy    one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
           [--draws N] [--coverage N] for fewer, [--only PART] to print one part, [--install-peers] to have them here
 ";

@@ -16,7 +16,7 @@ mod quanta;
 mod rotors;
 mod track;
 
-use crate::channel::{ChannelBand, ChannelBank, TICKS_PER_HOP};
+use crate::channel::{ChannelBand, TICKS_PER_HOP};
 use crate::span::Span;
 use crate::spectrogram::power_db;
 use block::BlockFit;
@@ -27,6 +27,7 @@ pub(crate) use join::{EndBlock, joined_variance_turns2};
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
+use quanta::{Quantum, QuantumCutter};
 pub(crate) use rotors::{RotorTracer, RotorTrack, RotorTracks};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
 
@@ -63,18 +64,9 @@ const COHERENT_SHARE: f64 = 0.4;
 
 /// Follows the speed through stretches of sound.
 pub(crate) struct HarmonicTracer {
-    bank: ChannelBank,
-    series: Vec<Vec<Complex<f32>>>,
+    cutter: QuantumCutter,
     floors: Vec<FloorMeter>,
     map: SpeedMap,
-    /// Start of what lies in `series`.
-    start_s: f64,
-    stretch_start_s: f64,
-    samples_in: u64,
-    /// Sum of their squares.
-    squares: f64,
-    sample_rate_hz: f64,
-    quantum_hops: usize,
     track: HarmonicTrack,
 }
 
@@ -83,45 +75,29 @@ impl HarmonicTracer {
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
         let speeds_rev_s =
             bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order));
-        let bank = ChannelBank::new(sample_rate_hz, bands);
+        let cutter = QuantumCutter::new(sample_rate_hz, bands, QUANTUM_S_MAX);
         let mut planner = FftPlanner::new();
-        let floors = bank.channels.iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect();
-        let map = SpeedMap::new(&bank.channels, speeds_rev_s, bank.hop_s(), &mut planner);
-        Self {
-            series: vec![Vec::new(); bank.channels.len()],
-            floors,
-            map,
-            start_s: 0.0,
-            stretch_start_s: 0.0,
-            samples_in: 0,
-            squares: 0.0,
-            sample_rate_hz,
-            quantum_hops: 1,
-            track: HarmonicTrack {
-                step_s: bank.hop_s(),
-                blocks: Vec::new(),
-                lines: bands.iter().map(|band| LineRecord { order: band.order, ..LineRecord::default() }).collect(),
-            },
-            bank,
-        }
+        let floors =
+            cutter.channels().iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect();
+        let map = SpeedMap::new(cutter.channels(), speeds_rev_s, cutter.hop_s(), &mut planner);
+        let track = HarmonicTrack {
+            step_s: cutter.hop_s(),
+            blocks: Vec::new(),
+            lines: bands.iter().map(|band| LineRecord { order: band.order, ..LineRecord::default() }).collect(),
+        };
+        Self { cutter, floors, map, track }
     }
 
     /// A new stretch of sound begins at `start_s` and should last `length_s`.
     pub(crate) fn restart(&mut self, start_s: f64, length_s: f64) {
         self.end_stretch();
-        self.bank.restart();
-        (self.start_s, self.stretch_start_s, self.samples_in, self.squares) = (start_s, start_s, 0, 0.0);
-        let quanta = (length_s / QUANTUM_S_MAX).ceil().max(1.0);
-        self.quantum_hops = (length_s / quanta / self.bank.hop_s()).ceil().max(1.0) as usize;
+        self.cutter.restart(start_s, length_s);
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.samples_in += samples.len() as u64;
-        self.squares += samples.iter().map(|&sample| f64::from(sample * sample)).sum::<f64>();
-        self.bank.push(samples, &mut self.series);
-        // a stretch that ends a little later than it should must not leave a crumb
-        while self.hops() >= self.quantum_hops + self.quantum_hops / 2 {
-            self.take_quantum(self.quantum_hops * TICKS_PER_HOP);
+        self.cutter.push(samples);
+        while let Some(ticks) = self.cutter.ready_ticks() {
+            self.take_quantum(ticks);
         }
     }
 
@@ -131,140 +107,114 @@ impl HarmonicTracer {
     }
 
     fn end_stretch(&mut self) {
-        self.bank.finish(&mut self.series);
-        let tick_s = self.bank.hop_s() / TICKS_PER_HOP as f64;
-        let left_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz - self.start_s;
-        // the last tick is heard even if the stretch ends within it: it has faded out by then
-        let ticks = ((left_s / tick_s - 1e-6).ceil() as usize).min(self.hops() * TICKS_PER_HOP);
-        if ticks >= FRAME_HOPS * TICKS_PER_HOP {
-            let end_s = self.start_s + left_s;
+        if let Some((ticks, end_s)) = self.cutter.last_ticks() {
             self.take_quantum(ticks);
             if let Some(last) = self.track.blocks.last_mut().filter(|last| last.span.to_s > end_s) {
                 *last = last.until(end_s);
             }
         }
-        self.series.iter_mut().for_each(Vec::clear);
-        self.samples_in = 0;
-    }
-
-    fn hops(&self) -> usize {
-        self.bank
-            .channels
-            .iter()
-            .zip(&self.series)
-            .map(|(channel, series)| series.len() / channel.hop_samples)
-            .min()
-            .unwrap_or(0)
     }
 
     /// Analyses the first ticks of what has come in, and drops them.
     fn take_quantum(&mut self, ticks: usize) {
-        let hop_s = self.bank.hop_s();
-        let tick_s = hop_s / TICKS_PER_HOP as f64;
-        let lines = self.bank.channels.len();
-        let (start_s, limits) = (self.start_s, self.map.limits_rev_s());
-        match self.level_of_quantum(ticks) {
+        let Self { cutter, floors, map, track } = self;
+        let quantum = cutter.quantum(ticks);
+        let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
+        let (lines, limits) = (quantum.channels.len(), map.limits_rev_s());
+        match level_of_quantum(&quantum, floors, map, &mut track.lines) {
             Some(Heard::One(level, coheres)) => {
                 let blocks = level.blocks.iter().map(|fit| block_at(fit, coheres, (start_s, tick_s), (lines, limits)));
-                self.track.blocks.extend(blocks);
+                track.blocks.extend(blocks);
             }
             Some(Heard::Several(centroids)) => {
-                self.track.blocks.extend(blocks_of_several(&centroids, start_s, FRAME_HOPS as f64 * hop_s));
+                let frame_s = (FRAME_HOPS * TICKS_PER_HOP) as f64 * tick_s;
+                track.blocks.extend(blocks_of_several(&centroids, start_s, frame_s));
             }
             None => {}
         }
-        self.drop_ticks(ticks);
+        cutter.drop_ticks(ticks);
     }
+}
 
-    fn drop_ticks(&mut self, ticks: usize) {
-        for (channel, series) in self.bank.channels.iter().zip(&mut self.series) {
-            let samples = (ticks * channel.hop_samples / TICKS_PER_HOP).min(series.len());
-            series.drain(..samples);
-        }
-        self.start_s += ticks as f64 * self.bank.hop_s() / TICKS_PER_HOP as f64;
+/// What is heard in a quantum; what each line contributed is added to its record.
+fn level_of_quantum(
+    quantum: &Quantum<'_>,
+    floors: &mut [FloorMeter],
+    map: &mut SpeedMap,
+    records: &mut [LineRecord],
+) -> Option<Heard> {
+    let Quantum { channels, series, tick_s, ticks, .. } = quantum;
+    let (tick_s, ticks) = (*tick_s, *ticks);
+    let noise_variances = noise_variances_of(floors, series, quantum.mean_square);
+    let seen = map.path_through(series, &noise_variances, TICKS_PER_HOP as f64 * tick_s);
+    let MapPath { points, presences, steady_rev_s, .. } = &seen;
+    let path = SpeedPath::through(points, tick_s, ticks)?;
+    let used: Vec<usize> = (0..channels.len()).filter(|&index| !is_stranger(&presences[index])).collect();
+    for (index, (record, presence)) in records.iter_mut().zip(presences).enumerate() {
+        record.on_path += presence.on_path;
+        record.quanta += 1;
+        record.quanta_left_out += u32::from(!used.contains(&index));
     }
-
-    fn level_of_quantum(&mut self, ticks: usize) -> Option<Heard> {
-        let channels = &self.bank.channels;
-        let hop_s = self.bank.hop_s();
-        let tick_s = hop_s / TICKS_PER_HOP as f64;
-        let series: Vec<&[Complex<f32>]> = channels
-            .iter()
-            .zip(&self.series)
-            .map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP])
-            .collect();
-        let mean_square = self.squares / self.samples_in.max(1) as f64;
-        let noise_variances = noise_variances_of(&mut self.floors, &series, mean_square);
-        let seen = self.map.path_through(&series, &noise_variances, hop_s);
-        let MapPath { points, presences, steady_rev_s, .. } = &seen;
-        let path = SpeedPath::through(points, tick_s, ticks)?;
-        let used: Vec<usize> = (0..channels.len()).filter(|&index| !is_stranger(&presences[index])).collect();
-        for (index, (record, presence)) in self.track.lines.iter_mut().zip(presences).enumerate() {
-            record.on_path += presence.on_path;
-            record.quanta += 1;
-            record.quanta_left_out += u32::from(!used.contains(&index));
-        }
-        if seen.beside_share > SEVERAL_SHARE {
-            return Some(Heard::Several(self.map.centroids(&seen, &noise_variances)));
-        }
-        let lines_along = |path: &SpeedPath| -> Vec<Line> {
-            used.iter()
-                .map(|&index| {
-                    let channel = &channels[index];
-                    let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
-                    let place = (channel.order, channel.centre_hz, channel.rate_hz);
-                    Line {
-                        order: channel.order,
-                        is_first: channel.is_first,
-                        is_strong: presences[index].on_path > STRONG_POWER_MIN,
-                        noise_variance: noise_variances[index],
-                        samples_per_tick: samples_per_tick as f64,
-                        ticks: demodulated(series[index], place, samples_per_tick, path),
-                    }
-                })
-                .collect()
-        };
-        let threshold = likelihood_min(used.len());
-        let coarse = first_level(&lines_along(&path), &path);
-        let better: Vec<(f64, f64)> = coarse
-            .blocks
-            .iter()
-            .filter(|block| block.likelihood >= threshold)
-            .map(|block| (block.middle_s(tick_s), block.speed_rev_s))
-            .collect();
-        let path = SpeedPath::through(&better, tick_s, ticks).filter(|_| coarse.heard_share(used.len(), 1.0) > 0.5);
-        let following = path.map(|path| best_level(&lines_along(&path), &path));
-        let best = match following {
-            Some(level) if coarse.heard_share(used.len(), CLEAR_TIMES) > CLEAR_SHARE => level,
-            following => {
-                // single blocks are weak: perhaps all of them together are a rotor that holds its speed
-                let steady = SpeedPath::through(&[(0.0, *steady_rev_s)], tick_s, ticks)?;
-                let straight = straight_level(&lines_along(&steady), &steady);
-                following.map_or(straight.clone(), |level| straight.or_better(level))
-            }
-        };
-        let coheres = best.likelihood() > COHERENT_SHARE * coarse.likelihood_over_noise(used.len());
-        let points: Vec<(f64, f64)> = best
-            .blocks
-            .iter()
-            .filter(|block| block.likelihood >= threshold)
-            .flat_map(|block| {
-                let reach_s = 0.49 * (block.tick_to - block.tick_from) as f64 * tick_s;
-                let middle_s = block.middle_s(tick_s);
-                [middle_s - reach_s, middle_s + reach_s].map(|t| (t, block.speed_at(t, tick_s)))
+    if seen.beside_share > SEVERAL_SHARE {
+        return Some(Heard::Several(map.centroids(&seen, &noise_variances)));
+    }
+    let lines_along = |path: &SpeedPath| -> Vec<Line> {
+        used.iter()
+            .map(|&index| {
+                let channel = &channels[index];
+                let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
+                let place = (channel.order, channel.centre_hz, channel.rate_hz);
+                Line {
+                    order: channel.order,
+                    is_first: channel.is_first,
+                    is_strong: presences[index].on_path > STRONG_POWER_MIN,
+                    noise_variance: noise_variances[index],
+                    samples_per_tick: samples_per_tick as f64,
+                    ticks: demodulated(series[index], place, samples_per_tick, path),
+                }
             })
-            .collect();
-        let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
-        let lines = lines_along(&path);
-        let best = joined(&lines, &path, &best);
-        if best.blocks.len() <= STEADY_BLOCKS_MAX {
-            let likelihoods = line_likelihoods(&lines, &path, &best);
-            for (&index, likelihood) in used.iter().zip(likelihoods) {
-                self.track.lines[index].steady_likelihood += likelihood;
-            }
+            .collect()
+    };
+    let threshold = likelihood_min(used.len());
+    let coarse = first_level(&lines_along(&path), &path);
+    let better: Vec<(f64, f64)> = coarse
+        .blocks
+        .iter()
+        .filter(|block| block.likelihood >= threshold)
+        .map(|block| (block.middle_s(tick_s), block.speed_rev_s))
+        .collect();
+    let path = SpeedPath::through(&better, tick_s, ticks).filter(|_| coarse.heard_share(used.len(), 1.0) > 0.5);
+    let following = path.map(|path| best_level(&lines_along(&path), &path));
+    let best = match following {
+        Some(level) if coarse.heard_share(used.len(), CLEAR_TIMES) > CLEAR_SHARE => level,
+        following => {
+            // single blocks are weak: perhaps all of them together are a rotor that holds its speed
+            let steady = SpeedPath::through(&[(0.0, *steady_rev_s)], tick_s, ticks)?;
+            let straight = straight_level(&lines_along(&steady), &steady);
+            following.map_or(straight.clone(), |level| straight.or_better(level))
         }
-        Some(Heard::One(best, coheres))
+    };
+    let coheres = best.likelihood() > COHERENT_SHARE * coarse.likelihood_over_noise(used.len());
+    let points: Vec<(f64, f64)> = best
+        .blocks
+        .iter()
+        .filter(|block| block.likelihood >= threshold)
+        .flat_map(|block| {
+            let reach_s = 0.49 * (block.tick_to - block.tick_from) as f64 * tick_s;
+            let middle_s = block.middle_s(tick_s);
+            [middle_s - reach_s, middle_s + reach_s].map(|t| (t, block.speed_at(t, tick_s)))
+        })
+        .collect();
+    let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
+    let lines = lines_along(&path);
+    let best = joined(&lines, &path, &best);
+    if best.blocks.len() <= STEADY_BLOCKS_MAX {
+        let likelihoods = line_likelihoods(&lines, &path, &best);
+        for (&index, likelihood) in used.iter().zip(likelihoods) {
+            records[index].steady_likelihood += likelihood;
+        }
     }
+    Some(Heard::One(best, coheres))
 }
 
 /// What a quantum holds.

@@ -51,6 +51,10 @@ impl QuantumCutter {
         &self.bank.channels
     }
 
+    pub(super) fn hop_s(&self) -> f64 {
+        self.bank.hop_s()
+    }
+
     pub(super) fn tick_s(&self) -> f64 {
         self.bank.hop_s() / TICKS_PER_HOP as f64
     }

@@ -59,8 +59,8 @@ impl Mixture {
         for i in (0..solved.len()).rev() {
             solved[i] /= self.diagonal(i);
             let value = solved[i];
-            for j in self.first[i]..i {
-                solved[j] -= value * self.rows[i][j - self.first[i]].conj();
+            for (other, factor) in solved[self.first[i]..i].iter_mut().zip(&self.rows[i]) {
+                *other -= value * factor.conj();
             }
         }
         let mut amplitudes = vec![Complex::default(); seen.len()];
@@ -83,11 +83,11 @@ impl Mixture {
     /// Solves with the lower factor; nothing stands before `from`.
     fn eliminate(&self, values: &mut [Complex<f64>], from: usize) {
         for i in from..values.len() {
-            let mut value = values[i];
-            for j in self.first[i].max(from)..i {
-                value -= values[j] * self.rows[i][j - self.first[i]];
-            }
-            values[i] = value / self.diagonal(i);
+            let start = self.first[i].max(from);
+            let factors = &self.rows[i][start.min(i) - self.first[i]..];
+            let known: Complex<f64> =
+                values[start.min(i)..i].iter().zip(factors).map(|(value, factor)| value * factor).sum();
+            values[i] = (values[i] - known) / self.diagonal(i);
         }
     }
 

@@ -142,7 +142,7 @@ impl MixedChannel {
         let series = quantum.series[index];
         let own_order = quantum.channels[index].order;
         let frames = quantum.ticks / FRAME_TICKS;
-        let mut apart = vec![vec![true; frames]; paths.len()];
+        let mut apart = vec![Vec::with_capacity(frames); paths.len()];
         let mut places = vec![0.0; self.atoms.len()];
         let mut seen = vec![Complex::<f64>::default(); self.atoms.len()];
         for frame in 0..frames {
@@ -160,11 +160,13 @@ impl MixedChannel {
                 *seen = to_f64(sum) / weight;
                 *place = atom.order * speed_of(atom.rotor) * frame_s;
             }
+            let mut is_apart = vec![true; paths.len()];
             for (index, atom) in self.atoms.iter().enumerate().filter(|(_, atom)| atom.order == own_order) {
                 let nearest = self.atoms.iter().zip(&places).filter(|(other, _)| other.rotor != atom.rotor);
                 let nearest = nearest.map(|(_, place)| (place - places[index]).abs()).fold(f64::INFINITY, f64::min);
-                apart[atom.rotor][frame] = nearest >= RESOLVED_CELLS;
+                is_apart[atom.rotor] = nearest >= RESOLVED_CELLS;
             }
+            apart.iter_mut().zip(is_apart).for_each(|(apart, is_apart)| apart.push(is_apart));
             // what one line sees of another: exactly, because each leaves its frequency along its own path
             let gram = |a: usize, b: usize| {
                 let mut sum = Complex::<f32>::default();
