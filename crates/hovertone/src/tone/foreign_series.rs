@@ -65,7 +65,8 @@ pub(crate) fn foreign_series(survey: &Survey, hover: &Hover, tone: &ToneConfig, 
     let steps = ((FUNDAMENTAL_HZ.1 / FUNDAMENTAL_HZ.0).ln() / STEP_SHARE) as u32;
     let (fundamental_hz, run) = (0..steps)
         .map(|step| FUNDAMENTAL_HZ.0 * (STEP_SHARE * f64::from(step)).exp())
-        .filter(|&hz| !search.claim.may_be_its_rotor(hz) && !survey.hum.as_ref().is_some_and(|hum| hum.explains(hz)))
+        .filter(|&hz| !search.claim.may_be_its_rotor(hz) && !search.is_of_own_blade_pass(hz))
+        .filter(|&hz| !survey.hum.as_ref().is_some_and(|hum| hum.explains(hz)))
         .filter_map(|hz| Some((hz, search.best_run(hz)?)))
         .max_by(|a, b| a.1.mean_db.total_cmp(&b.1.mean_db))?;
     let level_db =
@@ -115,10 +116,7 @@ impl Claim {
     fn may_be_its_rotor(&self, fundamental_hz: f64) -> bool {
         let near = |order: f64, share: f64| (fundamental_hz / (order * self.shaft_hz) - 1.0).abs() < share;
         let blades = self.orders.first().copied().unwrap_or(1.0);
-        // every fourth line of a blade pass is a series too
-        let multiple = (fundamental_hz / (blades * self.shaft_hz)).round().max(1.0);
-        near(multiple * blades, SHAFT_LINE_SHARE)
-            || self.orders.iter().any(|&order| near(order, ROTORS_APART_SHARE))
+        self.orders.iter().any(|&order| near(order, ROTORS_APART_SHARE))
             || (1..blades as u32).any(|order| near(f64::from(order), OTHER_SHAFTS_SHARE))
     }
 
@@ -176,6 +174,17 @@ impl Search {
                 && heard as f64 >= BETWEEN_HEARD_SHARE * between.len() as f64;
             (is_one_series && between.len() >= 3).then_some(fundamental_hz)
         })
+    }
+
+    /// Whether a series is every third, fourth … line of the claimed rotor's blade pass, all of whose first lines are heard. Where
+    /// those between are not, the rotor turns faster than claimed.
+    fn is_of_own_blade_pass(&self, fundamental_hz: f64) -> bool {
+        let Some(&blades) = self.claim.orders.first().filter(|&&blades| blades > 1.0) else { return false };
+        let blade_pass_hz = blades * self.claim.shaft_hz;
+        let multiple = (fundamental_hz / blade_pass_hz).round().max(1.0);
+        let over_db = |hz: f64| self.bins(hz).filter_map(|bin| self.over_db.get(bin)).copied().fold(0.0, f64::max);
+        (fundamental_hz / (multiple * blade_pass_hz) - 1.0).abs() < SHAFT_LINE_SHARE
+            && (1..=FIRST_LINES).all(|k| over_db(f64::from(k) * blade_pass_hz) >= self.each_db)
     }
 
     /// The strongest run of multiples that stand out; those that the claim explains neither count nor interrupt.
