@@ -25,7 +25,12 @@ pub(super) struct Score {
     pub(super) covered: f64,
 }
 
-pub(super) fn against_truth(tracks: &[&[TrackPoint]], rendered: &Rendered, duration_s: f64, spacing_share: f64) -> Score {
+pub(super) fn against_truth(
+    tracks: &[&[TrackPoint]],
+    rendered: &Rendered,
+    duration_s: f64,
+    spacing_share: f64,
+) -> Score {
     let tolerance_rev_s = (0.4 * spacing_share * MEAN_REV_S).max(0.05);
     let times = |step_s: f64| {
         (0..).map(move |step| EDGE_S + step_s * f64::from(step)).take_while(move |time_s| *time_s < duration_s - EDGE_S)
@@ -37,7 +42,8 @@ pub(super) fn against_truth(tracks: &[&[TrackPoint]], rendered: &Rendered, durat
     for time_s in times(FRAME_S) {
         let truth = rendered.speeds_at(time_s);
         let said: Vec<Option<(f64, f64)>> = tracks.iter().map(|track| at(track, time_s)).collect();
-        let off = |rotor: usize, real: usize| said[rotor].map_or(f64::INFINITY, |(speed, _)| (speed - truth[real]).abs());
+        let off =
+            |rotor: usize, real: usize| said[rotor].map_or(f64::INFINITY, |(speed, _)| (speed - truth[real]).abs());
         let is_right = |rotor: usize, real: usize| off(rotor, real) < tolerance_rev_s;
         let cost = |labelling: &[usize]| (0..count).map(|rotor| off(rotor, labelling[rotor]).min(1.0)).sum::<f64>();
         frames += 1;
@@ -54,8 +60,9 @@ pub(super) fn against_truth(tracks: &[&[TrackPoint]], rendered: &Rendered, durat
             *right_as += (0..count).filter(|&rotor| is_right(rotor, labelling[rotor])).count();
         }
     }
-    let squares: Vec<f64> =
-        times(STEP_S).flat_map(|time_s| tracks.iter().filter_map(move |track| Some(at(track, time_s)?.0.powi(2)))).collect();
+    let squares: Vec<f64> = times(STEP_S)
+        .flat_map(|time_s| tracks.iter().filter_map(move |track| Some(at(track, time_s)?.0.powi(2))))
+        .collect();
     let mean_square = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
     Score {
         set: right as f64 / frames.max(1) as f64,

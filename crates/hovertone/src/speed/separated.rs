@@ -5,14 +5,16 @@ use crate::budget_config::BudgetConfig;
 use crate::harmonic::{HarmonicTrack, RotorTrack, RotorTracks};
 use crate::method::Method;
 use crate::span::Span;
-use crate::statistics::mean;
+use crate::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed};
 use std::f64::consts::TAU;
 
 /// A rotor is told apart if it is heard, and apart from the others, for this share of the time.
 const RESOLVED_SHARE_MIN: f64 = 0.5;
-/// How far a rotor that is not told apart may turn from the mean of those that are, as a standard deviation: rotors of real
-/// quadrotors spread over 13 to 22 % from slowest to fastest (PHYSICS section 4).
+/// Where a faint rotor would have been heard for this share of the time, one that is not told apart turns like one that is.
+const FAINT_SHARE_MIN: f64 = 0.5;
+/// How far another one may turn from the mean of those that are told apart, as a standard deviation: rotors of real quadrotors
+/// spread over 13 to 22 % from slowest to fastest (PHYSICS section 4).
 const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
 
 impl RotorTracks {
@@ -40,8 +42,9 @@ impl RotorTracks {
 
     /// Mean of all rotors' speeds over a stretch of time, and their mean square. `None` where none is told apart.
     ///
-    /// Uncertainty: that of each rotor; and of `count` rotors of which k are told apart, the others' speeds are not known:
-    /// `(1 − k / count) · 6 %`.
+    /// Uncertainty: that of each rotor; and of `count` rotors of which k are told apart, `(1 − k / count)` times what is not known
+    /// of the others: where a faint rotor would have been heard, they turn like one of the k, within the resolution; else they may
+    /// be anywhere, 6 %.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
         let heard: Vec<(SpeedEstimate, f64)> = self
             .resolved(span)
@@ -54,7 +57,12 @@ impl RotorTracks {
         let mean_rev_s = mean(&speeds)?;
         let stds = heard.iter().filter_map(|(speed, _)| speed.std_uncertainty_rev_s);
         let of_rotors: f64 = stds.map(|std| (std / resolved).powi(2)).sum();
-        let of_unresolved = (1.0 - resolved / count) * UNKNOWN_SPREAD_SHARE * mean_rev_s;
+        let unknown_rev_s = if self.faint_s >= FAINT_SHARE_MIN * self.length_s {
+            std(&speeds).unwrap_or(0.0).hypot(self.resolution_rev_s)
+        } else {
+            UNKNOWN_SPREAD_SHARE * mean_rev_s
+        };
+        let of_unresolved = (1.0 - resolved / count) * unknown_rev_s;
         let (first, _) = heard.into_iter().next()?;
         Some(SpeedEstimate {
             method: Method::Separated,

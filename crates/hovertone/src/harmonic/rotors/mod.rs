@@ -49,6 +49,8 @@ pub(crate) struct RotorTracks {
     pub(crate) resolution_rev_s: f64,
     /// How long was listened to.
     pub(crate) length_s: f64,
+    /// For how long of that a rotor of a tenth of the loudest one's power would have been heard.
+    pub(crate) faint_s: f64,
 }
 
 /// One rotor.
@@ -84,6 +86,7 @@ impl RotorTracer {
                 rotors: vec![rotor; count],
                 resolution_rev_s: resolution_rev_s(bands),
                 length_s: 0.0,
+                faint_s: 0.0,
             },
             cutter,
         }
@@ -136,6 +139,7 @@ impl RotorTracer {
         let blocks: Vec<Vec<HarmonicBlock>> =
             heard.iter().map(|rotor| self.blocks_of(rotor, (start_s, tick_s))).collect();
         self.tracks.length_s += ticks as f64 * tick_s;
+        self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * ticks as f64 * tick_s;
         let resolution_rev_s = self.tracks.resolution_rev_s;
         let is_apart = |rotor: usize, frame: usize| {
             let of = |rotor: usize| &frames[labelling[frame][rotor]][frame];

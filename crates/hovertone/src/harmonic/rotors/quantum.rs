@@ -14,24 +14,25 @@ use crate::channel::ChannelBand;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-/// A line of order o has frames of `√(this / o)`: rotors of a hovering multirotor leave their common speed by less than 0.7 rev/s per
-/// second, which smears the line over less than two resolution cells.
-const COMMON_TURNS_S: f64 = 3.0;
+/// A line at f has frames of `√(this / f)`: rotors of a hovering multirotor leave their common speed by less than 1 % in a second,
+/// which smears the line over less than two resolution cells.
+const COMMON_FRAME_HZ_S2: f64 = 180.0;
 /// … before their common speed is known, …
-const FIRST_TURNS_S: f64 = 1.7;
+const FIRST_FRAME_HZ_S2: f64 = 100.0;
 /// … and along a rotor's own path.
-const OWN_TURNS_S: f64 = 8.0;
+const OWN_FRAME_HZ_S2: f64 = 480.0;
 /// A frame is no longer than this: sound in a room loses its phase.
 const FRAME_S_MAX: f64 = 0.4;
 /// Times that each rotor is looked for again beside all others, before and after the common speed is known.
-const FIRST_SWEEPS: usize = 1;
+const FIRST_SWEEPS: usize = 0;
 const SWEEPS: usize = 2;
 /// Times that the rotors are taken apart and their paths drawn again.
 const RETRACES: usize = 1;
 /// The search goes this far beyond what the first one found, as a share of the speed.
 const MARGIN_SHARE: f64 = 0.03;
-/// What is left of a line that does not keep its phase stands around it: a rotor must be worth more than this share of all that is left.
-const HIGH_SHARE: f64 = 0.95;
+/// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
+/// noise alone follows its maxima.
+const HEARD_MARGIN: f64 = 1.5;
 /// Frames to either side over which the common speed is averaged.
 const COMMON_FRAMES: usize = 2;
 
@@ -46,6 +47,8 @@ pub(super) struct HeardRotor {
     levels: Vec<Vec<f64>>,
     /// In each frame, whether its lines are worth more than anything that is left.
     are_heard: Vec<bool>,
+    /// Share of the frames in which that would be so for a rotor of a tenth of its power.
+    pub(super) faint_share: f64,
 }
 
 impl HeardRotor {
@@ -68,14 +71,18 @@ impl HeardRotor {
     }
 }
 
-/// Length of the frames of a line.
-fn frame_s_of_order(turns_s: f64) -> impl Fn(f64) -> f64 {
-    move |order| (turns_s / order).sqrt().min(FRAME_S_MAX)
+/// Length of the frames of a line of some order, around some speed.
+fn frame_s_of_order(frame_hz_s2: f64, speed_rev_s: f64) -> impl Fn(f64) -> f64 {
+    move |order| (frame_hz_s2 / (order * speed_rev_s)).sqrt().min(FRAME_S_MAX)
 }
 
 /// How far two rotors must be apart to be told so, by the line that tells it best.
 pub(super) fn resolution_rev_s(bands: &[ChannelBand]) -> f64 {
-    let finest = bands.iter().map(|band| band.order * frame_s_of_order(OWN_TURNS_S)(band.order)).fold(0.0, f64::max);
+    let length_s = |band: &ChannelBand| {
+        let speed_rev_s = (band.band_hz_low + band.band_hz_high) / 2.0 / band.order;
+        frame_s_of_order(OWN_FRAME_HZ_S2, speed_rev_s)(band.order)
+    };
+    let finest = bands.iter().map(|band| band.order * length_s(band)).fold(0.0, f64::max);
     RESOLVED_CELLS / finest
 }
 
@@ -95,13 +102,13 @@ pub(super) fn rotors_of_quantum(
         SpeedPath::through(&points, tick_s, ticks)
     };
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
-    let along = |common: &SpeedPath, series: &[&[Complex<f32>]], turns_s: f64, planner: &mut FftPlanner<f32>| {
-        Spectra::along(quantum, series, noise_variances, common, frame_s_of_order(turns_s), planner)
+    let along = |common: &SpeedPath, series: &[&[Complex<f32>]], frame_hz_s2: f64, planner: &mut FftPlanner<f32>| {
+        Spectra::along(quantum, series, noise_variances, common, frame_s_of_order(frame_hz_s2, middle_rev_s), planner)
     };
 
     // a first search, along no path at all
     let Some(constant) = path_of(&mut std::iter::once(middle_rev_s)) else { return Vec::new() };
-    let spectra = along(&constant, &quantum.series, FIRST_TURNS_S, planner);
+    let spectra = along(&constant, &quantum.series, FIRST_FRAME_HZ_S2, planner);
     let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
     let first = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS));
     let Some(common) = path_of(&mut smoothed_mean(&first).into_iter().map(|offset| middle_rev_s + offset)) else {
@@ -109,7 +116,7 @@ pub(super) fn rotors_of_quantum(
     };
 
     // another one, along what the rotors share
-    let spectra = along(&common, &quantum.series, COMMON_TURNS_S, planner);
+    let spectra = along(&common, &quantum.series, COMMON_FRAME_HZ_S2, planner);
     let start: Vec<Vec<f64>> = first
         .iter()
         .map(|track| {
@@ -124,11 +131,12 @@ pub(super) fn rotors_of_quantum(
     let mut paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
 
     // two tracks may share a rotor for a while, and another is left over
-    let apart_along =
-        |paths: &[SpeedPath]| separated(quantum, noise_variances, atoms, paths, frame_s_of_order(OWN_TURNS_S));
+    let apart_along = |paths: &[SpeedPath]| {
+        separated(quantum, noise_variances, atoms, paths, frame_s_of_order(OWN_FRAME_HZ_S2, middle_rev_s))
+    };
     let (rotors, rests) = apart_along(&paths);
     let rests: Vec<&[Complex<f32>]> = rests.iter().map(Vec::as_slice).collect();
-    let rest = along(&common, &rests, COMMON_TURNS_S, planner);
+    let rest = along(&common, &rests, COMMON_FRAME_HZ_S2, planner);
     let scores: Vec<Vec<f64>> =
         (0..rest.frames()).map(|frame| scores_of_frame(&rest, atoms, frame, &grid, &[])).collect();
     let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
@@ -149,33 +157,27 @@ pub(super) fn rotors_of_quantum(
     for _ in 0..RETRACES {
         let (rotors, _) = apart_along(&paths);
         let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
-            let path = retraced(&rotor.lines, path, frame_s_of_order(OWN_TURNS_S));
+            let path = retraced(&rotor.lines, path, frame_s_of_order(OWN_FRAME_HZ_S2, middle_rev_s));
             (0..ticks / FRAME_TICKS).map(|frame| path.speed_rev_s(frame_middle_ticks(frame))).collect()
         });
         paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
     }
     let (rotors, _) = apart_along(&paths);
-    let nulls: Vec<f64> = scores.iter().map(|left| high_score(left)).collect();
+    let nulls: Vec<f64> = scores.iter().map(|left| left.iter().copied().fold(0.0, f64::max) + HEARD_MARGIN).collect();
     paths
         .into_iter()
         .zip(rotors)
-        .map(|(path, SeparatedRotor { lines, levels, worths })| {
+        .map(|(path, SeparatedRotor { lines, levels, worths, faint_worths })| {
             let level = joined(&lines, &path, &best_level(&lines, &path));
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let traced = path;
             let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or_else(|| traced.clone());
             let are_heard = worths.iter().zip(&nulls).map(|(worth, null)| worth > null).collect();
-            HeardRotor { line_count: lines.len(), level, traced, path, levels, are_heard }
+            let faint = faint_worths.iter().zip(&nulls).filter(|(worth, null)| worth > null).count();
+            let faint_share = faint as f64 / nulls.len().max(1) as f64;
+            HeardRotor { line_count: lines.len(), level, traced, path, levels, are_heard, faint_share }
         })
         .collect()
-}
-
-/// What only a small share of a frame's speeds exceeds when all rotors have been taken away.
-fn high_score(scores: &[f64]) -> f64 {
-    let mut sorted = scores.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let place = (HIGH_SHARE * scores.len() as f64) as usize;
-    sorted.get(place).copied().unwrap_or(0.0)
 }
 
 /// Lowest and highest of all tracks, and a margin beyond.

@@ -15,6 +15,8 @@ use std::f64::consts::TAU;
 
 /// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
+/// A rotor ten times weaker than another is a faint one.
+const FAINT_SHARE: f64 = 0.1;
 /// A line that is apart from all others in less than this share of a quantum is not heard for its speed.
 const APART_SHARE_MIN: f64 = 0.5;
 
@@ -25,6 +27,8 @@ pub(super) struct SeparatedRotor {
     pub(super) levels: Vec<Vec<f64>>,
     /// What the rotor's lines are worth in each frame beside those of the others.
     pub(super) worths: Vec<f64>,
+    /// The same for a rotor of a tenth of its power.
+    pub(super) faint_worths: Vec<f64>,
 }
 
 /// One line of one rotor in a channel.
@@ -47,7 +51,12 @@ pub(super) fn separated(
     frame_s_of_order: impl Fn(f64) -> f64,
 ) -> (Vec<SeparatedRotor>, Vec<Vec<Complex<f32>>>) {
     let frames = quantum.ticks / FRAME_TICKS;
-    let nothing = || SeparatedRotor { lines: Vec::new(), levels: Vec::new(), worths: vec![0.0; frames] };
+    let nothing = || SeparatedRotor {
+        lines: Vec::new(),
+        levels: Vec::new(),
+        worths: vec![0.0; frames],
+        faint_worths: vec![0.0; frames],
+    };
     let mut rotors: Vec<SeparatedRotor> = paths.iter().map(|_| nothing()).collect();
     let mut rests = Vec::with_capacity(atoms.len());
     for (index, atoms) in atoms.iter().enumerate() {
@@ -86,9 +95,11 @@ pub(super) fn separated(
             }
             separated.levels.push(levels);
             if let Some(own) = own {
-                let parts = own.amplitudes.iter().zip(&own.shares);
-                for (total, (amplitude, share)) in separated.worths.iter_mut().zip(parts) {
-                    *total += worth(power(amplitude) * share);
+                let likelihoods =
+                    own.amplitudes.iter().zip(&own.shares).map(|(amplitude, share)| power(amplitude) * share);
+                for (frame, likelihood) in likelihoods.enumerate() {
+                    separated.worths[frame] += worth(likelihood);
+                    separated.faint_worths[frame] += worth(FAINT_SHARE * likelihood);
                 }
             }
         }
