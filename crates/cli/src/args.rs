@@ -163,7 +163,7 @@ pub(crate) struct KnownArguments {
     /// Mass as flown: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     pub(crate) mass_kg: Option<f64>,
-    /// Rotors that carry it
+    /// Rotors that carry it: with two or more, each is told apart
     #[arg(long, value_name = "N")]
     pub(crate) rotors: Option<u32>,
 }
@@ -171,7 +171,7 @@ pub(crate) struct KnownArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
-    /// How the speed is read from the sound [default: harmonic]
+    /// How the speed is read from the sound [default: separated for several rotors, else harmonic]
     #[arg(long, value_parser = method_parser())]
     pub(crate) method: Option<Method>,
     /// How far the recorder's clock may be off, in millionths [default: 50]

@@ -200,6 +200,7 @@ fn speed_near(
     } else {
         RotorTracks::default()
     };
+    let apart = apart.unless_doubtful_beside(&harmonic, order);
     let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
         config
             .methods()

@@ -75,9 +75,11 @@ pub(crate) fn identify(
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
     let experiment = &source.experiment;
+    let has_rotors = inputs.iter().filter_map(|input| input.record.tone()).any(|tone| !tone.rotors.is_empty());
+    let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
     let tables = Method::ALL
         .into_iter()
-        .filter(|&method| method != Method::Separated || experiment.loads.iter().any(|load| load.rotors_running > 1))
+        .filter(|&method| method != Method::Separated || has_rotors)
         .map(|method| {
             let settings = ThrustSettings {
                 follows_loudest: method != Method::Separated || !are_apart(experiment, &inputs),
@@ -89,11 +91,16 @@ pub(crate) fn identify(
     Ok(Identified { source, method, inputs, tables })
 }
 
-/// Whether the rotors were told apart in every recording of several.
+/// Whether all rotors were told apart in every recording.
 fn are_apart(experiment: &Experiment, inputs: &[InputRecord]) -> bool {
-    let has_several =
-        |input: &&InputRecord| experiment.loads.iter().any(|load| load.name == input.load && load.rotors_running > 1);
-    inputs.iter().filter(has_several).filter_map(|input| input.record.tone()).all(|tone| !tone.rotors.is_empty())
+    let running = |input: &InputRecord| {
+        let load = experiment.loads.iter().find(|load| load.name == input.load);
+        load.map_or(1, |load| load.rotors_running as usize)
+    };
+    inputs
+        .iter()
+        .filter_map(|input| Some((running(input), input.record.tone()?)))
+        .all(|(running, tone)| running == 1 || tone.rotors.len() == running)
 }
 
 /// The speeds of all loads by one method. A recording without a rotor tone is no trial.

@@ -17,7 +17,24 @@ const FAINT_SHARE_MIN: f64 = 0.5;
 /// spread over 13 to 22 % from slowest to fastest (PHYSICS section 4).
 const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
 
+/// The mean by power of all rotors lies between the slowest and the fastest, or no further beyond than this share.
+const BEYOND_SHARE_MAX: f64 = 0.02;
+
 impl RotorTracks {
+    /// Nothing, where no two rotors are told apart, or all that are lie on one side of what is heard of all together: then it is
+    /// not the rotors.
+    pub(crate) fn unless_doubtful_beside(self, all: &HarmonicTrack, order: Order) -> Self {
+        let speeds: Vec<f64> =
+            self.resolved(None).filter_map(|rotor| Some(rotor.track.speed_in(None, order)?.speed.rev_s())).collect();
+        let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+        let fastest = speeds.iter().copied().fold(0.0, f64::max);
+        let is_far = all.speed_in(None, order).is_some_and(|all| {
+            let mean_rev_s = all.speed.rev_s();
+            mean_rev_s < slowest * (1.0 - BEYOND_SHARE_MAX) || mean_rev_s > fastest * (1.0 + BEYOND_SHARE_MAX)
+        });
+        if is_far || speeds.len() < 2 { Self::default() } else { self }
+    }
+
     /// The rotors that are told apart, fastest first.
     pub(crate) fn rotors(&self, order: Order, budget: &BudgetConfig) -> Vec<RotorEstimate> {
         let mut rotors: Vec<RotorEstimate> = self

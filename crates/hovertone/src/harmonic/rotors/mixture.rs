@@ -52,7 +52,7 @@ impl Mixture {
         Self { order, first, rows }
     }
 
-    /// The amplitudes of lines that see `seen`.
+    /// The amplitudes of lines that see `seen`, but for what the ridge takes of them.
     pub(super) fn amplitudes(&self, seen: &[Complex<f64>]) -> Vec<Complex<f64>> {
         let mut solved: Vec<Complex<f64>> = self.order.iter().map(|&line| seen[line]).collect();
         self.eliminate(&mut solved, 0);

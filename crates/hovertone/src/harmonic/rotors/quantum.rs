@@ -24,7 +24,7 @@ const OWN_FRAME_HZ_S2: f64 = 480.0;
 /// A frame is no longer than this: sound in a room loses its phase.
 const FRAME_S_MAX: f64 = 0.4;
 /// Times that each rotor is looked for again beside all others, before and after the common speed is known.
-const FIRST_SWEEPS: usize = 0;
+const FIRST_SWEEPS: usize = 1;
 const SWEEPS: usize = 2;
 /// Times that the rotors are taken apart and their paths drawn again.
 const RETRACES: usize = 1;
@@ -163,11 +163,18 @@ pub(super) fn rotors_of_quantum(
         paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
     }
     let (rotors, _) = apart_along(&paths);
-    let nulls: Vec<f64> = scores.iter().map(|left| left.iter().copied().fold(0.0, f64::max) + HEARD_MARGIN).collect();
+    let nulls: Vec<f64> = scores
+        .iter()
+        .enumerate()
+        .map(|(frame, left)| {
+            let ghost = rotors.iter().map(|rotor| rotor.ghost_worths[frame]).fold(0.0, f64::max);
+            left.iter().copied().fold(ghost, f64::max) + HEARD_MARGIN
+        })
+        .collect();
     paths
         .into_iter()
         .zip(rotors)
-        .map(|(path, SeparatedRotor { lines, levels, worths, faint_worths })| {
+        .map(|(path, SeparatedRotor { lines, levels, worths, faint_worths, .. })| {
             let level = joined(&lines, &path, &best_level(&lines, &path));
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let traced = path;

@@ -17,6 +17,8 @@ use std::f64::consts::TAU;
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
 /// A rotor ten times weaker than another is a faint one.
 const FAINT_SHARE: f64 = 0.1;
+/// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them.
+const GHOST_SHARE: f64 = 1.0 / 300.0;
 /// A line that is apart from all others in less than this share of a quantum is not heard for its speed.
 const APART_SHARE_MIN: f64 = 0.5;
 
@@ -29,6 +31,8 @@ pub(super) struct SeparatedRotor {
     pub(super) worths: Vec<f64>,
     /// The same for a rotor of a tenth of its power.
     pub(super) faint_worths: Vec<f64>,
+    /// What is left of its lines where they are not quite taken away may be worth this.
+    pub(super) ghost_worths: Vec<f64>,
 }
 
 /// One line of one rotor in a channel.
@@ -56,6 +60,7 @@ pub(super) fn separated(
         levels: Vec::new(),
         worths: vec![0.0; frames],
         faint_worths: vec![0.0; frames],
+        ghost_worths: vec![0.0; frames],
     };
     let mut rotors: Vec<SeparatedRotor> = paths.iter().map(|_| nothing()).collect();
     let mut rests = Vec::with_capacity(atoms.len());
@@ -100,6 +105,7 @@ pub(super) fn separated(
                 for (frame, likelihood) in likelihoods.enumerate() {
                     separated.worths[frame] += worth(likelihood);
                     separated.faint_worths[frame] += worth(FAINT_SHARE * likelihood);
+                    separated.ghost_worths[frame] += worth(GHOST_SHARE * likelihood);
                 }
             }
         }

@@ -112,20 +112,24 @@ impl LineSpectra {
         (bin as f64 - self.half_bins as f64) / ZERO_PAD_FACTOR as f64
     }
 
-    /// The spectrum between its bins, by the cubic through the four around; `None` beyond the edge.
+    /// The spectrum between its bins, by the polynomial through the six around; `None` beyond the edge.
     pub(super) fn at(&self, frame: usize, cells: f64) -> Option<Complex<f64>> {
         let place = self.bin_of(cells);
         let bin = place.floor();
         let t = place - bin;
         let bins = self.frame(frame);
-        let first = (bin as usize).checked_sub(1).filter(|first| place >= 1.0 && first + 4 <= bins.len())?;
+        let first = (bin as usize).checked_sub(2).filter(|first| place >= 2.0 && first + 6 <= bins.len())?;
+        // Lagrange's weights of the places -2 … 3 at t
+        let (a, b, c, d, e, f) = (t + 2.0, t + 1.0, t, t - 1.0, t - 2.0, t - 3.0);
         let weights = [
-            -t * (t - 1.0) * (t - 2.0) / 6.0,
-            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-            -(t + 1.0) * t * (t - 2.0) / 2.0,
-            (t + 1.0) * t * (t - 1.0) / 6.0,
+            -b * c * d * e * f / 120.0,
+            a * c * d * e * f / 24.0,
+            -a * b * d * e * f / 12.0,
+            a * b * c * e * f / 12.0,
+            -a * b * c * d * f / 24.0,
+            a * b * c * d * e / 120.0,
         ];
-        let near = bins[first..first + 4].iter().zip(weights);
+        let near = bins[first..first + 6].iter().zip(weights);
         Some(near.map(|(z, weight)| Complex::new(f64::from(z.re), f64::from(z.im)) * weight).sum())
     }
 }

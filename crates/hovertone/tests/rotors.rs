@@ -1,0 +1,146 @@
+//! Several rotors told apart from one microphone, with the truth known at every instant. `cargo xtask bench rotors` does it with
+//! many more, and with echoes.
+
+use hovertone::{Config, Method, Outcome, RotorTone, Signal, SpeedAnalysis, ToneConfig, Warning, speed_from_source};
+use hovertone_vehicle::Order;
+use rand::{RngExt, SeedableRng};
+use rand_distr::{Distribution, StandardNormal};
+use std::f64::consts::TAU;
+
+const RATE_HZ: f64 = 48000.0;
+const LENGTH_S: f64 = 6.0;
+const LINES: [(f64, f64); 9] = [
+    (69.0, 1.0),
+    (70.0, 0.3),
+    (68.0, 0.3),
+    (138.0, 0.5),
+    (207.0, 0.25),
+    (2.0, 2.0),
+    (20.0, 0.4),
+    (28.0, 0.3),
+    (36.0, 0.26),
+];
+
+/// A rotor: mean speed, loudness, and how far and how often in a second it swings around its mean.
+struct Rotor {
+    mean_rev_s: f64,
+    level: f64,
+    swing_share: f64,
+    swing_hz: f64,
+}
+
+impl Rotor {
+    fn at(mean_rev_s: f64) -> Self {
+        Self { mean_rev_s, level: 1.0, swing_share: 0.0, swing_hz: 0.1 }
+    }
+
+    fn speed_rev_s(&self, time_s: f64) -> f64 {
+        self.mean_rev_s * (1.0 + self.swing_share * (TAU * self.swing_hz * time_s).sin())
+    }
+
+    fn turns(&self, time_s: f64) -> f64 {
+        let swung = (1.0 - (TAU * self.swing_hz * time_s).cos()) / (TAU * self.swing_hz);
+        self.mean_rev_s * (time_s + self.swing_share * swung)
+    }
+}
+
+fn heard(rotors: &[Rotor], seed: u64) -> SpeedAnalysis {
+    let mut rng = rand_pcg::Pcg64::seed_from_u64(seed);
+    let mut samples = vec![0.0; (LENGTH_S * RATE_HZ) as usize];
+    for rotor in rotors {
+        let turns: Vec<f64> = (0..samples.len()).map(|n| rotor.turns(n as f64 / RATE_HZ)).collect();
+        for (order, level) in LINES {
+            let phase: f64 = rng.random_range(0.0..TAU);
+            let level = level * rotor.level * rng.random_range(0.8..1.25);
+            for (sample, turns) in samples.iter_mut().zip(&turns) {
+                *sample += level * (TAU * (order * turns).fract() + phase).cos();
+            }
+        }
+    }
+    let samples = samples.into_iter().map(|sample| {
+        let noise: f64 = StandardNormal.sample(&mut rng);
+        (0.03 * (sample + 0.4 * noise)) as f32
+    });
+    let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
+    tone.blades = Some(2);
+    let mut config = Config::for_tone(tone);
+    config.rotors.count = 4;
+    config.method = Method::Separated;
+    let mut signal = Signal::new(samples.collect(), RATE_HZ);
+    speed_from_source(&mut signal, &config, &mut |_| {}).unwrap()
+}
+
+fn tone_of(analysis: &SpeedAnalysis) -> &RotorTone {
+    match &analysis.outcome {
+        Outcome::Ok(tone) => tone,
+        Outcome::NoRotorTone { reason } => panic!("{reason}"),
+    }
+}
+
+#[test]
+fn four_rotors_are_told_apart_where_two_of_them_cross() {
+    // the second and the third cross several times
+    let swing = |mean_rev_s, swing_share, swing_hz| Rotor { swing_share, swing_hz, ..Rotor::at(mean_rev_s) };
+    let rotors =
+        [swing(61.0, 0.001, 0.3), swing(60.3, 0.004, 0.4), swing(60.15, 0.002, 0.25), swing(59.4, 0.0005, 0.5)];
+    let analysis = heard(&rotors, 1);
+    let tone = tone_of(&analysis);
+    assert_eq!(tone.rotors.len(), 4);
+    let middles = (0..(LENGTH_S / 0.01) as usize).map(|step| (step as f64 + 0.5) * 0.01);
+    let mean_square = middles
+        .flat_map(|time_s| rotors.iter().map(move |rotor| (TAU * rotor.speed_rev_s(time_s)).powi(2)))
+        .sum::<f64>()
+        / (4.0 * LENGTH_S / 0.01);
+    let speed = tone.speed(Method::Separated).unwrap();
+    assert_eq!(speed.method, Method::Separated);
+    let error = speed.mean_square_rad2_s2.unwrap() / mean_square - 1.0;
+    assert!(error.abs() < 1e-4, "{error}");
+    // one labelling from the first to the last instant; but for the moments in which two are in one place
+    let points =
+        tone.rotors.iter().zip([0, 1, 2, 3]).flat_map(|(rotor, real)| rotor.track.iter().map(move |p| (p, real)));
+    let (mut right, mut all) = (0, 0);
+    for (point, real) in points.filter(|(point, _)| (0.3..LENGTH_S - 0.3).contains(&point.time_s)) {
+        all += 1;
+        right += usize::from((point.speed_rev_s - rotors[real].speed_rev_s(point.time_s)).abs() < 0.05);
+    }
+    assert!(all > 400 && f64::from(right as u32) > 0.95 * f64::from(all), "{right} of {all}");
+}
+
+#[test]
+fn rotors_far_apart_are_found_wherever_the_loudest_is() {
+    for loudest in 0..4 {
+        let mut rotors: Vec<Rotor> = [54.0, 58.1, 62.0, 66.0].map(Rotor::at).into();
+        rotors[loudest].level = 2.0;
+        let analysis = heard(&rotors, 2 + loudest as u64);
+        let tone = tone_of(&analysis);
+        let speeds: Vec<f64> = tone.rotors.iter().rev().map(|rotor| rotor.speed.speed.rev_s()).collect();
+        assert_eq!(speeds.len(), 4, "loudest {loudest}: {speeds:?}");
+        for (speed, rotor) in speeds.iter().zip(&rotors) {
+            assert!((speed - rotor.mean_rev_s).abs() < 1e-3, "loudest {loudest}: {speeds:?}");
+        }
+        assert!(analysis.warnings.iter().all(|warning| !matches!(warning, Warning::RotorsNotApart { .. })));
+    }
+}
+
+#[test]
+fn rotors_that_turn_alike_are_not_invented() {
+    // two pairs, each of one speed: two rotors are heard, and the mean is right
+    let analysis = heard(&[61.0, 61.0, 59.5, 59.5].map(Rotor::at), 7);
+    let tone = tone_of(&analysis);
+    assert!(tone.rotors.len() < 4, "{}", tone.rotors.len());
+    assert!(analysis.warnings.iter().any(|warning| matches!(warning, Warning::RotorsNotApart { of: 4, .. })));
+    let speed = tone.speed(Method::Separated).unwrap();
+    let (error, std) = (speed.speed.rev_s() - 60.25, speed.combined_std_uncertainty_rev_s().unwrap());
+    assert!(error.abs() < 2.0 * std, "{error} ± {std}");
+    for rotor in &tone.rotors {
+        let off = [61.0, 59.5].map(|real: f64| (rotor.speed.speed.rev_s() - real).abs());
+        assert!(off[0].min(off[1]) < 0.05, "{}", rotor.speed.speed.rev_s());
+    }
+    // and all alike: one ridge says it as well
+    let analysis = heard(&[60.0; 4].map(Rotor::at), 8);
+    let tone = tone_of(&analysis);
+    assert!(tone.rotors.is_empty());
+    let speed = tone.speed(Method::Separated).unwrap();
+    assert_eq!(speed.method, Method::Harmonic);
+    assert!((speed.speed.rev_s() - 60.0).abs() < 1e-3);
+}
