@@ -21,8 +21,8 @@ const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
 const BEYOND_SHARE_MAX: f64 = 0.02;
 
 impl RotorTracks {
-    /// Nothing, where no two rotors are told apart, or all that are lie on one side of what is heard of all together: then it is
-    /// not the rotors.
+    /// Nothing, where no more than half of the rotors are told apart, or all that are lie on one side of what is heard of all
+    /// together: then they may be parts of one.
     pub(crate) fn unless_doubtful_beside(self, all: &HarmonicTrack, order: Order) -> Self {
         let speeds: Vec<f64> =
             self.resolved(None).filter_map(|rotor| Some(rotor.track.speed_in(None, order)?.speed.rev_s())).collect();
@@ -32,7 +32,7 @@ impl RotorTracks {
             let mean_rev_s = all.speed.rev_s();
             mean_rev_s < slowest * (1.0 - BEYOND_SHARE_MAX) || mean_rev_s > fastest * (1.0 + BEYOND_SHARE_MAX)
         });
-        if is_far || speeds.len() < 2 { Self::default() } else { self }
+        if is_far || 2 * speeds.len() <= self.rotors.len() { Self::default() } else { self }
     }
 
     /// The rotors that are told apart, fastest first.

@@ -161,7 +161,12 @@ impl RotorTracer {
                 let to = from + kept;
                 let end_s = if to == labelling.len() { f64::INFINITY } else { start_s + to as f64 * frame_s };
                 let stretch = Span { from_s: start_s + from as f64 * frame_s, to_s: end_s };
-                track.blocks.extend(blocks[first[rotor]].iter().filter_map(|block| block.within(stretch)));
+                let parts = blocks[first[rotor]].iter().filter_map(|block| block.within(stretch));
+                // the search knows even the shortest part to within its resolution
+                track.blocks.extend(parts.map(|part| HarmonicBlock {
+                    std_uncertainty_rev_s: part.std_uncertainty_rev_s.min(resolution_rev_s),
+                    ..part
+                }));
                 from = to;
             }
         }

@@ -18,7 +18,7 @@ pub(super) const RESOLVED_CELLS: f64 = 1.25;
 /// A rotor ten times weaker than another is a faint one.
 const FAINT_SHARE: f64 = 0.1;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them.
-const GHOST_SHARE: f64 = 1.0 / 300.0;
+const GHOST_SHARE: f64 = 1.0 / 100.0;
 /// A line that is apart from all others in less than this share of a quantum is not heard for its speed.
 const APART_SHARE_MIN: f64 = 0.5;
 
