@@ -263,6 +263,34 @@ pub(crate) fn survey_from_source(
     Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))
 }
 
+/// A piece of the hover.
+enum HoverSound<'a> {
+    /// A stretch begins, and should last so long.
+    Start {
+        start_s: f64,
+        length_s: f64,
+    },
+    Samples(&'a [f32]),
+}
+
+/// Any reading after the first: the stretches of the hover, one after the other.
+fn listen_again(
+    source: &mut dyn SignalSource,
+    hover: &Hover,
+    on_progress: &mut dyn FnMut(Progress),
+    mut take: impl FnMut(HoverSound<'_>),
+) -> Result<(), Error> {
+    let mut segments = hover.segments.iter();
+    for_each_piece(source, &hover.segments, |piece| match piece {
+        Piece::Start(start_s) => {
+            take(HoverSound::Start { start_s, length_s: segments.next().map_or(0.0, Span::length_s) });
+        }
+        Piece::Samples(samples) => take(HoverSound::Samples(samples)),
+        Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
+    })?;
+    Ok(())
+}
+
 /// Third reading, where a steady tone is too weak for the comb to have settled its octave: whether lines between the assumed ones
 /// sound as well. A gear mesh has no octave to settle.
 fn slower_shaft_from_source(
@@ -277,11 +305,9 @@ fn slower_shaft_from_source(
         return Ok(None);
     }
     let mut harmonic = HarmonicTracer::new(source.sample_rate_hz(), &lines_and_between(lines, order, speed_rev_s));
-    let mut segments = hover.segments.iter();
-    for_each_piece(source, &hover.segments, |piece| match piece {
-        Piece::Start(time_s) => harmonic.restart(time_s, segments.next().map_or(0.0, Span::length_s)),
-        Piece::Samples(samples) => harmonic.push(samples),
-        Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
+    listen_again(source, hover, on_progress, |sound| match sound {
+        HoverSound::Start { start_s, length_s } => harmonic.restart(start_s, length_s),
+        HoverSound::Samples(samples) => harmonic.push(samples),
     })?;
     Ok(harmonic.finish().lines_between(order).map(|between| NoTone::SlowerShaft {
         line_count: between.count,
@@ -310,17 +336,15 @@ fn lines_from_source(
         .map(|frames_s| RidgeTracer::new(frames_s, bands, sample_rate_hz, spectrogram, &config.ridge))
         .collect();
     let mut harmonic = HarmonicTracer::new(sample_rate_hz, lines);
-    let mut segments = hover.segments.iter();
-    for_each_piece(source, &hover.segments, |piece| match piece {
-        Piece::Start(time_s) => {
-            tracers.iter_mut().for_each(|tracer| tracer.restart(time_s));
-            harmonic.restart(time_s, segments.next().map_or(0.0, Span::length_s));
+    listen_again(source, hover, on_progress, |sound| match sound {
+        HoverSound::Start { start_s, length_s } => {
+            tracers.iter_mut().for_each(|tracer| tracer.restart(start_s));
+            harmonic.restart(start_s, length_s);
         }
-        Piece::Samples(samples) => {
+        HoverSound::Samples(samples) => {
             tracers.iter_mut().for_each(|tracer| tracer.push(samples));
             harmonic.push(samples);
         }
-        Piece::Heard(time_s) => on_progress(Progress { pass: 2, pass_count: PASS_COUNT, time_s }),
     })?;
     Ok((tracers.into_iter().map(RidgeTracer::finish).collect(), harmonic.finish()))
 }
@@ -341,11 +365,9 @@ fn rotors_from_source(
     let order = config.tone.order.lines_per_turn();
     let mesh_order = (order > BLADES_MAX).then_some(order);
     let mut tracer = RotorTracer::new(source.sample_rate_hz(), &lines, mesh_order, config.rotors.count as usize);
-    let mut segments = hover.segments.iter();
-    for_each_piece(source, &hover.segments, |piece| match piece {
-        Piece::Start(time_s) => tracer.restart(time_s, segments.next().map_or(0.0, Span::length_s)),
-        Piece::Samples(samples) => tracer.push(samples),
-        Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
+    listen_again(source, hover, on_progress, |sound| match sound {
+        HoverSound::Start { start_s, length_s } => tracer.restart(start_s, length_s),
+        HoverSound::Samples(samples) => tracer.push(samples),
     })?;
     Ok(tracer.finish())
 }

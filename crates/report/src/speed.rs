@@ -28,9 +28,10 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
     for record in records {
         match record.speed() {
             Some(speed) => {
-                table.push(cells_of_speed(record, speed));
-                let rotors = record.rotors().iter().enumerate();
-                rotors.for_each(|(index, rotor)| table.push(cells_of_rotor(index, rotor)));
+                table.push(cells_of_speed(record.file.clone(), speed, cell_of_span(record)));
+                for (number, rotor) in (1..).zip(record.rotors()) {
+                    table.push(cells_of_speed(format!("  rotor {number}"), &rotor.speed, String::new()));
+                }
             }
             None if record.has_failed() => table.push_words(record.file.clone(), "could not be heard".to_owned()),
             None if record.is_ambiguous() => {
@@ -43,36 +44,23 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
     table.render()
 }
 
-fn cells_of_speed(record: &SpeedRecord, estimate: &SpeedEstimate) -> Vec<String> {
+fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<String> {
     let (speed, std_rev_s) = (estimate.speed, estimate.combined_std_uncertainty_rev_s());
     let std = std_rev_s.map(RotorSpeed::from_rev_s);
     vec![
-        record.file.clone(),
+        name,
         rounded(speed.tone_hz(estimate.order), std.map(|std| std.tone_hz(estimate.order))),
         rounded(speed.rev_s(), std_rev_s),
         uncertainty(std_rev_s),
         uncertainty(estimate.spread_rev_s),
         rounded(speed.rpm(), std.map(RotorSpeed::rpm)),
         rounded(speed.rad_s(), std.map(RotorSpeed::rad_s)),
-        record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s)),
+        used,
     ]
 }
 
-/// One rotor of several.
-fn cells_of_rotor(index: usize, rotor: &RotorEstimate) -> Vec<String> {
-    let estimate = &rotor.speed;
-    let (speed, std_rev_s) = (estimate.speed, estimate.combined_std_uncertainty_rev_s());
-    let std = std_rev_s.map(RotorSpeed::from_rev_s);
-    vec![
-        format!("  rotor {}", index + 1),
-        rounded(speed.tone_hz(estimate.order), std.map(|std| std.tone_hz(estimate.order))),
-        rounded(speed.rev_s(), std_rev_s),
-        uncertainty(std_rev_s),
-        uncertainty(estimate.spread_rev_s),
-        rounded(speed.rpm(), std.map(RotorSpeed::rpm)),
-        rounded(speed.rad_s(), std.map(RotorSpeed::rad_s)),
-        String::new(),
-    ]
+fn cell_of_span(record: &SpeedRecord) -> String {
+    record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s))
 }
 
 /// A reading among several: its belief stands where its uncertainty would.
@@ -85,7 +73,7 @@ fn cells_of_reading(record: &SpeedRecord, reading: &Reading) -> Vec<String> {
         DASH.to_owned(),
         significant(reading.speed.rpm(), DIGITS_OF_READINGS),
         significant(reading.speed.rad_s(), DIGITS_OF_READINGS),
-        record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s)),
+        cell_of_span(record),
     ]
 }
 

@@ -89,13 +89,8 @@ impl Level {
 
 /// Blocks of one hop each around a first guess of the path.
 pub(super) fn first_level(lines: &[Line], path: &SpeedPath) -> Level {
-    level_around(lines, path, FIRST_GUESS_CELLS)
-}
-
-/// The same, where the path is known to within so many resolution cells of the highest line.
-pub(super) fn level_around(lines: &[Line], path: &SpeedPath, reach_cells: f64) -> Level {
     let guess = |from: usize, to: usize| guess_from_path(path, from, to);
-    level(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), reach_cells, guess)
+    level(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), FIRST_GUESS_CELLS, guess)
 }
 
 /// The level with the greatest evidence, starting from a path that is already good.

@@ -5,6 +5,11 @@ use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+/// Weights of a Hann window that is symmetric about the middle of its samples.
+pub(super) fn hann_weights(length: usize) -> impl Iterator<Item = f64> {
+    (0..length).map(move |n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos())
+}
+
 /// Transforms frames of one length.
 pub(super) struct FrameTransform {
     plan: Arc<dyn Fft<f32>>,
@@ -19,8 +24,7 @@ impl FrameTransform {
     /// Frames of `length` samples, filled up with zeros to `zero_pad_factor` times that.
     pub(super) fn new(length: usize, zero_pad_factor: usize, planner: &mut FftPlanner<f32>) -> Self {
         let plan = planner.plan_fft_forward(zero_pad_factor * length);
-        let window: Vec<f32> =
-            (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
+        let window: Vec<f32> = hann_weights(length).map(|weight| weight as f32).collect();
         Self {
             energy: window.iter().map(|&w| f64::from(w).powi(2)).sum(),
             window,

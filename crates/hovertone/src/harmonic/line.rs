@@ -16,10 +16,33 @@ pub(super) struct Line {
     pub(super) ticks: Vec<Complex<f64>>,
 }
 
+/// `exp(j 2π (o turns(t) − f t))` at the samples of one tick of a channel around f: a line of order o and amplitude 1, as the channel
+/// shows it.
+pub(super) fn tick_phasors(
+    (order, centre_hz, rate_hz): (f64, f64, f64),
+    path: &SpeedPath,
+    tick: usize,
+) -> impl Iterator<Item = Complex<f64>> {
+    let (turns, from, to) = path.tick(tick);
+    let cycles = order * turns - centre_hz * tick as f64 * path.tick_s;
+    // the phase advances by a step that itself advances: both by multiplication
+    let step_s = 1.0 / rate_hz;
+    let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
+    let mut turn = Complex::from_polar(1.0, TAU * cycles.fract());
+    let mut step = Complex::from_polar(1.0, TAU * (order * from - centre_hz) * step_s + bend);
+    let step_of_step = Complex::from_polar(1.0, 2.0 * bend);
+    std::iter::repeat_with(move || {
+        let now = turn;
+        turn *= step;
+        step *= step_of_step;
+        now
+    })
+}
+
 /// Turns a channel back by the shaft's angle times its order and adds up each tick.
 pub(super) fn demodulated(
     series: &[Complex<f32>],
-    (order, centre_hz, rate_hz): (f64, f64, f64),
+    place: (f64, f64, f64),
     samples_per_tick: usize,
     path: &SpeedPath,
 ) -> Vec<Complex<f64>> {
@@ -28,22 +51,8 @@ pub(super) fn demodulated(
         .take(path.ticks())
         .enumerate()
         .map(|(tick, samples)| {
-            let (turns, from, to) = path.tick(tick);
-            let start_s = tick as f64 * path.tick_s;
-            let cycles = order * turns - centre_hz * start_s;
-            // exp(−j phase) advances by a step that itself advances: both by multiplication
-            let step_s = 1.0 / rate_hz;
-            let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
-            let mut turn = Complex::from_polar(1.0, -TAU * cycles.fract());
-            let mut step = Complex::from_polar(1.0, -(TAU * (order * from - centre_hz) * step_s + bend));
-            let step_of_step = Complex::from_polar(1.0, -2.0 * bend);
-            let mut sum = Complex::<f64>::default();
-            for z in samples {
-                sum += turn * Complex::new(f64::from(z.re), f64::from(z.im));
-                turn *= step;
-                step *= step_of_step;
-            }
-            sum
+            let turned = samples.iter().zip(tick_phasors(place, path, tick));
+            turned.map(|(z, phasor)| phasor.conj() * Complex::new(f64::from(z.re), f64::from(z.im))).sum()
         })
         .collect()
 }

@@ -21,21 +21,17 @@ use crate::span::Span;
 use crate::spectrogram::power_db;
 use block::BlockFit;
 use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, straight_level};
-use floor::FloorMeter;
 use join::joined;
 pub(crate) use join::{EndBlock, joined_variance_turns2};
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
-use quanta::{Quantum, QuantumCutter};
+use quanta::{Quantum, QuantumCutter, limits_rev_s};
 pub(crate) use rotors::{RotorTracer, RotorTrack, RotorTracks};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
 
-use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-/// Longest stretch that is taken together. No rotor in flight keeps its phase for longer.
-const QUANTUM_S_MAX: f64 = 10.0;
 /// A line whose band holds something this much stronger than what lies on the path is of another sound.
 const STRANGER_RATIO: f64 = 6.0;
 /// … if that stands this far over the noise: the highest of a band's own noise does not.
@@ -65,7 +61,6 @@ const COHERENT_SHARE: f64 = 0.4;
 /// Follows the speed through stretches of sound.
 pub(crate) struct HarmonicTracer {
     cutter: QuantumCutter,
-    floors: Vec<FloorMeter>,
     map: SpeedMap,
     track: HarmonicTrack,
 }
@@ -73,19 +68,14 @@ pub(crate) struct HarmonicTracer {
 impl HarmonicTracer {
     /// Hears the lines of `bands`, which all stand for the same limits of speed.
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
-        let speeds_rev_s =
-            bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order));
-        let cutter = QuantumCutter::new(sample_rate_hz, bands, QUANTUM_S_MAX);
-        let mut planner = FftPlanner::new();
-        let floors =
-            cutter.channels().iter().map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect();
-        let map = SpeedMap::new(cutter.channels(), speeds_rev_s, cutter.hop_s(), &mut planner);
+        let cutter = QuantumCutter::new(sample_rate_hz, bands);
+        let map = SpeedMap::new(cutter.channels(), limits_rev_s(bands), cutter.hop_s(), &mut FftPlanner::new());
         let track = HarmonicTrack {
             step_s: cutter.hop_s(),
             blocks: Vec::new(),
             lines: bands.iter().map(|band| LineRecord { order: band.order, ..LineRecord::default() }).collect(),
         };
-        Self { cutter, floors, map, track }
+        Self { cutter, map, track }
     }
 
     /// A new stretch of sound begins at `start_s` and should last `length_s`.
@@ -117,11 +107,11 @@ impl HarmonicTracer {
 
     /// Analyses the first ticks of what has come in, and drops them.
     fn take_quantum(&mut self, ticks: usize) {
-        let Self { cutter, floors, map, track } = self;
+        let Self { cutter, map, track } = self;
         let quantum = cutter.quantum(ticks);
         let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
         let (lines, limits) = (quantum.channels.len(), map.limits_rev_s());
-        match level_of_quantum(&quantum, floors, map, &mut track.lines) {
+        match level_of_quantum(&quantum, map, &mut track.lines) {
             Some(Heard::One(level, coheres)) => {
                 let blocks = level.blocks.iter().map(|fit| block_at(fit, coheres, (start_s, tick_s), (lines, limits)));
                 track.blocks.extend(blocks);
@@ -137,16 +127,10 @@ impl HarmonicTracer {
 }
 
 /// What is heard in a quantum; what each line contributed is added to its record.
-fn level_of_quantum(
-    quantum: &Quantum<'_>,
-    floors: &mut [FloorMeter],
-    map: &mut SpeedMap,
-    records: &mut [LineRecord],
-) -> Option<Heard> {
-    let Quantum { channels, series, tick_s, ticks, .. } = quantum;
+fn level_of_quantum(quantum: &Quantum<'_>, map: &mut SpeedMap, records: &mut [LineRecord]) -> Option<Heard> {
+    let Quantum { channels, series, noise_variances, tick_s, ticks, .. } = quantum;
     let (tick_s, ticks) = (*tick_s, *ticks);
-    let noise_variances = noise_variances_of(floors, series, quantum.mean_square);
-    let seen = map.path_through(series, &noise_variances, TICKS_PER_HOP as f64 * tick_s);
+    let seen = map.path_through(series, noise_variances, TICKS_PER_HOP as f64 * tick_s);
     let MapPath { points, presences, steady_rev_s, .. } = &seen;
     let path = SpeedPath::through(points, tick_s, ticks)?;
     let used: Vec<usize> = (0..channels.len()).filter(|&index| !is_stranger(&presences[index])).collect();
@@ -156,7 +140,7 @@ fn level_of_quantum(
         record.quanta_left_out += u32::from(!used.contains(&index));
     }
     if seen.beside_share > SEVERAL_SHARE {
-        return Some(Heard::Several(map.centroids(&seen, &noise_variances)));
+        return Some(Heard::Several(map.centroids(&seen, noise_variances)));
     }
     let lines_along = |path: &SpeedPath| -> Vec<Line> {
         used.iter()
@@ -195,16 +179,7 @@ fn level_of_quantum(
         }
     };
     let coheres = best.likelihood() > COHERENT_SHARE * coarse.likelihood_over_noise(used.len());
-    let points: Vec<(f64, f64)> = best
-        .blocks
-        .iter()
-        .filter(|block| block.likelihood >= threshold)
-        .flat_map(|block| {
-            let reach_s = 0.49 * (block.tick_to - block.tick_from) as f64 * tick_s;
-            let middle_s = block.middle_s(tick_s);
-            [middle_s - reach_s, middle_s + reach_s].map(|t| (t, block.speed_at(t, tick_s)))
-        })
-        .collect();
+    let points = best.points(threshold, tick_s);
     let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
     let lines = lines_along(&path);
     let best = joined(&lines, &path, &best);
@@ -249,18 +224,6 @@ fn blocks_of_several(centroids: &[Centroid], start_s: f64, frame_s: f64) -> Vec<
             }
         })
         .collect()
-}
-
-/// Digital silence has no noise; this keeps the likelihood finite. The last bit of 24 has 2e-15.
-const NOISE_VARIANCE_MIN: f64 = 1e-16;
-/// Noise below this share of the sound's power is the rounding of the transforms, and keeps its phase like a tone.
-const ROUNDING_SHARE: f64 = 1e-12;
-
-/// The noise in each channel, of a sound of that mean square.
-fn noise_variances_of(floors: &mut [FloorMeter], series: &[&[Complex<f32>]], mean_square: f64) -> Vec<f64> {
-    let noise_variance_min = NOISE_VARIANCE_MIN.max(ROUNDING_SHARE * mean_square);
-    let floors = floors.iter_mut().zip(series);
-    floors.map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min)).collect()
 }
 
 /// So many lines must keep their phase: two of a gear mesh, four of a blade pass, which has many.

@@ -1,14 +1,28 @@
 //! A stream of sound → quanta of all channels, each short enough to be analysed at once.
 
+use super::floor::FloorMeter;
 use super::map::FRAME_HOPS;
 use crate::channel::{Channel, ChannelBand, ChannelBank, TICKS_PER_HOP};
 use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
+
+/// Longest stretch that is taken together. No rotor in flight keeps its phase for longer.
+const QUANTUM_S_MAX: f64 = 10.0;
+/// Digital silence has no noise; this keeps the likelihood finite. The last bit of 24 has 2e-15.
+const NOISE_VARIANCE_MIN: f64 = 1e-16;
+/// Noise below this share of the sound's power is the rounding of the transforms, and keeps its phase like a tone.
+const ROUNDING_SHARE: f64 = 1e-12;
+
+/// The speeds between which all bands stand.
+pub(super) fn limits_rev_s(bands: &[ChannelBand]) -> (f64, f64) {
+    bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order))
+}
 
 /// Gathers the channels of stretches of sound and cuts them into quanta of nearly equal length.
 pub(super) struct QuantumCutter {
     bank: ChannelBank,
     series: Vec<Vec<Complex<f32>>>,
-    quantum_s_max: f64,
+    floors: Vec<FloorMeter>,
     /// Start of what lies in `series`.
     start_s: f64,
     stretch_start_s: f64,
@@ -27,17 +41,19 @@ pub(super) struct Quantum<'a> {
     pub(super) start_s: f64,
     pub(super) tick_s: f64,
     pub(super) ticks: usize,
-    /// Mean square of the stretch so far.
-    pub(super) mean_square: f64,
+    /// The noise in one sample of each channel.
+    pub(super) noise_variances: Vec<f64>,
 }
 
 impl QuantumCutter {
-    pub(super) fn new(sample_rate_hz: f64, bands: &[ChannelBand], quantum_s_max: f64) -> Self {
+    pub(super) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
         let bank = ChannelBank::new(sample_rate_hz, bands);
+        let mut planner = FftPlanner::new();
+        let channels = bank.channels.iter();
         Self {
+            floors: channels.map(|channel| FloorMeter::new(channel.hop_samples, &mut planner)).collect(),
             series: vec![Vec::new(); bank.channels.len()],
             bank,
-            quantum_s_max,
             start_s: 0.0,
             stretch_start_s: 0.0,
             samples_in: 0,
@@ -64,7 +80,7 @@ impl QuantumCutter {
         self.series.iter_mut().for_each(Vec::clear);
         self.bank.restart();
         (self.start_s, self.stretch_start_s, self.samples_in, self.squares) = (start_s, start_s, 0, 0.0);
-        let quanta = (length_s / self.quantum_s_max).ceil().max(1.0);
+        let quanta = (length_s / QUANTUM_S_MAX).ceil().max(1.0);
         self.quantum_hops = (length_s / quanta / self.bank.hop_s()).ceil().max(1.0) as usize;
     }
 
@@ -91,16 +107,20 @@ impl QuantumCutter {
     }
 
     /// The first ticks of what has come in.
-    pub(super) fn quantum(&self, ticks: usize) -> Quantum<'_> {
-        let series = self.bank.channels.iter().zip(&self.series);
-        Quantum {
-            series: series.map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP]).collect(),
-            channels: &self.bank.channels,
-            start_s: self.start_s,
-            tick_s: self.bank.hop_s() / TICKS_PER_HOP as f64,
-            ticks,
-            mean_square: self.squares / self.samples_in.max(1) as f64,
-        }
+    pub(super) fn quantum(&mut self, ticks: usize) -> Quantum<'_> {
+        let channels = &self.bank.channels;
+        let series: Vec<&[Complex<f32>]> = channels
+            .iter()
+            .zip(&self.series)
+            .map(|(channel, series)| &series[..ticks * channel.hop_samples / TICKS_PER_HOP])
+            .collect();
+        let mean_square = self.squares / self.samples_in.max(1) as f64;
+        let noise_variance_min = NOISE_VARIANCE_MIN.max(ROUNDING_SHARE * mean_square);
+        let floors = self.floors.iter_mut().zip(&series);
+        let noise_variances =
+            floors.map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min)).collect();
+        let tick_s = self.bank.hop_s() / TICKS_PER_HOP as f64;
+        Quantum { channels, series, start_s: self.start_s, tick_s, ticks, noise_variances }
     }
 
     /// Forgets the first ticks.

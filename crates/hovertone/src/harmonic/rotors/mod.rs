@@ -14,10 +14,9 @@ mod search;
 mod separation;
 mod spectra;
 
-use super::floor::FloorMeter;
-use super::quanta::QuantumCutter;
+use super::block_at;
+use super::quanta::{QuantumCutter, limits_rev_s};
 use super::track::{HarmonicBlock, HarmonicTrack};
-use super::{block_at, noise_variances_of};
 use crate::channel::ChannelBand;
 use crate::span::Span;
 use atoms::{ChannelAtoms, atoms_of};
@@ -26,16 +25,11 @@ use quantum::{HeardRotor, resolution_rev_s, rotors_of_quantum};
 use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
 
-/// Longest stretch that is taken together.
-const QUANTUM_S_MAX: f64 = 10.0;
-
 /// Follows the speeds of several rotors through stretches of sound.
 pub(crate) struct RotorTracer {
     cutter: QuantumCutter,
-    floors: Vec<FloorMeter>,
     atoms: Vec<ChannelAtoms>,
     limits_rev_s: (f64, f64),
-    count: usize,
     planner: FftPlanner<f32>,
     identity: Identity,
     tracks: RotorTracks,
@@ -65,22 +59,13 @@ impl RotorTracer {
     /// Hears `count` rotors in the lines of `bands`, which all stand for the same limits of speed. `mesh_order` is the order of
     /// the gear mesh, if there is one.
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], mesh_order: Option<f64>, count: usize) -> Self {
-        let cutter = QuantumCutter::new(sample_rate_hz, bands, QUANTUM_S_MAX);
-        let mut planner = FftPlanner::new();
-        let limits_rev_s =
-            bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order));
+        let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
         let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, merged: Vec::new() };
         Self {
-            floors: cutter
-                .channels()
-                .iter()
-                .map(|channel| FloorMeter::new(channel.hop_samples, &mut planner))
-                .collect(),
             atoms: atoms_of(cutter.channels(), mesh_order),
-            limits_rev_s,
-            count,
-            planner,
+            limits_rev_s: limits_rev_s(bands),
+            planner: FftPlanner::new(),
             identity: Identity::default(),
             tracks: RotorTracks {
                 rotors: vec![rotor; count],
@@ -123,15 +108,8 @@ impl RotorTracer {
     fn take_quantum(&mut self, ticks: usize) {
         let quantum = self.cutter.quantum(ticks);
         let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
-        let noise_variances = noise_variances_of(&mut self.floors, &quantum.series, quantum.mean_square);
-        let heard = rotors_of_quantum(
-            &quantum,
-            &noise_variances,
-            &self.atoms,
-            self.limits_rev_s,
-            self.count,
-            &mut self.planner,
-        );
+        let count = self.tracks.rotors.len();
+        let heard = rotors_of_quantum(&quantum, &self.atoms, self.limits_rev_s, count, &mut self.planner);
         self.cutter.drop_ticks(ticks);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();

@@ -89,29 +89,24 @@ pub(super) fn resolution_rev_s(bands: &[ChannelBand]) -> f64 {
 /// The rotors of a quantum, in no order.
 pub(super) fn rotors_of_quantum(
     quantum: &Quantum<'_>,
-    noise_variances: &[f64],
     atoms: &[ChannelAtoms],
     limits_rev_s: (f64, f64),
     count: usize,
     planner: &mut FftPlanner<f32>,
 ) -> Vec<HeardRotor> {
     let (tick_s, ticks) = (quantum.tick_s, quantum.ticks);
-    let time_s = |frame: usize| frame_middle_ticks(frame) as f64 * tick_s;
-    let path_of = |speeds: &mut dyn Iterator<Item = f64>| {
-        let points: Vec<(f64, f64)> = speeds.enumerate().map(|(frame, speed)| (time_s(frame), speed)).collect();
-        SpeedPath::through(&points, tick_s, ticks)
-    };
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
     let along = |common: &SpeedPath, series: &[&[Complex<f32>]], frame_hz_s2: f64, planner: &mut FftPlanner<f32>| {
-        Spectra::along(quantum, series, noise_variances, common, frame_s_of_order(frame_hz_s2, middle_rev_s), planner)
+        Spectra::along(quantum, series, common, frame_s_of_order(frame_hz_s2, middle_rev_s), planner)
     };
 
     // a first search, along no path at all
-    let Some(constant) = path_of(&mut std::iter::once(middle_rev_s)) else { return Vec::new() };
+    let Some(constant) = path_through([middle_rev_s], quantum) else { return Vec::new() };
     let spectra = along(&constant, &quantum.series, FIRST_FRAME_HZ_S2, planner);
     let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
     let first = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS));
-    let Some(common) = path_of(&mut smoothed_mean(&first).into_iter().map(|offset| middle_rev_s + offset)) else {
+    let Some(common) = path_through(smoothed_mean(&first).into_iter().map(|offset| middle_rev_s + offset), quantum)
+    else {
         return Vec::new();
     };
 
@@ -131,9 +126,8 @@ pub(super) fn rotors_of_quantum(
     let mut paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
 
     // two tracks may share a rotor for a while, and another is left over
-    let apart_along = |paths: &[SpeedPath]| {
-        separated(quantum, noise_variances, atoms, paths, frame_s_of_order(OWN_FRAME_HZ_S2, middle_rev_s))
-    };
+    let apart_along =
+        |paths: &[SpeedPath]| separated(quantum, atoms, paths, frame_s_of_order(OWN_FRAME_HZ_S2, middle_rev_s));
     let (rotors, rests) = apart_along(&paths);
     let rests: Vec<&[Complex<f32>]> = rests.iter().map(Vec::as_slice).collect();
     let rest = along(&common, &rests, COMMON_FRAME_HZ_S2, planner);
@@ -156,10 +150,10 @@ pub(super) fn rotors_of_quantum(
 
     for _ in 0..RETRACES {
         let (rotors, _) = apart_along(&paths);
-        let speeds = paths.iter().zip(&rotors).map(|(path, rotor)| {
-            let path = retraced(&rotor.lines, path, frame_s_of_order(OWN_FRAME_HZ_S2, middle_rev_s));
-            (0..ticks / FRAME_TICKS).map(|frame| path.speed_rev_s(frame_middle_ticks(frame))).collect()
-        });
+        let speeds = paths
+            .iter()
+            .zip(&rotors)
+            .map(|(path, rotor)| retraced(&rotor.lines, path, frame_s_of_order(OWN_FRAME_HZ_S2, middle_rev_s)));
         paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), quantum);
     }
     let (rotors, _) = apart_along(&paths);
@@ -193,6 +187,14 @@ fn around(tracks: &[Vec<f64>], margin: f64) -> (f64, f64) {
     (all().fold(f64::INFINITY, f64::min) - margin, all().fold(f64::NEG_INFINITY, f64::max) + margin)
 }
 
+/// The path through speeds in the middles of all frames.
+fn path_through(speeds_rev_s: impl IntoIterator<Item = f64>, quantum: &Quantum<'_>) -> Option<SpeedPath> {
+    let time_s = |frame: usize| frame_middle_ticks(frame) as f64 * quantum.tick_s;
+    let points: Vec<(f64, f64)> =
+        speeds_rev_s.into_iter().enumerate().map(|(frame, speed)| (time_s(frame), speed)).collect();
+    SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+}
+
 /// Paths through the same speeds, so labelled in each frame that each path is as continuous as it can be.
 fn continuous_paths(speeds_rev_s: &[Vec<f64>], quantum: &Quantum<'_>) -> Vec<SpeedPath> {
     let frame_s = FRAME_TICKS as f64 * quantum.tick_s;
@@ -203,14 +205,10 @@ fn continuous_paths(speeds_rev_s: &[Vec<f64>], quantum: &Quantum<'_>) -> Vec<Spe
     let labelling = Identity::default().labelled(&frames, frame_s);
     (0..speeds_rev_s.len())
         .filter_map(|rotor| {
-            let points: Vec<(f64, f64)> = labelling
-                .iter()
-                .enumerate()
-                .map(|(frame, labels)| {
-                    (frame_middle_ticks(frame) as f64 * quantum.tick_s, speeds_rev_s[labels[rotor]][frame])
-                })
-                .collect();
-            SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+            path_through(
+                labelling.iter().enumerate().map(|(frame, labels)| speeds_rev_s[labels[rotor]][frame]),
+                quantum,
+            )
         })
         .collect()
 }

@@ -1,10 +1,11 @@
 //! A rotor's path once more, near where it is known to be: in its own lines, from which the other rotors have been taken away and
 //! which have been turned back by the path itself, so that frames can be longer and finer than along a path that all share.
 
+use super::super::frame::hann_weights;
 use super::super::line::Line;
 use super::super::map::best_path;
 use super::super::path::SpeedPath;
-use super::spectra::{FRAME_TICKS, frame_middle_ticks};
+use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -15,8 +16,8 @@ const REACH_CELLS: f64 = 3.0;
 /// How much the distance from the path changes from one frame to the next, as a share of the speed.
 const STEP_STD_SHARE: f64 = 0.0004;
 
-/// The path through the maxima of the lines' joint likelihood, frame by frame.
-pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl Fn(f64) -> f64) -> SpeedPath {
+/// The speeds of the best path through the lines' joint likelihood, frame by frame.
+pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl Fn(f64) -> f64) -> Vec<f64> {
     let tick_s = path.tick_s;
     let finest = lines.iter().map(|line| line.order * frame_s_of_order(line.order)).fold(1.0, f64::max);
     let step_rev_s = 1.0 / (finest * GRID_PER_CELL);
@@ -25,10 +26,9 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
     let frames = path.ticks() / FRAME_TICKS;
     let mut scores = vec![vec![0.0; points]; frames];
     for line in lines {
-        let half_ticks = (frame_s_of_order(line.order) / tick_s / 2.0).round().max(1.0) as usize;
+        let half_ticks = half_frame_ticks(frame_s_of_order(line.order), tick_s);
         let length = 2 * half_ticks;
-        let window: Vec<f64> =
-            (0..length).map(|n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()).collect();
+        let window: Vec<f64> = hann_weights(length).collect();
         let energy: f64 = window.iter().map(|w| w * w).sum::<f64>() * line.samples_per_tick * line.noise_variance;
         let turns: Vec<Complex<f64>> = (0..points * length)
             .map(|index| {
@@ -50,14 +50,12 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
         }
     }
     let step_std = STEP_STD_SHARE * path.mean_rev_s() / step_rev_s;
-    let points: Vec<(f64, f64)> = best_path(&scores, step_std)
+    best_path(&scores, step_std)
         .into_iter()
         .enumerate()
         .map(|(frame, place)| {
-            let middle = frame_middle_ticks(frame);
             let offset = (place as f64 - side as f64) * step_rev_s;
-            (middle as f64 * tick_s, path.speed_rev_s(middle) + offset)
+            path.speed_rev_s(frame_middle_ticks(frame)) + offset
         })
-        .collect();
-    SpeedPath::through(&points, tick_s, path.ticks()).unwrap_or_else(|| path.clone())
+        .collect()
 }

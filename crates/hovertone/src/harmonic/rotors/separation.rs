@@ -1,6 +1,7 @@
 //! Channels → lines of one rotor each: the amplitudes of all rotors' lines in a channel are solved for together, frame by frame,
 //! and what belongs to the others is taken away.
 
+use super::super::frame::hann_weights;
 use super::super::line::Line;
 use super::super::map::STRONG_POWER_MIN;
 use super::super::path::SpeedPath;
@@ -8,10 +9,9 @@ use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
 use super::mixture::Mixture;
 use super::search::worth;
-use super::spectra::{FRAME_TICKS, frame_middle_ticks, phasors};
+use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks, phasors};
 use crate::channel::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
-use std::f64::consts::TAU;
 
 /// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
@@ -49,7 +49,6 @@ struct Atom {
 /// Takes the rotors apart whose speeds are `paths`; and what is left of each channel.
 pub(super) fn separated(
     quantum: &Quantum<'_>,
-    noise_variances: &[f64],
     atoms: &[ChannelAtoms],
     paths: &[SpeedPath],
     frame_s_of_order: impl Fn(f64) -> f64,
@@ -66,7 +65,7 @@ pub(super) fn separated(
     let mut rests = Vec::with_capacity(atoms.len());
     for (index, atoms) in atoms.iter().enumerate() {
         let channel = &quantum.channels[index];
-        let frame_ticks = 2 * ((frame_s_of_order(channel.order) / quantum.tick_s / 2.0).round().max(1.0) as usize);
+        let frame_ticks = 2 * half_frame_ticks(frame_s_of_order(channel.order), quantum.tick_s);
         let mut mixed = MixedChannel::new(quantum, index, atoms, paths);
         let apart = mixed.solve(quantum, index, paths, frame_ticks);
         mixed.take_away(quantum.ticks);
@@ -75,7 +74,7 @@ pub(super) fn separated(
             let own = mixed.atoms.iter().find(|atom| atom.rotor == rotor && atom.order == channel.order);
             let apart = &apart[rotor];
             let power = |amplitude: &Complex<f64>| {
-                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64 / (1.5 * noise_variances[index])
+                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64 / (1.5 * quantum.noise_variances[index])
             };
             let levels: Vec<f64> = match own {
                 Some(own) => own
@@ -93,7 +92,7 @@ pub(super) fn separated(
                     order: channel.order,
                     is_first: channel.is_first,
                     is_strong: mean_power > STRONG_POWER_MIN,
-                    noise_variance: noise_variances[index],
+                    noise_variance: quantum.noise_variances[index],
                     samples_per_tick: samples_per_tick as f64,
                     ticks: mixed.ticks_of(own, quantum.ticks),
                 });
@@ -154,8 +153,7 @@ impl MixedChannel {
     ) -> Vec<Vec<bool>> {
         let length = frame_ticks * self.samples_per_tick;
         let frame_s = frame_ticks as f64 * quantum.tick_s;
-        let window: Vec<f32> =
-            (0..length).map(|n| (0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()) as f32).collect();
+        let window: Vec<f32> = hann_weights(length).map(|weight| weight as f32).collect();
         let series = quantum.series[index];
         let own_order = quantum.channels[index].order;
         let frames = quantum.ticks / FRAME_TICKS;

@@ -2,12 +2,13 @@
 //! far it is from that.
 
 use super::super::frame::FrameTransform;
+use super::super::line::tick_phasors;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use crate::channel::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Ticks from one frame to the next: 0.04 s.
 pub(super) const FRAME_TICKS: usize = TICKS_PER_HOP / 2;
@@ -37,13 +38,16 @@ pub(super) fn frame_middle_ticks(frame: usize) -> usize {
     frame * FRAME_TICKS + FRAME_TICKS / 2
 }
 
+/// Half the length of a frame in whole ticks.
+pub(super) fn half_frame_ticks(frame_s: f64, tick_s: f64) -> usize {
+    (frame_s / tick_s / 2.0).round().max(1.0) as usize
+}
+
 impl Spectra {
-    /// Frames along a common path. A line of order o has frames of `√(coherence_turns_s / o)`, so that a rotor
-    /// which leaves the common path by so and so many rev/s per second smears each line over as many cells.
+    /// Frames along a common path, of a length for each order.
     pub(super) fn along(
         quantum: &Quantum<'_>,
         series: &[&[Complex<f32>]],
-        noise_variances: &[f64],
         common: &SpeedPath,
         frame_s_of_order: impl Fn(f64) -> f64,
         planner: &mut FftPlanner<f32>,
@@ -53,10 +57,10 @@ impl Spectra {
             .channels
             .iter()
             .zip(series)
-            .zip(noise_variances)
+            .zip(&quantum.noise_variances)
             .map(|((channel, series), noise_variance)| {
                 let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
-                let ticks = ((frame_s_of_order(channel.order) / quantum.tick_s / 2.0).round().max(1.0) as usize) * 2;
+                let ticks = 2 * half_frame_ticks(frame_s_of_order(channel.order), quantum.tick_s);
                 let length = ticks * samples_per_tick;
                 // nothing before the first frame and after the last
                 let mut turned = vec![Complex::default(); length];
@@ -146,29 +150,16 @@ fn turned_back(
     turned
 }
 
-/// `exp(j 2π (o turns(t) − f t))` at every sample of a channel around f: a line of order o and amplitude 1, as the channel shows it.
+/// The phasors of a line at every sample of a channel.
 pub(super) fn phasors(
-    (order, centre_hz, rate_hz): (f64, f64, f64),
+    place: (f64, f64, f64),
     path: &SpeedPath,
     samples_per_tick: usize,
     samples: usize,
 ) -> Vec<Complex<f32>> {
-    let mut phasors = Vec::with_capacity(samples);
-    let step_s = 1.0 / rate_hz;
-    for tick in 0..path.ticks() {
-        let (turns, from, to) = path.tick(tick);
-        let cycles = order * turns - centre_hz * tick as f64 * path.tick_s;
-        // the phase advances by a step that itself advances: both by multiplication
-        let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
-        let mut turn = Complex::from_polar(1.0, TAU * cycles.fract());
-        let mut step = Complex::from_polar(1.0, TAU * (order * from - centre_hz) * step_s + bend);
-        let step_of_step = Complex::from_polar(1.0, 2.0 * bend);
-        for _ in 0..samples_per_tick {
-            phasors.push(Complex::new(turn.re as f32, turn.im as f32));
-            turn *= step;
-            step *= step_of_step;
-        }
-    }
-    phasors.truncate(samples);
-    phasors
+    (0..path.ticks())
+        .flat_map(|tick| tick_phasors(place, path, tick).take(samples_per_tick))
+        .take(samples)
+        .map(|phasor| Complex::new(phasor.re as f32, phasor.im as f32))
+        .collect()
 }
