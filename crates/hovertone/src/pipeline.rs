@@ -164,7 +164,7 @@ fn speed_near(
     let hover = if config.span.is_given() {
         Hover::whole(heard)
     } else {
-        hover_from_survey(survey, map, speed_rev_s, &config.tone, &config.hover)
+        hover_from_survey(survey, map, speed_rev_s, config)
     };
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
@@ -186,7 +186,7 @@ fn speed_near(
     if let Some(reason) = not_a_line
         .or_else(|| not_held_reason(restless_s(&hover, survey, map), &hover, tone_hz, &config.hover))
         .or_else(|| mains_hum_reason(clearest, survey))
-        .or_else(|| foreign_series(survey, &hover, &config.tone, speed_rev_s))
+        .or_else(|| foreign_series(survey, &hover, config, speed_rev_s))
     {
         return Ok(nothing_heard(heard, hover, or_mains_hum(reason, survey), warnings));
     }

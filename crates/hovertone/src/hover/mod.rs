@@ -9,7 +9,7 @@ pub(crate) use phases::restless_s;
 pub(crate) use rows::{Rows, RowsBuilder};
 pub(crate) use survey::{Survey, SurveyBuilder};
 
-use crate::config::{HoverConfig, ToneConfig};
+use crate::config::{Config, HoverConfig};
 use crate::span::Span;
 use crate::statistics::median;
 use crate::tone::CombMap;
@@ -99,10 +99,9 @@ pub(crate) fn hover_from_survey(
     survey: &Survey,
     map: &CombMap,
     speed_rev_s: f64,
-    tone: &ToneConfig,
-    config: &HoverConfig,
+    config: &Config,
 ) -> Hover {
-    let verdicts = verdicts_of_rows(survey, map, speed_rev_s, tone, config);
+    let verdicts = verdicts_of_rows(survey, map, speed_rev_s, config);
     let mut hover = Hover::default();
     let mut row = 0;
     while row < verdicts.len() {
@@ -110,7 +109,7 @@ pub(crate) fn hover_from_survey(
         let span = Span { from_s: survey.rows[row].span.from_s, to_s: survey.rows[end - 1].span.to_s };
         match verdicts[row].reason() {
             None => {
-                trim_into(&mut hover, span, row > 0, end < verdicts.len(), survey.rows[row].span.length_s(), config)
+                trim_into(&mut hover, span, row > 0, end < verdicts.len(), survey.rows[row].span.length_s(), &config.hover)
             }
             Some(reason) => hover.cuts.push(Cut { span, reason }),
         }
@@ -164,13 +163,15 @@ fn verdicts_of_rows(
     survey: &Survey,
     map: &CombMap,
     speed_rev_s: f64,
-    tone: &ToneConfig,
-    config: &HoverConfig,
+    config: &Config,
 ) -> Vec<Verdict> {
+    let half_width_share = config.tone.band_half_width_share;
+    let are_several = config.rotors.are_several();
+    let config = &config.hover;
     let rows = 0..survey.rows.len();
     let near_db: Vec<f64> = rows
         .clone()
-        .map(|row| map.best_near(row, speed_rev_s, tone.band_half_width_share).map_or(0.0, |(_, score)| score.max(0.0)))
+        .map(|row| map.best_near(row, speed_rev_s, half_width_share).map_or(0.0, |(_, score)| score.max(0.0)))
         .collect();
     // the score of the rows that carry the tone, however few they are: a mean in which rows count by their square
     let (cubes, squares) = near_db.iter().fold((0.0, 0.0), |(c, s), d| (c + d.powi(3), s + d.powi(2)));
@@ -183,8 +184,15 @@ fn verdicts_of_rows(
     };
     let speeds_rev_s: Vec<Option<f64>> = rows
         .clone()
-        .map(|row| map.best_near(row, speed_rev_s, tone.band_half_width_share))
-        .map(|best| best.filter(|&(_, score)| score >= score_db_min).map(|(speed, _)| speed))
+        .map(|row| match are_several {
+            // now one is the loudest, now another; what they share moves as the vehicle does
+            true if near_db[row] >= score_db_min => map.mean_near(row, speed_rev_s, half_width_share),
+            true => None,
+            false => map
+                .best_near(row, speed_rev_s, half_width_share)
+                .filter(|&(_, score)| score >= score_db_min)
+                .map(|(speed, _)| speed),
+        })
         .collect();
     let row_s = survey.rows.first().map_or(config.survey_row_s, |row| row.span.length_s());
     let is_flown = manoeuvre::manoeuvring_rows(&speeds_rev_s, row_s, config);

@@ -27,6 +27,13 @@ const BETWEEN_DB_MIN: f64 = 6.0;
 /// How many lines of a series are looked at for that.
 const ALTERNATION_HARMONICS: u32 = 9;
 
+/// Speeds of a row whose comb reaches this share of the best one's stand out of it.
+const OUTSTANDING_SHARE: f64 = 0.5;
+/// The line of a gear mesh that stands this far over the floor is heard; that of a slower shaft is not this much weaker.
+const MESH_DB_MIN: f64 = 6.0;
+/// Lines of a series are looked for within this share, and a bin.
+const LINE_HALF_WIDTH_SHARE: f64 = 0.015;
+
 /// A line that a rotor is expected to make.
 #[derive(Clone, Copy, Debug)]
 struct Tooth {
@@ -40,6 +47,7 @@ pub(crate) struct Comb {
     teeth: Vec<Tooth>,
     gaps: Vec<Tooth>,
     blades: Option<f64>,
+    mesh_order: Option<f64>,
 }
 
 impl Comb {
@@ -65,7 +73,7 @@ impl Comb {
             // a mesh at twice its frequency would have its own first line halfway; a codec that cuts the third makes that likely
             gaps.extend([0.5, 1.5].map(|k: f64| Tooth { order: k * order, weight: (k + 0.5).powf(-0.5) }));
         }
-        Self { teeth, gaps, blades }
+        Self { teeth, gaps, blades, mesh_order: (!is_blade_pass).then_some(order) }
     }
 
     /// Mean level of the lines of a shaft at `speed_rev_s` over the floor, less that of the places between, in dB.
@@ -177,6 +185,9 @@ impl CombMap {
         };
         for factor in [2u32, 3, 5].into_iter().filter(|&factor| (blades as u32).is_multiple_of(factor)) {
             let times = f64::from(factor);
+            if self.mesh_settles(speed_rev_s, times) {
+                continue;
+            }
             if is_searched(times * speed_rev_s)
                 && self.alternation(blades * speed_rev_s, factor).is_some_and(|it| it.is_of_a_faster_shaft())
             {
@@ -193,11 +204,7 @@ impl CombMap {
 
     /// How the `factor`-th, 2 `factor`-th … line of a series stand to the lines beside them.
     fn alternation(&self, tone_hz: f64, factor: u32) -> Option<Alternation> {
-        let line_db = |k: u32| {
-            let place = f64::from(k) * tone_hz / self.bin_hz;
-            let (first, last) = ((0.985 * place - 1.0) as usize, (1.015 * place + 1.0) as usize);
-            self.pooled_db.get(first..=last).map(|levels| levels.iter().copied().fold(f64::MIN, f64::max))
-        };
+        let line_db = |k: u32| self.line_db(f64::from(k) * tone_hz);
         let triples: Vec<(f64, f64, f64)> = (1..=ALTERNATION_HARMONICS / factor)
             .map(|index| index * factor)
             .filter_map(|k| Some((line_db(k)?, line_db(k - 1)?, line_db(k + 1)?)))
@@ -212,9 +219,38 @@ impl CombMap {
         })
     }
 
+    /// How far the strongest line around a frequency stands over the floor of the whole recording.
+    fn line_db(&self, hz: f64) -> Option<f64> {
+        let place = hz / self.bin_hz;
+        let half = LINE_HALF_WIDTH_SHARE * place + 1.0;
+        let levels = self.pooled_db.get((place - half) as usize..=(place + half) as usize)?;
+        Some(levels.iter().copied().fold(f64::MIN, f64::max))
+    }
+
+    /// What the gear mesh says of a shaft at this speed, where the blade pass doubts its octave: whether its own line is heard, and
+    /// that of a shaft so many times slower is not.
+    fn mesh_settles(&self, speed_rev_s: f64, times: f64) -> bool {
+        let mesh_db = |speed: f64| self.comb.mesh_order.and_then(|order| self.line_db(order * speed));
+        mesh_db(speed_rev_s).is_some_and(|own_db| {
+            own_db >= MESH_DB_MIN
+                && mesh_db(speed_rev_s / times).is_none_or(|slower_db| slower_db < own_db - MESH_DB_MIN)
+        })
+    }
+
     /// Best speed of a row within a share of `speed_rev_s`, and its score.
     pub(crate) fn best_near(&self, row: usize, speed_rev_s: f64, half_width_share: f64) -> Option<(f64, f64)> {
         self.best(row, |speed| (speed / speed_rev_s - 1.0).abs() <= half_width_share)
+    }
+
+    /// Mean of the speeds within a share of `speed_rev_s` that stand out of a row: all its rotors'.
+    pub(crate) fn mean_near(&self, row: usize, speed_rev_s: f64, half_width_share: f64) -> Option<f64> {
+        let (_, best_db) = self.best_near(row, speed_rev_s, half_width_share)?;
+        let scores = self.speeds_rev_s.iter().copied().zip(self.scores_db.get(row)?.iter().copied());
+        let (sum, weights) = scores
+            .filter(|(speed, _)| (speed / speed_rev_s - 1.0).abs() <= half_width_share)
+            .map(|(speed, score)| (speed, (score - OUTSTANDING_SHARE * best_db).max(0.0).powi(2)))
+            .fold((0.0, 0.0), |(sum, weights), (speed, weight)| (sum + speed * weight, weights + weight));
+        (weights > 0.0).then(|| sum / weights)
     }
 
     /// Best speed of a row over the whole search, and its score.

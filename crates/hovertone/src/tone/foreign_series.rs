@@ -2,7 +2,7 @@
 //! an instrument.
 
 use super::BLADES_MAX;
-use crate::config::ToneConfig;
+use crate::config::{Config, ToneConfig};
 use crate::hover::{Hover, Survey};
 use crate::spectrogram::{power_db, whitened_db};
 use crate::statistics::mean;
@@ -43,7 +43,7 @@ const SHAFT_LINE_BINS: f64 = 2.0;
 const OTHER_SHAFTS_SHARE: f64 = 0.12;
 
 /// Why the rotor that was found is none: a stronger order of things explains its lines.
-pub(crate) fn foreign_series(survey: &Survey, hover: &Hover, tone: &ToneConfig, speed_rev_s: f64) -> Option<NoTone> {
+pub(crate) fn foreign_series(survey: &Survey, hover: &Hover, config: &Config, speed_rev_s: f64) -> Option<NoTone> {
     let is_hover = |time_s: f64| hover.segments.iter().any(|span| span.contains(time_s));
     let middle_s = |span: &crate::span::Span| (span.from_s + span.to_s) / 2.0;
     let power = survey.fine.mean_power(|row| is_hover(middle_s(&row.span)))?;
@@ -53,7 +53,7 @@ pub(crate) fn foreign_series(survey: &Survey, hover: &Hover, tone: &ToneConfig, 
         over_db: whitened_db(&power),
         bin_hz: survey.fine.bin_hz,
         hz_max: survey.fine_hz_max,
-        claim: Claim::new(tone, speed_rev_s),
+        claim: Claim::new(&config.tone, config.rotors.are_several(), speed_rev_s),
         each_db: each_db.max(EACH_OVER_DB_MIN),
     };
     if search.claim.tone_hz > search.hz_max {
@@ -85,10 +85,12 @@ struct Claim {
     orders: Vec<f64>,
     band_half_width_share: f64,
     is_blade_pass: bool,
+    /// Whether other rotors with the same blades turn beside it.
+    has_company: bool,
 }
 
 impl Claim {
-    fn new(tone: &ToneConfig, speed_rev_s: f64) -> Self {
+    fn new(tone: &ToneConfig, has_company: bool, speed_rev_s: f64) -> Self {
         let order = tone.order.lines_per_turn();
         let is_blade_pass = order <= BLADES_MAX;
         let orders = match tone.blades.map(f64::from).or(is_blade_pass.then_some(order)) {
@@ -102,6 +104,7 @@ impl Claim {
             orders,
             band_half_width_share: tone.band_half_width_share,
             is_blade_pass,
+            has_company: has_company && (is_blade_pass || tone.blades.is_some()),
         }
     }
 
@@ -120,8 +123,16 @@ impl Claim {
             || (1..blades as u32).any(|order| near(f64::from(order), OTHER_SHAFTS_SHARE))
     }
 
-    /// Whether a line is one of the claimed rotor's own.
+    /// Whether a line is one of the claimed rotor's own, or the blade pass of one beside it. A few chance lines of several rotors
+    /// make a series of almost any fundamental.
     fn explains(&self, hz: f64, bin_hz: f64) -> bool {
+        if let Some(blades) = self.orders.first().filter(|_| self.has_company) {
+            let blade_pass_hz = blades * self.shaft_hz;
+            let multiple = (hz / blade_pass_hz).round().max(1.0);
+            if (hz / (multiple * blade_pass_hz) - 1.0).abs() < ROTORS_APART_SHARE / 2.0 {
+                return true;
+            }
+        }
         if !self.is_blade_pass {
             let multiple = (hz / self.tone_hz).round().max(1.0);
             return (hz / (multiple * self.tone_hz) - 1.0).abs() < self.band_half_width_share;
