@@ -3,7 +3,7 @@
 use crate::channel::ChannelBand;
 use crate::config::Config;
 use crate::error::Error;
-use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorTracer, RotorTracks};
+use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorScout, RotorTracer, RotorTracks};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
 use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
@@ -161,11 +161,8 @@ fn speed_near(
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<SpeedAnalysis, Error> {
     let sample_rate_hz = source.sample_rate_hz();
-    let hover = if config.span.is_given() {
-        Hover::whole(heard)
-    } else {
-        hover_from_survey(survey, map, speed_rev_s, config)
-    };
+    let hover =
+        if config.span.is_given() { Hover::whole(heard) } else { hover_from_survey(survey, map, speed_rev_s, config) };
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     let bands = match bands_worth_following(bands, survey, &mut warnings) {
@@ -349,7 +346,7 @@ fn lines_from_source(
     Ok((tracers.into_iter().map(RidgeTracer::finish).collect(), harmonic.finish()))
 }
 
-/// Third reading, where there are several rotors: each by itself.
+/// Two more readings, where there are several rotors: where they are, in a wide band of speeds, and then each by itself.
 fn rotors_from_source(
     source: &mut dyn SignalSource,
     hover: &Hover,
@@ -358,13 +355,21 @@ fn rotors_from_source(
     config: &Config,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<RotorTracks, Error> {
-    let share = config.rotors.band_half_width_share;
-    let limits_rev_s = (speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share));
-    let lines = lines_between_speeds(limits_rev_s, &config.tone, source.sample_rate_hz());
-    let lines = lines_worth_hearing(lines, survey);
+    let sample_rate_hz = source.sample_rate_hz();
+    let lines_in = |limits_rev_s: (f64, f64)| {
+        lines_worth_hearing(lines_between_speeds(limits_rev_s, &config.tone, sample_rate_hz), survey)
+    };
     let order = config.tone.order.lines_per_turn();
     let mesh_order = (order > BLADES_MAX).then_some(order);
-    let mut tracer = RotorTracer::new(source.sample_rate_hz(), &lines, mesh_order, config.rotors.count as usize);
+    let share = config.rotors.band_half_width_share;
+    let wide = lines_in((speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share)));
+    let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
+    listen_again(source, hover, on_progress, |sound| match sound {
+        HoverSound::Start { start_s, length_s } => scout.restart(start_s, length_s),
+        HoverSound::Samples(samples) => scout.push(samples),
+    })?;
+    let rough = scout.finish();
+    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
     listen_again(source, hover, on_progress, |sound| match sound {
         HoverSound::Start { start_s, length_s } => tracer.restart(start_s, length_s),
         HoverSound::Samples(samples) => tracer.push(samples),

@@ -27,7 +27,7 @@ use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
 use quanta::{Quantum, QuantumCutter, limits_rev_s};
-pub(crate) use rotors::{RotorTracer, RotorTrack, RotorTracks};
+pub(crate) use rotors::{RotorScout, RotorTracer, RotorTrack, RotorTracks};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
 
 use rustfft::FftPlanner;

@@ -45,6 +45,14 @@ pub(super) struct Quantum<'a> {
     pub(super) noise_variances: Vec<f64>,
 }
 
+impl Quantum<'_> {
+    /// Order and noise power per Hz of each channel.
+    pub(super) fn floors(&self) -> Vec<(f64, f64)> {
+        let channels = self.channels.iter().zip(&self.noise_variances);
+        channels.map(|(channel, variance)| (channel.order, variance / channel.rate_hz)).collect()
+    }
+}
+
 impl QuantumCutter {
     pub(super) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
         let bank = ChannelBank::new(sample_rate_hz, bands);
@@ -104,6 +112,17 @@ impl QuantumCutter {
         let ticks = ticks.min(self.hops() * TICKS_PER_HOP);
         self.samples_in = 0;
         (ticks >= FRAME_HOPS * TICKS_PER_HOP).then_some((ticks, end_s))
+    }
+
+    /// The first ticks of what has come in, with a floor that is known: noise power per Hz at each order.
+    pub(super) fn quantum_over(&mut self, ticks: usize, floors: &[(f64, f64)]) -> Quantum<'_> {
+        let mut quantum = self.quantum(ticks);
+        for (channel, variance) in quantum.channels.iter().zip(&mut quantum.noise_variances) {
+            if let Some((_, density)) = floors.iter().find(|(order, _)| *order == channel.order) {
+                *variance = density * channel.rate_hz;
+            }
+        }
+        quantum
     }
 
     /// The first ticks of what has come in.

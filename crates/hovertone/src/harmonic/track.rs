@@ -38,6 +38,7 @@ impl HarmonicBlock {
             span,
             speed_rev_s: self.speed_at(span.middle_s()),
             std_uncertainty_rev_s: self.std_uncertainty_rev_s * longer.powf(1.5),
+            step_to_next_turns: self.step_to_next_turns.filter(|_| span.to_s == self.span.to_s),
             ..*self
         })
     }

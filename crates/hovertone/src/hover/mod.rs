@@ -95,12 +95,7 @@ impl Hover {
 }
 
 /// Finds the stretches in which the rotors turn within a band around `speed_rev_s`, at the level of the hover.
-pub(crate) fn hover_from_survey(
-    survey: &Survey,
-    map: &CombMap,
-    speed_rev_s: f64,
-    config: &Config,
-) -> Hover {
+pub(crate) fn hover_from_survey(survey: &Survey, map: &CombMap, speed_rev_s: f64, config: &Config) -> Hover {
     let verdicts = verdicts_of_rows(survey, map, speed_rev_s, config);
     let mut hover = Hover::default();
     let mut row = 0;
@@ -108,9 +103,14 @@ pub(crate) fn hover_from_survey(
         let end = row + verdicts[row..].iter().take_while(|verdict| verdict.is_same_kind(&verdicts[row])).count();
         let span = Span { from_s: survey.rows[row].span.from_s, to_s: survey.rows[end - 1].span.to_s };
         match verdicts[row].reason() {
-            None => {
-                trim_into(&mut hover, span, row > 0, end < verdicts.len(), survey.rows[row].span.length_s(), &config.hover)
-            }
+            None => trim_into(
+                &mut hover,
+                span,
+                row > 0,
+                end < verdicts.len(),
+                survey.rows[row].span.length_s(),
+                &config.hover,
+            ),
             Some(reason) => hover.cuts.push(Cut { span, reason }),
         }
         row = end;
@@ -159,12 +159,7 @@ impl Verdict {
     }
 }
 
-fn verdicts_of_rows(
-    survey: &Survey,
-    map: &CombMap,
-    speed_rev_s: f64,
-    config: &Config,
-) -> Vec<Verdict> {
+fn verdicts_of_rows(survey: &Survey, map: &CombMap, speed_rev_s: f64, config: &Config) -> Vec<Verdict> {
     let half_width_share = config.tone.band_half_width_share;
     let are_several = config.rotors.are_several();
     let config = &config.hover;

@@ -29,7 +29,7 @@ const ALTERNATION_HARMONICS: u32 = 9;
 
 /// Speeds of a row whose comb reaches this share of the best one's stand out of it.
 const OUTSTANDING_SHARE: f64 = 0.5;
-/// The line of a gear mesh that stands this far over the floor is heard; that of a slower shaft is not this much weaker.
+/// The line of a gear mesh that stands this far over the floor is heard; this much is much stronger or weaker.
 const MESH_DB_MIN: f64 = 6.0;
 /// Lines of a series are looked for within this share, and a bin.
 const LINE_HALF_WIDTH_SHARE: f64 = 0.015;
@@ -227,13 +227,16 @@ impl CombMap {
         Some(levels.iter().copied().fold(f64::MIN, f64::max))
     }
 
-    /// What the gear mesh says of a shaft at this speed, where the blade pass doubts its octave: whether its own line is heard, and
-    /// that of a shaft so many times slower is not.
+    /// What the gear mesh says of a shaft at this speed, where the blade pass doubts its octave: whether its own line is heard, that
+    /// of a shaft so many times faster is not much stronger, and those of one slower, to either side of it, are not as strong.
     fn mesh_settles(&self, speed_rev_s: f64, times: f64) -> bool {
-        let mesh_db = |speed: f64| self.comb.mesh_order.and_then(|order| self.line_db(order * speed));
-        mesh_db(speed_rev_s).is_some_and(|own_db| {
+        let mesh_db = |share: f64| self.comb.mesh_order.and_then(|order| self.line_db(order * share * speed_rev_s));
+        mesh_db(1.0).is_some_and(|own_db| {
             own_db >= MESH_DB_MIN
-                && mesh_db(speed_rev_s / times).is_none_or(|slower_db| slower_db < own_db - MESH_DB_MIN)
+                && mesh_db(times).is_none_or(|faster_db| faster_db < own_db + MESH_DB_MIN)
+                && [1.0 / times, 1.0 + 1.0 / times]
+                    .into_iter()
+                    .any(|share| mesh_db(share).is_none_or(|slower_db| slower_db < own_db - MESH_DB_MIN))
         })
     }
 

@@ -119,8 +119,9 @@ impl Claim {
     fn may_be_its_rotor(&self, fundamental_hz: f64) -> bool {
         let near = |order: f64, share: f64| (fundamental_hz / (order * self.shaft_hz) - 1.0).abs() < share;
         let blades = self.orders.first().copied().unwrap_or(1.0);
+        let shafts_share = if self.has_company { ROTORS_APART_SHARE } else { OTHER_SHAFTS_SHARE };
         self.orders.iter().any(|&order| near(order, ROTORS_APART_SHARE))
-            || (1..blades as u32).any(|order| near(f64::from(order), OTHER_SHAFTS_SHARE))
+            || (1..blades as u32).any(|order| near(f64::from(order), shafts_share))
     }
 
     /// Whether a line is one of the claimed rotor's own, or the blade pass of one beside it. A few chance lines of several rotors

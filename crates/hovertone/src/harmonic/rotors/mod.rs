@@ -1,13 +1,16 @@
 //! Several rotors told apart from one microphone.
 //!
 //! In each quantum of up to ten seconds: spectra of all lines in short frames (`spectra`); a path for each rotor with the
-//! others taken away (`search`); the amplitudes of all lines solved for together, so that each rotor is heard alone
+//! others taken away (`search`), once in a wide band of speeds, which misses none, and again in what is then known to hold them all;
+//! the amplitudes of all lines solved for together, so that each rotor is heard alone
 //! (`separation`) and its path is known more finely (`retrace`); and then the same likelihood as for a single rotor
 //! (`coherence`, `join`). Which rotor is which, where they cross, their loudness tells (`identity`).
 
 mod atoms;
+mod hearing;
 mod identity;
 mod mixture;
+mod paths;
 mod quantum;
 mod retrace;
 mod search;
@@ -21,17 +24,45 @@ use crate::channel::ChannelBand;
 use crate::span::Span;
 use atoms::{ChannelAtoms, atoms_of};
 use identity::{Identity, TrackFrame};
-use quantum::{HeardRotor, resolution_rev_s, rotors_of_quantum};
+use quantum::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_quantum, rough_tracks};
 use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
 
-/// Follows the speeds of several rotors through stretches of sound.
+/// Looks where the rotors are, in a wide band of speeds.
+pub(crate) struct RotorScout {
+    cutter: QuantumCutter,
+    atoms: Vec<ChannelAtoms>,
+    limits_rev_s: (f64, f64),
+    count: usize,
+    planner: FftPlanner<f32>,
+    rough: RoughRotors,
+}
+
+/// Where rotors are, roughly.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RoughRotors {
+    count: usize,
+    limits_rev_s: (f64, f64),
+    quanta: Vec<RoughQuantum>,
+}
+
+/// What a scout knows of a quantum.
+#[derive(Clone, Debug, Default)]
+struct RoughQuantum {
+    /// The speed of each rotor in each frame.
+    tracks: Vec<Vec<f64>>,
+    /// Order and noise power per Hz of each line: in a wide band the lines themselves take up less.
+    floors: Vec<(f64, f64)>,
+}
+
+/// Follows the speeds of several rotors through the stretches of sound in which a scout has been before.
 pub(crate) struct RotorTracer {
     cutter: QuantumCutter,
     atoms: Vec<ChannelAtoms>,
     limits_rev_s: (f64, f64),
     planner: FftPlanner<f32>,
     identity: Identity,
+    rough: std::vec::IntoIter<RoughQuantum>,
     tracks: RotorTracks,
 }
 
@@ -55,10 +86,65 @@ pub(crate) struct RotorTrack {
     pub(crate) merged: Vec<Span>,
 }
 
-impl RotorTracer {
-    /// Hears `count` rotors in the lines of `bands`, which all stand for the same limits of speed. `mesh_order` is the order of
+impl RotorScout {
+    /// Looks for `count` rotors in the lines of `bands`, which all stand for the same limits of speed. `mesh_order` is the order of
     /// the gear mesh, if there is one.
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], mesh_order: Option<f64>, count: usize) -> Self {
+        let cutter = QuantumCutter::new(sample_rate_hz, bands);
+        let limits_rev_s = limits_rev_s(bands);
+        Self {
+            atoms: atoms_of(cutter.channels(), mesh_order),
+            limits_rev_s,
+            count,
+            planner: FftPlanner::new(),
+            rough: RoughRotors { count, limits_rev_s, quanta: Vec::new() },
+            cutter,
+        }
+    }
+
+    /// A new stretch of sound begins at `start_s` and should last `length_s`.
+    pub(crate) fn restart(&mut self, start_s: f64, length_s: f64) {
+        self.end_stretch();
+        self.cutter.restart(start_s, length_s);
+    }
+
+    pub(crate) fn push(&mut self, samples: &[f32]) {
+        self.cutter.push(samples);
+        while let Some(ticks) = self.cutter.ready_ticks() {
+            self.take_quantum(ticks);
+        }
+    }
+
+    pub(crate) fn finish(mut self) -> RoughRotors {
+        self.end_stretch();
+        self.rough
+    }
+
+    fn end_stretch(&mut self) {
+        if let Some((ticks, _)) = self.cutter.last_ticks() {
+            self.take_quantum(ticks);
+        }
+    }
+
+    fn take_quantum(&mut self, ticks: usize) {
+        let quantum = self.cutter.quantum(ticks);
+        let tracks = rough_tracks(&quantum, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
+        let floors = quantum.floors();
+        self.cutter.drop_ticks(ticks);
+        self.rough.quanta.push(RoughQuantum { tracks, floors });
+    }
+}
+
+impl RoughRotors {
+    /// The band of speeds in which they all are.
+    pub(crate) fn band_rev_s(&self) -> (f64, f64) {
+        band_of_tracks(self.quanta.iter().flat_map(|quantum| &quantum.tracks), self.limits_rev_s)
+    }
+}
+
+impl RotorTracer {
+    /// Hears rotors in the lines of `bands`, which all stand for the same limits of speed.
+    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], mesh_order: Option<f64>, rough: RoughRotors) -> Self {
         let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
         let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, merged: Vec::new() };
@@ -68,11 +154,12 @@ impl RotorTracer {
             planner: FftPlanner::new(),
             identity: Identity::default(),
             tracks: RotorTracks {
-                rotors: vec![rotor; count],
+                rotors: vec![rotor; rough.count],
                 resolution_rev_s: resolution_rev_s(bands),
                 length_s: 0.0,
                 faint_s: 0.0,
             },
+            rough: rough.quanta.into_iter(),
             cutter,
         }
     }
@@ -106,10 +193,10 @@ impl RotorTracer {
     }
 
     fn take_quantum(&mut self, ticks: usize) {
-        let quantum = self.cutter.quantum(ticks);
+        let rough = self.rough.next().unwrap_or_default();
+        let quantum = self.cutter.quantum_over(ticks, &rough.floors);
         let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
-        let count = self.tracks.rotors.len();
-        let heard = rotors_of_quantum(&quantum, &self.atoms, self.limits_rev_s, count, &mut self.planner);
+        let heard = rotors_of_quantum(&quantum, &self.atoms, &rough.tracks, &mut self.planner);
         self.cutter.drop_ticks(ticks);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
@@ -150,26 +237,34 @@ impl RotorTracer {
         }
     }
 
-    /// The blocks of a rotor. One in which its lines do not keep their phase, or are too weak for that, is the line that the search
-    /// followed, known as well as the search resolves.
+    /// The blocks of a rotor. Where its lines do not keep their phase, or are too weak for that, it goes along the line that the
+    /// search followed, known as well as the search resolves.
     fn blocks_of(&self, rotor: &HeardRotor, place: (f64, f64)) -> Vec<HarmonicBlock> {
-        let fits = rotor.level.blocks.iter();
-        fits.map(|fit| {
+        let mut blocks = Vec::new();
+        for fit in &rotor.level.blocks {
             let block = block_at(fit, true, place, (rotor.line_count, self.limits_rev_s));
             if block.is_heard {
-                return block;
+                blocks.push(block);
+                continue;
             }
-            let (from, to) = (rotor.traced.speed_rev_s(fit.tick_from), rotor.traced.speed_rev_s(fit.tick_to));
-            HarmonicBlock {
-                speed_rev_s: (from + to) / 2.0,
-                slope_rev_s2: (to - from) / block.span.length_s(),
-                std_uncertainty_rev_s: self.tracks.resolution_rev_s,
-                step_to_next_turns: None,
-                is_heard: true,
-                ..block
+            for tick_from in (fit.tick_from..fit.tick_to).step_by(FRAME_TICKS) {
+                let tick_to = (tick_from + FRAME_TICKS).min(fit.tick_to);
+                let (from, to) = (rotor.traced.speed_rev_s(tick_from), rotor.traced.speed_rev_s(tick_to));
+                let at = |tick: usize| place.0 + tick as f64 * place.1;
+                let span = Span { from_s: at(tick_from), to_s: at(tick_to) };
+                blocks.push(HarmonicBlock {
+                    span,
+                    speed_rev_s: (from + to) / 2.0,
+                    slope_rev_s2: (to - from) / span.length_s(),
+                    std_uncertainty_rev_s: self.tracks.resolution_rev_s,
+                    step_to_next_turns: None,
+                    is_heard: true,
+                    is_steady: false,
+                    ..block
+                });
             }
-        })
-        .collect()
+        }
+        blocks
     }
 }
 

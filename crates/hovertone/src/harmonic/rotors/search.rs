@@ -5,6 +5,7 @@ use super::super::map::best_path;
 use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
+use crate::statistics::median;
 use realfft::num_complex::Complex;
 use std::ops::Range;
 
@@ -17,10 +18,15 @@ const LIKELIHOOD_MAX: f32 = 1e9;
 const LINES_PER_LOGARITHM: usize = 32;
 /// A rotor's own track covers so many points of the grid to either side.
 const OWN_POINTS: usize = 1;
+/// What a rotor claims of what was left over is taken from so many points to either side.
+const CLAIMED_POINTS: usize = 5;
+/// The best of some hundred points of noise lies so many median deviations over their median: 3.4 standard deviations.
+const NOTHING_DEVIATIONS: f64 = 5.0;
 /// Points of the grid in a resolution cell of the line that resolves most finely.
 const GRID_PER_CELL: f64 = 2.0;
 
 /// Speeds that are looked for, as offsets from the common speed.
+#[derive(Default)]
 pub(super) struct OffsetGrid {
     first_rev_s: f64,
     step_rev_s: f64,
@@ -32,6 +38,17 @@ impl OffsetGrid {
         let finest = spectra.lines.iter().map(|line| line.order * line.frame_s).fold(1.0, f64::max);
         let points = ((high_rev_s - low_rev_s) * finest * GRID_PER_CELL).ceil().max(2.0) as usize + 1;
         Self { first_rev_s: low_rev_s, step_rev_s: (high_rev_s - low_rev_s) / (points - 1) as f64, points }
+    }
+
+    fn offset_rev_s(&self, place: usize) -> f64 {
+        self.first_rev_s + place as f64 * self.step_rev_s
+    }
+
+    /// The points around an offset, so many to either side.
+    fn points_around(&self, offset_rev_s: f64, reach: usize) -> Range<usize> {
+        let place = ((offset_rev_s - self.first_rev_s) / self.step_rev_s).round();
+        let place = place.clamp(0.0, self.points as f64 - 1.0) as usize;
+        place.saturating_sub(reach)..(place + reach + 1).min(self.points)
     }
 
     /// Standard deviation of the step from frame to frame, in points.
@@ -50,66 +67,101 @@ pub(super) fn found_tracks(
     (count, sweeps): (usize, usize),
 ) -> Vec<Vec<f64>> {
     let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;
-    let step_std = grid.step_std(middle);
-    let track_beside = |others: &[&Vec<f64>]| -> Vec<f64> {
-        let scores: Vec<Vec<f64>> = (0..spectra.frames())
-            .map(|frame| {
-                let others: Vec<f64> = others.iter().map(|track| track[frame]).collect();
-                scores_of_frame(spectra, atoms, frame, grid, &others)
-            })
-            .collect();
-        best_path(&scores, step_std)
-            .into_iter()
-            .map(|place| grid.first_rev_s + place as f64 * grid.step_rev_s)
-            .collect()
-    };
+    let step_std = grid.step_std(middle) * (spectra.frames_apart() as f64).sqrt();
+    let mut searches: Vec<SearchBeside> = (0..count).map(|_| SearchBeside::new(spectra.frames())).collect();
     let mut tracks: Vec<Vec<f64>> = start.to_vec();
+    let mut find = |rotor: usize, tracks: &[Vec<f64>]| -> Vec<f64> {
+        let others: Vec<&Vec<f64>> =
+            tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
+        let scores =
+            searches[rotor].scores(&others, |frame, others| scores_of_frame(spectra, atoms, frame, grid, others));
+        best_path(scores, step_std).into_iter().map(|place| grid.offset_rev_s(place)).collect()
+    };
     while tracks.len() < count {
-        let track = track_beside(&tracks.iter().collect::<Vec<_>>());
+        let track = find(tracks.len(), &tracks);
         tracks.push(track);
     }
     if count > 1 {
         for rotor in (0..sweeps).flat_map(|_| 0..count) {
-            let others: Vec<&Vec<f64>> =
-                tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
-            tracks[rotor] = track_beside(&others);
+            tracks[rotor] = find(rotor, &tracks);
         }
     }
     tracks
 }
 
-/// The track of one rotor where the lines of all rotors have been taken away: it stays at its own offset, which is worth so much
-/// in each frame, or goes where something is left that is worth more.
-pub(super) fn better_track(
+/// What speaks for one rotor, frame by frame. Where the others stay where they were, it stays what it was.
+struct SearchBeside {
+    scores: Vec<Vec<f64>>,
+    /// Where the others were; `None` before the first search.
+    others_rev_s: Vec<Option<Vec<f64>>>,
+}
+
+impl SearchBeside {
+    fn new(frames: usize) -> Self {
+        Self { scores: vec![Vec::new(); frames], others_rev_s: vec![None; frames] }
+    }
+
+    fn scores(&mut self, others: &[&Vec<f64>], score: impl Fn(usize, &[f64]) -> Vec<f64>) -> &[Vec<f64>] {
+        for (frame, (scores, before)) in self.scores.iter_mut().zip(&mut self.others_rev_s).enumerate() {
+            let now: Vec<f64> = others.iter().map(|track| track[frame]).collect();
+            if before.as_ref() != Some(&now) {
+                *scores = score(frame, &now);
+                *before = Some(now);
+            }
+        }
+        &self.scores
+    }
+}
+
+/// The tracks of rotors whose lines have all been taken away, leaving `rest_scores`: each stays at its own offset, which is worth so
+/// much in each frame, or goes where something is left over that is worth more, or where another rotor hides it. What one claims
+/// is no longer there for the next; those that share another's rotor, and so are worth least, come first.
+pub(super) fn reclaimed_tracks(
     rest_scores: &[Vec<f64>],
-    own: &[(f64, f64)],
+    offsets_rev_s: &[Vec<f64>],
+    worths: &[&[f64]],
     grid: &OffsetGrid,
     middle_rev_s: f64,
-) -> Vec<f64> {
-    let place_of = |offset: f64| {
-        let place = ((offset - grid.first_rev_s) / grid.step_rev_s).round();
-        place.clamp(0.0, grid.points as f64 - 1.0) as usize
-    };
-    let scores: Vec<Vec<f64>> = rest_scores
-        .iter()
-        .zip(own)
-        .map(|(rest, (offset, worth))| {
-            let mut scores = rest.clone();
-            let place = place_of(*offset);
-            for score in &mut scores[place.saturating_sub(OWN_POINTS)..(place + OWN_POINTS + 1).min(grid.points)] {
-                *score = worth.max(*score);
+) -> Vec<Vec<f64>> {
+    let nothing: Vec<f64> = rest_scores.iter().map(|scores| worth_of_nothing(scores)).collect();
+    let mut left = rest_scores.to_vec();
+    let mut tracks = offsets_rev_s.to_vec();
+    let total = |rotor: usize| worths[rotor].iter().sum::<f64>();
+    let mut order: Vec<usize> = (0..tracks.len()).collect();
+    order.sort_by(|&a, &b| total(a).total_cmp(&total(b)));
+    for rotor in order {
+        let scores: Vec<Vec<f64>> = left
+            .iter()
+            .enumerate()
+            .map(|(frame, left)| {
+                let mut scores = left.clone();
+                for (other, track) in tracks.iter().enumerate() {
+                    let worth = if other == rotor { worths[rotor][frame] } else { nothing[frame] };
+                    for score in &mut scores[grid.points_around(track[frame], OWN_POINTS)] {
+                        *score = worth.max(*score);
+                    }
+                }
+                scores
+            })
+            .collect();
+        for (frame, place) in best_path(&scores, grid.step_std(middle_rev_s)).into_iter().enumerate() {
+            if !grid.points_around(tracks[rotor][frame], OWN_POINTS + 1).contains(&place) {
+                let offset = grid.offset_rev_s(place);
+                tracks[rotor][frame] = offset;
+                for score in &mut left[frame][grid.points_around(offset, CLAIMED_POINTS)] {
+                    *score = score.min(nothing[frame]);
+                }
             }
-            scores
-        })
-        .collect();
-    best_path(&scores, grid.step_std(middle_rev_s))
-        .into_iter()
-        .zip(own)
-        .map(|(place, (offset, _))| {
-            let is_elsewhere = place.abs_diff(place_of(*offset)) > OWN_POINTS + 1;
-            if is_elsewhere { grid.first_rev_s + place as f64 * grid.step_rev_s } else { *offset }
-        })
-        .collect()
+        }
+    }
+    tracks
+}
+
+/// What the best point of a frame is worth where there is nothing but noise, as its other points tell.
+fn worth_of_nothing(scores: &[f64]) -> f64 {
+    let middle = median(scores).unwrap_or_default();
+    let deviations: Vec<f64> = scores.iter().map(|score| (score - middle).abs()).collect();
+    middle + NOTHING_DEVIATIONS * median(&deviations).unwrap_or_default()
 }
 
 /// What a line's likelihood counts for. Its logarithm: what is left of a strong line after it was taken away must not outvote the

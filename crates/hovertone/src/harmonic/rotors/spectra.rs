@@ -31,6 +31,7 @@ pub(super) struct Spectra {
     pub(super) lines: Vec<LineSpectra>,
     /// Speed that all rotors share, in the middle of each frame.
     pub(super) common_rev_s: Vec<f64>,
+    frames_apart: usize,
 }
 
 /// Middle of a frame, in ticks.
@@ -44,15 +45,15 @@ pub(super) fn half_frame_ticks(frame_s: f64, tick_s: f64) -> usize {
 }
 
 impl Spectra {
-    /// Frames along a common path, of a length for each order.
+    /// Frames along a common path, of a length for each order; every so many'th only.
     pub(super) fn along(
         quantum: &Quantum<'_>,
         series: &[&[Complex<f32>]],
         common: &SpeedPath,
-        frame_s_of_order: impl Fn(f64) -> f64,
+        (frame_s_of_order, frames_apart): (impl Fn(f64) -> f64, usize),
         planner: &mut FftPlanner<f32>,
     ) -> Self {
-        let frames = quantum.ticks / FRAME_TICKS;
+        let frames = (quantum.ticks / FRAME_TICKS).div_ceil(frames_apart);
         let lines = quantum
             .channels
             .iter()
@@ -83,7 +84,7 @@ impl Spectra {
                     .collect();
                 let mut bins = Vec::with_capacity(frames * count);
                 for frame in 0..frames {
-                    let start = length + frame_middle_ticks(frame) * samples_per_tick - length / 2;
+                    let start = length + frame_middle_ticks(frame * frames_apart) * samples_per_tick - length / 2;
                     let spectrum = transform.spectrum(&turned[start..]);
                     bins.extend(
                         to_middle.iter().enumerate().map(|(index, turn)| spectrum[(index + count / 2) % count] * turn),
@@ -92,8 +93,19 @@ impl Spectra {
                 LineSpectra { order: channel.order, frame_s: ticks as f64 * quantum.tick_s, half_bins: count / 2, bins }
             })
             .collect();
-        let common_rev_s = (0..frames).map(|frame| common.speed_rev_s(frame_middle_ticks(frame))).collect();
-        Self { lines, common_rev_s }
+        let middles = (0..frames).map(|frame| frame_middle_ticks(frame * frames_apart));
+        let common_rev_s = middles.map(|tick| common.speed_rev_s(tick)).collect();
+        Self { lines, common_rev_s, frames_apart }
+    }
+
+    /// The middle of each frame.
+    pub(super) fn middle_ticks(&self) -> impl Iterator<Item = usize> {
+        (0..self.frames()).map(|frame| frame_middle_ticks(frame * self.frames_apart))
+    }
+
+    /// Frames from one to the next.
+    pub(super) fn frames_apart(&self) -> usize {
+        self.frames_apart
     }
 
     pub(super) fn frames(&self) -> usize {

@@ -1,0 +1,158 @@
+//! A quantum, listened to again and again: the rotors looked for beside each other, taken apart, their paths drawn again, and what
+//! is left over given to those that have nothing.
+
+use super::super::path::SpeedPath;
+use super::super::quanta::Quantum;
+use super::atoms::ChannelAtoms;
+use super::paths::{around, continuous_paths, offsets_from, path_through, paths_along, smoothed_mean, tracks_of};
+use super::retrace::retraced;
+use super::search::{OffsetGrid, found_tracks, reclaimed_tracks, scores_of_frame};
+use super::separation::{SeparatedRotor, separated};
+use super::spectra::{FRAME_TICKS, Spectra};
+use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
+
+/// A line at f has frames of `√(this / f)` along a rotor's own path.
+pub(super) const OWN_FRAME_HZ_S2: f64 = 480.0;
+/// A frame is no longer than this: sound in a room loses its phase.
+const FRAME_S_MAX: f64 = 0.4;
+/// Rotors are looked for so far beyond what the first search found, as a share of the speed.
+pub(super) const MARGIN_SHARE: f64 = 0.03;
+/// Rotors of a hovering multirotor leave their common speed by less than 1 % in a second, which smears a line over less than two
+/// resolution cells of these frames.
+pub(super) const COMMON_SEARCH: Search =
+    Search { frame_hz_s2: 180.0, margin_share: MARGIN_SHARE, sweeps: 2, is_afresh: false };
+/// The same for rotors that are close together.
+pub(super) const CLOSE_SEARCH: Search =
+    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 4, is_afresh: false };
+pub(super) const CLOSE_SEARCH_AFRESH: Search = Search { is_afresh: true, ..CLOSE_SEARCH };
+
+/// How the rotors are looked for beside each other.
+#[derive(Clone, Copy)]
+pub(super) struct Search {
+    /// A line at f has frames of `√(this / f)`.
+    pub(super) frame_hz_s2: f64,
+    /// How far beyond what is known, as a share of the speed.
+    margin_share: f64,
+    /// Times that each is looked for again beside all others.
+    sweeps: usize,
+    /// Whether what is known of the rotors is forgotten but for what they share.
+    is_afresh: bool,
+}
+
+/// Rotors taken apart along their paths.
+pub(super) struct Apart {
+    pub(super) paths: Vec<SpeedPath>,
+    pub(super) rotors: Vec<SeparatedRotor>,
+    /// What no rotor explains of each channel, and its energy in units of the noise.
+    rests: Vec<Vec<Complex<f32>>>,
+    pub(super) rest_energy: f64,
+    frames: usize,
+}
+
+/// What speaks for one more rotor where all have been taken away.
+pub(super) struct LeftOver {
+    pub(super) scores: Vec<Vec<f64>>,
+    grid: OffsetGrid,
+    common_rev_s: Vec<f64>,
+}
+
+impl Apart {
+    pub(super) fn tracks(&self) -> Vec<Vec<f64>> {
+        tracks_of(&self.paths, self.frames)
+    }
+
+    /// The one that leaves less unexplained.
+    pub(super) fn or_better(self, other: Self) -> Self {
+        if other.rest_energy < self.rest_energy { other } else { self }
+    }
+}
+
+/// One quantum, listened to again and again.
+pub(super) struct Hearing<'a, 'p> {
+    quantum: &'a Quantum<'a>,
+    atoms: &'a [ChannelAtoms],
+    middle_rev_s: f64,
+    planner: &'p mut FftPlanner<f32>,
+}
+
+impl<'a, 'p> Hearing<'a, 'p> {
+    pub(super) fn new(
+        quantum: &'a Quantum<'a>,
+        atoms: &'a [ChannelAtoms],
+        rough: &[Vec<f64>],
+        planner: &'p mut FftPlanner<f32>,
+    ) -> Option<Self> {
+        let speeds = || rough.iter().flatten();
+        let middle_rev_s = speeds().sum::<f64>() / speeds().count().max(1) as f64;
+        (middle_rev_s > 0.0).then_some(Self { quantum, atoms, middle_rev_s, planner })
+    }
+
+    /// Resolution of the line that resolves most finely.
+    pub(super) fn cell_rev_s(&self, frame_hz_s2: f64) -> f64 {
+        let frame_s = frame_s_of_order(frame_hz_s2, self.middle_rev_s);
+        1.0 / self.quantum.channels.iter().map(|line| line.order * frame_s(line.order)).fold(1.0, f64::max)
+    }
+
+    fn apart(&self, paths: Vec<SpeedPath>) -> Apart {
+        let frame_s = frame_s_of_order(OWN_FRAME_HZ_S2, self.middle_rev_s);
+        let (rotors, rests) = separated(self.quantum, self.atoms, &paths, frame_s);
+        let energy = |rest: &Vec<Complex<f32>>| rest.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>();
+        let rest_energy =
+            rests.iter().zip(&self.quantum.noise_variances).map(|(rest, noise)| energy(rest) / noise).sum();
+        Apart { paths, rotors, rests, rest_energy, frames: self.quantum.ticks / FRAME_TICKS }
+    }
+
+    /// Frames along what tracks share.
+    fn spectra(&mut self, series: &[&[Complex<f32>]], tracks: &[Vec<f64>], frame_hz_s2: f64) -> Option<Spectra> {
+        let common = path_through(smoothed_mean(tracks), self.quantum)?;
+        let frame_s = frame_s_of_order(frame_hz_s2, self.middle_rev_s);
+        Some(Spectra::along(self.quantum, series, &common, (frame_s, 1), self.planner))
+    }
+
+    /// The rotors, looked for along what their tracks share.
+    pub(super) fn searched(&mut self, tracks: &[Vec<f64>], search: Search) -> Apart {
+        let Some(spectra) = self.spectra(&self.quantum.series, tracks, search.frame_hz_s2) else {
+            return self.apart(Vec::new());
+        };
+        let start = offsets_from(tracks, &spectra.common_rev_s);
+        let grid = OffsetGrid::new(around(&start, search.margin_share * self.middle_rev_s), &spectra);
+        let known: &[Vec<f64>] = if search.is_afresh { &[] } else { &start };
+        let found = found_tracks(&spectra, self.atoms, &grid, known, (start.len(), search.sweeps));
+        self.apart(paths_along(&found, &spectra.common_rev_s, self.quantum))
+    }
+
+    /// Each rotor's path drawn again in its own lines.
+    pub(super) fn retraced(&self, apart: Apart) -> Apart {
+        let frame_s = || frame_s_of_order(OWN_FRAME_HZ_S2, self.middle_rev_s);
+        let speeds = apart.paths.iter().zip(&apart.rotors).map(|(path, rotor)| retraced(&rotor.lines, path, frame_s()));
+        let paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), self.quantum);
+        apart.or_better(self.apart(paths))
+    }
+
+    pub(super) fn left_over(&mut self, apart: &Apart, frame_hz_s2: f64) -> LeftOver {
+        let tracks = apart.tracks();
+        let rests: Vec<&[Complex<f32>]> = apart.rests.iter().map(Vec::as_slice).collect();
+        let Some(spectra) = self.spectra(&rests, &tracks, frame_hz_s2) else {
+            return LeftOver { scores: Vec::new(), grid: OffsetGrid::default(), common_rev_s: Vec::new() };
+        };
+        let offsets = offsets_from(&tracks, &spectra.common_rev_s);
+        let grid = OffsetGrid::new(around(&offsets, MARGIN_SHARE * self.middle_rev_s), &spectra);
+        let scores =
+            (0..spectra.frames()).map(|frame| scores_of_frame(&spectra, self.atoms, frame, &grid, &[])).collect();
+        LeftOver { scores, grid, common_rev_s: spectra.common_rev_s }
+    }
+
+    /// The rotors once more, where tracks have gone to what was left over; `None` where none had to.
+    pub(super) fn reclaimed(&self, apart: &Apart, left: &LeftOver) -> Option<Apart> {
+        let offsets = offsets_from(&apart.tracks(), &left.common_rev_s);
+        let worths: Vec<&[f64]> = apart.rotors.iter().map(|rotor| rotor.worths.as_slice()).collect();
+        let tracks = reclaimed_tracks(&left.scores, &offsets, &worths, &left.grid, self.middle_rev_s);
+        (tracks != offsets).then(|| self.retraced(self.apart(paths_along(&tracks, &left.common_rev_s, self.quantum))))
+    }
+}
+
+/// Length of the frames of a line of some order, around some speed.
+pub(super) fn frame_s_of_order(frame_hz_s2: f64, speed_rev_s: f64) -> impl Fn(f64) -> f64 {
+    move |order| (frame_hz_s2 / (order * speed_rev_s)).sqrt().min(FRAME_S_MAX)
+}
