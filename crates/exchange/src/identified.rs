@@ -33,6 +33,10 @@ pub struct IdentifiedRotor {
     pub hover_command: Option<f64>,
     /// Order of the tone by which it was heard.
     pub tone_order: Option<f64>,
+    /// Name of the method by which its speeds were read.
+    pub method: Option<String>,
+    /// Scatter of the speed from one trial to another, as a share.
+    pub trial_std_share: Option<f64>,
     /// Where the numbers come from, for a comment.
     pub origin: String,
 }
@@ -125,6 +129,8 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
         torque_constant_n_m_s2: number_at("/torque_constant_per_rotor_n_m_s2"),
         hover_command: None,
         tone_order: number_at("/settings/experiment/config/tone/order"),
+        method: text("/method").map(str::to_owned),
+        trial_std_share: trial_std_share(&results),
         origin: format!(
             "hovertone {} from {file} (sha256 {}){}",
             text("/version").unwrap_or("?"),
@@ -157,5 +163,14 @@ fn unladen_hover(results: &Value, experiment: &Value) -> Option<UnladenHover> {
         mass_kg: of(force, "vehicle_mass_kg")?,
         gravity_m_s2: of(force, "gravity_m_s2")?,
         speed_rad_s: speed.and_then(|load| load.get("speed_rad_s")?.as_f64()),
+    })
+}
+
+/// From the standard uncertainty of a load's mean speed to that of a trial: the scatter is pooled, so the first load tells.
+fn trial_std_share(results: &Value) -> Option<f64> {
+    let number = |load: &Value, name: &str| load.get(name).and_then(Value::as_f64);
+    results.get("loads")?.as_array()?.iter().find_map(|load| {
+        let share = number(load, "std_uncertainty_rad_s")? / number(load, "speed_rad_s")?;
+        Some(share * number(load, "trial_count")?.sqrt()).filter(|share| share.is_finite())
     })
 }
