@@ -92,7 +92,12 @@ fn fitted_table(
     let noise = if is_stated { PointNoise::Stated } else { PointNoise::FromResiduals };
     let fit = square_law_fit(&points, noise).map_err(|error| {
         let what = match &error {
-            FitError::UnusablePoint { number } => format!("{}: {error}", points[number - 1].name),
+            FitError::UnusablePoint { number } => {
+                format!(
+                    "{} has a speed or a force that is too large or too small to be fitted",
+                    points[number - 1].name
+                )
+            }
             _ => error.to_string(),
         };
         Failure::failed(what, "correct or remove that row of the table", path)

@@ -12,7 +12,7 @@ use crate::vehicles::preset;
 use hovertone::{AcousticScale, Config, Gravity, HeardHover, Method, ToneConfig, UncertaintyInputs};
 use hovertone_exchange::IdentifiedRotor;
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
-use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order};
+use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 
@@ -134,14 +134,22 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The tone that was said, else that of the results.
+/// The tone that was said, else that of the results, heard as it was there.
 fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<ToneConfig, Failure> {
     if let Some(tone) = tone_of(&arguments.tone)? {
         return Ok(tone);
     }
-    let order = results.and_then(|rotor| rotor.tone_order).ok_or_else(|| {
+    let heard = results.and_then(|rotor| rotor.tone).ok_or_else(|| {
         Failure::usage("nothing says which tone is the rotor's", "say --vehicle, --blades, --gear or --order")
     })?;
-    let order = Order::new(order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
-    Ok(ToneConfig { band_hz: arguments.tone.band, ..ToneConfig::of_order(order) })
+    let order = Order::new(heard.order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
+    Ok(ToneConfig {
+        harmonics: arguments.tone.harmonics.unwrap_or(heard.harmonics),
+        blades: heard.blades,
+        band_hz: arguments.tone.band,
+        band_half_width_share: heard.band_half_width_share,
+        speed_min: RotorSpeed::from_rad_s(heard.speed_rad_s_min),
+        speed_max: RotorSpeed::from_rad_s(heard.speed_rad_s_max),
+        ..ToneConfig::of_order(order)
+    })
 }

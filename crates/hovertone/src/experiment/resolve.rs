@@ -22,8 +22,16 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    fn rotor_count(&self) -> Option<u32> {
-        self.model.and_then(|model| model.rotor_count).or(self.preset.map(|preset| preset.rotor_count.value))
+    /// Rotors of the preset or of the model. A model may be a fragment with one rotor of several, so the two must agree.
+    fn rotor_count(&self) -> Result<Option<u32>, ExperimentError> {
+        let of_preset = self.preset.map(|preset| preset.rotor_count.value);
+        match (of_preset, self.model.and_then(|model| model.rotor_count)) {
+            (Some(of_preset), Some(of_model)) if of_preset != of_model => Err(ExperimentError::Contradiction {
+                what: format!("the preset has {of_preset} rotors, the model {of_model}"),
+                hint: "write vehicle.rotors",
+            }),
+            (of_preset, of_model) => Ok(of_preset.or(of_model)),
+        }
     }
 
     fn mass_kg(&self) -> Option<f64> {
@@ -53,7 +61,10 @@ impl ExperimentFile {
             None => None,
         };
         let known = Known { preset, model: model.as_ref() };
-        let rotor_count = self.vehicle.rotors.or(known.rotor_count());
+        let rotor_count = match self.vehicle.rotors {
+            Some(rotor_count) => Some(rotor_count),
+            None => known.rotor_count()?,
+        };
         let rotor_count =
             rotor_count.ok_or_else(|| missing("the number of rotors", "write vehicle.rotors, or a vehicle.preset"))?;
         positive("vehicle.rotors", f64::from(rotor_count))?;

@@ -128,7 +128,7 @@ fn model() -> VehicleModel {
     VehicleModel {
         file: "iris.sdf".to_owned(),
         format: "gazebo".to_owned(),
-        rotor_count: Some(6),
+        rotor_count: Some(4),
         mass_kg: Some(1.5),
         propeller_diameter_m: Some(0.25),
         thrust_constant_n_s2: 5.84e-6,
@@ -145,14 +145,19 @@ fn a_model_fills_what_the_file_leaves_out_and_wins_over_the_preset() {
     };
     let text = GOOD.replace("latitude_deg", "model = \"iris.sdf\"\nlatitude_deg");
     let experiment = resolve(&text, model()).expect("a good file");
-    assert_eq!((experiment.rotor_count, experiment.propeller_diameter_m), (6, Some(0.25)));
+    assert_eq!((experiment.rotor_count, experiment.propeller_diameter_m), (4, Some(0.25)));
     assert_eq!(experiment.loads[0].force.mass_kg(), Some(1.5));
     assert!(!experiment.is_weighed && !experiment.thrust_settings().is_weighed);
     assert_eq!(experiment.config.tone.blades, Some(2), "what the model does not know is the preset's");
-    let own = text.replace("height_m", "mass_kg = 1.6\nrotors = 4\nheight_m");
+    let own = text.replace("height_m", "mass_kg = 1.6\nrotors = 6\nheight_m");
     let experiment = resolve(&own, model()).expect("a good file");
-    assert_eq!((experiment.rotor_count, experiment.loads[0].force.mass_kg()), (4, Some(1.6)));
+    assert_eq!((experiment.rotor_count, experiment.loads[0].force.mass_kg()), (6, Some(1.6)));
     assert!(experiment.is_weighed);
+    // a fragment with one rotor's plugin makes no quadrotor a monocopter
+    let fragment = VehicleModel { rotor_count: Some(1), ..model() };
+    let message = resolve(&text, fragment.clone()).expect_err("rotors").to_string();
+    assert!(message.contains("4 rotors, the model 1") && message.contains("vehicle.rotors"), "{message}");
+    assert_eq!(resolve(&own, fragment).expect("a good file").rotor_count, 6);
     for (broken, said) in [
         (VehicleModel { mass_kg: Some(f64::NAN), ..model() }, "mass_kg"),
         (VehicleModel { mass_kg: Some(0.0), ..model() }, "mass_kg"),

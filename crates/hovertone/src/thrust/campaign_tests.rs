@@ -165,8 +165,8 @@ fn coverage_would_show_wrong_uncertainties() {
 }
 
 /// A plan, flown: speeds that wander as the plan says (an Ornstein-Uhlenbeck process, averaged over each trial), everything else
-/// by chance as in the budget. Half of the campaigns should state no more than was planned, and the truth lie within it as often
-/// as k = 2 says.
+/// by chance as in the budget. Half of the campaigns or more state no more than was wanted, and the truth lies within what was
+/// planned at least as often as k = 2 says.
 #[test]
 fn a_planned_campaign_reaches_the_wanted_uncertainty() {
     for (wanted, gust_s) in [(0.008, 0.3), (0.005, 0.3), (0.01, 1.0)] {
@@ -201,7 +201,8 @@ fn a_planned_campaign_reaches_the_wanted_uncertainty() {
         println!("{plan:?}: {stated:.3} state no more than {wanted}, {reached:.3} are within what was planned");
         // 500 campaigns show a half to 2.2 %; three times that
         assert!(stated >= 0.5 - 0.067, "{plan:?}: {stated}");
-        assert!((0.93..=0.99).contains(&reached), "{plan:?}: {reached}");
+        // more than 95 %: a plan reckons with a scatter that nine trials know only roughly
+        assert!(reached >= 0.93, "{plan:?}: {reached}");
     }
 }
 
