@@ -107,6 +107,8 @@ fn fitted_table(
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
     let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
     let air = plan.diameter_m.zip(plan.density_kg_m3);
+    // of several rotors torques add up by their directions, which no table tells
+    let has_torque = plan.rotor_count == 1;
     let torques: Vec<(RotorSpeed, f64)> =
         group.rows.iter().filter_map(|row| Some((RotorSpeed::from_rad_s(row.speed_rad_s), row.torque_n_m?))).collect();
     let coefficients =
@@ -142,7 +144,7 @@ fn fitted_table(
         thrust_coefficients: coefficients,
         propeller_diameter_m: plan.diameter_m,
         figure_of_merit,
-        torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques),
+        torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
         notices: notes.chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })

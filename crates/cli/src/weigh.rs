@@ -80,24 +80,24 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
     let results = results.as_ref();
     check(arguments)?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };
+    let rotor_count = rotors_of(arguments, results)?;
     let constant = match (results, arguments.constant_n_s2) {
         (Some(rotor), _) => {
-            let total = rotor.thrust_constant_n_s2 * f64::from(rotor.rotor_count);
-            estimate(total, rotor.measured_std_total_n_s2)
+            let rotors = f64::from(rotor_count.unwrap_or(rotor.rotor_count));
+            let std_per_rotor = rotor.measured_std_total_n_s2.map(|std| std / f64::from(rotor.rotor_count));
+            estimate(rotor.thrust_constant_n_s2 * rotors, std_per_rotor.map(|std| std * rotors))
         }
         (None, Some(constant_n_s2)) => estimate(constant_n_s2, arguments.constant_std_n_s2),
         (None, None) => return Err(Failure::usage("no thrust constant is given", SEE_HELP)),
     };
     let is_place_said = arguments.place.gravity_m_s2.or(arguments.place.latitude_deg).is_some();
     let gravity = match results {
-        // weighed where the constant was found, gravity cancels
-        Some(rotor) if !is_place_said => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
+        // found by weight and weighed at the same place, gravity cancels
+        Some(rotor) if !is_place_said && rotor.mass_kg.is_some() => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
         _ => gravity_of(&arguments.place)?,
     };
     let mass_kg = arguments.mass_kg.or_else(|| results?.mass_kg);
-    let of_vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let mut config = Config::for_tone(tone_to_hear(arguments, results)?);
-    let rotor_count = results.map(|rotor| rotor.rotor_count).or(of_vehicle.map(|vehicle| vehicle.rotor_count.value));
     config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
     let method_of_constant = results
         .and_then(|rotor| rotor.method.as_deref())
@@ -113,6 +113,21 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         loudest_std_share: 0.0,
     };
     Ok(Plan { scale, config, method_of_constant })
+}
+
+/// Rotors that carry what is weighed. The constant of a single rotor on a stand does not tell how many there are.
+fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Option<u32>, Failure> {
+    let of_vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let of_results = results.filter(|rotor| rotor.rotor_count > 1 || rotor.mass_kg.is_some());
+    let rotor_count = arguments
+        .rotors
+        .or(of_results.map(|rotor| rotor.rotor_count))
+        .or(of_vehicle.map(|vehicle| vehicle.rotor_count.value));
+    if rotor_count.is_none() && results.is_some() {
+        let what = "the constant is that of one rotor, and nothing says how many carry the vehicle";
+        return Err(Failure::usage(what, "say --rotors, or --vehicle"));
+    }
+    Ok(rotor_count)
 }
 
 /// The numbers that were typed.

@@ -245,6 +245,36 @@ fn results_are_exported_compared_and_weigh_a_payload() {
     assert!(nan.stderr.contains("constant_std_n_s2"), "{}", nan.stderr);
 }
 
+/// The constant of one rotor on a stand weighs a vehicle only when somebody says how many rotors carry it.
+#[test]
+fn a_constant_of_one_rotor_needs_to_know_how_many_carry() {
+    let folder = tempfile::tempdir().unwrap();
+    let (table, fitted) = (folder.path().join("stand.csv"), folder.path().join("fitted.json"));
+    let rows: String = [3000.0, 3600.0, 4200.0, 5000.0]
+        .map(|rpm| {
+            let thrust_n = TRUTH_TOTAL_N_S2 / 4.0 * RotorSpeed::from_rpm(rpm).rad_s().powi(2);
+            format!("{rpm},{thrust_n},0.001\n")
+        })
+        .concat();
+    fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{rows}")).unwrap();
+    fs::write(&fitted, hovertone(&["fit", text(&table), "--json"]).ends_with(0).stdout).unwrap();
+    let hover = folder.path().join("laden.wav");
+    write_hover(&hover, steady_hover("ardrone", hover_of(0.463), 4.0));
+    let weigh = ["weigh", text(&hover), "--constant", text(&fitted), "--json"];
+    let refused = hovertone(&[&weigh[..], &["--order", "69"]].concat()).ends_with(2).stderr;
+    assert!(refused.contains("--rotors"), "{refused}");
+    for more in [&["--vehicle", "ardrone"][..], &["--order", "69", "--rotors", "4"]] {
+        let more = [more, &["--gravity-m-s2", "9.8"]].concat();
+        let weighed = hovertone(&[&weigh[..], &more].concat()).ends_with(0).stdout;
+        let mass_kg = number(&serde_json::from_str(&weighed).unwrap(), "/mass_kg/value");
+        assert!((mass_kg - 0.463).abs() < 0.001, "{mass_kg}");
+    }
+    // on a stand nobody's gravity cancels
+    let weighed = hovertone(&[&weigh[..], &["--vehicle", "ardrone"]].concat()).ends_with(0).stdout;
+    let std_kg = number(&serde_json::from_str(&weighed).unwrap(), "/mass_kg/std_uncertainty");
+    assert!(std_kg > 0.463 * 0.015 / 9.80665, "{std_kg}");
+}
+
 /// A simulator's model as the vehicle of an experiment: its mass and rotors are used, its constant is compared.
 #[test]
 fn a_model_is_the_vehicle_of_an_experiment() {
