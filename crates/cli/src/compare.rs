@@ -4,7 +4,7 @@ use crate::export::identified;
 use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
 use crate::thrust_args::CompareArguments;
-use hovertone_exchange::model_from_text;
+use hovertone_exchange::{SimulatorModel, model_from_text};
 use hovertone_report::{ComparedModel, models_json, models_text};
 use std::fs;
 use std::path::Path;
@@ -23,9 +23,13 @@ pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Resu
 }
 
 fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
+    Ok(ComparedModel { file: path.display().to_string(), model: read_model(path)? })
+}
+
+/// Reads a simulator's model.
+pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
     let text = fs::read_to_string(path)
         .map_err(|error| Failure::failed(format!("the model cannot be read: {error}"), "check its name", path))?;
     let hint = "`hovertone compare --help` lists the files that it reads";
-    let model = model_from_text(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))?;
-    Ok(ComparedModel { file: path.display().to_string(), model })
+    model_from_text(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))
 }

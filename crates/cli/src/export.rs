@@ -3,6 +3,7 @@
 use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
 use crate::thrust_args::ExportArguments;
+use hovertone::PROPELLER_DIAMETER_M;
 use hovertone_exchange::{IdentifiedRotor, export_text, identified_from_results};
 use std::fs;
 use std::path::Path;
@@ -24,17 +25,16 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
 
 fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
     let rotor = identified(&arguments.results)?;
-    for (name, value) in [
-        ("torque_constant_n_m_s2", arguments.torque_constant_n_m_s2),
-        ("hover_command", arguments.hover_command),
-        ("diameter_m", arguments.diameter_m),
-        ("air_density_kg_m3", arguments.air_density_kg_m3),
+    let diameter = PROPELLER_DIAMETER_M;
+    for (name, value, allowed, words) in [
+        ("torque_constant_n_m_s2", arguments.torque_constant_n_m_s2, f64::MIN_POSITIVE..=f64::MAX, "a number above 0"),
+        ("hover_command", arguments.hover_command, f64::MIN_POSITIVE..=1.0, "above 0 and at most 1"),
+        ("diameter_m", arguments.diameter_m, diameter, "from 0.01 to 10"),
+        // from the highest mountain in summer to the pole in winter
+        ("air_density_kg_m3", arguments.air_density_kg_m3, 0.3..=1.8, "from 0.3 to 1.8"),
     ] {
-        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-            return Err(Failure::usage(
-                format!("{name} = {value}, must be a number above 0"),
-                "see `hovertone export --help`",
-            ));
+        if let Some(value) = value.filter(|value| !allowed.contains(value)) {
+            return Err(Failure::usage(format!("{name} = {value}, must be {words}"), "see `hovertone export --help`"));
         }
     }
     Ok(IdentifiedRotor {

@@ -6,12 +6,13 @@ use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
 use crate::thrust_args::FitArguments;
 use hovertone::{
-    ForcePoint, Gravity, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, figure_of_merit, flight_plan,
-    square_law_fit, torque_constant_n_m_s2, warnings_of_points,
+    FitError, ForcePoint, Gravity, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, Warning,
+    figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit, torque_constant_n_m_s2,
+    warnings_of_points,
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_json, fitted_table_text, flight_plan_text};
-use hovertone_vehicle::RotorSpeed;
+use hovertone_vehicle::{Estimate, RotorSpeed};
 use std::fs;
 use std::path::Path;
 
@@ -89,23 +90,46 @@ fn fitted_table(
     let points: Vec<ForcePoint> = group.rows.iter().map(|row| point_of(row, plan)).collect();
     let is_stated = group.rows.iter().any(|row| row.force_std.is_some() || row.speed_std_rad_s.is_some());
     let noise = if is_stated { PointNoise::Stated } else { PointNoise::FromResiduals };
-    let fit = square_law_fit(&points, noise)
-        .map_err(|error| Failure::failed(error.to_string(), "check the rows of this table", path))?;
-    let total = fit.thrust_constant_n_s2;
+    let fit = square_law_fit(&points, noise).map_err(|error| {
+        let what = match &error {
+            FitError::UnusablePoint { number } => {
+                format!(
+                    "{} has a speed or a force that is too large or too small to be fitted",
+                    points[number - 1].name
+                )
+            }
+            _ => error.to_string(),
+        };
+        Failure::failed(what, "correct or remove that row of the table", path)
+    })?;
+    let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
+    let is_weighed = group.rows.iter().all(is_mass);
+    let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
     let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
     let air = plan.diameter_m.zip(plan.density_kg_m3);
+    // of several rotors torques add up by their directions, which no table tells
+    let has_torque = plan.rotor_count == 1;
     let torques: Vec<(RotorSpeed, f64)> =
         group.rows.iter().filter_map(|row| Some((RotorSpeed::from_rad_s(row.speed_rad_s), row.torque_n_m?))).collect();
     let coefficients =
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
-    let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
-    let gravity_of_masses = group.rows.iter().all(is_mass).then_some(plan.gravity.m_s2);
-    let mut warnings = warnings_of_points(&points, &fit, gravity_of_masses);
+    let mut warnings = warnings_of_points(&points, &fit, is_weighed.then_some(plan.gravity.m_s2));
+    let voltages: Vec<Option<f64>> = group.rows.iter().map(|row| row.voltage_v).collect();
+    warnings.extend(row_drifts(&points, &voltages).into_iter().map(Warning::ConstantDrifts));
+    let figure_of_merit = merit_of(group, &points, plan);
+    warnings.extend(figure_of_merit.filter(|merit| !is_plausible_merit(*merit)).map(|figure_of_merit| {
+        Warning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
+    }));
     warnings.extend(
         coefficients
             .filter(|both| !both.is_plausible)
-            .map(|both| hovertone::Warning::ImplausibleThrustCoefficient { propeller: both.propeller }),
+            .map(|both| Warning::ImplausibleThrustCoefficient { propeller: both.propeller }),
     );
+    let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
+    let stated = points.iter().filter(has_std).count();
+    if is_stated && stated < points.len() {
+        warnings.push(Warning::UncertaintiesIncomplete { stated, of: points.len() });
+    }
     let notes = table.notes.iter().map(|note| Notice::new(note, ""));
     Ok(FittedTable {
         file: path.display().to_string(),
@@ -119,11 +143,17 @@ fn fitted_table(
         rotor_count: plan.rotor_count,
         thrust_coefficients: coefficients,
         propeller_diameter_m: plan.diameter_m,
-        figure_of_merit: merit_of(group, &points, plan),
-        torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques),
+        figure_of_merit,
+        torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
         notices: notes.chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })
+}
+
+/// Masses are weighed by the same gravity, whose uncertainty does not average out.
+fn with_gravity(constant: Estimate, gravity: Gravity, is_weighed: bool) -> Estimate {
+    let shared = if is_weighed { constant.value * gravity.std_m_s2 / gravity.m_s2 } else { 0.0 };
+    Estimate { std_uncertainty: constant.std_uncertainty.map(|std| std.hypot(shared)), ..constant }
 }
 
 fn point_of(row: &StandRow, plan: &Plan) -> ForcePoint {
@@ -168,7 +198,13 @@ fn plan_campaign(
         },
     };
     let plan = flight_plan(&wish).map_err(|error| {
-        Failure::usage(error.to_string(), "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-told-apart)")
+        let hint = match error {
+            PlanError::OutOfReach { .. } => {
+                "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-told-apart)"
+            }
+            _ => "see `hovertone fit --help`",
+        };
+        Failure::usage(error.to_string(), hint)
     })?;
     let text = if arguments.json {
         serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"

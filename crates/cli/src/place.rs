@@ -2,12 +2,14 @@
 
 use crate::failure::Failure;
 use crate::thrust_args::{AirArguments, PlaceArguments};
-use hovertone::{Air, Gravity};
+use hovertone::{Air, Gravity, PROPELLER_DIAMETER_M};
 
 const SEE_HELP: &str = "see --help";
 
 /// Local gravity.
 pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
+    let height = Air { height_m: place.height_m, ..Air::default() };
+    height.check().map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
     match (place.gravity_m_s2, place.latitude_deg) {
         (Some(gravity_m_s2), _) if !(9.7..=9.9).contains(&gravity_m_s2) => {
             let what = format!("gravity_m_s2 = {gravity_m_s2} is found nowhere on Earth: 9.70 to 9.90");
@@ -26,7 +28,7 @@ pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
 
 /// Density of the air, where anything of it was said.
 pub(crate) fn air_density_kg_m3(air: &AirArguments, place: &PlaceArguments) -> Result<Option<f64>, Failure> {
-    if let Some(diameter_m) = air.diameter_m.filter(|diameter_m| !(0.01..=10.0).contains(diameter_m)) {
+    if let Some(diameter_m) = air.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
         return Err(Failure::usage(format!("diameter_m = {diameter_m}, allowed 0.01 to 10"), SEE_HELP));
     }
     let said = Air {

@@ -191,6 +191,9 @@ pub(crate) struct WeighArguments {
     /// Its standard uncertainty
     #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
     pub(crate) constant_std_n_s2: Option<f64>,
+    /// Rotors that carry it [default: those of the results, or of --vehicle]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
+    pub(crate) rotors: Option<u32>,
     /// Mass of the vehicle without payload [default: that of the results]
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     pub(crate) mass_kg: Option<f64>,

@@ -8,19 +8,20 @@ use crate::recording::{Hearing, hear_all};
 use crate::speed::{ending_of, jobs_of, tone_of};
 use crate::terminal::Terminal;
 use crate::thrust_args::WeighArguments;
-use hovertone::{Config, Gravity, HeardHover, ToneConfig, weighed_hover};
+use crate::vehicles::preset;
+use hovertone::{AcousticScale, Config, Gravity, HeardHover, Method, ToneConfig, UncertaintyInputs};
 use hovertone_exchange::IdentifiedRotor;
-use hovertone_report::{weighed_json, weighed_text};
-use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order};
+use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
+use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 
 /// What the arguments mean.
 struct Plan {
-    constant_total_n_s2: Estimate,
-    gravity: Gravity,
-    vehicle_mass_kg: Option<Estimate>,
+    scale: AcousticScale,
     config: Config,
+    /// The method by which the speeds of the constant were read, where the results tell.
+    method_of_constant: Option<Method>,
 }
 
 /// Hears all recordings and weighs.
@@ -35,13 +36,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = hear_all(&jobs, hearing, &progress);
     progress.finish();
-    let hover = |estimate: &hovertone::SpeedEstimate| HeardHover {
-        speed: estimate.speed,
-        std_uncertainty_rev_s: estimate.combined_std_uncertainty_rev_s(),
-    };
-    let hovers: Vec<HeardHover> = records.iter().filter_map(|record| record.speed().map(hover)).collect();
-    let Gravity { m_s2, std_m_s2 } = plan.gravity;
-    if let Some(weighed) = weighed_hover(plan.constant_total_n_s2, &hovers, m_s2, std_m_s2, plan.vehicle_mass_kg) {
+    let hovers: Vec<HeardHover> = records.iter().filter_map(hover_of).collect();
+    if let Some(weighed) = plan.scale_for(&records).weigh(&hovers) {
         let text =
             if arguments.json { weighed_json(&weighed).map_err(Failure::internal)? } else { weighed_text(&weighed) };
         terminal.data(&text)?;
@@ -51,47 +47,124 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     Ok(ending_of(&records))
 }
 
+fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
+    let estimate = record.speed()?;
+    let segments = record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments);
+    Some(HeardHover {
+        speed: estimate.speed_of_thrust(),
+        std_uncertainty_rev_s: estimate.combined_std_uncertainty_rev_s(),
+        hover_s: segments.iter().map(|span| span.to_s - span.from_s).sum(),
+    })
+}
+
+impl Plan {
+    /// The loudest rotor cancels only where constant and hover were heard alike: both with all rotors told apart, or both by
+    /// the same single ridge.
+    fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
+        let rotor_count = self.config.rotors.count;
+        let are_apart =
+            records.iter().filter_map(SpeedRecord::tone).all(|tone| tone.rotors.len() == rotor_count as usize);
+        let is_apart = rotor_count == 1 || are_apart;
+        let is_alike = match self.method_of_constant {
+            Some(Method::Separated) => is_apart,
+            Some(method) => method == self.config.method,
+            None => is_apart,
+        };
+        let loudest = UncertaintyInputs::default().loudest_std_share(rotor_count);
+        AcousticScale { loudest_std_share: if is_alike { 0.0 } else { loudest }, ..self.scale }
+    }
+}
+
 fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
     let results = arguments.constant.as_deref().map(identified).transpose()?;
+    let results = results.as_ref();
+    check(arguments)?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };
-    let constant = match (&results, arguments.constant_n_s2) {
+    let rotor_count = rotors_of(arguments, results)?;
+    let constant = match (results, arguments.constant_n_s2) {
         (Some(rotor), _) => {
-            let total = rotor.thrust_constant_n_s2 * f64::from(rotor.rotor_count);
-            estimate(total, rotor.measured_std_total_n_s2)
+            let rotors = f64::from(rotor_count.unwrap_or(rotor.rotor_count));
+            let std_per_rotor = rotor.measured_std_total_n_s2.map(|std| std / f64::from(rotor.rotor_count));
+            estimate(rotor.thrust_constant_n_s2 * rotors, std_per_rotor.map(|std| std * rotors))
         }
         (None, Some(constant_n_s2)) => estimate(constant_n_s2, arguments.constant_std_n_s2),
         (None, None) => return Err(Failure::usage("no thrust constant is given", SEE_HELP)),
     };
-    for (name, value) in [("thrust constant", constant.value), ("mass_kg", arguments.mass_kg.unwrap_or(1.0))] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(Failure::usage(format!("{name} = {value}, must be a number above 0"), SEE_HELP));
-        }
-    }
     let is_place_said = arguments.place.gravity_m_s2.or(arguments.place.latitude_deg).is_some();
-    let gravity = match &results {
-        // weighed where the constant was found, gravity cancels
-        Some(rotor) if !is_place_said => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
+    let gravity = match results {
+        // found by weight and weighed at the same place, gravity cancels
+        Some(rotor) if !is_place_said && rotor.mass_kg.is_some() => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
         _ => gravity_of(&arguments.place)?,
     };
-    let mass_kg = arguments.mass_kg.or_else(|| results.as_ref()?.mass_kg);
-    let config = Config::for_tone(tone_to_hear(arguments, results.as_ref())?);
+    let mass_kg = arguments.mass_kg.or_else(|| results?.mass_kg);
+    let mut config = Config::for_tone(tone_to_hear(arguments, results)?);
+    config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
+    let method_of_constant = results
+        .and_then(|rotor| rotor.method.as_deref())
+        .and_then(|name| Method::ALL.into_iter().find(|method| method.name() == name));
+    config.method = method_of_constant.unwrap_or(Method::for_rotors(config.rotors.count));
     config.check().map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
-    Ok(Plan {
-        constant_total_n_s2: constant,
-        gravity,
+    let scale = AcousticScale {
+        thrust_constant_total_n_s2: constant,
+        trial_std_share: results.and_then(|rotor| rotor.trial_std_share),
+        gravity_m_s2: gravity.m_s2,
+        gravity_std_m_s2: gravity.std_m_s2,
         vehicle_mass_kg: mass_kg.map(|mass_kg| estimate(mass_kg, Some(arguments.mass_std_kg))),
-        config,
-    })
+        loudest_std_share: 0.0,
+    };
+    Ok(Plan { scale, config, method_of_constant })
 }
 
-/// The tone that was said, else that of the results.
+/// Rotors that carry what is weighed. The constant of a single rotor on a stand does not tell how many there are.
+fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Option<u32>, Failure> {
+    let of_vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let of_results = results.filter(|rotor| rotor.rotor_count > 1 || rotor.mass_kg.is_some());
+    let rotor_count = arguments
+        .rotors
+        .or(of_results.map(|rotor| rotor.rotor_count))
+        .or(of_vehicle.map(|vehicle| vehicle.rotor_count.value));
+    if rotor_count.is_none() && results.is_some() {
+        let what = "the constant is that of one rotor, and nothing says how many carry the vehicle";
+        return Err(Failure::usage(what, "say --rotors, or --vehicle"));
+    }
+    Ok(rotor_count)
+}
+
+/// The numbers that were typed.
+fn check(arguments: &WeighArguments) -> Result<(), Failure> {
+    let must_be = |name: &str, value: f64, words: &str| {
+        Err(Failure::usage(format!("{name} = {value}, must be {words}"), SEE_HELP))
+    };
+    for (name, value) in [("constant_n_s2", arguments.constant_n_s2), ("mass_kg", arguments.mass_kg)] {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+            return must_be(name, value, "a number above 0");
+        }
+    }
+    let stds = [("constant_std_n_s2", arguments.constant_std_n_s2), ("mass_std_kg", Some(arguments.mass_std_kg))];
+    for (name, value) in stds {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
+            return must_be(name, value, "0 or more");
+        }
+    }
+    Ok(())
+}
+
+/// The tone that was said, else that of the results, heard as it was there.
 fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<ToneConfig, Failure> {
     if let Some(tone) = tone_of(&arguments.tone)? {
         return Ok(tone);
     }
-    let order = results.and_then(|rotor| rotor.tone_order).ok_or_else(|| {
+    let heard = results.and_then(|rotor| rotor.tone).ok_or_else(|| {
         Failure::usage("nothing says which tone is the rotor's", "say --vehicle, --blades, --gear or --order")
     })?;
-    let order = Order::new(order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
-    Ok(ToneConfig { band_hz: arguments.tone.band, ..ToneConfig::of_order(order) })
+    let order = Order::new(heard.order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
+    Ok(ToneConfig {
+        harmonics: arguments.tone.harmonics.unwrap_or(heard.harmonics),
+        blades: heard.blades,
+        band_hz: arguments.tone.band,
+        band_half_width_share: heard.band_half_width_share,
+        speed_min: RotorSpeed::from_rad_s(heard.speed_rad_s_min),
+        speed_max: RotorSpeed::from_rad_s(heard.speed_rad_s_max),
+        ..ToneConfig::of_order(order)
+    })
 }

@@ -31,10 +31,31 @@ pub struct IdentifiedRotor {
     pub torque_constant_n_m_s2: Option<f64>,
     /// Command (0 to 1) at which it hovers, where somebody read it.
     pub hover_command: Option<f64>,
-    /// Order of the tone by which it was heard.
-    pub tone_order: Option<f64>,
+    /// The tone by which it was heard.
+    pub tone: Option<HeardTone>,
+    /// Name of the method by which its speeds were read.
+    pub method: Option<String>,
+    /// Scatter of the speed from one trial to another, as a share.
+    pub trial_std_share: Option<f64>,
     /// Where the numbers come from, for a comment.
     pub origin: String,
+}
+
+/// The tone by which a rotor was heard: what it takes to hear it again in the same way.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+pub struct HeardTone {
+    /// Lines per turn of the shaft.
+    pub order: f64,
+    /// How many harmonics had a ridge.
+    pub harmonics: u32,
+    /// Blades of the rotor, where they were known.
+    pub blades: Option<u32>,
+    /// Half width of a found band as a share of its middle.
+    pub band_half_width_share: f64,
+    /// Slowest shaft that was looked for.
+    pub speed_rad_s_min: f64,
+    /// Fastest shaft that was looked for.
+    pub speed_rad_s_max: f64,
 }
 
 impl IdentifiedRotor {
@@ -124,7 +145,9 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
         air_density_kg_m3: number_at("/thrust_coefficients/density_kg_m3"),
         torque_constant_n_m_s2: number_at("/torque_constant_per_rotor_n_m_s2"),
         hover_command: None,
-        tone_order: number_at("/settings/experiment/config/tone/order"),
+        tone: results.pointer("/settings/experiment/config/tone").and_then(|tone| HeardTone::deserialize(tone).ok()),
+        method: text("/method").map(str::to_owned),
+        trial_std_share: trial_std_share(&results),
         origin: format!(
             "hovertone {} from {file} (sha256 {}){}",
             text("/version").unwrap_or("?"),
@@ -157,5 +180,14 @@ fn unladen_hover(results: &Value, experiment: &Value) -> Option<UnladenHover> {
         mass_kg: of(force, "vehicle_mass_kg")?,
         gravity_m_s2: of(force, "gravity_m_s2")?,
         speed_rad_s: speed.and_then(|load| load.get("speed_rad_s")?.as_f64()),
+    })
+}
+
+/// From the standard uncertainty of a load's mean speed to that of a trial: the scatter is pooled, so the first load tells.
+fn trial_std_share(results: &Value) -> Option<f64> {
+    let number = |load: &Value, name: &str| load.get(name).and_then(Value::as_f64);
+    results.get("loads")?.as_array()?.iter().find_map(|load| {
+        let share = number(load, "std_uncertainty_rad_s")? / number(load, "speed_rad_s")?;
+        Some(share * number(load, "trial_count")?.sqrt()).filter(|share| share.is_finite())
     })
 }

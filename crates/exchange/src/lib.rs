@@ -10,7 +10,7 @@ mod simulator;
 mod thrust_stand;
 mod units;
 
-pub use identified::{IdentifiedRotor, ResultsError, identified_from_results};
+pub use identified::{HeardTone, IdentifiedRotor, ResultsError, identified_from_results};
 pub use simulator::{ModelError, SimulatorFormat, SimulatorModel, export_text, model_from_text};
 pub use thrust_stand::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 pub use units::ConstantUnits;

@@ -34,7 +34,8 @@ pub use discovery::{Discovery, FoundSpeed, tones_from_source};
 pub use discovery_config::{DiscoveryConfig, KnownRotor};
 pub use error::{ConfigError, Error};
 pub use experiment::{
-    Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, ToneSection, VehicleSection,
+    Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, ModelAgainstHeard, OrderSetting,
+    ToneSection, VehicleModel, VehicleSection,
 };
 pub use hover::{Cut, CutReason, Hover};
 pub use method::Method;
@@ -51,12 +52,13 @@ pub use spectrogram::{Frame, Stft, Window};
 pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm};
 pub use stream::Progress;
 pub use thrust::{
-    Air, BudgetInput, BudgetLine, COVERAGE_FACTOR, Drift, DriftKind, FlightPlan, Force, ForceLaw, ForcePoint,
-    GRAVITY_STANDARD_M_S2, Gravity, HeardHover, InterceptLaw, LawAgreement, LawProbability, LoadRange, LoadSpeeds,
-    LoadThrust, PlanError, PlanWish, PointNoise, PointVerdict, PowerLaw, SampleSpeed, SampleThrust, SquareLawFit,
-    ThrustCoefficients, ThrustSettings, ThrustTable, TrialBootstrap, TrialSpeeds, TrialThrust, UncertaintyBudget,
-    UncertaintyInputs, WeighedHover, figure_of_merit, flight_plan, gravity_m_s2, square_law_fit, thrust_constant_n_s2,
-    thrust_from_loads, torque_constant_n_m_s2, warnings_of_points, weighed_hover,
+    AcousticScale, Air, BudgetInput, BudgetLine, COVERAGE_FACTOR, Drift, DriftKind, FlightPlan, Force, ForceLaw,
+    ForcePoint, GRAVITY_STANDARD_M_S2, Gravity, HeardHover, InterceptLaw, LawAgreement, LawProbability, LoadRange,
+    LoadSpeeds, LoadThrust, PROPELLER_DIAMETER_M, PlanError, PlanWish, PointNoise, PointVerdict, PowerLaw, SampleSpeed,
+    SampleThrust, SquareLawFit, ThrustCoefficients, ThrustSettings, ThrustTable, TrialBootstrap, TrialSpeeds,
+    TrialThrust, UncertaintyBudget, UncertaintyInputs, WeighedHover, figure_of_merit, flight_plan, gravity_m_s2,
+    is_plausible_merit, row_drifts, square_law_fit, thrust_constant_n_s2, thrust_from_loads, torque_constant_n_m_s2,
+    warnings_of_points,
 };
 pub use tone::{Band, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use verdict::NoTone;

@@ -101,6 +101,8 @@ pub enum Warning {
         /// Its recording.
         recording: String,
     },
+    /// Half of the constants or more are off by a factor from the others.
+    ConstantsSplit,
     /// Bench runs and hovers stand in one fit.
     MixedBenchAndHover,
     /// Only one load: nothing can be compared.
@@ -125,6 +127,25 @@ pub enum Warning {
     ImplausibleThrustCoefficient {
         /// T / (ρ n² D⁴).
         propeller: f64,
+    },
+    /// A figure of merit that no rotor has.
+    ImplausibleFigureOfMerit {
+        /// Load or row.
+        name: String,
+        /// T √(T/(2 ρ A)) / P.
+        figure_of_merit: f64,
+    },
+    /// Some rows of a table have no uncertainty, and those of the others do not count.
+    UncertaintiesIncomplete {
+        /// Rows that have one.
+        stated: usize,
+        /// Rows.
+        of: usize,
+    },
+    /// The mass is a preset's or a model's, and that of another specimen.
+    MassNotWeighed {
+        /// The mass that was taken.
+        mass_kg: f64,
     },
     /// Several rotors run, and one ridge follows the loudest.
     LoudestRotor,
@@ -164,6 +185,9 @@ impl Warning {
             }
             Self::TrialLeftOut { .. } => "hear it again: another harmonic or another machine may have been followed",
             Self::LoadDoesNotFit { is_left_out: true, .. } => "check its mass, its unit and its recordings",
+            Self::ConstantsSplit => {
+                "do not use this constant: check masses, units, rotors and the order of the tone, and add a load that decides"
+            }
             Self::MixedBenchAndHover => {
                 "on a bench a rotor stands alone and the air around it is still; fit bench runs and hovers apart to compare them"
             }
@@ -175,11 +199,22 @@ impl Warning {
             Self::OtherLawPreferred { .. } => {
                 "C_f is that of the square law all the same, as simulators have it; use it near the speeds it was measured at"
             }
+            Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
+                "at a given speed neither time nor voltage changes thrust: zero the stand between runs, let it warm up, and take \
+                 rows in random order"
+            }
             Self::ConstantDrifts(_) => {
                 "keep height and place, fly loads in random order, each with a battery equally full"
             }
             Self::ImplausibleThrustCoefficient { .. } => {
                 "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
+            }
+            Self::ImplausibleFigureOfMerit { .. } => {
+                "rotors have 0.05 to 0.85: check the power (all running rotors together), its unit, and the diameter"
+            }
+            Self::UncertaintiesIncomplete { .. } => "state one in every row, or in none",
+            Self::MassNotWeighed { .. } => {
+                "weigh it ready to fly and write vehicle.mass_kg: 1 % of mass is 1 % of C_f, and the ± does not know of it"
             }
             Self::LoudestRotor => {
                 "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; the ± of the tables does not show it, the budget counts it"
@@ -242,6 +277,9 @@ impl fmt::Display for Warning {
             Self::TrialLeftOut { load, recording } => {
                 write!(f, "{recording} of load \"{load}\" is off by a factor from all other trials and left out")
             }
+            Self::ConstantsSplit => f.write_str(
+                "half of the constants are off from the others by a factor of two or more, and nothing tells which half is right",
+            ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),
             Self::EqualLoads { count } => write!(f, "all {count} loads weigh the same"),
@@ -264,12 +302,23 @@ impl fmt::Display for Warning {
                 let step = match drift.kind {
                     DriftKind::PerTrial => "from trial to trial",
                     DriftKind::PerSecond => "each second of a trial",
+                    DriftKind::PerRow => "from row to row of the table",
+                    DriftKind::PerVolt => "with each volt of the supply",
                 };
                 let percent = 100.0 * drift.constant_share;
                 write!(f, "the constant drifts by {percent:+.3} % {step} (p = {:.4})", drift.p_value)
             }
             Self::ImplausibleThrustCoefficient { propeller } => {
                 write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside of what propellers have")
+            }
+            Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
+                write!(f, "a figure of merit of {figure_of_merit:.3} (\"{name}\") is outside of what rotors have")
+            }
+            Self::UncertaintiesIncomplete { stated, of } => {
+                write!(f, "only {stated} of {of} rows have an uncertainty above 0: all forces are taken as equally uncertain")
+            }
+            Self::MassNotWeighed { mass_kg } => {
+                write!(f, "the vehicle's mass, {:.1} g, is that of a preset or a model: nobody weighed this one", 1e3 * mass_kg)
             }
             Self::LoudestRotor => f.write_str("one ridge stands for all rotors: it follows whichever is loudest"),
         }

@@ -8,6 +8,9 @@ use hovertone::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap,
 /// Contributions below this share of the constant are not worth a line for people; the JSON has them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
+/// Smaller ones say no more.
+const P_VALUE_SHOWN_MIN: f64 = 1e-4;
+
 /// Laws and budget of one method's table; nothing where there is no fit.
 pub fn adequacy_text(table: &ThrustTable) -> String {
     let (Some(fit), Some(budget)) = (&table.fit, &table.budget) else { return String::new() };
@@ -40,7 +43,10 @@ pub fn laws_text(fit: &SquareLawFit) -> String {
     ]);
     let probability = |law: ForceLaw| {
         let known = fit.laws.iter().find(|known| known.law == law);
-        known.map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
+        // alone it is preferred to nothing
+        known
+            .filter(|_| fit.laws.len() > 1)
+            .map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
     };
     let mut row = |law: ForceLaw, cells: [String; 3]| {
         let mark = if law == fit.preferred && fit.laws.len() > 1 { " (preferred)" } else { "" };
@@ -58,10 +64,15 @@ pub fn laws_text(fit: &SquareLawFit) -> String {
     }
     let agreement = match fit.agreement {
         Some(agreement) => format!(
-            "χ² = {} with {} degrees of freedom, p = {}; residuals {:.2} % of full scale\n",
+            "χ² = {} with {} degree{} of freedom, p {}; residuals {:.2} % of full scale\n",
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
-            significant(agreement.p_value, 2),
+            if agreement.degrees_of_freedom == 1 { "" } else { "s" },
+            if agreement.p_value < P_VALUE_SHOWN_MIN {
+                format!("< {P_VALUE_SHOWN_MIN}")
+            } else {
+                format!("= {}", significant(agreement.p_value, 2))
+            },
             100.0 * fit.residual_rms_share
         ),
         None if fit.points.len() > 1 => {

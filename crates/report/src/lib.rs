@@ -37,7 +37,7 @@ pub use cuts::cuts_in_words;
 pub use fitted_table::{FittedTable, fitted_table_json, fitted_table_text};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
-pub use models::{ComparedModel, models_json, models_text};
+pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use notice::Notice;
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{Identification, InputRecord, results_json};

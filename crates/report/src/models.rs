@@ -4,6 +4,7 @@ use crate::VERSION;
 use crate::number::{DASH, PowerOfTen, significant};
 use crate::text_table::{Column, TextTable};
 use crate::thrust::{CONSTANT_UNIT, grams};
+use hovertone::{ThrustTable, VehicleModel};
 use hovertone_exchange::{IdentifiedRotor, SimulatorModel};
 use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
@@ -103,4 +104,24 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor) -> String 
             &format!("what was heard is sure to {percent:.2} % (k = 2); speeds are for the vehicle that was heard\n");
     }
     words
+}
+
+/// A line for the model that an experiment names as its vehicle; nothing where nothing was heard.
+pub fn vehicle_model_text(model: &VehicleModel, heard: &ThrustTable) -> String {
+    let Some(against) = model.against(heard) else { return String::new() };
+    let unit = PowerOfTen::of([against.thrust_constant_per_rotor_n_s2]);
+    let verdict = match (against.agrees, against.expanded_share) {
+        (Some(true), Some(share)) => format!("; within what was heard, ±{:.2} % (k = 2)", 100.0 * share),
+        (Some(false), Some(share)) => format!("; NOT within what was heard, ±{:.2} % (k = 2)", 100.0 * share),
+        _ => String::new(),
+    };
+    format!(
+        "\n{} ({}): C_f of one rotor {} {} at {:.0} rpm, {:+.2} % off what was heard{verdict}\n",
+        model.file,
+        model.format,
+        significant(unit.scale(against.thrust_constant_per_rotor_n_s2), 5),
+        unit.unit(CONSTANT_UNIT),
+        RotorSpeed::from_rad_s(against.speed_rad_s).rpm(),
+        100.0 * (against.over_heard - 1.0),
+    )
 }

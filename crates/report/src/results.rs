@@ -4,7 +4,8 @@ use crate::VERSION;
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
 use hovertone::{
-    Drift, Experiment, Hover, Method, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap, UncertaintyBudget,
+    Drift, Experiment, Hover, Method, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap,
+    UncertaintyBudget,
 };
 use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::{Serialize, Serializer};
@@ -53,6 +54,7 @@ struct Results<'a> {
     bootstrap: Option<TrialBootstrap>,
     fit: Option<&'a SquareLawFit>,
     drifts: &'a [Drift],
+    vehicle_model: Option<ModelAgainstHeard>,
     #[serde(serialize_with = "by_method")]
     methods: &'a [ThrustTable],
     loads: Vec<Load<'a>>,
@@ -165,6 +167,7 @@ pub fn results_json(identification: &Identification<'_>) -> Result<String, serde
         bootstrap: reported.and_then(|table| table.bootstrap),
         fit: reported.and_then(|table| table.fit.as_ref()),
         drifts: reported.map_or(&[], |table| &table.drifts),
+        vehicle_model: reported.and_then(|table| experiment.model.as_ref()?.against(table)),
         methods: tables,
         loads: reported.map(loads_of).unwrap_or_default(),
         warnings: reported.map(|table| table.warnings.iter().map(Notice::from).collect()).unwrap_or_default(),

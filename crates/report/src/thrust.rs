@@ -24,6 +24,7 @@ pub fn thrust_table(table: &ThrustTable) -> String {
     let has_mass = table.loads.iter().any(|load| load.mass_kg.is_some());
     let has_bench = table.loads.iter().any(|load| load.mass_kg.is_none());
     let has_verdict = table.loads.iter().any(|load| load.fits.is_some());
+    let has_merit = table.loads.iter().any(|load| load.figure_of_merit.is_some());
     let (total_unit, rotor_unit) = units_of(table);
     let mut columns = vec![Column::words("load")];
     columns.extend(has_mass.then(|| Column::numbers("mass", "g")));
@@ -35,6 +36,7 @@ pub fn thrust_table(table: &ThrustTable) -> String {
         Column::numbers("C_f, vehicle", &total_unit.unit(CONSTANT_UNIT)),
         Column::numbers("C_f, one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
     ]);
+    columns.extend(has_merit.then(|| Column::numbers("figure of merit", "")));
     columns.extend(has_verdict.then(|| Column::numbers("fits", "")));
     let mut text = TextTable::new(columns);
     for load in &table.loads {
@@ -50,6 +52,8 @@ pub fn thrust_table(table: &ThrustTable) -> String {
         cells.extend(speed_cells(load));
         cells.push(constant_cell(load.thrust_constant_total_n_s2, total_unit));
         cells.push(constant_cell(load.thrust_constant_per_rotor_n_s2, rotor_unit));
+        let merit = load.figure_of_merit.map_or(DASH.to_owned(), |merit| significant(merit, 3));
+        cells.extend(has_merit.then_some(merit));
         cells.extend(has_verdict.then(|| verdict(load.fits)));
         text.push(cells);
     }

@@ -1,10 +1,11 @@
 //! The experiment file: reading it, and saying where it is wrong.
 
+use crate::compare::read_model;
 use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
 use crate::toml_file::TomlFile;
 use crate::vehicles::preset_hint;
-use hovertone::{Experiment, ExperimentError, ExperimentFile};
+use hovertone::{Experiment, ExperimentError, ExperimentFile, VehicleModel};
 use std::path::{Path, PathBuf};
 
 const SEE_EXAMPLE: &str = "`hovertone identify --help` shows an experiment file";
@@ -30,7 +31,8 @@ impl ExperimentSource {
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let toml = TomlFile::read(path, "experiment file", "recording", SEE_EXAMPLE)?;
         let file: ExperimentFile = toml.parse()?;
-        let experiment = file.resolve().map_err(|error| meaning_failure(&error, path))?;
+        let model = file.vehicle.model.as_deref().map(|name| model_of(name, path)).transpose()?;
+        let experiment = file.resolve(model).map_err(|error| meaning_failure(&error, path))?;
         Ok(Self {
             path: path.to_owned(),
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
@@ -40,6 +42,22 @@ impl ExperimentSource {
             experiment,
         })
     }
+}
+
+/// The simulator's model that an experiment names, from the folder it is in.
+fn model_of(name: &str, experiment: &Path) -> Result<VehicleModel, Failure> {
+    let path = experiment.parent().unwrap_or(Path::new("")).join(name);
+    let model = read_model(&path)?;
+    Ok(VehicleModel {
+        file: name.to_owned(),
+        format: model.format.name().to_owned(),
+        rotor_count: model.rotor_count,
+        mass_kg: model.mass_kg,
+        propeller_diameter_m: model.propeller_diameter_m,
+        thrust_constant_n_s2: model.thrust_constant_n_s2,
+        thrust_linear_n_s: model.thrust_linear_n_s,
+        thrust_offset_n: model.thrust_offset_n,
+    })
 }
 
 fn meaning_failure(error: &ExperimentError, path: &Path) -> Failure {

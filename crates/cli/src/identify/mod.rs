@@ -15,7 +15,7 @@ use crate::thrust_args::IdentifyArguments;
 use hovertone::{Experiment, LoadSpeeds, Method, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
     Identification, InputRecord, Notice, adequacy_text, method_title, results_json, samples_csv, thrust_summary,
-    thrust_table,
+    thrust_table, vehicle_model_text,
 };
 use recordings::jobs_of;
 use std::fs;
@@ -147,8 +147,12 @@ impl Identified {
 
     /// The answer under the tables.
     pub(crate) fn summary(&self) -> String {
+        let identification = self.identification();
+        let reported = identification.reported();
+        let model = reported.zip(self.source.experiment.model.as_ref());
         thrust_summary(&self.tables, self.method)
-            + &self.identification().reported().map_or(String::new(), adequacy_text)
+            + &reported.map_or(String::new(), adequacy_text)
+            + &model.map_or(String::new(), |(table, model)| vehicle_model_text(model, table))
     }
 
     fn in_words(&self) -> String {

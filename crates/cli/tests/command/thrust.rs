@@ -103,6 +103,12 @@ fn bad_tables_are_refused_or_flagged() {
     assert!(one["notices"].to_string().contains("only one load"), "{one}");
     let equal = run("rpm,mass_g\n3600,413\n3610,413\n3605,413\n").ends_with(0).json_lines().remove(0);
     assert!(equal["notices"].to_string().contains("weigh the same"), "{equal}");
+    // three rows that are one row: no scatter, and an answer
+    let copies = run("rpm,mass_g\n3600,413\n3600,413\n3600,413\n").ends_with(0).json_lines().remove(0);
+    assert!(copies["notices"].to_string().contains("weigh the same"), "{copies}");
+    // one of two is four times too heavy, and nobody knows which
+    let halves = run("rpm,mass_g\n3600,413\n3700,1744\n").ends_with(0).json_lines().remove(0);
+    assert!(halves["notices"].to_string().contains("nothing tells which half is right"), "{halves}");
     // 300 % too heavy
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
     assert!(outlier["notices"].to_string().contains("\\\"line 4\\\" does not fit"), "{outlier}");
@@ -143,6 +149,28 @@ fn a_plan_tells_before_flying() {
     let plan: Value = serde_json::from_str(&apart).unwrap();
     assert!(number(&plan, "/expanded_share") <= 0.01 && number(&plan, "/load_count") >= 3.0);
     hovertone(&["fit", "--plan"]).ends_with(2);
+    for (flag, value) in
+        [("--mass-std-kg", "nan"), ("--mass-std-kg", "-1"), ("--diameter-m", "nan"), ("--wanted-share", "inf")]
+    {
+        let refused = hovertone(&["fit", "--plan", "--mass-kg", "0.413", flag, value]).ends_with(2).stderr;
+        let name = flag.trim_start_matches("--").replace('-', "_").replace("wanted", "expanded");
+        assert!(refused.contains(&name) && refused.contains("must be"), "{flag} {value}: {refused}");
+    }
+}
+
+/// Masses are weighed by gravity, and where nobody says where, that is uncertain by 0.15 %.
+#[test]
+fn a_table_of_masses_counts_gravity() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv");
+    fs::write(&path, "mass_g,mass_std_g,rpm\n413,0.1,3610.3438\n826,0.1,5105.797\n").unwrap();
+    let share = |more: &[&str]| {
+        let fit = hovertone(&[&["fit", text(&path), "--json"], more].concat()).ends_with(0).json_lines().remove(0);
+        number(&fit, "/thrust_constant_total_n_s2/std_uncertainty") / number(&fit, "/thrust_constant_total_n_s2/value")
+    };
+    let (known, unknown) = (share(&["--gravity-m-s2", "9.8"]), share(&[]));
+    assert!((unknown.powi(2) - known.powi(2)).sqrt() / (0.015 / 9.80665) - 1.0 < 0.01, "{known} {unknown}");
+    assert!(unknown > 5.0 * known, "{known} {unknown}");
 }
 
 const TRUTH_TOTAL_N_S2: f64 = 2.83e-5;
@@ -206,6 +234,81 @@ fn results_are_exported_compared_and_weigh_a_payload() {
     assert!((payload_kg - 0.050).abs() < 0.002, "{weighed}");
     let words = hovertone(&["weigh", text(&laden), "--constant", text(&results)]).ends_with(0).stdout;
     assert!(words.contains("payload: ") && words.contains(" g"), "{words}");
+    for (flag, value) in [("--mass-std-kg", "nan"), ("--mass-std-kg", "-1"), ("--mass-kg", "nan")] {
+        let refused = hovertone(&["weigh", text(&laden), "--constant", text(&results), flag, value]).ends_with(2);
+        assert!(refused.stdout.is_empty() && refused.stderr.contains("must be"), "{flag} {value}: {}", refused.stderr);
+    }
+    let by_number = ["weigh", text(&laden), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
+    let nowhere = hovertone(&[&by_number[..], &["--latitude-deg", "10", "--height-m", "nan"]].concat()).ends_with(2);
+    assert!(nowhere.stderr.contains("height_m"), "{}", nowhere.stderr);
+    let nan = hovertone(&[&by_number[..], &["--constant-std-n-s2", "nan"]].concat()).ends_with(2);
+    assert!(nan.stderr.contains("constant_std_n_s2"), "{}", nan.stderr);
+}
+
+/// The constant of one rotor on a stand weighs a vehicle only when somebody says how many rotors carry it.
+#[test]
+fn a_constant_of_one_rotor_needs_to_know_how_many_carry() {
+    let folder = tempfile::tempdir().unwrap();
+    let (table, fitted) = (folder.path().join("stand.csv"), folder.path().join("fitted.json"));
+    let rows: String = [3000.0, 3600.0, 4200.0, 5000.0]
+        .map(|rpm| {
+            let thrust_n = TRUTH_TOTAL_N_S2 / 4.0 * RotorSpeed::from_rpm(rpm).rad_s().powi(2);
+            format!("{rpm},{thrust_n},0.001\n")
+        })
+        .concat();
+    fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{rows}")).unwrap();
+    fs::write(&fitted, hovertone(&["fit", text(&table), "--json"]).ends_with(0).stdout).unwrap();
+    let hover = folder.path().join("laden.wav");
+    write_hover(&hover, steady_hover("ardrone", hover_of(0.463), 4.0));
+    let weigh = ["weigh", text(&hover), "--constant", text(&fitted), "--json"];
+    let refused = hovertone(&[&weigh[..], &["--order", "69"]].concat()).ends_with(2).stderr;
+    assert!(refused.contains("--rotors"), "{refused}");
+    for more in [&["--vehicle", "ardrone"][..], &["--order", "69", "--rotors", "4"]] {
+        let more = [more, &["--gravity-m-s2", "9.8"]].concat();
+        let weighed = hovertone(&[&weigh[..], &more].concat()).ends_with(0).stdout;
+        let mass_kg = number(&serde_json::from_str(&weighed).unwrap(), "/mass_kg/value");
+        assert!((mass_kg - 0.463).abs() < 0.001, "{mass_kg}");
+    }
+    // on a stand nobody's gravity cancels
+    let weighed = hovertone(&[&weigh[..], &["--vehicle", "ardrone"]].concat()).ends_with(0).stdout;
+    let std_kg = number(&serde_json::from_str(&weighed).unwrap(), "/mass_kg/std_uncertainty");
+    assert!(std_kg > 0.463 * 0.015 / 9.80665, "{std_kg}");
+}
+
+/// A simulator's model as the vehicle of an experiment: its mass and rotors are used, its constant is compared.
+#[test]
+fn a_model_is_the_vehicle_of_an_experiment() {
+    let folder = tempfile::tempdir().unwrap();
+    write_hover(&folder.path().join("bare.wav"), steady_hover("ardrone", hover_of(0.413), 4.0));
+    let results = |model: &str, vehicle: &str| {
+        fs::write(folder.path().join("model.py"), model).unwrap();
+        let toml = format!(
+            "[vehicle]\npreset = \"ardrone\"\nmodel = \"model.py\"\ngravity_m_s2 = 9.8\n{vehicle}[[load]]\nname = \"bare\"\n\
+             recordings = [\"bare.wav\"]\n"
+        );
+        let path = folder.path().join("experiment.toml");
+        fs::write(&path, toml).unwrap();
+        hovertone(&["identify", text(&path), "--json"])
+    };
+    let right = "{\n'mass': 0.413,\n'num_rotors': 4,\n'rotor_radius': 0.1,\n'k_eta': 7.075e-6,\n}\n";
+    let run = results(right, "").ends_with(0);
+    let found: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert!((number(&found, "/vehicle_model/over_heard") - 1.0).abs() < 2e-3, "{}", found["vehicle_model"]);
+    assert_eq!(found["vehicle_model"]["agrees"], true);
+    assert!((number(&found, "/settings/experiment/propeller_diameter_m") - 0.2).abs() < 1e-12);
+    assert!(run.stderr.contains("nobody weighed this one"), "{}", run.stderr);
+    let wrong = results(&right.replace("7.075e-6", "8.54858e-6"), "mass_kg = 0.413\n").ends_with(0);
+    let found: Value = serde_json::from_str(&wrong.stdout).unwrap();
+    assert!((number(&found, "/vehicle_model/over_heard") - 8.54858 / 7.075).abs() < 2e-3);
+    assert_eq!(found["vehicle_model"]["agrees"], false);
+    assert!(!wrong.stderr.contains("nobody weighed"), "{}", wrong.stderr);
+    let words = hovertone(&["identify", text(&folder.path().join("experiment.toml"))]).ends_with(0).stdout;
+    assert!(words.contains("model.py (rotorpy)") && words.contains("NOT within what was heard"), "{words}");
+    let broken = results("{\n'k_eta': -1.0,\n}", "").ends_with(1);
+    assert!(broken.stderr.contains("k_eta = -1") && broken.stderr.contains("model.py"), "{}", broken.stderr);
+    fs::remove_file(folder.path().join("model.py")).unwrap();
+    let missing = hovertone(&["identify", text(&folder.path().join("experiment.toml"))]).ends_with(1);
+    assert!(missing.stderr.contains("model.py"), "{}", missing.stderr);
 }
 
 #[test]
@@ -227,7 +330,16 @@ fn what_cannot_be_exported_says_why() {
     assert!(bare.contains("--air-density-kg-m3"), "{bare}");
     hovertone(&["export", text(&path), "--to", "airsim", "--diameter-m", "0.2", "--air-density-kg-m3", "1.2"])
         .ends_with(0);
-    hovertone(&["export", text(&path), "--to", "gazebo", "--torque-constant-n-m-s2", "-1"]).ends_with(2);
+    for (flag, value) in [
+        ("--torque-constant-n-m-s2", "-1"),
+        ("--hover-command", "7"),
+        ("--hover-command", "nan"),
+        ("--diameter-m", "254"),
+        ("--air-density-kg-m3", "1200"),
+    ] {
+        let refused = hovertone(&["export", text(&path), "--to", "gazebo", flag, value]).ends_with(2).stderr;
+        assert!(refused.contains("must be"), "{flag} {value}: {refused}");
+    }
     fs::write(folder.path().join("model.sdf"), "<a/>").unwrap();
     let model = folder.path().join("model.sdf");
     assert!(hovertone(&["compare", text(&path), text(&model)]).ends_with(1).stderr.contains("motorConstant"));

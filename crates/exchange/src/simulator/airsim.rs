@@ -46,6 +46,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     };
     let constant = ConstantUnits::from_coefficient(coefficient, density, diameter_m);
     Ok(SimulatorModel {
+        propeller_diameter_m: Some(diameter_m),
         moment_constant_m: field("C_P").map(|power| power / coefficient * diameter_m / TAU),
         ..SimulatorModel::square(SimulatorFormat::Airsim, constant.n_s2())
     })

@@ -54,6 +54,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         thrust_offset_n: a,
         rotor_count: Some(ROTOR_COUNT),
         mass_kg: vehicle.get("mass").and_then(number),
+        propeller_diameter_m: vehicle.get("prop_radius").and_then(number).map(|radius_m| 2.0 * radius_m),
         moment_constant_m: polynomial("rpm2torque").map(|[_, _, torque]| torque / c),
         ..SimulatorModel::square(SimulatorFormat::Crazyflow, ConstantUnits::from_n_rpm2(c).n_s2())
     })

@@ -14,8 +14,13 @@ pub(super) fn plain(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Lines without any comment sign.
+/// Lines without any comment sign. A name that breaks its line would end the comment, and so would a backslash in C++.
 pub(super) fn lines(rotor: &IdentifiedRotor) -> Vec<String> {
+    let tame = |c: char| if c.is_control() || c == '\\' { ' ' } else { c };
+    described(rotor).iter().map(|line| line.chars().map(tame).collect()).collect()
+}
+
+fn described(rotor: &IdentifiedRotor) -> Vec<String> {
     let units = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);
     let mut lines = vec![
         format!("{}: thrust constant of ONE rotor, T = C_f w^2", rotor.vehicle_name),
@@ -76,6 +81,7 @@ pub(super) fn commented(rotor: &IdentifiedRotor, sign: &str) -> String {
 
 /// The lines as one XML comment, which must hold no double hyphen.
 pub(super) fn xml_comment(rotor: &IdentifiedRotor) -> String {
-    let text: String = lines(rotor).iter().map(|line| format!("  {}\n", line.replace("--", "- -"))).collect();
+    let text: String =
+        lines(rotor).iter().map(|line| format!("  {}\n", line.replace("--", "- -").replace("--", "- -"))).collect();
     format!("<!--\n{text}-->\n")
 }

@@ -98,6 +98,8 @@ pub struct SimulatorModel {
     pub rotor_count: Option<u32>,
     /// Mass of everything, where the file tells.
     pub mass_kg: Option<f64>,
+    /// Diameter of the propellers, where the file tells.
+    pub propeller_diameter_m: Option<f64>,
     /// Torque over thrust, where the file tells.
     pub moment_constant_m: Option<f64>,
 }
@@ -111,6 +113,7 @@ impl SimulatorModel {
             thrust_offset_n: 0.0,
             rotor_count: None,
             mass_kg: None,
+            propeller_diameter_m: None,
             moment_constant_m: None,
         }
     }
@@ -220,6 +223,17 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
     } else {
         return Err(ModelError::Unknown);
     };
-    let value = model.thrust_constant_n_s2;
-    if value.is_finite() && value > 0.0 { Ok(model) } else { Err(ModelError::OutOfRange { name, value }) }
+    // a mass of zero is what files have where nobody knew one
+    let model = SimulatorModel { mass_kg: model.mass_kg.filter(|mass_kg| *mass_kg != 0.0), ..model };
+    for (name, value) in [
+        (name, Some(model.thrust_constant_n_s2)),
+        ("the mass", model.mass_kg),
+        ("the propellers' diameter", model.propeller_diameter_m),
+        ("the number of rotors", model.rotor_count.map(f64::from)),
+    ] {
+        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+            return Err(ModelError::OutOfRange { name, value });
+        }
+    }
+    Ok(model)
 }

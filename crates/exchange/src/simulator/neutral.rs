@@ -60,17 +60,21 @@ pub(super) fn write_yaml(rotor: &IdentifiedRotor) -> String {
     let optional = |value: Option<f64>| value.map_or("null".to_owned(), number);
     let mut text = commented(rotor, "#");
     for (name, value) in [
-        ("vehicle", format!("{:?}", all.vehicle)),
+        // a string of JSON is one of YAML
+        ("vehicle", serde_json::Value::from(all.vehicle).to_string()),
         ("thrust_constant_per_rotor_n_s2", number(all.thrust_constant_per_rotor_n_s2)),
         ("thrust_constant_per_rotor_n_rev_s2", number(all.thrust_constant_per_rotor_n_rev_s2)),
         ("thrust_constant_per_rotor_n_rpm2", number(all.thrust_constant_per_rotor_n_rpm2)),
         ("thrust_constant_per_rotor_g_rpm2", number(all.thrust_constant_per_rotor_g_rpm2)),
         ("thrust_constant_total_n_s2", number(all.thrust_constant_total_n_s2)),
         ("expanded_uncertainty_per_rotor_n_s2", optional(all.expanded_uncertainty_per_rotor_n_s2)),
+        ("coverage_factor", number(all.coverage_factor)),
         ("rotor_count", all.rotor_count.to_string()),
         ("mass_kg", optional(all.mass_kg)),
         ("gravity_m_s2", number(all.gravity_m_s2)),
         ("hover_speed_rad_s", optional(all.hover_speed_rad_s)),
+        ("propeller_diameter_m", optional(all.propeller_diameter_m)),
+        ("air_density_kg_m3", optional(all.air_density_kg_m3)),
         ("moment_constant_m", optional(all.moment_constant_m)),
     ] {
         text += &format!("{name}: {value}\n");
@@ -88,6 +92,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         return Ok(SimulatorModel {
             rotor_count: Some(all.rotor_count),
             mass_kg: all.mass_kg,
+            propeller_diameter_m: all.propeller_diameter_m,
             moment_constant_m: all.moment_constant_m,
             ..SimulatorModel::square(SimulatorFormat::Json, all.thrust_constant_per_rotor_n_s2)
         });
@@ -99,6 +104,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     Ok(SimulatorModel {
         rotor_count: of("rotor_count").map(|count| count as u32),
         mass_kg: of("mass_kg"),
+        propeller_diameter_m: of("propeller_diameter_m"),
         moment_constant_m: of("moment_constant_m"),
         ..SimulatorModel::square(
             SimulatorFormat::Yaml,

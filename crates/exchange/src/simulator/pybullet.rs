@@ -44,6 +44,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     Ok(SimulatorModel {
         rotor_count: Some(ROTOR_COUNT),
         mass_kg: (!masses.is_empty()).then(|| masses.iter().sum()),
+        propeller_diameter_m: first("prop_radius").map(|radius_m| 2.0 * radius_m),
         moment_constant_m: first("km").map(|km| km / kf),
         ..SimulatorModel::square(SimulatorFormat::GymPybulletDrones, ConstantUnits::from_n_rpm2(kf).n_s2())
     })

@@ -37,6 +37,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     Ok(SimulatorModel {
         rotor_count: entry("num_rotors").map(|count| count as u32),
         mass_kg: entry("mass"),
+        propeller_diameter_m: entry("rotor_radius").map(|radius_m| 2.0 * radius_m),
         moment_constant_m: entry("k_m").map(|k_m| k_m / k_eta),
         ..SimulatorModel::square(SimulatorFormat::Rotorpy, k_eta)
     })

@@ -10,7 +10,10 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
         format!("<xacro:property name=\"{name}\" value=\"{value}\" /> <!-- [{unit}] -->\n")
     };
     let mut text = xml_comment(rotor);
-    text += &rotor.mass_kg.map_or(String::new(), |mass_kg| property("mass", plain(mass_kg), "kg"));
+    if let Some(mass_kg) = rotor.mass_kg {
+        text += "<!-- mass is that of everything; RotorS adds mass_rotor for each rotor: take those off -->\n";
+        text += &property("mass", plain(mass_kg), "kg");
+    }
     text += &rotor
         .propeller_diameter_m
         .map_or(String::new(), |diameter_m| property("radius_rotor", plain(diameter_m / 2.0), "m"));
@@ -36,6 +39,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         rotor_count: u32::try_from(rotors).ok().filter(|count| *count > 0),
         // the frame's alone: rotors have a mass of their own
         mass_kg: property("mass").map(|frame_kg| frame_kg + rotors as f64 * property("mass_rotor").unwrap_or(0.0)),
+        propeller_diameter_m: property("radius_rotor").map(|radius_m| 2.0 * radius_m),
         moment_constant_m: property("moment_constant"),
         ..SimulatorModel::square(SimulatorFormat::Rotors, property("motor_constant").ok_or(ModelError::Unknown)?)
     })

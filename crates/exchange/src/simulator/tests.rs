@@ -9,7 +9,9 @@ fn rotor() -> IdentifiedRotor {
         thrust_constant_n_s2: 7.07753e-6,
         expanded_uncertainty_n_s2: Some(1.4e-7),
         measured_std_total_n_s2: None,
-        tone_order: None,
+        tone: None,
+        method: None,
+        trial_std_share: None,
         rotor_count: 4,
         mass_kg: Some(0.413),
         hover_speed_rad_s: Some(378.07),
@@ -39,6 +41,11 @@ fn every_format_is_read_back() {
             assert_eq!(model.format, format, "{text}");
             agrees(model.thrust_constant_n_s2, rotor.thrust_constant_n_s2, format.name());
             assert_eq!(model.moment_constant_m.is_some(), torque.is_some(), "{text}");
+            // a plugin and a polynomial have no diameter
+            let has_diameter = !matches!(format, SimulatorFormat::Gazebo | SimulatorFormat::Flightmare);
+            assert_eq!(model.propeller_diameter_m.is_some(), has_diameter, "{text}");
+            agrees(model.propeller_diameter_m.unwrap_or(0.2), 0.2, format.name());
+            agrees(model.mass_kg.unwrap_or(0.413), 0.413, format.name());
             if let (Some(read), Some(written)) = (model.moment_constant_m, rotor.moment_constant_m()) {
                 assert!((read / written - 1.0).abs() < 3.0 * TOLERANCE, "{}: {read} {written}", format.name());
             }
@@ -178,10 +185,34 @@ fn what_is_no_model_says_why() {
     for zero in ["<motorConstant>0.0</motorConstant>", "'k_eta': -1.0,\n", "'k_eta': nan,\n"] {
         assert!(matches!(model_from_text(zero), Err(ModelError::OutOfRange { .. })), "{zero}");
     }
+    for (text, said) in [
+        ("'k_eta': 1e-6,\n'mass': -0.5,\n", "mass"),
+        ("'k_eta': 1e-6,\n'mass': nan,\n", "mass"),
+        ("'k_eta': 1e-6,\n'num_rotors': 0,\n", "rotors"),
+        ("'k_eta': 1e-6,\n'rotor_radius': -0.1,\n", "diameter"),
+    ] {
+        let message = model_from_text(text).unwrap_err().to_string();
+        assert!(message.contains(said) && message.contains("above 0"), "{message}");
+    }
     let unlike = "<a><motorConstant>1e-6</motorConstant><motorConstant>2e-6</motorConstant></a>";
     assert!(matches!(model_from_text(unlike), Err(ModelError::UnlikeRotors { .. })));
     assert!(matches!(model_from_text("[a]\nrpm2thrust = [1.0]\n"), Err(ModelError::Broken { .. })));
     let rotor = IdentifiedRotor { air_density_kg_m3: None, ..rotor() };
     let refusal = export_text(&rotor, SimulatorFormat::Airsim).unwrap_err();
     assert!(refusal.to_string().contains("--air-density-kg-m3"), "{refusal}");
+}
+
+/// What a file or a group may be called does not end the comment that it stands in.
+#[test]
+fn names_stay_in_their_comments() {
+    let names = ["two\nlines", "ends in \\", "-->", "quote \" and \u{301} accent"];
+    for name in names {
+        let rotor = IdentifiedRotor { vehicle_name: name.to_owned(), origin: name.to_owned(), ..rotor() };
+        for format in SimulatorFormat::ALL {
+            let text = export_text(&rotor, format).unwrap();
+            let model = model_from_text(&text).unwrap_or_else(|error| panic!("{name:?}: {error}\n{text}"));
+            assert_eq!(model.format, format, "{name:?}:\n{text}");
+            assert!(!text.lines().any(|line| line.starts_with("lines")) && !text.contains("\\\n"), "{text}");
+        }
+    }
 }

@@ -4,8 +4,10 @@ use crate::units::GRAVITY_STANDARD_M_S2;
 use csv::StringRecord;
 use std::f64::consts::TAU;
 
-/// A pound.
+/// A pound and an ounce.
 const POUND_KG: f64 = 0.453_592_37;
+const OUNCE_KG: f64 = POUND_KG / 16.0;
+const INCH_M: f64 = 0.0254;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,91 +32,182 @@ pub(super) struct Column {
     pub(super) quantity: Option<Quantity>,
     /// Whether it holds words, which make groups.
     pub(super) is_words: bool,
+    /// Whether it would be a thrust or a torque, had it a known unit.
+    pub(super) lacks_unit: bool,
     /// SI units in one unit of the column.
     si_per_unit: f64,
+    has_decimal_commas: bool,
 }
 
 impl Column {
     /// The number in a row, in SI.
     pub(super) fn number(&self, record: &StringRecord) -> Option<f64> {
-        let number: f64 = record.get(self.index)?.parse().ok()?;
+        let cell = record.get(self.index)?;
+        let number: f64 = if self.has_decimal_commas && !cell.contains('.') {
+            cell.replacen(',', ".", 1).parse().ok()?
+        } else {
+            cell.parse().ok()?
+        };
         Some(number * self.si_per_unit)
     }
 }
 
 pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Vec<Column> {
+    let has_decimal_commas = records.iter().flatten().any(is_decimal_comma);
     let column = |(index, header): (usize, &str)| {
-        let known = quantity_of(header);
+        let meaning = meaning_of(header);
+        let known = match meaning {
+            Meaning::Known(quantity, si_per_unit) => Some((quantity, si_per_unit)),
+            Meaning::UnknownUnit | Meaning::Other => None,
+        };
         let cells = || records.iter().filter_map(|record| record.get(index));
-        let is_word = |cell: &str| !cell.is_empty() && cell.parse::<f64>().is_err();
+        let is_word = |cell: &str| !cell.is_empty() && cell.replacen(',', ".", 1).parse::<f64>().is_err();
         Column {
             index,
             header: header.to_owned(),
             quantity: known.map(|(quantity, _)| quantity),
             is_words: known.is_none() && !records.is_empty() && cells().all(is_word),
+            lacks_unit: matches!(meaning, Meaning::UnknownUnit),
             si_per_unit: known.map_or(1.0, |(_, si_per_unit)| si_per_unit),
+            has_decimal_commas,
         }
     };
     headers.iter().enumerate().map(column).collect()
 }
 
-/// What a header means, and how many SI units one of its units is.
-fn quantity_of(header: &str) -> Option<(Quantity, f64)> {
+/// Whether a cell has a comma that cannot part thousands: "3,5", not "3,610".
+fn is_decimal_comma(cell: &str) -> bool {
+    let Some((whole, part)) = cell.split_once(',') else { return false };
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    are_digits(whole.trim_start_matches(['-', '+'])) && are_digits(part) && (part.len() != 3 || whole.len() > 3)
+}
+
+/// What a header means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Meaning {
+    /// A quantity, and how many SI units one of its units is.
+    Known(Quantity, f64),
+    /// A thrust or a torque in a unit that is not known, or in none.
+    UnknownUnit,
+    /// Nothing of interest.
+    Other,
+}
+
+/// Words of columns that are made of a thrust or a speed and are neither: ratios, rates, settings, errors whose kind nobody
+/// knows.
+const NO_MEASUREMENT: [&str; 14] = [
+    "efficiency",
+    "acceleration",
+    "settling",
+    "kv",
+    "specific",
+    "percent",
+    "error",
+    "err",
+    "tolerance",
+    "offset",
+    "tare",
+    "target",
+    "setpoint",
+    "coefficient",
+];
+/// Words of standard uncertainties.
+const STD: [&str; 9] = ["std", "stddev", "stdev", "sd", "sigma", "uncertainty", "unc", "u", "se"];
+/// What weighs something and does not hover.
+const PARTS: [&str; 8] = ["motor", "prop", "propeller", "battery", "frame", "arm", "cell", "blade"];
+
+fn meaning_of(header: &str) -> Meaning {
     let lower = header.to_lowercase().replace(['²', '^'], "2");
     let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
-    let is_std = has(&["std", "uncertainty", "sd", "u"]);
-    let either = |plain, std| if is_std { std } else { plain };
-    // efficiencies and rates of change have the words of what they are made of
-    if has(&["efficiency", "acceleration", "settling", "time", "kv", "prop", "motor"])
-        && !has(&["speed", "power", "rpm"])
-    {
-        return None;
+    if has(&NO_MEASUREMENT) {
+        return Meaning::Other;
     }
-    if has(&["efficiency", "acceleration"]) {
-        return None;
-    }
-    let force = |kilogram_is_force: f64| {
-        if has(&["n"]) {
-            Some(1.0)
-        } else if has(&["gf", "g", "gram", "grams", "gramm"]) {
-            Some(1e-3 * kilogram_is_force)
-        } else if has(&["kgf", "kg", "kp"]) {
-            Some(kilogram_is_force)
-        } else if has(&["lbf", "lb", "lbs"]) {
-            Some(POUND_KG * kilogram_is_force)
-        } else {
-            None
-        }
+    let either = |plain, std| if has(&STD) { std } else { plain };
+    let measured = |quantity, si_per_unit: Option<f64>| {
+        si_per_unit.map_or(Meaning::UnknownUnit, |si_per_unit| Meaning::Known(quantity, si_per_unit))
     };
-    if has(&["thrust", "lift", "force"]) {
-        return Some((either(Quantity::Thrust, Quantity::ThrustStd), force(GRAVITY_STANDARD_M_S2)?));
-    }
-    if has(&["mass", "weight", "load"]) && !has(&["n"]) {
-        return Some((either(Quantity::Mass, Quantity::MassStd), force(1.0)?));
-    }
-    if has(&["rpm"]) {
-        return Some((either(Quantity::Speed, Quantity::SpeedStd), TAU / 60.0));
-    }
-    if has(&["rad"]) && has(&["s"]) && has(&["speed", "omega", "ω"]) || has(&["omega", "ω"]) {
-        return Some((either(Quantity::Speed, Quantity::SpeedStd), 1.0));
-    }
-    if has(&["rev", "rps", "hz"]) && has(&["speed", "shaft", "rps", "rev"]) {
-        return Some((either(Quantity::Speed, Quantity::SpeedStd), TAU));
-    }
     if has(&["torque"]) {
-        return Some((Quantity::Torque, 1.0));
+        return if has(&STD) { Meaning::Other } else { measured(Quantity::Torque, torque_unit_n_m(&words)) };
     }
-    if has(&["power"]) {
-        return Some((
-            if has(&["mechanical", "shaft"]) { Quantity::ShaftPower } else { Quantity::ElectricalPower },
-            1.0,
-        ));
+    let has_force = has(&["thrust", "lift", "force"]);
+    if has_force && has(&["w", "watt"]) {
+        // thrust for each watt
+        return Meaning::Other;
     }
-    if has(&["voltage", "volt", "volts"]) {
-        return Some((Quantity::Voltage, 1.0));
+    if has_force || has(&["weight"]) && newtons_in(&words).is_some() {
+        let unit_n = newtons_in(&words).or(kilograms_in(&words).map(|kg| kg * GRAVITY_STANDARD_M_S2));
+        return measured(either(Quantity::Thrust, Quantity::ThrustStd), unit_n);
     }
-    has(&["current", "amps", "ampere", "amperes"]).then_some((Quantity::Current, 1.0))
+    if has(&["mass", "weight", "load"]) && !has(&PARTS) {
+        let unit_kg = kilograms_in(&words);
+        return unit_kg.map_or(Meaning::Other, |kg| Meaning::Known(either(Quantity::Mass, Quantity::MassStd), kg));
+    }
+    let speed = |rad_s: f64| Meaning::Known(either(Quantity::Speed, Quantity::SpeedStd), rad_s);
+    if has(&["rpm"]) {
+        speed(TAU / 60.0)
+    } else if has(&["rad"]) && has(&["s"]) && has(&["speed"]) || has(&["omega", "ω"]) {
+        speed(1.0)
+    } else if has(&["rev", "rps"]) || has(&["hz"]) && has(&["speed", "shaft"]) {
+        speed(TAU)
+    } else if has(&["power"]) {
+        let is_shaft = has(&["mechanical", "shaft"]);
+        let unit_w = if has(&["kw"]) {
+            1e3
+        } else if has(&["mw"]) {
+            1e-3
+        } else {
+            1.0
+        };
+        Meaning::Known(if is_shaft { Quantity::ShaftPower } else { Quantity::ElectricalPower }, unit_w)
+    } else if has(&["voltage", "volt", "volts"]) {
+        Meaning::Known(Quantity::Voltage, if has(&["mv"]) { 1e-3 } else { 1.0 })
+    } else if has(&["current", "amps", "ampere", "amperes"]) {
+        Meaning::Known(Quantity::Current, if has(&["ma"]) { 1e-3 } else { 1.0 })
+    } else {
+        Meaning::Other
+    }
+}
+
+/// The unit of force among the words that is one of its own.
+fn newtons_in(words: &[&str]) -> Option<f64> {
+    words.iter().find_map(|word| match *word {
+        "n" => Some(1.0),
+        "mn" => Some(1e-3),
+        _ => None,
+    })
+}
+
+/// The unit of mass among the words, or the force that weighs as much under standard gravity.
+fn kilograms_in(words: &[&str]) -> Option<f64> {
+    words.iter().find_map(|word| match *word {
+        "gf" | "g" | "gram" | "grams" | "gramm" => Some(1e-3),
+        "kgf" | "kg" | "kp" => Some(1.0),
+        "lbf" | "lb" | "lbs" => Some(POUND_KG),
+        "ozf" | "oz" => Some(OUNCE_KG),
+        _ => None,
+    })
+}
+
+/// N·m in the unit of a torque: a force and a length, apart or in one word.
+fn torque_unit_n_m(words: &[&str]) -> Option<f64> {
+    let joined = words.iter().find_map(|word| match *word {
+        "nm" => Some(1.0),
+        "mnm" => Some(1e-3),
+        "ncm" => Some(1e-2),
+        "nmm" => Some(1e-3),
+        _ => None,
+    });
+    let force_n = newtons_in(words).or(kilograms_in(words).map(|kg| kg * GRAVITY_STANDARD_M_S2));
+    let length_m = words.iter().find_map(|word| match *word {
+        "m" => Some(1.0),
+        "cm" => Some(1e-2),
+        "mm" => Some(1e-3),
+        "in" | "inch" => Some(INCH_M),
+        "ft" => Some(12.0 * INCH_M),
+        _ => None,
+    });
+    joined.or(force_n.zip(length_m).map(|(force_n, length_m)| force_n * length_m))
 }
 
 #[cfg(test)]
@@ -137,15 +230,23 @@ mod tests {
             ("thrust_std_n", Quantity::ThrustStd, 1.0),
             ("mass_g", Quantity::Mass, 1e-3),
             ("mass_std_g", Quantity::MassStd, 1e-3),
+            ("Motor thrust (mN)", Quantity::Thrust, 1e-3),
+            ("thrust_ozf", Quantity::Thrust, 0.278_013_85),
+            ("thrust_stddev_n", Quantity::ThrustStd, 1.0),
+            ("weight_n", Quantity::Thrust, 1.0),
             ("Torque (N·m)", Quantity::Torque, 1.0),
+            ("Torque (lbf·in)", Quantity::Torque, 0.112_984_829),
+            ("Torque (ozf·in)", Quantity::Torque, 7.061_551_81e-3),
+            ("torque_mnm", Quantity::Torque, 1e-3),
+            ("Torque (kgf.cm)", Quantity::Torque, 0.0980665),
             ("Mechanical Power (W)", Quantity::ShaftPower, 1.0),
             ("Electrical Power (W)", Quantity::ElectricalPower, 1.0),
             ("voltage_V", Quantity::Voltage, 1.0),
             ("current_A", Quantity::Current, 1.0),
         ] {
-            let (found, factor) = quantity_of(header).unwrap_or_else(|| panic!("{header}"));
+            let Meaning::Known(found, factor) = meaning_of(header) else { panic!("{header}") };
             assert_eq!(found, quantity, "{header}");
-            assert!((factor - si_per_unit).abs() < 1e-12, "{header}: {factor}");
+            assert!((factor / si_per_unit - 1.0).abs() < 1e-8, "{header}: {factor}");
         }
         for header in [
             "Time (s)",
@@ -155,8 +256,30 @@ mod tests {
             "Max acceleration (RPM/s)",
             "AccX (g)",
             "ESC signal (µs)",
+            "Specific thrust (g/W)",
+            "thrust_error_n",
+            "propeller mass (g)",
+            "Load cell 1 (g)",
+            "Motor Efficiency (%)",
+            "Propeller Mech. Efficiency (N/W)",
+            "90% settling time (s)",
         ] {
-            assert_eq!(quantity_of(header), None, "{header}");
+            assert_eq!(meaning_of(header), Meaning::Other, "{header}");
+        }
+    }
+    #[test]
+    fn units_that_are_not_known_are_not_guessed() {
+        for header in ["thrust", "Thrust (%)", "torque", "Torque (foo)", "lift_stone"] {
+            assert_eq!(meaning_of(header), Meaning::UnknownUnit, "{header}");
+        }
+    }
+
+    #[test]
+    fn a_comma_is_a_decimal_one_only_where_it_cannot_part_thousands() {
+        for (cell, expected) in
+            [("3,5", true), ("3610,343", true), ("-0,25", true), ("3,610", false), ("3610", false), ("a,b", false)]
+        {
+            assert_eq!(is_decimal_comma(cell), expected, "{cell}");
         }
     }
 }

@@ -43,6 +43,8 @@ pub struct StandRow {
     pub power_w: Option<f64>,
     /// Torque.
     pub torque_n_m: Option<f64>,
+    /// Voltage of the supply.
+    pub voltage_v: Option<f64>,
 }
 
 /// The rows that belong to one rotor.
@@ -109,16 +111,22 @@ pub enum TableError {
     NoRow,
 }
 
-/// Reads a table. Columns are known by their headers: a speed (rpm, rad/s, rev/s), a thrust (N, g, gf, kg, kgf, lbf) or a mass
-/// that hovers (kg, g), their standard uncertainties (the same with "std"), power, volts, amperes, torque. Columns of words
-/// make groups.
+/// Reads a table, parted by commas, semicolons or tabs. Columns are known by their headers: a speed (rpm, rad/s, rev/s), a thrust
+/// (N, mN, g, gf, kg, kgf, lbf, ozf) or a mass that hovers (kg, g), their standard uncertainties (the same with "std"), power,
+/// volts, amperes, torque (N m, or a force and a length). Columns of words make groups. A unit that is not known is never guessed.
+///
+/// A comma is a decimal one where a cell shows that it can be nothing else ("3,5").
 ///
 /// # Errors
 /// No header, no speed, no force, a cell that is no number, masses that are zero or negative, no usable row.
 pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let text = text.trim_start_matches('\u{feff}');
     let first_line = text.lines().next().unwrap_or_default();
-    let delimiter = if first_line.matches(';').count() > first_line.matches(',').count() { b';' } else { b',' };
+    // of equals the last
+    let delimiter = [b'\t', b';', b',']
+        .into_iter()
+        .max_by_key(|delimiter| first_line.bytes().filter(|byte| byte == delimiter).count())
+        .unwrap_or(b',');
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)
         .trim(csv::Trim::All)
@@ -141,7 +149,10 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
             rows.push((reader.group(record), row));
         }
     }
-    let mut notes = Vec::new();
+    let unit_missing = columns.iter().filter(|column| column.lacks_unit);
+    let mut notes: Vec<String> = unit_missing
+        .map(|column| format!("column \"{}\" is not used: it names no unit that is known", column.header))
+        .collect();
     turn_round(&mut rows, &mut notes);
     leave_out_resting(&mut rows, &mut notes);
     if rows.is_empty() {
@@ -220,6 +231,7 @@ impl RowReader<'_> {
             force_std: std(if is_mass { Quantity::MassStd } else { Quantity::ThrustStd })?,
             power_w,
             torque_n_m,
+            voltage_v: other(Quantity::Voltage),
         }))
     }
 

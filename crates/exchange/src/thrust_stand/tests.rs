@@ -64,3 +64,29 @@ fn a_thrust_against_the_others_is_left_out_and_said() {
     assert_eq!(thrusts(&table), [0.1, 0.9]);
     assert!(table.notes[0].contains("line 3"), "{:?}", table.notes);
 }
+
+#[test]
+fn semicolons_tabs_and_decimal_commas() {
+    for text in ["rpm;thrust_n\n1000;0,1\n2000;0,4\n", "rpm\tthrust_n\n1000\t0.1\n2000\t0.4\n"] {
+        assert_eq!(thrusts(&table_from_csv(text).unwrap()), [0.1, 0.4], "{text}");
+    }
+    // thousands, or a decimal comma with three places: nobody knows
+    let message = table_from_csv("rpm;thrust_n\n1,000;1\n").unwrap_err().to_string();
+    assert!(message.contains("\"1,000\" is no number"), "{message}");
+}
+
+#[test]
+fn a_torque_in_another_unit_is_converted_and_in_none_left_out() {
+    let table = table_from_csv("rpm,thrust_lbf,torque (lbf·in)\n3000,1,2\n").unwrap();
+    assert!((table.groups[0].rows[0].torque_n_m.unwrap() - 2.0 * 0.112_984_829).abs() < 1e-8);
+    let table = table_from_csv("rpm,thrust_n,torque\n3000,1,2\n").unwrap();
+    assert_eq!(table.groups[0].rows[0].torque_n_m, None);
+    assert!(table.notes[0].contains("\"torque\" is not used"), "{:?}", table.notes);
+}
+
+#[test]
+fn a_column_of_scatter_is_never_the_thrust() {
+    let table = table_from_csv("thrust_n_stddev,rpm,thrust_n\n0.02,1000,0.1\n0.02,2000,0.4\n").unwrap();
+    assert_eq!(table.force_column, "thrust_n");
+    assert_eq!(table.groups[0].rows[0].force_std, Some(0.02));
+}

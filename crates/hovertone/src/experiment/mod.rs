@@ -4,6 +4,9 @@
 mod resolve;
 #[cfg(test)]
 mod tests;
+mod vehicle_model;
+
+pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 
 use crate::config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig};
 use crate::error::ConfigError;
@@ -43,12 +46,15 @@ pub struct ExperimentFile {
     pub loads: Vec<LoadSection>,
 }
 
-/// What flew: a preset, or its numbers, which win over the preset's.
+/// What flew: a preset, a simulator's model, whose numbers win over the preset's, or its own numbers, which win over both.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VehicleSection {
     /// Name of a preset.
     pub preset: Option<String>,
+    /// Name of a simulator's model, from the folder of the experiment file: rotors, mass and diameter as far as it has them,
+    /// and a constant to be compared with what is heard.
+    pub model: Option<String>,
     /// Number of rotors.
     pub rotors: Option<u32>,
     /// Blades of each rotor.
@@ -148,6 +154,10 @@ pub struct Experiment {
     pub propeller_diameter_m: Option<f64>,
     /// Settings of the analysis, the same for all loads but for their spans.
     pub config: Config,
+    /// The simulator's model that is compared with what is heard, where one is named.
+    pub model: Option<VehicleModel>,
+    /// Whether the mass is that of a scale; a preset's or a model's is another specimen's.
+    pub is_weighed: bool,
     /// The air, where known.
     pub air: Option<Air>,
     /// How large the effects may be that no recording shows.
@@ -180,6 +190,7 @@ impl Experiment {
             propeller_diameter_m: self.propeller_diameter_m,
             air_density_kg_m3: self.air.map(|air| air.density_kg_m3()),
             clock_ppm: self.config.budget.clock_ppm,
+            is_weighed: self.is_weighed,
             uncertainty: self.uncertainty,
             ..ThrustSettings::for_rotors(self.rotor_count)
         }

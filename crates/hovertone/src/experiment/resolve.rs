@@ -1,12 +1,12 @@
 //! The experiment file, settled: preset and own numbers, gravity, the tone's order, each load's force.
 
-use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
+use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, VehicleModel};
 use crate::config::{Config, SpanConfig, ToneConfig};
 use crate::method::Method;
-use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, Gravity};
+use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, Gravity, PROPELLER_DIAMETER_M};
 use hovertone_vehicle::{Order, Vehicle, find_preset};
 
-/// A mass this many times off the preset's was written in grams, or is another vehicle's.
+/// A mass this many times off the preset's or the model's was written in grams, or is another vehicle's.
 const MASS_FACTOR_MAX: f64 = 10.0;
 /// Gravity is 9.764 m/s² on the highest equatorial mountain and 9.834 at the poles.
 const GRAVITY_M_S2_MIN: f64 = 9.70;
@@ -14,14 +14,57 @@ const GRAVITY_M_S2_MAX: f64 = 9.90;
 /// Standard uncertainty of a kitchen scale that shows whole grams.
 const MASS_STD_KG: f64 = 0.0005;
 
+/// What stands behind the file's own numbers.
+#[derive(Clone, Copy)]
+struct Known<'a> {
+    preset: Option<&'a Vehicle>,
+    model: Option<&'a VehicleModel>,
+}
+
+impl Known<'_> {
+    /// Rotors of the preset or of the model. A model may be a fragment with one rotor of several, so the two must agree.
+    fn rotor_count(&self) -> Result<Option<u32>, ExperimentError> {
+        let of_preset = self.preset.map(|preset| preset.rotor_count.value);
+        match (of_preset, self.model.and_then(|model| model.rotor_count)) {
+            (Some(of_preset), Some(of_model)) if of_preset != of_model => Err(ExperimentError::Contradiction {
+                what: format!("the preset has {of_preset} rotors, the model {of_model}"),
+                hint: "write vehicle.rotors",
+            }),
+            (of_preset, of_model) => Ok(of_preset.or(of_model)),
+        }
+    }
+
+    fn mass_kg(&self) -> Option<f64> {
+        let of_model = self.model.and_then(|model| model.mass_kg);
+        of_model.or_else(|| Some(self.preset?.mass_kg.as_ref()?.value))
+    }
+
+    fn propeller_diameter_m(&self) -> Option<f64> {
+        let of_model = self.model.and_then(|model| model.propeller_diameter_m);
+        of_model.or_else(|| Some(self.preset?.propeller_diameter_m.as_ref()?.value))
+    }
+}
+
 impl ExperimentFile {
-    /// Settles everything: preset and own numbers, gravity, the tone's order, each load's force.
-    pub fn resolve(&self) -> Result<Experiment, ExperimentError> {
+    /// Settles everything: preset, model and own numbers, gravity, the tone's order, each load's force. `model` is what stands in
+    /// the file that `vehicle.model` names.
+    ///
+    /// # Errors
+    /// What is missing, means nothing or contradicts itself.
+    pub fn resolve(&self, model: Option<VehicleModel>) -> Result<Experiment, ExperimentError> {
+        if self.vehicle.model.is_some() != model.is_some() {
+            return Err(missing("the vehicle's model", "give the file that vehicle.model names"));
+        }
+        model.as_ref().map_or(Ok(()), VehicleModel::check)?;
         let preset = match &self.vehicle.preset {
             Some(name) => Some(find_preset(name).ok_or_else(|| ExperimentError::UnknownPreset { name: name.clone() })?),
             None => None,
         };
-        let rotor_count = self.vehicle.rotors.or(preset.map(|preset| preset.rotor_count.value));
+        let known = Known { preset, model: model.as_ref() };
+        let rotor_count = match self.vehicle.rotors {
+            Some(rotor_count) => Some(rotor_count),
+            None => known.rotor_count()?,
+        };
         let rotor_count =
             rotor_count.ok_or_else(|| missing("the number of rotors", "write vehicle.rotors, or a vehicle.preset"))?;
         positive("vehicle.rotors", f64::from(rotor_count))?;
@@ -40,9 +83,12 @@ impl ExperimentFile {
         }
         self.check_names()?;
         let loads =
-            self.loads.iter().map(|load| self.resolve_load(load, preset, rotor_count)).collect::<Result<_, _>>()?;
+            self.loads.iter().map(|load| self.resolve_load(load, known, rotor_count)).collect::<Result<_, _>>()?;
         let own_diameter_m = self.vehicle.propeller_diameter_m;
-        own_diameter_m.map_or(Ok(0.0), |diameter_m| positive("vehicle.propeller_diameter_m", diameter_m))?;
+        if let Some(value) = own_diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
+            let name = "vehicle.propeller_diameter_m".to_owned();
+            return Err(ExperimentError::OutOfRange { name, value, must_be: "allowed 0.01 to 10: it is in metres" });
+        }
         // the place that gives gravity also gives the air's pressure, where no barometer was read
         let air = self.air.map(|air| Air { height_m: air.height_m.or(self.vehicle.height_m), ..air });
         if let Some(air) = air {
@@ -55,12 +101,13 @@ impl ExperimentFile {
         Ok(Experiment {
             vehicle_name: preset.map_or("own vehicle", |preset| preset.name).to_owned(),
             rotor_count,
-            propeller_diameter_m: own_diameter_m
-                .or_else(|| preset.and_then(|preset| Some(preset.propeller_diameter_m.as_ref()?.value))),
+            propeller_diameter_m: own_diameter_m.or_else(|| known.propeller_diameter_m()),
+            is_weighed: self.vehicle.mass_kg.is_some(),
             config,
             air,
             uncertainty: self.uncertainty,
             loads,
+            model,
         })
     }
 
@@ -90,7 +137,7 @@ impl ExperimentFile {
     fn resolve_load(
         &self,
         load: &LoadSection,
-        preset: Option<&Vehicle>,
+        known: Known<'_>,
         rotor_count: u32,
     ) -> Result<ExperimentLoad, ExperimentError> {
         let named = |field: &str| format!("{field} of load {:?}", load.name);
@@ -105,7 +152,7 @@ impl ExperimentFile {
                 thrust_n: positive(&named("thrust_n"), thrust_n)?,
                 thrust_std_n: not_negative(&named("thrust_std_n"), load.thrust_std_n.unwrap_or(self.scale_std_n()?))?,
             },
-            (None, added_mass_kg) => self.weight(added_mass_kg.unwrap_or(0.0), preset, &named)?,
+            (None, added_mass_kg) => self.weight(added_mass_kg.unwrap_or(0.0), known, &named)?,
         };
         let rotors_running = load.rotors_running.unwrap_or(rotor_count);
         if !(1..=rotor_count).contains(&rotors_running) {
@@ -113,6 +160,12 @@ impl ExperimentFile {
                 name: named("rotors_running"),
                 value: f64::from(rotors_running),
                 must_be: "must be at least 1 and no more than the vehicle has rotors",
+            });
+        }
+        if rotors_running != rotor_count && load.thrust_n.is_none() {
+            return Err(ExperimentError::Contradiction {
+                what: format!("load {:?} hovers with {rotors_running} of {rotor_count} rotors", load.name),
+                hint: "leave rotors_running out: it is for bench runs, which have a thrust_n",
             });
         }
         if load.recordings.is_empty() {
@@ -134,10 +187,10 @@ impl ExperimentFile {
     fn weight(
         &self,
         added_mass_kg: f64,
-        preset: Option<&Vehicle>,
+        known: Known<'_>,
         named: &dyn Fn(&str) -> String,
     ) -> Result<Force, ExperimentError> {
-        let mass_kg = self.vehicle.mass_kg.or_else(|| preset.and_then(|preset| Some(preset.mass_kg.as_ref()?.value)));
+        let mass_kg = self.vehicle.mass_kg.or_else(|| known.mass_kg());
         let mass_kg =
             mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
         let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
@@ -164,13 +217,13 @@ impl ExperimentFile {
             }
         };
         positive("vehicle.mass_kg", mass_kg)?;
-        if let Some(known_kg) = preset.and_then(|preset| Some(preset.mass_kg.as_ref()?.value))
+        if let Some(known_kg) = known.mass_kg()
             && !(known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&mass_kg)
         {
             return Err(ExperimentError::OutOfRange {
                 name: "vehicle.mass_kg".to_owned(),
                 value: mass_kg,
-                must_be: "is more than ten times off the preset's; masses are in kg",
+                must_be: "is more than ten times off the preset's or the model's; masses are in kg",
             });
         }
         positive(&named("total mass"), mass_kg + added_mass_kg)?;

@@ -24,7 +24,7 @@ recordings = ["small_hull/*.mov"]
 
 fn resolve(text: &str) -> Result<Experiment, String> {
     let file: ExperimentFile = toml::from_str(text).map_err(|error| error.to_string())?;
-    file.resolve().map_err(|error| error.to_string())
+    file.resolve(None).map_err(|error| error.to_string())
 }
 
 fn refusal(from: &str, to: &str) -> String {
@@ -100,6 +100,11 @@ fn what_means_nothing_is_refused_by_name() {
         ("added_mass_kg = 0.031", "added_mass_kg = 0.031\nthrust_n = 1.0", "thrust_n"),
         ("added_mass_kg = 0.031", "thrust_n = inf", "thrust_n"),
         ("added_mass_kg = 0.031", "rotors_running = 5", "rotors_running"),
+        ("added_mass_kg = 0.031", "rotors_running = 2", "hovers with 2 of 4 rotors"),
+        ("added_mass_kg = 0.031", "added_mass_kg = nan", "total mass"),
+        ("height_m = 650.0", "propeller_diameter_m = 254.0", "metres"),
+        ("height_m = 650.0", "propeller_diameter_m = nan", "propeller_diameter_m"),
+        ("height_m = 650.0", "model = \"iris.sdf\"", "vehicle.model"),
         ("added_mass_kg = 0.031", "from_s = 5.0\nto_s = 4.0", "span"),
         ("[\"small_hull/*.mov\"]", "[]", "recordings"),
         ("[tone]", "[air]\ntemperature_c = 298.0\npressure_hpa = 937.0\n[tone]", "temperature_c"),
@@ -117,4 +122,49 @@ fn what_means_nothing_is_refused_by_name() {
     assert!(
         resolve("[vehicle]\n[[load]]\nname = \"a\"\nrecordings = [\"a\"]\n").expect_err("no rotors").contains("rotors")
     );
+}
+
+fn model() -> VehicleModel {
+    VehicleModel {
+        file: "iris.sdf".to_owned(),
+        format: "gazebo".to_owned(),
+        rotor_count: Some(4),
+        mass_kg: Some(1.5),
+        propeller_diameter_m: Some(0.25),
+        thrust_constant_n_s2: 5.84e-6,
+        thrust_linear_n_s: 0.0,
+        thrust_offset_n: 0.0,
+    }
+}
+
+#[test]
+fn a_model_fills_what_the_file_leaves_out_and_wins_over_the_preset() {
+    let resolve = |text: &str, model: VehicleModel| {
+        let file: ExperimentFile = toml::from_str(text).expect("an experiment file");
+        file.resolve(Some(model))
+    };
+    let text = GOOD.replace("latitude_deg", "model = \"iris.sdf\"\nlatitude_deg");
+    let experiment = resolve(&text, model()).expect("a good file");
+    assert_eq!((experiment.rotor_count, experiment.propeller_diameter_m), (4, Some(0.25)));
+    assert_eq!(experiment.loads[0].force.mass_kg(), Some(1.5));
+    assert!(!experiment.is_weighed && !experiment.thrust_settings().is_weighed);
+    assert_eq!(experiment.config.tone.blades, Some(2), "what the model does not know is the preset's");
+    let own = text.replace("height_m", "mass_kg = 1.6\nrotors = 6\nheight_m");
+    let experiment = resolve(&own, model()).expect("a good file");
+    assert_eq!((experiment.rotor_count, experiment.loads[0].force.mass_kg()), (6, Some(1.6)));
+    assert!(experiment.is_weighed);
+    // a fragment with one rotor's plugin makes no quadrotor a monocopter
+    let fragment = VehicleModel { rotor_count: Some(1), ..model() };
+    let message = resolve(&text, fragment.clone()).expect_err("rotors").to_string();
+    assert!(message.contains("4 rotors, the model 1") && message.contains("vehicle.rotors"), "{message}");
+    assert_eq!(resolve(&own, fragment).expect("a good file").rotor_count, 6);
+    for (broken, said) in [
+        (VehicleModel { mass_kg: Some(f64::NAN), ..model() }, "mass_kg"),
+        (VehicleModel { mass_kg: Some(0.0), ..model() }, "mass_kg"),
+        (VehicleModel { propeller_diameter_m: Some(25.4), ..model() }, "propeller_diameter_m"),
+        (VehicleModel { rotor_count: Some(0), ..model() }, "rotors"),
+    ] {
+        let message = resolve(&text, broken).expect_err(said).to_string();
+        assert!(message.contains(said) && message.contains("iris.sdf"), "{message}");
+    }
 }

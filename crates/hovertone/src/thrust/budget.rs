@@ -303,7 +303,7 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
 /// How far the loudest of several rotors is from their mean: any of them can be it, at every load the same one.
 fn loudest_std_share(campaign: &Campaign<'_>, inputs: &UncertaintyInputs) -> f64 {
     let rotors = campaign.loads.iter().map(|load| load.load.rotors_running).max().unwrap_or(1);
-    inputs.rotor_spread_share * (1.0 - 1.0 / f64::from(rotors.max(1))).sqrt()
+    inputs.loudest_std_share(rotors)
 }
 
 fn of_flight(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &ThrustSettings) -> Vec<BudgetLine> {

@@ -1,15 +1,18 @@
-//! Whole campaigns, simulated as numbers: what is stated against the truth, and what bad input does.
+//! Whole campaigns, simulated as numbers: what is stated against the truth.
 
 use super::*;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal, Uniform};
 
-const TRUTH_N_S2: f64 = 2.83e-5;
-const GRAVITY_M_S2: f64 = 9.785;
-const VEHICLE_KG: f64 = 0.413;
+pub(super) const TRUTH_N_S2: f64 = 2.83e-5;
+pub(super) const GRAVITY_M_S2: f64 = 9.785;
+pub(super) const VEHICLE_KG: f64 = 0.413;
 const MASS_STD_KG: f64 = 0.0005;
 const GRAVITY_STD_M_S2: f64 = 0.0005;
+/// In each block …
 const CAMPAIGNS: u64 = 500;
+/// … of which each has seeds of its own, from here on.
+const SEEDS: [u64; 3] = [0, 10_000, 20_000];
 
 fn sample(rad_s: f64, std_share: f64) -> SampleSpeed {
     let speed = RotorSpeed::from_rad_s(rad_s);
@@ -22,7 +25,7 @@ fn sample(rad_s: f64, std_share: f64) -> SampleSpeed {
     }
 }
 
-fn weight(added_mass_kg: f64) -> Force {
+pub(super) fn weight(added_mass_kg: f64) -> Force {
     Force::Weight {
         vehicle_mass_kg: VEHICLE_KG,
         added_mass_kg,
@@ -32,7 +35,7 @@ fn weight(added_mass_kg: f64) -> Force {
     }
 }
 
-fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds {
+pub(super) fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds {
     let trial = |(index, rad_s): (usize, &f64)| TrialSpeeds {
         recording: format!("{name}/{index}.wav"),
         samples: vec![sample(*rad_s, 1e-5)],
@@ -47,7 +50,7 @@ fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds {
 }
 
 /// Hovers with exact speeds.
-fn exact_hovers(added_kg: &[f64], trials: usize) -> Vec<LoadSpeeds> {
+pub(super) fn exact_hovers(added_kg: &[f64], trials: usize) -> Vec<LoadSpeeds> {
     let speed = |added_kg: f64| ((VEHICLE_KG + added_kg) * GRAVITY_M_S2 / TRUTH_N_S2).sqrt();
     // 0.1 % apart, so that there is a scatter to measure
     let trials_of = |added_kg: f64| -> Vec<f64> {
@@ -58,7 +61,7 @@ fn exact_hovers(added_kg: &[f64], trials: usize) -> Vec<LoadSpeeds> {
     added_kg.iter().enumerate().map(named).collect()
 }
 
-fn fitted(loads: &[LoadSpeeds]) -> ThrustTable {
+pub(super) fn fitted(loads: &[LoadSpeeds]) -> ThrustTable {
     thrust_from_loads(loads, Method::Harmonic, &ThrustSettings::for_rotors(4))
 }
 
@@ -96,9 +99,16 @@ fn campaign(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usiz
 }
 
 /// How often the truth lies within U, and how often a load that is right is named as one that is not, or a trial left out.
-fn coverage_and_alarms(settings: &ThrustSettings, added_kg: &[f64], trials: usize, trial_std: f64) -> (f64, f64) {
+fn coverage_and_alarms(
+    seeds: std::ops::Range<u64>,
+    settings: &ThrustSettings,
+    added_kg: &[f64],
+    trials: usize,
+    trial_std: f64,
+) -> (f64, f64) {
     let (mut covered, mut alarms) = (0, 0);
-    for seed in 0..CAMPAIGNS {
+    let campaigns = seeds.end - seeds.start;
+    for seed in seeds {
         let table = campaign(seed, settings, added_kg, trials, trial_std);
         let error = table.thrust_constant_total_n_s2.unwrap().value - TRUTH_N_S2;
         covered += usize::from(error.abs() <= table.budget.unwrap().expanded_uncertainty_n_s2);
@@ -106,7 +116,7 @@ fn coverage_and_alarms(settings: &ThrustSettings, added_kg: &[f64], trials: usiz
         let left_out = table.warnings.iter().any(|warning| matches!(warning, Warning::TrialLeftOut { .. }));
         alarms += usize::from(named || left_out);
     }
-    (covered as f64 / CAMPAIGNS as f64, alarms as f64 / CAMPAIGNS as f64)
+    (covered as f64 / campaigns as f64, alarms as f64 / campaigns as f64)
 }
 
 /// The promise of k = 2: 93 to 97 %. The paper's campaign by a single ridge, then with every rotor told apart, where scatter
@@ -121,11 +131,78 @@ fn five_hundred_campaigns_are_covered_as_stated() {
         ("much scatter, few trials", &separated, &[0.0, 0.031, 0.049], 3, 0.01),
         ("five loads over a wide range", &separated, &[0.0, 0.1, 0.2, 0.3, 0.4], 4, 0.005),
     ] {
-        let (coverage, alarms) = coverage_and_alarms(settings, added_kg, trials, trial_std);
-        println!("{name}: {:.1} % covered, {:.1} % false alarms", 100.0 * coverage, 100.0 * alarms);
+        let blocks: Vec<(f64, f64)> = SEEDS
+            .map(|first| coverage_and_alarms(first..first + CAMPAIGNS, settings, added_kg, trials, trial_std))
+            .to_vec();
+        let of_all = |part: fn(&(f64, f64)) -> f64| blocks.iter().map(part).sum::<f64>() / blocks.len() as f64;
+        let (coverage, alarms) = (of_all(|block| block.0), of_all(|block| block.1));
+        println!(
+            "{name}: {:.1} % covered, {:.1} % false alarms, in blocks {blocks:.3?}",
+            100.0 * coverage,
+            100.0 * alarms
+        );
         assert!((0.93..=0.97).contains(&coverage), "{name}: {coverage}");
-        // one campaign in twenty is what the test promises; 500 show that to 1 %
-        assert!(alarms <= 0.08, "{name}: {alarms}");
+        // 500 campaigns show their coverage to 1 %: three times that beyond the promise, for each block
+        assert!(blocks.iter().all(|block| (0.92..=0.99).contains(&block.0)), "{name}: {blocks:?}");
+        // one campaign in twenty is what the test promises; 1500 show that to 0.6 %
+        assert!(alarms <= 0.07, "{name}: {alarms}");
+    }
+}
+
+/// The test of coverage can fail: stated uncertainties that are a quarter too small or too large are seen.
+#[test]
+fn coverage_would_show_wrong_uncertainties() {
+    let settings = ThrustSettings { follows_loudest: false, ..ThrustSettings::for_rotors(4) };
+    let ratios: Vec<f64> = (0..CAMPAIGNS)
+        .map(|seed| {
+            let table = campaign(seed, &settings, &[0.0, 0.031, 0.049], 5, 0.0025);
+            let error = table.thrust_constant_total_n_s2.unwrap().value - TRUTH_N_S2;
+            error.abs() / table.budget.unwrap().expanded_uncertainty_n_s2
+        })
+        .collect();
+    let covered_by = |factor: f64| ratios.iter().filter(|ratio| **ratio <= factor).count() as f64 / CAMPAIGNS as f64;
+    assert!(covered_by(0.75) < 0.93 && covered_by(1.25) > 0.97, "{} {}", covered_by(0.75), covered_by(1.25));
+}
+
+/// A plan, flown: speeds that wander as the plan says (an Ornstein-Uhlenbeck process, averaged over each trial), everything else
+/// by chance as in the budget. Half of the campaigns or more state no more than was wanted, and the truth lies within what was
+/// planned at least as often as k = 2 says.
+#[test]
+fn a_planned_campaign_reaches_the_wanted_uncertainty() {
+    for (wanted, gust_s) in [(0.008, 0.3), (0.005, 0.3), (0.01, 1.0)] {
+        let wish = PlanWish {
+            expanded_share: wanted,
+            vehicle_mass_kg: VEHICLE_KG,
+            added_mass_kg_max: 0.1,
+            mass_std_kg: MASS_STD_KG,
+            gravity_m_s2: GRAVITY_M_S2,
+            gravity_std_m_s2: GRAVITY_STD_M_S2,
+            speed_spread_share: 0.0123,
+            correlation_time_s: gust_s,
+            settings: ThrustSettings { follows_loudest: false, ..ThrustSettings::for_rotors(4) },
+        };
+        let plan = flight_plan(&wish).unwrap();
+        let added_kg: Vec<f64> =
+            (0..plan.load_count).map(|load| 0.1 * load as f64 / (plan.load_count as f64 - 1.0)).collect();
+        // variance of the mean of such a process: 2 σ² τ/T (1 − τ/T (1 − e^{−T/τ}))
+        let ratio = gust_s / plan.trial_s;
+        let trial_std = 0.0123 * (2.0 * ratio * (1.0 - ratio * (1.0 - (-1.0 / ratio).exp()))).sqrt();
+        let flown: Vec<(f64, f64)> = (0..CAMPAIGNS)
+            .map(|seed| {
+                let table = campaign(seed, &wish.settings, &added_kg, plan.trials_per_load, trial_std);
+                let error_share = table.thrust_constant_total_n_s2.unwrap().value / TRUTH_N_S2 - 1.0;
+                (error_share.abs(), table.budget.unwrap().expanded_share)
+            })
+            .collect();
+        let count =
+            |is: &dyn Fn(&(f64, f64)) -> bool| flown.iter().filter(|of| is(of)).count() as f64 / CAMPAIGNS as f64;
+        let stated = count(&|(_, expanded)| *expanded <= wanted);
+        let reached = count(&|(error, _)| *error <= plan.expanded_share);
+        println!("{plan:?}: {stated:.3} state no more than {wanted}, {reached:.3} are within what was planned");
+        // 500 campaigns show a half to 2.2 %; three times that
+        assert!(stated >= 0.5 - 0.067, "{plan:?}: {stated}");
+        // more than 95 %: a plan reckons with a scatter that nine trials know only roughly
+        assert!(reached >= 0.93, "{plan:?}: {reached}");
     }
 }
 
@@ -206,132 +283,4 @@ fn drawing_trials_anew_agrees_with_the_budget() {
     assert!((drawn.std_uncertainty_n_s2 / by_budget - 1.0).abs() < 0.1, "{drawn:?} {by_budget}");
     assert!(drawn.low_n_s2 < drawn.high_n_s2 && drawn.draws == 2000);
     assert_eq!(fitted(&exact_hovers(&[0.0, 0.05], 1)).bootstrap, None);
-}
-
-#[test]
-fn an_outlier_of_three_hundred_per_cent_is_named_and_left_out() {
-    // a trial heard at half its speed: C four times too large
-    let mut loads = exact_hovers(&[0.0, 0.05, 0.2], 4);
-    let half = RotorSpeed::from_rad_s(loads[1].trials[2].samples[0].speed.rad_s() / 2.0);
-    loads[1].trials[2].samples[0].speed = half;
-    let table = fitted(&loads);
-    let error = table.thrust_constant_total_n_s2.unwrap().value / TRUTH_N_S2 - 1.0;
-    assert!(error.abs() < 2e-3, "{error}");
-    assert!(
-        table
-            .warnings
-            .iter()
-            .any(|warning| matches!(warning, Warning::TrialLeftOut { recording, .. } if recording == "load 1/2.wav"))
-    );
-    // a load written in the wrong unit
-    let mut loads = exact_hovers(&[0.0, 0.05, 0.2, 0.1], 4);
-    loads[3].force = weight(4.0 * (VEHICLE_KG + 0.1) - VEHICLE_KG);
-    let table = fitted(&loads);
-    let error = table.thrust_constant_total_n_s2.unwrap().value / TRUTH_N_S2 - 1.0;
-    assert!(error.abs() < 2e-3, "{error}");
-    let row = &table.loads[3];
-    assert_eq!(row.fits, Some(false));
-    assert!((row.mass_that_fits_kg.unwrap() - (VEHICLE_KG + 0.1)).abs() < 2e-3, "{row:?}");
-    assert!(table.warnings.iter().any(|warning| matches!(warning, Warning::LoadDoesNotFit { is_left_out: true, .. })));
-    assert!(table.loads[..3].iter().all(|row| row.fits == Some(true)));
-}
-
-#[test]
-fn loads_that_show_nothing_of_the_law_say_so() {
-    let one = fitted(&exact_hovers(&[0.0], 3));
-    assert!(one.warnings.contains(&Warning::SingleLoad) && one.loads[0].fits.is_none());
-    assert!(one.thrust_constant_total_n_s2.unwrap().std_uncertainty.is_some());
-    let equal = fitted(&exact_hovers(&[0.0, 0.0, 0.0], 3));
-    assert!(equal.warnings.contains(&Warning::EqualLoads { count: 3 }), "{:?}", equal.warnings);
-    let mut mixed = exact_hovers(&[0.0, 0.05], 3);
-    mixed[1].force = Force::Thrust { thrust_n: mixed[1].force.newtons() / 4.0, thrust_std_n: 0.005 };
-    mixed[1].rotors_running = 1;
-    let mixed = fitted(&mixed);
-    assert!(mixed.warnings.contains(&Warning::MixedBenchAndHover));
-    assert!((mixed.thrust_constant_total_n_s2.unwrap().value / TRUTH_N_S2 - 1.0).abs() < 2e-3);
-    // the paper's range, and trials that scatter by 0.63 %
-    let mut hovers = exact_hovers(&[0.0, 0.031, 0.049], 5);
-    for load in &mut hovers {
-        let middle = load.trials[2].samples[0].speed.rad_s();
-        for sample in load.trials.iter_mut().flat_map(|trial| &mut trial.samples) {
-            sample.speed = RotorSpeed::from_rad_s(middle + 4.0 * (sample.speed.rad_s() - middle));
-        }
-    }
-    let narrow = fitted(&hovers);
-    let range = narrow.fit.unwrap().range.unwrap();
-    assert!((range.force_ratio - 1.119).abs() < 1e-3 && !range.shows_intercept, "{range:?}");
-    assert!(range.force_ratio_needed.is_some_and(|ratio| ratio > 1.2), "{range:?}");
-    assert!(narrow.warnings.iter().any(|warning| matches!(warning, Warning::NarrowLoadRange(_))));
-}
-
-#[test]
-fn a_drift_of_the_battery_is_seen_and_chance_is_not() {
-    let mut loads = exact_hovers(&[0.0, 0.05, 0.2], 5);
-    let drifting = fitted(&loads);
-    // the trials of exact_hovers grow by 0.1 % each
-    let drift = drifting.drifts.first().expect("a drift");
-    assert_eq!(drift.kind, DriftKind::PerTrial);
-    assert!((drift.constant_share / -2e-3 - 1.0).abs() < 1e-2, "{drift:?}");
-    for load in &mut loads {
-        // in an order that goes neither up nor down
-        load.trials = [3, 0, 2, 4, 1].map(|place| load.trials[place].clone()).to_vec();
-    }
-    assert!(fitted(&loads).drifts.is_empty());
-}
-
-#[test]
-fn a_power_law_is_seen_over_a_wide_range() {
-    let added_kg = [0.0, 0.1, 0.2, 0.3, 0.4];
-    let mut loads = exact_hovers(&added_kg, 5);
-    for load in &mut loads {
-        // F ~ ω^2.3 through the lightest load
-        let stretch = (load.force.newtons() / weight(0.0).newtons()).powf(1.0 / 2.3 - 0.5);
-        for sample in load.trials.iter_mut().flat_map(|trial| &mut trial.samples) {
-            sample.speed = RotorSpeed::from_rad_s(sample.speed.rad_s() * stretch);
-        }
-    }
-    let fit = fitted(&loads).fit.unwrap();
-    assert!((fit.power_law.unwrap().exponent.value - 2.3).abs() < 0.01, "{:?}", fit.power_law);
-    assert_ne!(fit.preferred, ForceLaw::Square);
-    let sum: f64 = fit.laws.iter().map(|law| law.probability).sum();
-    assert!((sum - 1.0).abs() < 1e-12 && fit.laws.len() == 3);
-    let square = fitted(&exact_hovers(&added_kg, 5)).fit.unwrap();
-    assert_eq!(square.preferred, ForceLaw::Square);
-}
-
-#[test]
-fn loads_without_any_uncertainty_have_that_of_their_scatter() {
-    let mut loads = exact_hovers(&[0.0, 0.05, 0.2, 0.1], 1);
-    for (load, offset) in loads.iter_mut().zip([1.0, -1.0, -1.0, 1.0]) {
-        if let Force::Weight { mass_std_kg, .. } = &mut load.force {
-            *mass_std_kg = 0.0;
-        }
-        for sample in load.trials.iter_mut().flat_map(|trial| &mut trial.samples) {
-            sample.std_uncertainty_rev_s = None;
-            sample.speed = RotorSpeed::from_rad_s(sample.speed.rad_s() * (1.0 + 0.002 * offset));
-        }
-    }
-    let table = fitted(&loads);
-    let total = table.thrust_constant_total_n_s2.unwrap();
-    // four constants 0.4 % off either way: their mean is known to about 0.4 %·√(4/3)/√4
-    let expected = 0.004 * (4.0f64 / 3.0).sqrt() / 2.0;
-    assert!((total.std_uncertainty.unwrap() / total.value / expected - 1.0).abs() < 0.1, "{total:?}");
-    assert!(table.budget.unwrap().lines.iter().any(|line| line.input == BudgetInput::LoadScatter));
-}
-
-#[test]
-fn points_that_mean_nothing_are_refused_by_number() {
-    let good = ForcePoint {
-        name: "a".to_owned(),
-        speed_square_rad2_s2: 1e5,
-        speed_square_std_rad2_s2: 1e2,
-        force_n: 1.0,
-        force_std_n: 0.01,
-    };
-    for (force_n, speed_square) in [(0.0, 1e5), (-1.0, 1e5), (f64::NAN, 1e5), (1.0, 0.0), (1.0, f64::INFINITY)] {
-        let bad = ForcePoint { force_n, speed_square_rad2_s2: speed_square, ..good.clone() };
-        let refusal = square_law_fit(&[good.clone(), bad], PointNoise::Stated);
-        assert_eq!(refusal.unwrap_err(), crate::FitError::UnusablePoint { number: 2 });
-    }
-    assert!(square_law_fit(&[], PointNoise::Stated).is_err());
 }

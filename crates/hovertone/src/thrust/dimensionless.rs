@@ -6,6 +6,12 @@ use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
+/// Diameters that propellers of multirotors have, with room on both sides: D⁴ makes a wrong unit a wrong everything.
+pub const PROPELLER_DIAMETER_M: std::ops::RangeInclusive<f64> = 0.01..=10.0;
+/// Figures of merit that are believed. The best rotors of helicopters reach 0.8, and momentum theory allows no 1; the smallest
+/// brushed motors, whose electrical power is taken, have 0.15.
+const FIGURE_OF_MERIT: std::ops::RangeInclusive<f64> = 0.05..=0.85;
+
 /// The thrust constant of one rotor without its dimension, in both conventions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThrustCoefficients {
@@ -41,6 +47,11 @@ pub fn figure_of_merit(thrust_n: f64, power_w: f64, propeller_diameter_m: f64, d
     thrust_n * (thrust_n / (2.0 * density_kg_m3 * area_m2)).sqrt() / power_w
 }
 
+/// Whether a rotor can have that figure of merit: from 0.05 to 0.85.
+pub fn is_plausible_merit(figure_of_merit: f64) -> bool {
+    FIGURE_OF_MERIT.contains(&figure_of_merit)
+}
+
 /// Torque of one rotor over its squared speed, N m/(rad/s)²: least squares through the origin over pairs of speed and torque,
 /// whose sign is the direction of the rotor and left out. `None` without pairs.
 pub fn torque_constant_n_m_s2(pairs: &[(RotorSpeed, f64)]) -> Option<f64> {
@@ -73,5 +84,8 @@ mod tests {
         // PHYSICS, section 8: 11.44 W for a quarter of 0.429 kg with D = 0.2 m and ρ = 1.2 is 0.34
         let merit = figure_of_merit(0.429 * 9.8 / 4.0, 11.44, 0.2, 1.2);
         assert!((merit - 0.34).abs() < 0.005, "{merit}");
+        assert!(is_plausible_merit(merit));
+        // a rotor's thrust with the power of all four, and milliwatts for watts
+        assert!(!is_plausible_merit(merit / 8.0) && !is_plausible_merit(merit * 1e3) && !is_plausible_merit(f64::NAN));
     }
 }

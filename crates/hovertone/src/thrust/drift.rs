@@ -2,9 +2,9 @@
 //! height, draught, another loudest rotor, or a load that shifts.
 
 use super::load_points::Campaign;
+use super::point_verdict::two_sided_chance;
 use crate::statistics::{mean, std};
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Chance of calling chance a drift: two are looked for in every experiment, so rarer than other tests.
 const FALSE_ALARM_CHANCE: f64 = 0.01;
@@ -22,6 +22,10 @@ pub enum DriftKind {
     PerTrial,
     /// Within the trials, for each second.
     PerSecond,
+    /// From one row of a table to the next.
+    PerRow,
+    /// With the voltage of the supply, for each volt.
+    PerVolt,
 }
 
 /// A change of the constant that is not chance.
@@ -101,11 +105,11 @@ fn slope_of(points: &[(f64, f64)]) -> Option<f64> {
 
 /// The constant goes with the inverse square of the speed.
 fn judged(kind: DriftKind, speed_slope: f64, speed_slope_std: f64, freedom: f64) -> Option<Drift> {
-    let student = StudentsT::new(0.0, 1.0, freedom).ok()?;
+    let is_judged = speed_slope_std > 0.0;
     Some(Drift {
         kind,
         constant_share: -2.0 * speed_slope,
         std_uncertainty_share: 2.0 * speed_slope_std,
-        p_value: if speed_slope_std > 0.0 { 2.0 * student.sf((speed_slope / speed_slope_std).abs()) } else { 1.0 },
+        p_value: if is_judged { two_sided_chance(speed_slope / speed_slope_std, Some(freedom))? } else { 1.0 },
     })
 }

@@ -2,14 +2,15 @@
 
 use super::bootstrap::trial_bootstrap;
 use super::budget::budget_of_fit;
-use super::dimensionless::{ThrustCoefficients, figure_of_merit};
+use super::dimensionless::{ThrustCoefficients, figure_of_merit, is_plausible_merit};
 use super::drift::drifts;
 use super::load_points::{Campaign, HeardLoad, whole_vehicle_factor};
-use super::point_verdict::PointVerdict;
+use super::load_range::LoadRange;
+use super::point_verdict::{PointVerdict, are_split};
 use super::square_law::{ForceLaw, ForcePoint, SquareLawFit, square_law_fit};
 use super::{
-    LoadSpeeds, LoadThrust, SampleThrust, ThrustSettings, ThrustTable, TrialSpeeds, TrialThrust, UncertaintyBudget,
-    thrust_constant_n_s2,
+    Force, LoadSpeeds, LoadThrust, SampleThrust, ThrustSettings, ThrustTable, TrialSpeeds, TrialThrust,
+    UncertaintyBudget, thrust_constant_n_s2,
 };
 use crate::method::Method;
 use crate::statistics::{mean, std};
@@ -55,6 +56,12 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
             .filter(|coefficients| !coefficients.is_plausible)
             .map(|coefficients| Warning::ImplausibleThrustCoefficient { propeller: coefficients.propeller }),
     );
+    warnings.extend(implausible_merits(&rows));
+    let mass_kg = campaign.loads.iter().find_map(|load| match load.load.force {
+        Force::Weight { vehicle_mass_kg, .. } => Some(vehicle_mass_kg),
+        Force::Thrust { .. } => None,
+    });
+    warnings.extend(mass_kg.filter(|_| !settings.is_weighed).map(|mass_kg| Warning::MassNotWeighed { mass_kg }));
     if settings.follows_loudest && loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
         warnings.push(Warning::LoudestRotor);
     }
@@ -72,6 +79,14 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
         drifts,
         warnings,
     }
+}
+
+fn implausible_merits(rows: &[LoadThrust]) -> Vec<Warning> {
+    let of = |row: &LoadThrust| {
+        let figure_of_merit = row.figure_of_merit.filter(|merit| !is_plausible_merit(*merit))?;
+        Some(Warning::ImplausibleFigureOfMerit { name: row.name.clone(), figure_of_merit })
+    };
+    rows.iter().filter_map(of).collect()
 }
 
 fn answer(fit: &SquareLawFit, budget: &UncertaintyBudget, trials: usize) -> Estimate {
@@ -222,20 +237,31 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
     if kinds(true) && kinds(false) {
         warnings.push(Warning::MixedBenchAndHover);
     }
-    warnings.extend(fit.map(|fit| range_warnings(&campaign.points, fit)).unwrap_or_default());
+    let are_split = campaign.are_split || are_split_points(&campaign.points);
+    warnings.extend(fit.map(|fit| range_warnings(&campaign.points, fit, are_split)).unwrap_or_default());
     warnings
 }
 
-/// That loads are too few or too much alike, or ask for another law.
-fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit) -> Vec<Warning> {
+fn are_split_points(points: &[ForcePoint]) -> bool {
+    are_split(&points.iter().map(ForcePoint::thrust_constant_n_s2).collect::<Vec<_>>())
+}
+
+/// That loads contradict each other, are too few or too much alike, or ask for another law.
+fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) -> Vec<Warning> {
     let forces = || points.iter().map(|point| point.force_n);
     let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
-    if points.len() == 1 {
+    if are_split {
+        // no range of loads and no law makes that good
+        vec![Warning::ConstantsSplit]
+    } else if points.len() == 1 {
         vec![Warning::SingleLoad]
     } else if most / least - 1.0 < EQUAL_FORCES_SHARE {
         vec![Warning::EqualLoads { count: points.len() }]
     } else {
-        let narrow = fit.range.filter(|range| !range.shows_intercept).map(Warning::NarrowLoadRange);
+        let is_too_narrow = |range: &LoadRange| {
+            !range.shows_intercept && range.force_ratio_needed.is_none_or(|needed| needed > range.force_ratio)
+        };
+        let narrow = fit.range.filter(is_too_narrow).map(Warning::NarrowLoadRange);
         narrow.into_iter().chain(law_warning(fit)).collect()
     }
 }
@@ -263,7 +289,7 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
             .filter(|warning| !matches!(warning, Warning::RowsDoNotFit { names, .. } if names.is_empty()))
             .collect()
     };
-    warnings.extend(range_warnings(points, fit));
+    warnings.extend(range_warnings(points, fit, are_split_points(points)));
     warnings
 }
 

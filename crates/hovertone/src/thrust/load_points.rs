@@ -1,6 +1,6 @@
 //! Loads and their trials → points of force and squared speed with what is uncertain about each.
 
-use super::point_verdict::{CONSTANTS_FOR_GROSS, is_off_by_a_factor};
+use super::point_verdict::{CONSTANTS_FOR_GROSS, are_split, is_off_by_a_factor};
 use super::square_law::{ForcePoint, PointNoise};
 use super::{Force, LoadSpeeds, TrialSpeeds};
 use crate::statistics::{mean, median};
@@ -11,6 +11,8 @@ use hovertone_vehicle::RotorSpeed;
 pub(super) const FREEDOM_OF_FRAMES: f64 = 20.0;
 /// Degrees of freedom from which the scatter of the trials tells their uncertainty better than the frames do.
 const FREEDOM_OF_TRIALS_MIN: usize = 4;
+/// Degrees of freedom from which Student's distribution is the normal one, and F is chi-square: p differs by less than 1e-5.
+const FREEDOM_KNOWN: f64 = 1e5;
 /// A load in which a rotor was heard.
 pub(super) struct HeardLoad<'a> {
     /// Its place among all loads.
@@ -39,12 +41,22 @@ pub(super) struct Campaign<'a> {
     pub(super) speed_freedom: f64,
     /// Trials that are off by a factor: load and recording.
     pub(super) gross_trials: Vec<(String, String)>,
+    /// Half of the trials or more are off by a factor from the others.
+    pub(super) are_split: bool,
+}
+
+/// Which trials are off by a factor.
+struct GrossTrials {
+    /// For each load, each of its trials.
+    by_load: Vec<Vec<bool>>,
+    /// So many that nobody knows which of them.
+    are_split: bool,
 }
 
 impl<'a> Campaign<'a> {
     /// Trial means are what counts: the samples of a trial overlap and share a flight.
     pub(super) fn of(loads: &'a [LoadSpeeds], rotor_count: u32) -> Self {
-        let gross = gross_trials(loads, rotor_count);
+        let GrossTrials { by_load: gross, are_split } = gross_trials(loads, rotor_count);
         let mut heard: Vec<HeardLoad<'a>> = loads
             .iter()
             .enumerate()
@@ -61,11 +73,14 @@ impl<'a> Campaign<'a> {
             let named = load.trials.iter().zip(gross).filter(|(_, gross)| **gross);
             named.map(|(trial, _)| (load.name.clone(), trial.recording.clone()))
         });
+        // where the scatter hardly counts beside what is stated, its degrees of freedom are as good as infinite
+        let is_known = degrees_of_freedom > FREEDOM_KNOWN;
         Self {
             points,
-            noise: PointNoise::Measured { degrees_of_freedom },
+            noise: if is_known { PointNoise::Stated } else { PointNoise::Measured { degrees_of_freedom } },
             speed_freedom,
             gross_trials: names.collect(),
+            are_split,
             loads: heard,
         }
     }
@@ -108,8 +123,9 @@ fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
     mean(&trial.samples.iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
 }
 
-/// For each load, which of its trials are off by a factor. A load all of whose trials are is judged as a load.
-fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> Vec<Vec<bool>> {
+/// For each load, which of its trials are off by a factor. A load all of whose trials are is judged as a load; where half of
+/// all trials are, nobody knows which half, and none is left out.
+fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> GrossTrials {
     let constants: Vec<Vec<Option<f64>>> = loads
         .iter()
         .map(|load| {
@@ -118,19 +134,18 @@ fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> Vec<Vec<bool>> {
         })
         .collect();
     let known: Vec<f64> = constants.iter().flatten().flatten().copied().collect();
-    let middle = median(&known).filter(|_| known.len() >= CONSTANTS_FOR_GROSS);
+    let are_split = are_split(&known);
+    let middle = median(&known).filter(|_| known.len() >= CONSTANTS_FOR_GROSS && !are_split);
     let is_gross = |constant: &Option<f64>| match (constant, middle) {
         (Some(constant), Some(middle)) => is_off_by_a_factor(*constant, middle),
         _ => false,
     };
-    constants
-        .iter()
-        .map(|trials| {
-            let gross: Vec<bool> = trials.iter().map(is_gross).collect();
-            let has_sound_one = trials.iter().zip(&gross).any(|(constant, gross)| constant.is_some() && !gross);
-            if has_sound_one { gross } else { vec![false; trials.len()] }
-        })
-        .collect()
+    let of_load = |trials: &Vec<Option<f64>>| {
+        let gross: Vec<bool> = trials.iter().map(is_gross).collect();
+        let has_sound_one = trials.iter().zip(&gross).any(|(constant, gross)| constant.is_some() && !gross);
+        if has_sound_one { gross } else { vec![false; trials.len()] }
+    };
+    GrossTrials { by_load: constants.iter().map(of_load).collect(), are_split }
 }
 
 fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &[bool]) -> Option<HeardLoad<'a>> {

@@ -14,7 +14,10 @@ mod load_points;
 mod load_range;
 mod plan;
 mod point_verdict;
+mod row_drift;
 mod square_law;
+#[cfg(test)]
+mod suspicious_tests;
 #[cfg(test)]
 mod tests;
 mod uncertainty_inputs;
@@ -24,18 +27,21 @@ pub use air::Air;
 pub use balance::{GRAVITY_STANDARD_M_S2, Gravity, gravity_m_s2, thrust_constant_n_s2};
 pub use bootstrap::TrialBootstrap;
 pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget};
-pub use dimensionless::{ThrustCoefficients, figure_of_merit, torque_constant_n_m_s2};
+pub use dimensionless::{
+    PROPELLER_DIAMETER_M, ThrustCoefficients, figure_of_merit, is_plausible_merit, torque_constant_n_m_s2,
+};
 pub use drift::{Drift, DriftKind};
 pub use fit::{thrust_from_loads, warnings_of_points};
 pub use load_range::LoadRange;
 pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
 pub use point_verdict::PointVerdict;
+pub use row_drift::row_drifts;
 pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, PointNoise, PowerLaw, SquareLawFit,
     square_law_fit,
 };
 pub use uncertainty_inputs::UncertaintyInputs;
-pub use weighing::{HeardHover, WeighedHover, weighed_hover};
+pub use weighing::{AcousticScale, HeardHover, WeighedHover};
 
 use crate::budget_config::BudgetConfig;
 use crate::method::Method;
@@ -115,6 +121,8 @@ pub struct ThrustSettings {
     pub clock_ppm: f64,
     /// Whether the speeds are those of a single ridge, which follows the loudest rotor.
     pub follows_loudest: bool,
+    /// Whether somebody weighed the vehicle: a preset's or a model's mass is that of another specimen.
+    pub is_weighed: bool,
     /// How large the effects may be that nobody measured.
     pub uncertainty: UncertaintyInputs,
 }
@@ -128,6 +136,7 @@ impl ThrustSettings {
             air_density_kg_m3: None,
             clock_ppm: BudgetConfig::default().clock_ppm,
             follows_loudest: true,
+            is_weighed: true,
             uncertainty: UncertaintyInputs::default(),
         }
     }

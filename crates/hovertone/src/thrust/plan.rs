@@ -2,7 +2,9 @@
 //! to be expected, fitted like a real one, so that plan and budget cannot disagree.
 
 use super::load_range::force_ratio_for_intercept;
-use super::{BudgetInput, Force, LoadSpeeds, SampleSpeed, ThrustSettings, TrialSpeeds, thrust_from_loads};
+use super::{
+    BudgetInput, Force, LoadSpeeds, PROPELLER_DIAMETER_M, SampleSpeed, ThrustSettings, TrialSpeeds, thrust_from_loads,
+};
 use crate::method::Method;
 use crate::span::Span;
 use hovertone_vehicle::RotorSpeed;
@@ -65,12 +67,14 @@ pub struct FlightPlan {
 #[non_exhaustive]
 pub enum PlanError {
     /// Masses or shares that mean nothing.
-    #[error("{name} = {value} means nothing here, it must be a number above 0")]
+    #[error("{name} = {value} means nothing here, it must be {must_be}")]
     OutOfRange {
         /// Which.
         name: &'static str,
         /// What was given.
         value: f64,
+        /// What is allowed.
+        must_be: &'static str,
     },
     /// More flying does not help.
     #[error(
@@ -99,8 +103,16 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         ("correlation_time_s", wish.correlation_time_s),
     ] {
         if !(value.is_finite() && value > 0.0) {
-            return Err(PlanError::OutOfRange { name, value });
+            return Err(PlanError::OutOfRange { name, value, must_be: "a number above 0" });
         }
+    }
+    for (name, value) in [("mass_std_kg", wish.mass_std_kg), ("gravity_std_m_s2", wish.gravity_std_m_s2)] {
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(PlanError::OutOfRange { name, value, must_be: "0 or more" });
+        }
+    }
+    if let Some(value) = wish.settings.propeller_diameter_m.filter(|value| !PROPELLER_DIAMETER_M.contains(value)) {
+        return Err(PlanError::OutOfRange { name: "propeller_diameter_m", value, must_be: "from 0.01 to 10" });
     }
     let mut plans: Vec<FlightPlan> = Vec::new();
     for load_count in LOADS {
@@ -114,8 +126,14 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         Some(plan) => Ok(*plan),
         None => {
             let best = plans.iter().min_by(|a, b| a.expanded_share.total_cmp(&b.expanded_share));
-            Err(best.map_or(PlanError::OutOfRange { name: "expanded_share", value: wish.expanded_share }, |best| {
-                PlanError::OutOfReach { best_share: best.expanded_share, largest: best.largest }
+            let nothing = PlanError::OutOfRange {
+                name: "expanded_share",
+                value: wish.expanded_share,
+                must_be: "within what floats hold",
+            };
+            Err(best.map_or(nothing, |best| PlanError::OutOfReach {
+                best_share: best.expanded_share,
+                largest: best.largest,
             }))
         }
     }
@@ -210,6 +228,12 @@ mod tests {
         assert_eq!(largest, BudgetInput::LoudestRotor);
         assert!((best_share - 0.02).abs() < 0.002, "{best_share}");
         assert!(matches!(flight_plan(&wish(0.0)), Err(PlanError::OutOfRange { .. })));
-        assert!(flight_plan(&PlanWish { vehicle_mass_kg: f64::NAN, ..wish(0.01) }).is_err());
+        let refused = |wish: PlanWish| matches!(flight_plan(&wish), Err(PlanError::OutOfRange { .. }));
+        assert!(refused(PlanWish { vehicle_mass_kg: f64::NAN, ..wish(0.01) }));
+        assert!(refused(PlanWish { mass_std_kg: f64::NAN, ..wish(0.01) }));
+        assert!(refused(PlanWish { mass_std_kg: -0.1, ..wish(0.01) }));
+        assert!(refused(PlanWish { gravity_std_m_s2: f64::INFINITY, ..wish(0.01) }));
+        let diameter = ThrustSettings { propeller_diameter_m: Some(254.0), ..wish(0.01).settings };
+        assert!(refused(PlanWish { settings: diameter, ..wish(0.01) }));
     }
 }

@@ -42,11 +42,16 @@ pub(super) fn is_off_by_a_factor(constant_n_s2: f64, middle_n_s2: f64) -> bool {
 /// Points whose own constant is off by a factor from the median.
 pub(super) fn gross_points(points: &[ForcePoint]) -> Vec<bool> {
     let constants: Vec<f64> = points.iter().map(ForcePoint::thrust_constant_n_s2).collect();
-    let middle = median(&constants).filter(|_| points.len() >= CONSTANTS_FOR_GROSS);
+    let middle = median(&constants).filter(|_| points.len() >= CONSTANTS_FOR_GROSS && !are_split(&constants));
     let is_gross = |constant: &f64| middle.is_some_and(|middle| is_off_by_a_factor(*constant, middle));
-    let gross: Vec<bool> = constants.iter().map(is_gross).collect();
-    // where half of them are, nobody knows which half
-    if 2 * gross.iter().filter(|gross| **gross).count() < points.len() { gross } else { vec![false; points.len()] }
+    constants.iter().map(is_gross).collect()
+}
+
+/// Whether half of the constants or more are off by a factor from the others: nobody knows which half.
+pub(super) fn are_split(constants_n_s2: &[f64]) -> bool {
+    let Some(middle) = median(constants_n_s2) else { return false };
+    let off = constants_n_s2.iter().filter(|constant| is_off_by_a_factor(**constant, middle)).count();
+    off > 0 && 2 * off >= constants_n_s2.len()
 }
 
 /// Judges every point against those that are kept. As long as they disagree together, the one that deviates most is named
@@ -114,13 +119,11 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     let expected_n = fit.slope * own.speed_square_rad2_s2;
     let slope_std = fit.slope_std * factor.unwrap_or(f64::INFINITY);
     let expected_std_n = (slope_std * own.speed_square_rad2_s2).hypot(fit.slope * speed_std);
-    let stds = (own.force_n - expected_n) / expected_std_n.hypot(force_std_n);
-    let two_sided = |tail: f64| (2.0 * tail).min(1.0);
-    let student = |freedom: f64| Some(two_sided(StudentsT::new(0.0, 1.0, freedom).ok()?.sf(stds.abs())));
+    let stds = stds_of(own.force_n - expected_n, expected_std_n.hypot(force_std_n));
     let p_value = match noise {
-        PointNoise::Stated => Normal::new(0.0, 1.0).ok().map(|normal| two_sided(normal.sf(stds.abs()))),
-        PointNoise::Measured { degrees_of_freedom } => student(degrees_of_freedom),
-        PointNoise::FromResiduals => student(fit.agreement.degrees_of_freedom as f64),
+        PointNoise::Stated => two_sided_chance(stds, None),
+        PointNoise::Measured { degrees_of_freedom } => two_sided_chance(stds, Some(degrees_of_freedom)),
+        PointNoise::FromResiduals => two_sided_chance(stds, Some(fit.agreement.degrees_of_freedom as f64)),
     };
     Some(Against {
         constant_n_s2: fit.slope,
@@ -128,8 +131,25 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
         expected_std_n: if expected_std_n.is_finite() { expected_std_n } else { 0.0 },
         deviation_share: own.force_n / expected_n - 1.0,
         stds,
-        p_value: p_value.filter(|p_value| p_value.is_finite()),
+        p_value,
     })
+}
+
+/// A deviation in standard uncertainties. Points that agree to the last digit have none of either: they do not deviate.
+fn stds_of(deviation: f64, std: f64) -> f64 {
+    if deviation == 0.0 { 0.0 } else { deviation / std }
+}
+
+/// Chance of a deviation at least so large either way: normal, or Student's where the uncertainty has degrees of freedom.
+/// `None` without any.
+pub(super) fn two_sided_chance(stds: f64, degrees_of_freedom: Option<f64>) -> Option<f64> {
+    let tail = match degrees_of_freedom {
+        // the library's tails take no infinity
+        _ if stds.is_infinite() => 0.0,
+        None => Normal::new(0.0, 1.0).ok()?.sf(stds.abs()),
+        Some(freedom) => StudentsT::new(0.0, 1.0, freedom).ok()?.sf(stds.abs()),
+    };
+    Some((2.0 * tail).min(1.0)).filter(|chance| chance.is_finite())
 }
 
 /// Whether points disagree with one law together. Where nobody states uncertainties the largest deviation among so many

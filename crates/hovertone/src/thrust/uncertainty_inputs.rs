@@ -43,6 +43,11 @@ impl Default for UncertaintyInputs {
 }
 
 impl UncertaintyInputs {
+    /// How far the loudest of so many rotors is from their mean: any of them can be it.
+    pub fn loudest_std_share(&self, rotor_count: u32) -> f64 {
+        self.rotor_spread_share * (1.0 - 1.0 / f64::from(rotor_count.max(1))).sqrt()
+    }
+
     /// What is wrong with it, by name, value and limit.
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("scale_share_max", self.scale_share_max, 0.0, 0.1)?;
