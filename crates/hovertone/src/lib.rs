@@ -11,6 +11,8 @@ mod error;
 mod experiment;
 mod harmonic;
 mod hover;
+mod labels;
+mod labels_config;
 mod method;
 mod pipeline;
 mod regression;
@@ -37,6 +39,10 @@ pub use experiment::{
     Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, ToneSection, VehicleSection,
 };
 pub use hover::{Cut, CutReason, Hover};
+pub use labels::{
+    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorLabel, RotorLabels, labels_from_log,
+};
+pub use labels_config::LabelsConfig;
 pub use method::Method;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
 pub use regression::{

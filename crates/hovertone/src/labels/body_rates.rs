@@ -1,0 +1,110 @@
+//! What rotors do to the body: their thrusts and torques, integrated, are its rates.
+
+use super::evidence::{Evidence, Regression, log_sum_exp};
+use super::rows::{HeardRows, LogRows};
+use super::whitening::{WALKS_PER_S, Whitening, dot, without};
+use hovertone_vehicle::RotorPlace;
+
+/// Body rates of a log, and the levers of the rotors.
+pub(super) struct BodyRates<'a> {
+    rows: &'a LogRows,
+    /// `levers[axis][rotor]`: how a rotor's square turns the body about an axis, but for a gain of the axis.
+    levers: [Vec<f64>; 3],
+}
+
+/// One axis, made white with one noise: what every assignment's regression is put together of.
+struct AxisProducts {
+    rate_square: f64,
+    /// Products of each track's integral with the rate and with each other's.
+    with_rate: Vec<f64>,
+    with_tracks: Vec<Vec<f64>>,
+    degrees: f64,
+    /// Logarithm of the likelihood of the rate without any track.
+    log_null: f64,
+}
+
+impl<'a> BodyRates<'a> {
+    pub(super) fn new(rows: &'a LogRows, places: &[RotorPlace]) -> Self {
+        // a thrust at (x, y) turns the body by (y, −x), and the air holds a rotor back against its turning
+        let levers = [
+            places.iter().map(|place| place.y_m).collect(),
+            places.iter().map(|place| -place.x_m).collect(),
+            places.iter().map(|place| -place.spin).collect(),
+        ];
+        Self { rows, levers }
+    }
+
+    fn products(&self, axis: usize, heard: &HeardRows) -> Vec<AxisProducts> {
+        WALKS_PER_S
+            .iter()
+            .map(|&walk_per_s| {
+                let whitening = Whitening::new(heard, walk_per_s);
+                // a steady torque that no rotor shows: a wind, a mass off the centre
+                let trend = whitening.whitened(heard.time_s.iter().copied());
+                let mut rate = whitening.whitened(heard.rows.iter().map(|&row| self.rows.series[axis][row]));
+                without(&trend, &mut rate);
+                let tracks: Vec<Vec<f64>> = heard
+                    .points
+                    .iter()
+                    .map(|points| {
+                        let mut track = whitening.whitened(points.iter().map(|point| point.excess_rad2_s));
+                        without(&trend, &mut track);
+                        track
+                    })
+                    .collect();
+                let degrees = rate.len() as f64 - 1.0;
+                let rate_square = dot(&rate, &rate);
+                let log_null = -(whitening.log_determinant
+                    + dot(&trend, &trend).max(f64::MIN_POSITIVE).ln()
+                    + degrees * rate_square.max(f64::MIN_POSITIVE).ln())
+                    / 2.0;
+                AxisProducts {
+                    rate_square,
+                    with_rate: tracks.iter().map(|track| dot(track, &rate)).collect(),
+                    with_tracks: tracks.iter().map(|a| tracks.iter().map(|b| dot(a, b)).collect()).collect(),
+                    degrees,
+                    log_null,
+                }
+            })
+            .collect()
+    }
+}
+
+impl AxisProducts {
+    fn regression(&self, levers: &[f64], assignment: &[usize]) -> Regression {
+        let lever = |track: usize| levers[assignment[track]];
+        let tracks = || 0..assignment.len();
+        Regression {
+            xy: tracks().map(|track| lever(track) * self.with_rate[track]).sum(),
+            xx: tracks()
+                .map(|a| lever(a) * tracks().map(|b| lever(b) * self.with_tracks[a][b]).sum::<f64>())
+                .sum::<f64>(),
+            yy: self.rate_square,
+            degrees: self.degrees,
+        }
+    }
+}
+
+impl Evidence for BodyRates<'_> {
+    fn log_ratios(&self, heard: &HeardRows, assignments: &[Vec<usize>]) -> Vec<f64> {
+        let mut ratios = vec![0.0; assignments.len()];
+        if heard.len() < heard.run_count() + 3 {
+            return ratios;
+        }
+        for (axis, levers) in self.levers.iter().enumerate() {
+            let products = self.products(axis, heard);
+            let log_null = log_sum_exp(products.iter().map(|noise| noise.log_null));
+            for (ratio, assignment) in ratios.iter_mut().zip(assignments) {
+                let with_tracks = products.iter().map(|noise| {
+                    let regression = noise.regression(levers, assignment);
+                    // propellers may all turn the other way round than is usual
+                    let is_yaw = axis == 2;
+                    noise.log_null
+                        + if is_yaw { regression.log_factor() } else { regression.log_factor_of_positive() }
+                });
+                *ratio += log_sum_exp(with_tracks) - log_null;
+            }
+        }
+        ratios
+    }
+}
