@@ -40,7 +40,8 @@ pub use experiment::{
 };
 pub use hover::{Cut, CutReason, Hover};
 pub use labels::{
-    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorLabel, RotorLabels, labels_from_log,
+    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorLabel, RotorLabels,
+    labels_from_log,
 };
 pub use labels_config::LabelsConfig;
 pub use method::Method;

@@ -134,6 +134,24 @@ impl Flown {
         Ok((FlightLog::new(log_s, signals).map_err(|error| error.to_string())?, offset_s))
     }
 
+    pub(super) fn wander(&self) -> (f64, f64, f64) {
+        let n = self.states.len() as f64;
+        let mean: Vec<f64> = (0..4).map(|k| self.states.iter().map(|s| s.speed_rad_s[k]).sum::<f64>() / n).collect();
+        let all = mean.iter().sum::<f64>() / 4.0;
+        let code = |signs: [f64; 4]| {
+            (self
+                .states
+                .iter()
+                .map(|s| ((0..4).map(|k| signs[k] * (s.speed_rad_s[k] - mean[k])).sum::<f64>() / 4.0 / all).powi(2))
+                .sum::<f64>()
+                / n)
+                .sqrt()
+                * 100.0
+        };
+        let rate = (self.states.iter().map(|s| s.rates_rad_s[0].powi(2)).sum::<f64>() / n).sqrt();
+        (code([1., 1., -1., -1.]), code([-1., 1., 1., -1.]), rate)
+    }
+
     /// The mean speed of each rotor over the flight.
     pub(super) fn mean_rev_s(&self) -> [f64; 4] {
         std::array::from_fn(|rotor| {

@@ -114,7 +114,9 @@ impl NotTold {
             Self::TooManyRotors { .. } => "they keep their numbers by speed",
             Self::TooFewTracks { .. } => "a nearer microphone and higher harmonics tell more rotors apart",
             Self::TooManyOffsets { .. } => "narrow them with --log-offset-s LOW:HIGH",
-            Self::NoOverlap => "give the log of the same flight, and limits with --log-offset-s LOW:HIGH that hold its offset",
+            Self::NoOverlap => {
+                "give the log of the same flight, and limits with --log-offset-s LOW:HIGH that hold its offset"
+            }
             Self::NothingInCommon { .. } => {
                 "check that the log is of the same flight, that --log-offset-s holds its offset, and how its axes point"
             }

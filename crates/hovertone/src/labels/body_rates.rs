@@ -2,7 +2,7 @@
 
 use super::evidence::{Evidence, Regression, log_sum_exp};
 use super::rows::{HeardRows, LogRows};
-use super::whitening::{WALKS_PER_S, Whitening, dot, without};
+use super::whitening::{DRIFTS, Nuisances, Whitening, dot, mean_of};
 use hovertone_vehicle::RotorPlace;
 
 /// Body rates of a log, and the levers of the rotors.
@@ -35,27 +35,25 @@ impl<'a> BodyRates<'a> {
     }
 
     fn products(&self, axis: usize, heard: &HeardRows) -> Vec<AxisProducts> {
-        WALKS_PER_S
+        DRIFTS
             .iter()
-            .map(|&walk_per_s| {
-                let whitening = Whitening::new(heard, walk_per_s);
-                // a steady torque that no rotor shows: a wind, a mass off the centre
-                let trend = whitening.whitened(heard.time_s.iter().copied());
-                let mut rate = whitening.whitened(heard.rows.iter().map(|&row| self.rows.series[axis][row]));
-                without(&trend, &mut rate);
-                let tracks: Vec<Vec<f64>> = heard
+            .map(|&drift| {
+                let whitening = Whitening::new(heard, drift);
+                let white: Vec<Vec<f64>> = heard
                     .points
                     .iter()
-                    .map(|points| {
-                        let mut track = whitening.whitened(points.iter().map(|point| point.excess_rad2_s));
-                        without(&trend, &mut track);
-                        track
-                    })
+                    .map(|points| whitening.whitened(points.iter().map(|point| point.excess_rad2_s)))
                     .collect();
-                let degrees = rate.len() as f64 - 1.0;
+                // a steady torque that no rotor shows, a wind; and what all rotors do together, which turns a body whose centre of
+                // mass is not in the middle, or whose rotors are not alike
+                let nuisances = Nuisances::of([whitening.whitened(heard.time_s.iter().copied()), mean_of(&white)]);
+                let rate = whitening.whitened(heard.rows.iter().map(|&row| self.rows.series[axis][row]));
+                let degrees = rate.len() as f64 - nuisances.count() as f64;
+                let rate = nuisances.removed_from(rate);
+                let tracks: Vec<Vec<f64>> = white.into_iter().map(|track| nuisances.removed_from(track)).collect();
                 let rate_square = dot(&rate, &rate);
                 let log_null = -(whitening.log_determinant
-                    + dot(&trend, &trend).max(f64::MIN_POSITIVE).ln()
+                    + nuisances.log_determinant
                     + degrees * rate_square.max(f64::MIN_POSITIVE).ln())
                     / 2.0;
                 AxisProducts {
@@ -99,8 +97,7 @@ impl Evidence for BodyRates<'_> {
                     let regression = noise.regression(levers, assignment);
                     // propellers may all turn the other way round than is usual
                     let is_yaw = axis == 2;
-                    noise.log_null
-                        + if is_yaw { regression.log_factor() } else { regression.log_factor_of_positive() }
+                    noise.log_null + if is_yaw { regression.log_factor() } else { regression.log_factor_of_positive() }
                 });
                 *ratio += log_sum_exp(with_tracks) - log_null;
             }

@@ -56,7 +56,11 @@ fn log_twice_normal(t: f64) -> f64 {
 /// ln Σ exp, without overflow.
 pub(super) fn log_sum_exp(logarithms: impl Iterator<Item = f64> + Clone) -> f64 {
     let largest = logarithms.clone().fold(f64::NEG_INFINITY, f64::max);
-    if largest.is_finite() { largest + logarithms.map(|value| (value - largest).exp()).sum::<f64>().ln() } else { largest }
+    if largest.is_finite() {
+        largest + logarithms.map(|value| (value - largest).exp()).sum::<f64>().ln()
+    } else {
+        largest
+    }
 }
 
 #[cfg(test)]

@@ -84,7 +84,11 @@ pub fn labels_from_log(
     for &offset_s in &offsets {
         let heard = rows.heard_at(offset_s, &curves, hover);
         let is_enough = heard.len() >= config.rows_min;
-        posterior.add(offset_s, is_enough.then(|| evidence.log_ratios(&heard, &assignments)));
+        let believed = || {
+            let ratios = evidence.log_ratios(&heard, &assignments);
+            ratios.into_iter().map(|ratio| config.evidence_share * ratio).collect()
+        };
+        posterior.add(offset_s, is_enough.then(believed));
     }
     posterior.labels(source, &names, config)
 }

@@ -3,13 +3,13 @@
 use super::evidence::{Evidence, Regression, log_sum_exp};
 use super::log::MotorSignal;
 use super::rows::{HeardRows, LogRows};
-use super::whitening::{WALKS_PER_S, Whitening, dot};
+use super::whitening::{DRIFTS, Nuisances, Whitening, dot, mean_of};
 use crate::labels_config::LabelsConfig;
 use crate::statistics::mean;
 
 /// Time constants of a motor behind its command that are integrated over: from none, through the AR.Drone's 0.03 s, to large
 /// propellers' (PHYSICS section 8; the step responses of thrust stands).
-const LAGS_S: [f64; 4] = [0.0, 0.03, 0.08, 0.2];
+const LAGS_S: [f64; 3] = [0.0, 0.03, 0.08];
 /// Rotors of real quadrotors spread over 13 to 22 % from slowest to fastest (PHYSICS section 4): this is their standard deviation
 /// where the log says nothing of them.
 const UNRELATED_STD_SHARE: f64 = 0.06;
@@ -42,28 +42,32 @@ impl<'a> Motors<'a> {
 
     fn products(&self, heard: &HeardRows) -> Vec<Products> {
         let tracks = heard.points.len() as f64;
-        let means: Vec<f64> = (0..heard.len())
-            .map(|row| heard.points.iter().map(|points| points[row].speed_rad_s).sum::<f64>() / tracks)
-            .collect();
-        let noises = WALKS_PER_S.iter().flat_map(|&walk_per_s| {
-            let whitening = Whitening::new(heard, walk_per_s);
-            let speeds: Vec<Vec<f64>> = heard
+        let noises = DRIFTS.iter().flat_map(|&drift| {
+            let whitening = Whitening::new(heard, drift);
+            let mut speeds: Vec<Vec<f64>> = heard
                 .points
                 .iter()
-                .map(|points| {
-                    whitening.whitened(points.iter().zip(&means).map(|(point, mean)| point.speed_rad_s - mean))
-                })
+                .map(|points| whitening.whitened(points.iter().map(|point| point.speed_rad_s)))
                 .collect();
-            let tracks_square: f64 = speeds.iter().map(|speed| dot(speed, speed)).sum();
-            let degrees = (tracks - 1.0) * (heard.len() - heard.run_count()) as f64;
-            let log_null = -((tracks - 1.0) * whitening.log_determinant
-                + degrees * tracks_square.max(f64::MIN_POSITIVE).ln())
-                / 2.0;
+            let together = mean_of(&speeds);
+            for speed in &mut speeds {
+                speed.iter_mut().zip(&together).for_each(|(speed, together)| *speed -= together);
+            }
+            let time = whitening.whitened(heard.time_s.iter().copied());
             let of_lag = |lagged: &Vec<Vec<f64>>| {
-                let motors: Vec<Vec<f64>> = lagged
-                    .iter()
-                    .map(|motor| whitening.whitened(heard.rows.iter().map(|&row| motor[row])))
-                    .collect();
+                let motors: Vec<Vec<f64>> =
+                    lagged.iter().map(|motor| whitening.whitened(heard.rows.iter().map(|&row| motor[row]))).collect();
+                // batteries run down and motors warm up, each in its way, and no two answer alike to what all are told
+                let nuisances = Nuisances::of([time.clone(), together.clone(), mean_of(&motors)]);
+                let removed = |series: &[Vec<f64>]| -> Vec<Vec<f64>> {
+                    series.iter().map(|values| nuisances.removed_from(values.clone())).collect()
+                };
+                let (speeds, motors) = (removed(&speeds), removed(&motors));
+                let tracks_square: f64 = speeds.iter().map(|speed| dot(speed, speed)).sum();
+                let degrees = (tracks - 1.0) * (time.len() as f64 - nuisances.count() as f64);
+                let log_null = -((tracks - 1.0) * (whitening.log_determinant + nuisances.log_determinant)
+                    + degrees * tracks_square.max(f64::MIN_POSITIVE).ln())
+                    / 2.0;
                 Products {
                     with_motors: speeds.iter().map(|y| motors.iter().map(|x| dot(y, x)).collect()).collect(),
                     motors: motors.iter().map(|a| motors.iter().map(|b| dot(a, b)).collect()).collect(),
@@ -108,8 +112,7 @@ impl Products {
     fn regression(&self, assignment: &[usize]) -> Regression {
         let count = assignment.len() as f64;
         let own: f64 = assignment.iter().map(|&motor| self.motors[motor][motor]).sum();
-        let all: f64 =
-            assignment.iter().map(|&a| assignment.iter().map(|&b| self.motors[a][b]).sum::<f64>()).sum();
+        let all: f64 = assignment.iter().map(|&a| assignment.iter().map(|&b| self.motors[a][b]).sum::<f64>()).sum();
         Regression {
             xy: assignment.iter().enumerate().map(|(track, &motor)| self.with_motors[track][motor]).sum(),
             // of the motors less the mean of those that have a track
@@ -130,9 +133,8 @@ impl Evidence for Motors<'_> {
         assignments
             .iter()
             .map(|assignment| {
-                let moving = products
-                    .iter()
-                    .map(|noise| noise.log_null + noise.regression(assignment).log_factor_of_positive());
+                let moving =
+                    products.iter().map(|noise| noise.log_null + noise.regression(assignment).log_factor_of_positive());
                 let of_levels =
                     self.level_std_share.map_or(0.0, |share| self.log_ratio_of_levels(share, heard, assignment));
                 log_sum_exp(moving) - log_null + of_levels

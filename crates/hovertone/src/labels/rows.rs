@@ -74,12 +74,8 @@ impl LogRows {
     /// What the curves say at the rows' times.
     pub(super) fn heard_at(&self, offset_s: f64, curves: &[SpeedCurve], hover: Span) -> HeardRows {
         let from = self.time_s.partition_point(|time_s| time_s + offset_s < hover.from_s);
-        let mut heard = HeardRows {
-            rows: Vec::new(),
-            time_s: Vec::new(),
-            run: Vec::new(),
-            points: vec![Vec::new(); curves.len()],
-        };
+        let mut heard =
+            HeardRows { rows: Vec::new(), time_s: Vec::new(), run: Vec::new(), points: vec![Vec::new(); curves.len()] };
         let mut before: Option<Vec<usize>> = None;
         for row in from..self.time_s.len() {
             let time_s = self.time_s[row] + offset_s;
@@ -89,8 +85,7 @@ impl LogRows {
             let Some(points) = curves.iter().map(|curve| curve.at(time_s)).collect::<Option<Vec<CurvePoint>>>() else {
                 continue;
             };
-            let place: Vec<usize> =
-                points.iter().map(|point| point.stretch).chain([self.stretch[row]]).collect();
+            let place: Vec<usize> = points.iter().map(|point| point.stretch).chain([self.stretch[row]]).collect();
             let run = match (&before, heard.run.last()) {
                 (Some(before), Some(&run)) => run + usize::from(*before != place),
                 _ => 0,
