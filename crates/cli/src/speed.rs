@@ -3,6 +3,7 @@
 use crate::args::{SpeedArguments, ToneArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::files_of;
+use crate::labels::{LabelPlan, label};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, hear_all};
 use crate::terminal::Terminal;
@@ -18,14 +19,18 @@ struct Plan {
     jobs: Vec<Job>,
     hearing: Hearing,
     track: Option<PathBuf>,
+    labels: Option<LabelPlan>,
 }
 
 /// Hears all files and prints their speeds.
 pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
     let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
-    let records = hear_all(&plan.jobs, plan.hearing, &progress);
+    let mut records = hear_all(&plan.jobs, plan.hearing, &progress);
     progress.finish();
+    if let Some(labels) = &plan.labels {
+        records.iter_mut().for_each(|record| label(record, labels));
+    }
     if arguments.json {
         for record in &records {
             terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;
@@ -61,7 +66,9 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
         wants_hash: arguments.json,
         wants_samples: false,
     };
-    Ok(Plan { jobs, hearing, track: arguments.track.clone() })
+    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let labels = crate::labels::resolve(&arguments.log, vehicle, (jobs.len(), config.rotors.count))?;
+    Ok(Plan { jobs, hearing, track: arguments.track.clone(), labels })
 }
 
 /// One job for each file, all alike.
