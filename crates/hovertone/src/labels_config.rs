@@ -25,6 +25,8 @@ pub struct LabelsConfig {
     /// How well measured speeds of motors agree with those heard, against each other, as a share of the speed: telemetry of ESCs
     /// comes in steps of 10 to 100 electrical turns per minute, 0.1 to 0.3 %.
     pub speed_level_std_share: f64,
+    /// Standard deviation of what the offset of a log of commands takes over from the motors' delay: they answer within 0.02 to 0.2 s.
+    pub command_delay_std_s: f64,
     /// Power of the likelihood that is believed: no noise is as the models have it, and what they leave out looks like evidence. On
     /// simulated hovers in which next to nothing moves, the full likelihood is sure of wrong labels in 5 % of flights.
     pub evidence_share: f64,
@@ -43,6 +45,7 @@ impl Default for LabelsConfig {
             row_s: 0.04,
             rows_min: 20,
             speed_level_std_share: 0.003,
+            command_delay_std_s: 0.05,
             evidence_share: 0.5,
             probability_min: 0.99,
         }
@@ -59,6 +62,7 @@ impl LabelsConfig {
         check_range("overlap_share_min", self.overlap_share_min, 0.01, 1.0)?;
         check_range("row_s", self.row_s, 0.001, 1.0)?;
         check_range("speed_level_std_share", self.speed_level_std_share, 1e-6, 0.1)?;
+        check_range("command_delay_std_s", self.command_delay_std_s, 0.0, 1.0)?;
         check_range("evidence_share", self.evidence_share, 0.01, 1.0)?;
         check_range("probability_min", self.probability_min, 0.5, 1.0)
     }

@@ -29,7 +29,7 @@ const ESC_STEP_RAD_S: f64 = 0.5;
 pub(super) struct Flown {
     file: ScenarioFile,
     states: Vec<FlightState>,
-    pub(super) channels: Vec<Vec<f32>>,
+    channels: Vec<Vec<f32>>,
     random: Pcg64,
 }
 
@@ -134,39 +134,23 @@ impl Flown {
         Ok((FlightLog::new(log_s, signals).map_err(|error| error.to_string())?, offset_s))
     }
 
-    pub(super) fn wander(&self) -> (f64, f64, f64) {
-        let n = self.states.len() as f64;
-        let mean: Vec<f64> = (0..4).map(|k| self.states.iter().map(|s| s.speed_rad_s[k]).sum::<f64>() / n).collect();
-        let all = mean.iter().sum::<f64>() / 4.0;
-        let code = |signs: [f64; 4]| {
-            (self
-                .states
-                .iter()
-                .map(|s| ((0..4).map(|k| signs[k] * (s.speed_rad_s[k] - mean[k])).sum::<f64>() / 4.0 / all).powi(2))
-                .sum::<f64>()
-                / n)
-                .sqrt()
-                * 100.0
-        };
-        let rate = (self.states.iter().map(|s| s.rates_rad_s[0].powi(2)).sum::<f64>() / n).sqrt();
-        (code([1., 1., -1., -1.]), code([-1., 1., 1., -1.]), rate)
-    }
-
-    /// The mean speed of each rotor over the flight.
-    pub(super) fn mean_rev_s(&self) -> [f64; 4] {
-        std::array::from_fn(|rotor| {
-            self.states.iter().map(|state| state.speed_rad_s[rotor] / TAU).sum::<f64>() / self.states.len() as f64
-        })
-    }
-
     fn at(&self, time_s: f64) -> FlightState {
         let place = (time_s * TRUTH_HZ).round() as usize;
         self.states[place.min(self.states.len() - 1)]
     }
 
-    /// Speed of a rotor.
-    pub(super) fn speed_rev_s(&self, rotor: usize, time_s: f64) -> f64 {
-        self.at(time_s).speed_rad_s[rotor] / TAU
+    /// What the first microphone heard, and its rate.
+    pub(super) fn sound(&self) -> Option<(Vec<f32>, f64)> {
+        Some((self.channels.first()?.clone(), f64::from(self.file.sound.sample_rate_hz)))
+    }
+
+    /// Which rotor a track is nearest to, on the average.
+    pub(super) fn rotor_of(&self, track: &[TrackPoint]) -> usize {
+        let off = |rotor: usize| -> f64 {
+            let errors = track.iter().map(|point| point.speed_rev_s - self.at(point.time_s).speed_rad_s[rotor] / TAU);
+            errors.map(|error| error * error).sum()
+        };
+        (0..4).min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(0)
     }
 }
 

@@ -79,7 +79,8 @@ impl<'a> Posterior<'a> {
         let offset_s = weighed.iter().map(|(at_s, weight)| at_s * weight).sum::<f64>() / weights;
         let variance = weighed.iter().map(|(at_s, weight)| weight * (at_s - offset_s).powi(2)).sum::<f64>() / weights;
         // within a step of the offset any place is as good
-        let offset_std_s = (variance + config.offset_step_s.powi(2) / 12.0).sqrt();
+        let delay_std_s = if source == LabelSource::MotorCommands { config.command_delay_std_s } else { 0.0 };
+        let offset_std_s = (variance + config.offset_step_s.powi(2) / 12.0).sqrt().hypot(delay_std_s);
         let edge_s = LIMIT_STEPS * config.offset_step_s;
         let best_s = self.offsets.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(offset_s, |best| best.0);
         let is_range = self.limits_s.1 - self.limits_s.0 > 2.0 * edge_s;

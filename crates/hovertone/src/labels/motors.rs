@@ -10,6 +10,8 @@ use crate::statistics::mean;
 /// Time constants of a motor behind its command that are integrated over: from none, through the AR.Drone's 0.03 s, to large
 /// propellers' (PHYSICS section 8; the step responses of thrust stands).
 const LAGS_S: [f64; 3] = [0.0, 0.03, 0.08];
+/// A measured speed is that of the moment; what its filter delays is the clock's.
+const NO_LAG_S: [f64; 1] = [0.0];
 /// Rotors of real quadrotors spread over 13 to 22 % from slowest to fastest (PHYSICS section 4): this is their standard deviation
 /// where the log says nothing of them.
 const UNRELATED_STD_SHARE: f64 = 0.06;
@@ -35,7 +37,14 @@ struct Products {
 
 impl<'a> Motors<'a> {
     pub(super) fn new(rows: &'a LogRows, signal: MotorSignal, config: &LabelsConfig) -> Self {
-        let lagged = LAGS_S.map(|lag_s| rows.series.iter().map(|series| behind(lag_s, rows, series)).collect()).into();
+        let lags_s: &[f64] = match signal {
+            MotorSignal::Command => &LAGS_S,
+            MotorSignal::Speed => &NO_LAG_S,
+        };
+        let lagged = lags_s
+            .iter()
+            .map(|&lag_s| rows.series.iter().map(|series| behind(lag_s, rows, series)).collect())
+            .collect();
         let level_std_share = (signal == MotorSignal::Speed).then_some(config.speed_level_std_share);
         Self { rows, lagged, level_std_share }
     }
