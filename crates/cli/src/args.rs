@@ -213,6 +213,9 @@ pub(crate) struct AnalysisArguments {
     /// How far the recorder's clock may be off, in millionths [default: 50]
     #[arg(long, value_name = "PPM", allow_negative_numbers = true)]
     pub(crate) clock_ppm: Option<f64>,
+    /// Show the lines of each rotor's shaft against its blade pass: imbalance, unlike blades (not diagnosed)
+    #[arg(long)]
+    pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
     #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
     pub(crate) radial_speed_m_s_max: Option<f64>,

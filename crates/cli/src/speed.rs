@@ -10,7 +10,7 @@ use crate::terminal::Terminal;
 use crate::tones::discovery_of;
 use crate::vehicles::preset;
 use hovertone::{Config, Discovery, Method, ToneConfig};
-use hovertone_report::{SpeedRecord, speed_json, speed_table, track_csv};
+use hovertone_report::{SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use hovertone_vehicle::Order;
 use std::path::PathBuf;
 
@@ -37,6 +37,9 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         }
     } else {
         terminal.data(&speed_table(&records))?;
+        if let Some(table) = condition_table(&records) {
+            terminal.data(&format!("\n{table}"))?;
+        }
     }
     terminal.flush()?;
     terminal.notes(&records.iter().collect::<Vec<_>>());
@@ -104,6 +107,7 @@ fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), 
         arguments.tone.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
     config.rotors.count = arguments.known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
     config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
+    config.rotors.wants_condition = analysis.condition;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.span.from_s = analysis.from;

@@ -20,7 +20,7 @@ pub struct LabelsConfig {
     pub overlap_share_min: f64,
     /// A faster log is averaged to rows of this length: tracks have a point every 0.04 s, and know nothing between.
     pub row_s: f64,
-    /// Fewer rows than this say nothing: two seconds of a slow log at 10 Hz.
+    /// Fewer rows than this say nothing: three seconds of a slow log at 3 Hz.
     pub rows_min: usize,
     /// How well measured speeds of motors agree with those heard, against each other, as a share of the speed: telemetry of ESCs
     /// comes in steps of 10 to 100 electrical turns per minute, 0.1 to 0.3 %.
@@ -43,7 +43,7 @@ impl Default for LabelsConfig {
             offsets_max: 180_000,
             overlap_share_min: 0.5,
             row_s: 0.04,
-            rows_min: 20,
+            rows_min: 10,
             speed_level_std_share: 0.003,
             command_delay_std_s: 0.05,
             evidence_share: 0.5,

@@ -4,6 +4,7 @@
 
 mod budget_config;
 mod channel;
+mod condition;
 mod config;
 mod discovery;
 mod discovery_config;
@@ -31,6 +32,7 @@ mod verdict;
 mod warning;
 
 pub use budget_config::BudgetConfig;
+pub use condition::{RotorCondition, ShaftLine};
 pub use config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
 pub use discovery::{Discovery, FoundSpeed, tones_from_source};
 pub use discovery_config::{DiscoveryConfig, KnownRotor};

@@ -7,8 +7,8 @@ use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
 use hovertone::{
-    Config, Hover, LabelSource, Method, Reading, RotorEstimate, RotorLabel, Span, SpeedEstimate, TrackPoint,
-    UncertaintyTerm,
+    Config, Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, ShaftLine, Span,
+    SpeedEstimate, TrackPoint, UncertaintyTerm,
 };
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
@@ -48,7 +48,7 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
 }
 
 /// Its label, or its place among the speeds.
-fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
+pub(crate) fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
     match record.label(index) {
         Some(label) => format!("  {}", label.name),
         None => format!("  rotor {}, by speed", index + 1),
@@ -136,6 +136,17 @@ struct RotorLine<'a> {
     spread_rev_s: Option<f64>,
     mean_square_rad2_s2: Option<f64>,
     merged: &'a [Span],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<ConditionLine<'a>>,
+}
+
+/// What a rotor's lines say of its state.
+#[derive(Serialize)]
+struct ConditionLine<'a> {
+    shaft_over_blade_pass_db: Option<f64>,
+    loudest_between: Option<&'a ShaftLine>,
+    #[serde(flatten)]
+    condition: &'a RotorCondition,
 }
 
 impl<'a> RotorLine<'a> {
@@ -148,6 +159,11 @@ impl<'a> RotorLine<'a> {
             spread_rev_s: rotor.speed.spread_rev_s,
             mean_square_rad2_s2: rotor.speed.mean_square_rad2_s2,
             merged: &rotor.merged,
+            condition: rotor.condition.as_ref().map(|condition| ConditionLine {
+                shaft_over_blade_pass_db: condition.shaft_over_blade_pass_db(),
+                loudest_between: condition.loudest_between(),
+                condition,
+            }),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::evidence::{Evidence, Regression, log_sum_exp};
 use super::rows::{HeardRows, LogRows};
-use super::whitening::{DRIFTS, Nuisances, Whitening, dot, mean_of};
+use super::whitening::{DRIFTS, Drift, Nuisances, Whitening, dot, mean_of};
 use hovertone_vehicle::RotorPlace;
 
 /// Body rates of a log, and the levers of the rotors.
@@ -12,13 +12,18 @@ pub(super) struct BodyRates<'a> {
     levers: [Vec<f64>; 3],
 }
 
-/// One axis, made white with one noise: what every assignment's regression is put together of.
-struct AxisProducts {
-    rate_square: f64,
-    /// Products of each track's integral with the rate and with each other's.
-    with_rate: Vec<f64>,
+/// Integrals and rates made white with one noise: what every assignment's regressions are put together of.
+struct Products {
+    /// Of the tracks' integrals with each other.
     with_tracks: Vec<Vec<f64>>,
     degrees: f64,
+    axes: [AxisProducts; 3],
+}
+
+struct AxisProducts {
+    rate_square: f64,
+    /// Of each track's integral with the rate.
+    with_rate: Vec<f64>,
     /// Logarithm of the likelihood of the rate without any track.
     log_null: f64,
 }
@@ -34,50 +39,43 @@ impl<'a> BodyRates<'a> {
         Self { rows, levers }
     }
 
-    fn products(&self, axis: usize, heard: &HeardRows) -> Vec<AxisProducts> {
-        DRIFTS
+    fn products(&self, heard: &HeardRows, drift: Drift) -> Products {
+        let whitening = Whitening::new(heard, drift);
+        let white: Vec<Vec<f64>> = heard
+            .points
             .iter()
-            .map(|&drift| {
-                let whitening = Whitening::new(heard, drift);
-                let white: Vec<Vec<f64>> = heard
-                    .points
-                    .iter()
-                    .map(|points| whitening.whitened(points.iter().map(|point| point.excess_rad2_s)))
-                    .collect();
-                // a steady torque that no rotor shows, a wind; and what all rotors do together, which turns a body whose centre of
-                // mass is not in the middle, or whose rotors are not alike
-                let nuisances = Nuisances::of([whitening.whitened(heard.time_s.iter().copied()), mean_of(&white)]);
-                let rate = whitening.whitened(heard.rows.iter().map(|&row| self.rows.series[axis][row]));
-                let degrees = rate.len() as f64 - nuisances.count() as f64;
-                let rate = nuisances.removed_from(rate);
-                let tracks: Vec<Vec<f64>> = white.into_iter().map(|track| nuisances.removed_from(track)).collect();
-                let rate_square = dot(&rate, &rate);
-                let log_null = -(whitening.log_determinant
-                    + nuisances.log_determinant
-                    + degrees * rate_square.max(f64::MIN_POSITIVE).ln())
-                    / 2.0;
-                AxisProducts {
-                    rate_square,
-                    with_rate: tracks.iter().map(|track| dot(track, &rate)).collect(),
-                    with_tracks: tracks.iter().map(|a| tracks.iter().map(|b| dot(a, b)).collect()).collect(),
-                    degrees,
-                    log_null,
-                }
-            })
-            .collect()
+            .map(|points| whitening.whitened(points.iter().map(|point| point.excess_rad2_s)))
+            .collect();
+        // a steady torque that no rotor shows, a wind; and what all rotors do together, which turns a body whose centre of mass is
+        // not in the middle, or whose rotors are not alike
+        let nuisances = Nuisances::of([whitening.whitened(heard.time_s.iter().copied()), mean_of(&white)]);
+        let tracks: Vec<Vec<f64>> = white.into_iter().map(|track| nuisances.removed_from(track)).collect();
+        let degrees = tracks.first().map_or(0.0, |track| track.len() as f64) - nuisances.count() as f64;
+        let axes = [0, 1, 2].map(|axis| {
+            let rate = whitening.whitened(heard.rows.iter().map(|&row| self.rows.series[axis][row]));
+            let rate = nuisances.removed_from(rate);
+            let rate_square = dot(&rate, &rate);
+            let log_null = -(whitening.log_determinant
+                + nuisances.log_determinant
+                + degrees * rate_square.max(f64::MIN_POSITIVE).ln())
+                / 2.0;
+            AxisProducts { rate_square, with_rate: tracks.iter().map(|track| dot(track, &rate)).collect(), log_null }
+        });
+        let with_tracks = tracks.iter().map(|a| tracks.iter().map(|b| dot(a, b)).collect()).collect();
+        Products { with_tracks, degrees, axes }
     }
 }
 
-impl AxisProducts {
-    fn regression(&self, levers: &[f64], assignment: &[usize]) -> Regression {
+impl Products {
+    fn regression(&self, axis: &AxisProducts, levers: &[f64], assignment: &[usize]) -> Regression {
         let lever = |track: usize| levers[assignment[track]];
         let tracks = || 0..assignment.len();
         Regression {
-            xy: tracks().map(|track| lever(track) * self.with_rate[track]).sum(),
+            xy: tracks().map(|track| lever(track) * axis.with_rate[track]).sum(),
             xx: tracks()
                 .map(|a| lever(a) * tracks().map(|b| lever(b) * self.with_tracks[a][b]).sum::<f64>())
                 .sum::<f64>(),
-            yy: self.rate_square,
+            yy: axis.rate_square,
             degrees: self.degrees,
         }
     }
@@ -86,18 +84,19 @@ impl AxisProducts {
 impl Evidence for BodyRates<'_> {
     fn log_ratios(&self, heard: &HeardRows, assignments: &[Vec<usize>]) -> Vec<f64> {
         let mut ratios = vec![0.0; assignments.len()];
-        if heard.len() < heard.run_count() + 3 {
+        if heard.len() < heard.run_count() + 4 {
             return ratios;
         }
+        let noises = DRIFTS.map(|drift| self.products(heard, drift));
         for (axis, levers) in self.levers.iter().enumerate() {
-            let products = self.products(axis, heard);
-            let log_null = log_sum_exp(products.iter().map(|noise| noise.log_null));
+            // propellers may all turn the other way round than is usual
+            let is_yaw = axis == 2;
+            let log_null = log_sum_exp(noises.iter().map(|noise| noise.axes[axis].log_null));
             for (ratio, assignment) in ratios.iter_mut().zip(assignments) {
-                let with_tracks = products.iter().map(|noise| {
-                    let regression = noise.regression(levers, assignment);
-                    // propellers may all turn the other way round than is usual
-                    let is_yaw = axis == 2;
-                    noise.log_null + if is_yaw { regression.log_factor() } else { regression.log_factor_of_positive() }
+                let with_tracks = noises.iter().map(|noise| {
+                    let regression = noise.regression(&noise.axes[axis], levers, assignment);
+                    let factor = if is_yaw { regression.log_factor() } else { regression.log_factor_of_positive() };
+                    noise.axes[axis].log_null + factor
                 });
                 *ratio += log_sum_exp(with_tracks) - log_null;
             }

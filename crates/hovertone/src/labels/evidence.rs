@@ -54,13 +54,17 @@ fn log_twice_normal(t: f64) -> f64 {
 }
 
 /// ln Σ exp, without overflow.
-pub(super) fn log_sum_exp(logarithms: impl Iterator<Item = f64> + Clone) -> f64 {
-    let largest = logarithms.clone().fold(f64::NEG_INFINITY, f64::max);
-    if largest.is_finite() {
-        largest + logarithms.map(|value| (value - largest).exp()).sum::<f64>().ln()
-    } else {
-        largest
+pub(super) fn log_sum_exp(logarithms: impl Iterator<Item = f64>) -> f64 {
+    let (mut largest, mut sum) = (f64::NEG_INFINITY, 0.0);
+    for value in logarithms {
+        if value > largest {
+            sum = sum * (largest - value).exp() + 1.0;
+            largest = value;
+        } else if value > f64::NEG_INFINITY {
+            sum += (value - largest).exp();
+        }
     }
+    if sum > 0.0 { largest + sum.ln() } else { largest }
 }
 
 #[cfg(test)]

@@ -134,7 +134,7 @@ impl Products {
 
 impl Evidence for Motors<'_> {
     fn log_ratios(&self, heard: &HeardRows, assignments: &[Vec<usize>]) -> Vec<f64> {
-        if heard.len() < heard.run_count() + 3 {
+        if heard.len() < heard.run_count() + 5 {
             return vec![0.0; assignments.len()];
         }
         let products = self.products(heard);
