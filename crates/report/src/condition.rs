@@ -6,7 +6,7 @@ use crate::speed::name_of_rotor;
 use crate::text_table::{Column, TextTable};
 use hovertone::ShaftLine;
 
-/// The lines of all rotors that were told apart, each against its own blade pass; nothing where there are none.
+/// The lines of all rotors, each against its own blade pass; nothing where nobody asked for them.
 pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
     let mut table = TextTable::new(vec![
         Column::words("lines against the blade pass"),
@@ -15,17 +15,24 @@ pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
         Column::numbers("its order", ""),
         Column::numbers("harmonics missing", ""),
     ]);
-    let mut is_empty = true;
-    for record in records {
+    let wanted = || records.iter().filter(|record| record.config.rotors.wants_condition && record.speed().is_some());
+    wanted().next()?;
+    for record in wanted() {
+        let why_none = if record.rotors().is_empty() { "no rotors are told apart" } else { "" };
+        table.push_words(record.file.clone(), why_none.to_owned());
         for (index, rotor) in record.rotors().iter().enumerate() {
-            let Some(condition) = &rotor.condition else { continue };
-            if std::mem::take(&mut is_empty) || index == 0 {
-                table.push_words(record.file.clone(), String::new());
-            }
+            let name = name_of_rotor(record, index);
+            let Some(condition) = &rotor.condition else {
+                table.push_words(
+                    name,
+                    "blades not known, or their pass not heard apart from another rotor's".to_owned(),
+                );
+                continue;
+            };
             let between = condition.loudest_between();
             let missing: Vec<String> = condition.missing_harmonics.iter().map(u32::to_string).collect();
             table.push(vec![
-                name_of_rotor(record, index),
+                name,
                 condition.lines.first().map_or_else(|| DASH.to_owned(), level),
                 between.map_or_else(|| DASH.to_owned(), level),
                 between.map_or_else(|| DASH.to_owned(), |line| line.order.to_string()),
@@ -33,7 +40,7 @@ pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
             ]);
         }
     }
-    (!is_empty).then(|| table.render())
+    Some(table.render())
 }
 
 /// A level; of a line that is not heard, what noise has there.

@@ -5,7 +5,9 @@ use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
 /// A line whose uncertainty the other rotors' widen by more than this factor in power is not apart from them.
-const INFLATION_MAX: f64 = 4.0;
+const INFLATION_MAX: f64 = 10.0;
+/// Lines of real rotors swell and fade by this share within a block; so much of one that is near leaks into another.
+const SWELL_SHARE: f64 = 0.1;
 
 type C = Complex<f64>;
 
@@ -93,15 +95,20 @@ impl LineSums {
             let matrix: Vec<Vec<C>> =
                 (0..self.rotors).map(|a| (0..self.rotors).map(|b| entry(a, b)).collect()).collect();
             let inverse = inverse(matrix);
+            let amplitude = |inverse: &[Vec<C>], rotor: usize| -> C {
+                (0..self.rotors).map(|other| inverse[rotor][other] * self.sound[other][2 * order - 1]).sum()
+            };
             for rotor in 0..self.rotors {
                 let line = inverse.as_ref().and_then(|inverse| {
                     let inflation = inverse[rotor][rotor].re * self.weights;
-                    let amplitude: C =
-                        (0..self.rotors).map(|other| inverse[rotor][other] * self.sound[other][2 * order - 1]).sum();
+                    let others = (0..self.rotors).filter(|other| *other != rotor);
+                    let loudest = others.map(|other| amplitude(inverse, other).norm_sqr()).fold(0.0, f64::max);
+                    let leaked = SWELL_SHARE.powi(2) * (inflation - 1.0).max(0.0) * loudest;
                     // of noise alone: between this line and its neighbours
                     let beside = |half: usize| (self.sound[rotor][half] / self.weights).norm_sqr();
-                    let noise = inflation * (beside(2 * order - 2) + beside(2 * order)) / 2.0;
-                    (inflation <= INFLATION_MAX).then(|| (2.0 * amplitude.norm_sqr(), 2.0 * noise))
+                    let noise = inflation * (beside(2 * order - 2) + beside(2 * order)) / 2.0 + leaked;
+                    let power = amplitude(inverse, rotor).norm_sqr();
+                    (inflation <= INFLATION_MAX).then_some((2.0 * power, 2.0 * noise))
                 });
                 block.lines[rotor].push(line);
             }
