@@ -28,7 +28,7 @@ pub struct LabelsConfig {
     /// Standard deviation of what the offset of a log of commands takes over from the motors' delay: they answer within 0.02 to 0.2 s.
     pub command_delay_std_s: f64,
     /// Power of the likelihood that is believed: no noise is as the models have it, and what they leave out looks like evidence. On
-    /// simulated hovers in which next to nothing moves, the full likelihood is sure of wrong labels in 5 % of flights.
+    /// simulated hovers in which next to nothing moves, the full likelihood is sure of wrong labels in 5 to 8 % of flights.
     pub evidence_share: f64,
     /// A rotor is labelled if the label has this probability.
     pub probability_min: f64,
