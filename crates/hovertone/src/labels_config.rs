@@ -14,8 +14,8 @@ pub struct LabelsConfig {
     pub offset_s_high: Option<f64>,
     /// Step of the offset: a fifth of the 0.1 s in which a small multirotor's motors answer.
     pub offset_step_s: f64,
-    /// Offsets that are tried at most: an hour at the step above.
-    pub offsets_max: usize,
+    /// Rows that are compared at most, over all offsets: a minute's work of one core. A minute of hover in a log of twelve holds so many.
+    pub comparisons_max: usize,
     /// Share of the shorter of log and hover that must be compared.
     pub overlap_share_min: f64,
     /// A faster log is averaged to rows of this length: tracks have a point every 0.04 s, and know nothing between.
@@ -40,7 +40,7 @@ impl Default for LabelsConfig {
             offset_s_low: None,
             offset_s_high: None,
             offset_step_s: 0.02,
-            offsets_max: 180_000,
+            comparisons_max: 50_000_000,
             overlap_share_min: 0.5,
             row_s: 0.04,
             rows_min: 10,

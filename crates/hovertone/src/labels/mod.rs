@@ -86,7 +86,11 @@ pub fn labels_from_log(
         let is_enough = heard.len() >= config.rows_min;
         let believed = || {
             let ratios = evidence.log_ratios(&heard, &assignments);
-            ratios.into_iter().map(|ratio| config.evidence_share * ratio).collect()
+            // numbers that overflow say nothing
+            ratios
+                .into_iter()
+                .map(|ratio| if ratio.is_finite() { config.evidence_share * ratio } else { 0.0 })
+                .collect()
         };
         posterior.add(offset_s, is_enough.then(believed));
     }
@@ -100,7 +104,9 @@ fn offsets_s(rows: &LogRows, hover: Span, config: &LabelsConfig) -> Result<Vec<f
     let low_s = config.offset_s_low.unwrap_or(hover.from_s + shared_s - log.to_s);
     let high_s = config.offset_s_high.unwrap_or(hover.to_s - shared_s - log.from_s).max(low_s);
     let count = ((high_s - low_s) / config.offset_step_s).ceil() as usize + 1;
-    if count > config.offsets_max {
+    let rows_per_s = rows.len() as f64 / log.length_s();
+    let rows_compared = (rows_per_s * hover.length_s().min(log.length_s())) as usize + 1;
+    if count.saturating_mul(rows_compared) > config.comparisons_max {
         return Err(NotTold::TooManyOffsets { low_s, high_s });
     }
     let middle_s = (low_s + high_s) / 2.0;

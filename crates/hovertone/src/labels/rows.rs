@@ -67,6 +67,10 @@ impl LogRows {
         rows
     }
 
+    pub(super) fn len(&self) -> usize {
+        self.time_s.len()
+    }
+
     pub(super) fn span(&self) -> Option<Span> {
         Some(Span { from_s: *self.time_s.first()?, to_s: *self.time_s.last()? })
     }
