@@ -2,7 +2,7 @@
 
 use crate::thrust_args::{CompareArguments, ExportArguments, FitArguments, IdentifyArguments, WeighArguments};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use hovertone::Method;
 use hovertone_vehicle::Gear;
 use std::path::PathBuf;
@@ -65,6 +65,7 @@ Examples:
   hovertone speed hover.mp4
   hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
+  hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 
 /// Rotor speed of recordings: mean, uncertainty and spread
@@ -81,6 +82,8 @@ pub(crate) struct SpeedArguments {
     pub(crate) tone: ToneArguments,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
+    #[command(flatten)]
+    pub(crate) log: LogArguments,
     #[command(flatten)]
     pub(crate) analysis: AnalysisArguments,
     #[command(flatten)]
@@ -169,6 +172,39 @@ pub(crate) struct KnownArguments {
 }
 
 #[derive(Args, Debug)]
+#[command(next_help_heading = "Which rotor is which")]
+pub(crate) struct LogArguments {
+    /// A log of the same flight, as CSV: speeds, commands or PWM of each motor, or the body's rates
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) log: Option<PathBuf>,
+    /// What is to be added to the log's times to have the recording's, in seconds; found by itself where not given
+    #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
+    pub(crate) log_offset_s: Option<(f64, f64)>,
+    /// How the axes of the log's body rates point; z up or down
+    #[arg(long, value_name = "AXES", requires = "log")]
+    pub(crate) log_axes: Option<BodyAxes>,
+    /// Where the four rotors stand [default: the vehicle's]
+    #[arg(long, value_name = "LAYOUT", requires = "log")]
+    pub(crate) layout: Option<FrameLayout>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum BodyAxes {
+    /// x forward, y left, z up
+    Flu,
+    /// x forward, y right, z down: PX4, ArduPilot
+    Frd,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum FrameLayout {
+    /// front left, rear left, rear right, front right
+    X,
+    /// front, left, rear, right
+    Plus,
+}
+
+#[derive(Args, Debug)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
     /// How the speed is read from the sound [default: separated for several rotors, else harmonic]
@@ -177,6 +213,9 @@ pub(crate) struct AnalysisArguments {
     /// How far the recorder's clock may be off, in millionths [default: 50]
     #[arg(long, value_name = "PPM", allow_negative_numbers = true)]
     pub(crate) clock_ppm: Option<f64>,
+    /// Show the lines of each rotor's shaft against its blade pass: imbalance, unlike blades (not diagnosed)
+    #[arg(long)]
+    pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
     #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
     pub(crate) radial_speed_m_s_max: Option<f64>,
@@ -319,9 +358,18 @@ fn gear(text: &str) -> Result<Gear, String> {
 
 /// "100:200".
 fn band(text: &str) -> Result<(f64, f64), String> {
-    let edge = |text: &str| text.trim().parse::<f64>().ok().filter(|edge_hz| edge_hz.is_finite());
-    let edges = text.split_once(':').and_then(|(low, high)| Some((edge(low)?, edge(high)?)));
+    let edges = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
     edges.ok_or_else(|| "write the band as LOW:HIGH in Hz, such as 4000:4300".to_owned())
+}
+
+/// "-5:5".
+fn offsets(text: &str) -> Result<(f64, f64), String> {
+    let limits = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
+    limits.ok_or_else(|| "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5".to_owned())
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.trim().parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ mod failure;
 mod files;
 mod fit;
 mod identify;
+mod labels;
 mod nearest;
 mod output_folder;
 mod place;

@@ -46,6 +46,7 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> SpeedRecord {
         recording,
         answer: Answer::Failed { reason },
         found: None,
+        labels: None,
         notices: Vec::new(),
     };
     if let Some(reason) = wrong_kind(&job.path) {
@@ -76,6 +77,7 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> SpeedRecord {
         recording: Some(facts),
         answer: Answer::Heard(Box::new(analysis)),
         found,
+        labels: None,
         notices,
     };
     record.notices.extend(notice_of_reading(&record));

@@ -3,13 +3,14 @@
 use crate::args::{SpeedArguments, ToneArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::files_of;
+use crate::labels::{LabelPlan, label};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, hear_all};
 use crate::terminal::Terminal;
 use crate::tones::discovery_of;
 use crate::vehicles::preset;
 use hovertone::{Config, Discovery, Method, ToneConfig};
-use hovertone_report::{SpeedRecord, speed_json, speed_table, track_csv};
+use hovertone_report::{SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use hovertone_vehicle::Order;
 use std::path::PathBuf;
 
@@ -18,20 +19,27 @@ struct Plan {
     jobs: Vec<Job>,
     hearing: Hearing,
     track: Option<PathBuf>,
+    labels: Option<LabelPlan>,
 }
 
 /// Hears all files and prints their speeds.
 pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
     let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
-    let records = hear_all(&plan.jobs, plan.hearing, &progress);
+    let mut records = hear_all(&plan.jobs, plan.hearing, &progress);
     progress.finish();
+    if let Some(labels) = &plan.labels {
+        records.iter_mut().for_each(|record| label(record, labels));
+    }
     if arguments.json {
         for record in &records {
             terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;
         }
     } else {
         terminal.data(&speed_table(&records))?;
+        if let Some(table) = condition_table(&records) {
+            terminal.data(&format!("\n{table}"))?;
+        }
     }
     terminal.flush()?;
     terminal.notes(&records.iter().collect::<Vec<_>>());
@@ -61,7 +69,9 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
         wants_hash: arguments.json,
         wants_samples: false,
     };
-    Ok(Plan { jobs, hearing, track: arguments.track.clone() })
+    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let labels = crate::labels::resolve(&arguments.log, vehicle, (jobs.len(), config.rotors.count))?;
+    Ok(Plan { jobs, hearing, track: arguments.track.clone(), labels })
 }
 
 /// One job for each file, all alike.
@@ -97,6 +107,7 @@ fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), 
         arguments.tone.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
     config.rotors.count = arguments.known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
     config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
+    config.rotors.wants_condition = analysis.condition;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.span.from_s = analysis.from;

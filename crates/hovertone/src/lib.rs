@@ -4,6 +4,7 @@
 
 mod budget_config;
 mod channel;
+mod condition;
 mod config;
 mod discovery;
 mod discovery_config;
@@ -11,6 +12,8 @@ mod error;
 mod experiment;
 mod harmonic;
 mod hover;
+mod labels;
+mod labels_config;
 mod method;
 mod pipeline;
 mod regression;
@@ -29,6 +32,7 @@ mod verdict;
 mod warning;
 
 pub use budget_config::BudgetConfig;
+pub use condition::{RotorCondition, ShaftLine};
 pub use config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig, ToneConfig};
 pub use discovery::{Discovery, FoundSpeed, tones_from_source};
 pub use discovery_config::{DiscoveryConfig, KnownRotor};
@@ -38,6 +42,11 @@ pub use experiment::{
     ToneSection, VehicleModel, VehicleSection,
 };
 pub use hover::{Cut, CutReason, Hover};
+pub use labels::{
+    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorLabel, RotorLabels,
+    labels_from_log,
+};
+pub use labels_config::LabelsConfig;
 pub use method::Method;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
 pub use regression::{

@@ -1,6 +1,7 @@
 //! The whole flow on one screen: source → survey → hover → bands → ridges → samples → speed. No arithmetic here.
 
 use crate::channel::ChannelBand;
+use crate::condition::{ConditionReader, blades_known};
 use crate::config::Config;
 use crate::error::Error;
 use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorScout, RotorTracer, RotorTracks};
@@ -227,7 +228,8 @@ fn speed_near(
         Some(track) => track.points,
         None => harmonic.points_in(None, config.tone.order),
     };
-    let rotors = apart.rotors(order, &config.budget);
+    let mut rotors = apart.rotors(order, &config.budget);
+    condition_from_source(source, &hover, &mut rotors, config, on_progress)?;
     warnings.extend(warning_of_rotors(&rotors, if apart_is_wanted { config.rotors.count } else { 1 }));
     let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
@@ -375,4 +377,22 @@ fn rotors_from_source(
         HoverSound::Samples(samples) => tracer.push(samples),
     })?;
     Ok(tracer.finish())
+}
+
+/// Another reading, where it is wanted: the lines of each rotor's shaft.
+fn condition_from_source(
+    source: &mut dyn SignalSource,
+    hover: &Hover,
+    rotors: &mut [RotorEstimate],
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<(), Error> {
+    let Some(blades) = blades_known(&config.tone).filter(|_| config.rotors.wants_condition) else { return Ok(()) };
+    let mut reader = ConditionReader::new(source.sample_rate_hz(), rotors, blades);
+    listen_again(source, hover, on_progress, |sound| match sound {
+        HoverSound::Start { start_s, .. } => reader.restart(start_s),
+        HoverSound::Samples(samples) => reader.push(samples),
+    })?;
+    rotors.iter_mut().zip(reader.finish()).for_each(|(rotor, condition)| rotor.condition = condition);
+    Ok(())
 }

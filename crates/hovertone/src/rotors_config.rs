@@ -12,11 +12,13 @@ pub struct RotorsConfig {
     /// Half width of the band of speeds in which they are looked for, as a share of the speed that was heard. Rotors of real
     /// quadrotors lie up to 22 % apart, and a rotor outside the band is silently taken for another one.
     pub band_half_width_share: f64,
+    /// Whether the lines of each rotor's shaft are wanted too: what they say of its state costs another reading.
+    pub wants_condition: bool,
 }
 
 impl Default for RotorsConfig {
     fn default() -> Self {
-        Self { count: 1, band_half_width_share: 0.25 }
+        Self { count: 1, band_half_width_share: 0.25, wants_condition: false }
     }
 }
 

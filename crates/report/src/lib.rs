@@ -9,11 +9,13 @@
 //! adequacy    how well the square law holds, the laws beside it, the uncertainty budget
 //! fitted_table  a thrust stand's table, fitted            flight_plan  how much flying a wish needs
 //! models      simulators' models beside what was heard   weighed      what hovers, by its sound
+//! condition   what rotors' lines say of their state
 //! flight      what a simulated flight was like            tones        tone families and what each can mean
 //! ```
 
 mod adequacy;
 mod comparison;
+mod condition;
 mod cuts;
 mod fitted_table;
 mod flight;
@@ -33,6 +35,7 @@ mod weighed;
 
 pub use adequacy::{adequacy_text, laws_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
+pub use condition::condition_table;
 pub use cuts::cuts_in_words;
 pub use fitted_table::{FittedTable, fitted_table_json, fitted_table_text};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};

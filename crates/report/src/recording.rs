@@ -2,7 +2,8 @@
 
 use crate::notice::Notice;
 use hovertone::{
-    Config, Discovery, Outcome, Reading, RotorEstimate, RotorTone, Span, SpeedAnalysis, SpeedEstimate, ToneFamily,
+    Config, Discovery, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, Span, SpeedAnalysis,
+    SpeedEstimate, ToneFamily,
 };
 use serde::Serialize;
 
@@ -70,6 +71,8 @@ pub struct SpeedRecord {
     pub answer: Answer,
     /// The tone families, where the tone had to be found.
     pub found: Option<Found>,
+    /// Which rotor is which, where a log was to tell it.
+    pub labels: Option<RotorLabels>,
     /// What weakens it, of the file as of the analysis.
     pub notices: Vec<Notice>,
 }
@@ -99,6 +102,11 @@ impl SpeedRecord {
     /// The rotors one by one, fastest first, where they were told apart.
     pub fn rotors(&self) -> &[RotorEstimate] {
         self.tone().filter(|_| !self.is_ambiguous()).map_or(&[], |tone| &tone.rotors)
+    }
+
+    /// Which rotor one of [`rotors`](Self::rotors) is, where it is told.
+    pub fn label(&self, index: usize) -> Option<&RotorLabel> {
+        self.labels.as_ref()?.rotors.get(index)?.as_ref()
     }
 
     /// Mean frequency of the tone that was followed, whether or not its order is settled.
@@ -153,9 +161,11 @@ impl SpeedRecord {
         matches!(self.answer, Answer::Failed { .. })
     }
 
-    /// Whether there is less than was asked for: no rotor tone, one that is not settled, or only the beginning of the sound.
+    /// Whether there is less than was asked for: no rotor tone, one that is not settled, labels that are not told, or only the
+    /// beginning of the sound.
     pub fn is_incomplete(&self) -> bool {
-        self.speed().is_none() || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
+        let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
+        self.speed().is_none() || !has_labels || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }
 
     /// From the start of the first stretch that was used to the end of the last.

@@ -6,7 +6,10 @@ use crate::number::{DASH, rounded, significant, uncertainty};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
-use hovertone::{Config, Hover, Method, Reading, RotorEstimate, Span, SpeedEstimate, TrackPoint, UncertaintyTerm};
+use hovertone::{
+    Config, Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, ShaftLine, Span,
+    SpeedEstimate, TrackPoint, UncertaintyTerm,
+};
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
 
@@ -29,8 +32,8 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
         match record.speed() {
             Some(speed) => {
                 table.push(cells_of_speed(record.file.clone(), speed, cell_of_span(record)));
-                for (number, rotor) in (1..).zip(record.rotors()) {
-                    table.push(cells_of_speed(format!("  rotor {number}"), &rotor.speed, String::new()));
+                for (index, rotor) in record.rotors().iter().enumerate() {
+                    table.push(cells_of_speed(name_of_rotor(record, index), &rotor.speed, String::new()));
                 }
             }
             None if record.has_failed() => table.push_words(record.file.clone(), "could not be heard".to_owned()),
@@ -42,6 +45,14 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
         }
     }
     table.render()
+}
+
+/// Its label, or its place among the speeds.
+pub(crate) fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
+    match record.label(index) {
+        Some(label) => format!("  {}", label.name),
+        None => format!("  rotor {}, by speed", index + 1),
+    }
 }
 
 fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<String> {
@@ -96,6 +107,8 @@ struct SpeedLine<'a> {
     mean_square_rad2_s2: Option<f64>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     rotors: Vec<RotorLine<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    labels: Option<LabelsLine>,
     from_s: Option<f64>,
     to_s: Option<f64>,
     warnings: &'a [Notice],
@@ -115,23 +128,78 @@ struct SpeedLine<'a> {
 /// One rotor of several.
 #[derive(Serialize)]
 struct RotorLine<'a> {
+    /// Null where nothing tells which rotor it is.
+    label: Option<&'a RotorLabel>,
     speed_rev_s: f64,
     std_uncertainty_rev_s: Option<f64>,
     combined_std_uncertainty_rev_s: Option<f64>,
     spread_rev_s: Option<f64>,
     mean_square_rad2_s2: Option<f64>,
     merged: &'a [Span],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    condition: Option<ConditionLine<'a>>,
 }
 
-impl<'a> From<&'a RotorEstimate> for RotorLine<'a> {
-    fn from(rotor: &'a RotorEstimate) -> Self {
+/// What a rotor's lines say of its state.
+#[derive(Serialize)]
+struct ConditionLine<'a> {
+    shaft_over_blade_pass_db: Option<f64>,
+    loudest_between: Option<&'a ShaftLine>,
+    #[serde(flatten)]
+    condition: &'a RotorCondition,
+}
+
+impl<'a> RotorLine<'a> {
+    fn of(record: &'a SpeedRecord, index: usize, rotor: &'a RotorEstimate) -> Self {
         Self {
+            label: record.label(index),
             speed_rev_s: rotor.speed.speed.rev_s(),
             std_uncertainty_rev_s: rotor.speed.std_uncertainty_rev_s,
             combined_std_uncertainty_rev_s: rotor.speed.combined_std_uncertainty_rev_s(),
             spread_rev_s: rotor.speed.spread_rev_s,
             mean_square_rad2_s2: rotor.speed.mean_square_rad2_s2,
             merged: &rotor.merged,
+            condition: rotor.condition.as_ref().map(|condition| ConditionLine {
+                shaft_over_blade_pass_db: condition.shaft_over_blade_pass_db(),
+                loudest_between: condition.loudest_between(),
+                condition,
+            }),
+        }
+    }
+}
+
+/// What tells which rotor is which.
+#[derive(Serialize)]
+struct LabelsLine {
+    source: Option<LabelSource>,
+    offset_s: Option<f64>,
+    offset_std_uncertainty_s: Option<f64>,
+    probability: Option<f64>,
+    reason: Option<String>,
+}
+
+impl LabelsLine {
+    /// Nothing where no rotors are told apart; without a source where they go by their speed.
+    fn of(record: &SpeedRecord) -> Option<Self> {
+        let by_speed = || Self {
+            source: None,
+            offset_s: None,
+            offset_std_uncertainty_s: None,
+            probability: None,
+            reason: Some(
+                "rotors are in the order of their speeds: the sound of one microphone does not tell which is which"
+                    .to_owned(),
+            ),
+        };
+        match &record.labels {
+            Some(labels) => Some(Self {
+                source: Some(labels.source),
+                offset_s: labels.offset_s,
+                offset_std_uncertainty_s: labels.offset_std_s,
+                probability: labels.probability,
+                reason: labels.not_told.as_ref().map(ToString::to_string),
+            }),
+            None => (!record.rotors().is_empty()).then(by_speed),
         }
     }
 }
@@ -157,7 +225,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         uncertainty_budget: estimate.map(|estimate| estimate.budget.as_slice()),
         spread_rev_s: estimate.and_then(|estimate| estimate.spread_rev_s),
         mean_square_rad2_s2: estimate.and_then(|estimate| estimate.mean_square_rad2_s2),
-        rotors: record.rotors().iter().map(RotorLine::from).collect(),
+        rotors: record.rotors().iter().enumerate().map(|(index, rotor)| RotorLine::of(record, index, rotor)).collect(),
+        labels: LabelsLine::of(record),
         from_s: used.map(|used| used.from_s),
         to_s: used.map(|used| used.to_s),
         warnings: &record.notices,
@@ -190,6 +259,8 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
         level_db: f64,
         #[serde(skip_serializing_if = "Option::is_none")]
         rotor: Option<usize>,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        label: Option<&'a str>,
     }
     let has_rotors = records.iter().any(|record| !record.rotors().is_empty());
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
@@ -200,12 +271,19 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
     if has_rotors {
         columns.push("rotor");
     }
+    let has_labels = records.iter().any(|record| record.labels.is_some());
+    if has_rotors && has_labels {
+        columns.push("label");
+    }
     writer.write_record(&columns)?;
     for record in records {
         let file = (records.len() != 1).then_some(record.file.as_str());
         let line = |point: &TrackPoint, rotor: Option<usize>| {
             let &TrackPoint { time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db } = point;
-            Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db, rotor }
+            // a rotor that has none has an empty cell
+            let name = || rotor.and_then(|number| record.label(number.checked_sub(1)?)).map_or("", |label| &label.name);
+            let label = (has_rotors && has_labels).then(name);
+            Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db, rotor, label }
         };
         let Some(tone) = record.tone().filter(|_| !record.is_ambiguous()) else { continue };
         for (index, rotor) in tone.rotors.iter().enumerate() {

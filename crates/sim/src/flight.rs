@@ -8,7 +8,9 @@ use crate::flight_settings::{FlightSettings, Start};
 use crate::forces::{Wrench, gyroscopic_torque_n_m, rotor_wrench};
 use crate::rk4::rk4;
 use crate::rotor::ground_effect;
+use crate::seed::{Part, stream};
 use crate::trim::{HoverTrim, hover_trim};
+use crate::wander::OrnsteinUhlenbeck;
 use hovertone_vehicle::QuantityError;
 use nalgebra::Vector3;
 
@@ -85,6 +87,10 @@ pub struct Flight {
     controller: Controller,
     battery: Option<Battery>,
     wind: Wind,
+    /// Of each motor's gain about its own.
+    motor_wander: Option<[OrnsteinUhlenbeck; 4]>,
+    /// Each motor's gain over its own, now.
+    gain_shares: [f64; 4],
     numbers: [f64; NUMBERS],
     steps: u64,
     steps_per_run: u64,
@@ -119,6 +125,12 @@ impl Flight {
             let hover_w = (0..4).map(|k| trim.voltage_v[k] * current_a(k)).sum();
             trim.voltage_v.map(|volts| battery.demand_v(volts, hover_w))
         });
+        let motor_wander = settings.motor_wander.map(|wander| {
+            let random = |motor: u64| stream(settings.seed, Part::MotorGain, motor);
+            [0, 1, 2, 3].map(|motor| {
+                OrnsteinUhlenbeck::new(wander.gain_std_share, wander.time_constant_s, settings.step_s, random(motor))
+            })
+        });
         let mut body = BodyState::at_rest(place_m);
         body.attitude = Euler { roll_rad: 0.0, pitch_rad: 0.0, yaw_rad }.attitude();
         let mut numbers = [0.0; NUMBERS];
@@ -128,6 +140,8 @@ impl Flight {
             controller: Controller::new(&vehicle.controller, vehicle.layout.value),
             battery,
             wind: Wind::new(settings.wind_m_s, settings.gusts.as_ref(), settings.step_s, settings.seed),
+            motor_wander,
+            gain_shares: [1.0; 4],
             steps_per_run: (vehicle.controller.period_s.value / settings.step_s).round() as u64,
             demand_v: if motors_on { hover_demand_v } else { [0.0; 4] },
             hover_demand_v,
@@ -188,6 +202,9 @@ impl Flight {
             });
         }
         let air_m_s = self.wind.velocity_m_s();
+        for (share, wander) in self.gain_shares.iter_mut().zip(self.motor_wander.iter_mut().flatten()) {
+            *share = 1.0 + wander.step();
+        }
         let mut next = rk4(&self.numbers, self.settings.step_s, |numbers| self.rate(numbers, &air_m_s));
         let attitude = normalised([next[6], next[7], next[8], next[9]]);
         next[6..10].copy_from_slice(&attitude);
@@ -224,8 +241,9 @@ impl Flight {
         let (body, speeds, airframe) = (body_of(numbers), speeds_of(numbers), &self.airframe);
         let (voltages, battery_v) = self.voltages_v(&speeds, numbers[CHARGE]);
         let turn = rotation(&body.attitude);
-        let accelerations: [f64; 4] =
-            std::array::from_fn(|k| airframe.motors[k].acceleration_rad_s2(speeds[k], voltages[k]));
+        let accelerations: [f64; 4] = std::array::from_fn(|k| {
+            airframe.motors[k].acceleration_rad_s2(speeds[k], self.gain_shares[k] * voltages[k])
+        });
         let thrusts = self.thrusts_n(&speeds, body.position_m.z, &turn);
         let loads = std::array::from_fn(|k| airframe.rotors[k].load_torque_n_m(speeds[k]));
         let mut wrench: Wrench = rotor_wrench(&airframe.hubs, &thrusts, &loads);

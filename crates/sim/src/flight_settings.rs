@@ -51,6 +51,28 @@ impl Spread {
     }
 }
 
+/// How each motor's gain wanders in flight, for itself: unsteady inflow, regulation of its controller.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorWander {
+    /// Standard deviation of each gain over its mean. The speed follows by about two thirds of it, as far as the controller lets it.
+    pub gain_std_share: f64,
+    /// Its autocovariance goes with e^(-t/τ).
+    pub time_constant_s: f64,
+}
+
+impl MotorWander {
+    fn check(&self) -> Result<(), QuantityError> {
+        let refused = |name, value, must_be| Err(QuantityError { name, value, must_be });
+        if !(0.0..=0.2).contains(&self.gain_std_share) {
+            return refused("gain_std_share", self.gain_std_share, "between 0 and 0.2");
+        }
+        if !(self.time_constant_s > 0.0 && self.time_constant_s.is_finite()) {
+            return refused("time_constant_s", self.time_constant_s, "above 0");
+        }
+        Ok(())
+    }
+}
+
 /// How the flight begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
@@ -80,6 +102,8 @@ pub struct FlightSettings {
     pub payloads: Vec<Payload>,
     /// Differences among the rotors; off when absent.
     pub spread: Option<Spread>,
+    /// Unsteadiness of each motor; off when absent.
+    pub motor_wander: Option<MotorWander>,
     /// Whether the battery's voltage falls with charge and current; else it is the nominal one.
     pub battery_sag: bool,
     /// Whether thrust grows near the ground.
@@ -108,6 +132,7 @@ impl FlightSettings {
             ground_effect: false,
             air: None,
             wind_m_s: [0.0; 3],
+            motor_wander: None,
             gusts: None,
             seed: 1,
         }
@@ -151,6 +176,7 @@ impl FlightSettings {
             }
         }
         self.air.map_or(Ok(()), |air| air.check())?;
+        self.motor_wander.map_or(Ok(()), |wander| wander.check())?;
         self.gusts.map_or(Ok(()), |gusts| gusts.check())
     }
 }

@@ -56,7 +56,7 @@ mod wander;
 
 pub use airframe::Airframe;
 pub use flight::{Flight, FlightState, PilotedFlight};
-pub use flight_settings::{FlightSettings, Payload, Spread, Start};
+pub use flight_settings::{FlightSettings, MotorWander, Payload, Spread, Start};
 pub use hover::{HoverSettings, HoverSound, RotorSound};
 pub use noise::NoiseSettings;
 pub use profile::{ProfileParts, Span, SpeedProfile};

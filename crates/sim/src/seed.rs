@@ -18,6 +18,7 @@ pub(crate) enum Part {
     Spread = 21,
     Jitter = 22,
     Scenario = 23,
+    MotorGain = 24,
 }
 
 /// The stream of `part` number `index`.

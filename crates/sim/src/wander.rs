@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 ///
 /// The update is exact for any step, `x ← x e^(-dt/τ) + std √(1 - e^(-2dt/τ)) n`, and the first value is drawn from the
 /// stationary distribution, so nothing has to settle.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) struct OrnsteinUhlenbeck {
     value: f64,
     keep: f64,

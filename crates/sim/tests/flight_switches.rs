@@ -9,7 +9,7 @@
 use hovertone_sim::control::{Command, Setpoint};
 use hovertone_sim::environment::{Air, Gusts};
 use hovertone_sim::rotor::ground_effect;
-use hovertone_sim::{Flight, FlightSettings, FlightState, Payload, PilotedFlight, Spread, Start};
+use hovertone_sim::{Flight, FlightSettings, FlightState, MotorWander, Payload, PilotedFlight, Spread, Start};
 use hovertone_vehicle::find_flight_parameters;
 
 fn settings() -> FlightSettings {
@@ -204,4 +204,37 @@ fn gusts_move_the_vehicle_and_its_rotors_and_the_pilot_holds_on() {
     let spread = mean(&|state: &FlightState| (state.speed_rad_s[0] / speeds - 1.0).powi(2)).sqrt();
     println!("gusts of 0.3 m/s: rotor 1 varies by {:.3} %, place by at most {worst_m:.2} m", 100.0 * spread);
     assert!(spread > 1e-4 && spread < 0.05, "{spread}");
+}
+
+/// A gain g in c ω' + a ω + b ω² = g v moves the speed by (a + b ω)/(a + 2 b ω) of its own share, behind the motor's lag τ: √(T/(T + τ)) of
+/// its standard deviation, T being how long it lasts. The controller works against what turns the vehicle and not against the
+/// rest; 120 s hold 150 times T, so each deviation is known to 6 %.
+#[test]
+fn motors_wander_each_for_itself_by_what_their_gains_do() {
+    let (gain_std_share, time_constant_s) = (0.003, 0.4);
+    let mut settings = settings();
+    settings.motor_wander = Some(MotorWander { gain_std_share, time_constant_s });
+    let states = hover(settings.clone(), 120);
+    let flight = Flight::new(settings).unwrap();
+    let (motor, speed_rad_s) = (flight.airframe().motors[0], flight.trim().speed_rad_s[0]);
+    let load = motor.load_v_s2_rad2 * speed_rad_s;
+    let lag_s = motor.linearised(speed_rad_s).time_constant_s;
+    let free = gain_std_share * (motor.linear_v_s_rad + load) / (motor.linear_v_s_rad + 2.0 * load)
+        * (time_constant_s / (time_constant_s + lag_s)).sqrt();
+    let count = states.len() as f64;
+    let shares = |rotor: usize| -> Vec<f64> {
+        let mean = states.iter().map(|state| state.speed_rad_s[rotor]).sum::<f64>() / count;
+        states.iter().map(|state| state.speed_rad_s[rotor] / mean - 1.0).collect()
+    };
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / count;
+    let wanders: Vec<Vec<f64>> = (0..4).map(shares).collect();
+    for rotor in 0..4 {
+        let std = product(&wanders[rotor], &wanders[rotor]).sqrt();
+        println!("rotor {}: {:.3} %, free of the controller {:.3} %", rotor + 1, 100.0 * std, 100.0 * free);
+        assert!((0.6..1.3).contains(&(std / free)), "{std} {free}");
+        let next = (rotor + 1) % 4;
+        let correlation =
+            product(&wanders[rotor], &wanders[next]) / (std * product(&wanders[next], &wanders[next]).sqrt());
+        assert!(correlation.abs() < 0.7, "{correlation}");
+    }
 }

@@ -5,6 +5,7 @@
 
 mod estimate;
 mod flight;
+mod frame;
 mod presets;
 mod speed;
 mod vehicle;
@@ -14,6 +15,7 @@ pub use flight::{
     BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters, RotorParameters,
     find_flight_parameters, flight_presets,
 };
+pub use frame::RotorPlace;
 pub use presets::{find_preset, presets};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};
 pub use vehicle::{ShaftSpeedRange, Sourced, Vehicle};

@@ -5,6 +5,7 @@ mod score;
 mod sound;
 
 use crate::accuracy::drawn;
+use crate::labels::section_of;
 use hovertone::{Config, Method, Outcome, Signal, ToneConfig, TrackPoint, speed_from_source};
 use hovertone_vehicle::Order;
 use score::{Score, against_truth};
@@ -13,7 +14,7 @@ use std::path::Path;
 use std::time::Instant;
 
 /// What it writes, in the repository.
-const REPORT: &str = "docs/rotors.md";
+pub(crate) const REPORT: &str = "docs/rotors.md";
 const SEEDS: usize = 20;
 const FIRST_SEED: u64 = 1000;
 
@@ -96,7 +97,9 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         rows += &row;
     }
     if only.is_none() {
-        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows;
+        // another bench's section stays
+        let before = std::fs::read_to_string(root.join(REPORT)).unwrap_or_default();
+        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + section_of(&before);
         std::fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
         println!("written: {REPORT}");
     }

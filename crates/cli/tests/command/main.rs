@@ -6,6 +6,7 @@
 mod codecs;
 mod demo;
 mod identify;
+mod labels;
 mod real_recordings;
 mod roundtrip;
 mod simulate;

@@ -6,6 +6,7 @@ mod separated;
 
 pub use budget::{UncertaintySource, UncertaintyTerm};
 
+use crate::condition::RotorCondition;
 use crate::config::RidgeConfig;
 use crate::method::Method;
 use crate::ridge::{Peak, Ridge};
@@ -98,6 +99,8 @@ pub struct RotorEstimate {
     pub merged: Vec<Span>,
     /// Its speed over time.
     pub track: Vec<TrackPoint>,
+    /// What its lines say of its state, where that is wanted and the blade pass is heard.
+    pub condition: Option<RotorCondition>,
 }
 
 /// The harmonics that are used, with their weights. Eq 9 as printed is no average (its weights sum to 1.833 for exact

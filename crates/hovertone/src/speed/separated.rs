@@ -50,7 +50,12 @@ impl RotorTracks {
                 }
                 let mean_square_rad2_s2 = rotor.track.mean_square_rad2_s2(None);
                 let speed = SpeedEstimate { method: Method::Separated, mean_square_rad2_s2, ..speed };
-                Some(RotorEstimate { speed: speed.with_budget(budget), merged: rotor.merged.clone(), track })
+                Some(RotorEstimate {
+                    speed: speed.with_budget(budget),
+                    merged: rotor.merged.clone(),
+                    track,
+                    condition: None,
+                })
             })
             .collect();
         rotors.sort_by(|a, b| b.speed.speed.rev_s().total_cmp(&a.speed.speed.rev_s()));

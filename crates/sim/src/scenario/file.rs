@@ -5,8 +5,8 @@
 
 use super::maneuver::Maneuver;
 use super::sections::{
-    AirSection, AmbientSection, GroundSection, GustSection, JitterSection, MicrophoneSection, PayloadSection,
-    PeopleSection, RoomSection, SoundSection, SpreadSection, VehicleSection, WindSection,
+    AirSection, AmbientSection, GroundSection, GustSection, JitterSection, MicrophoneSection, MotorWanderSection,
+    PayloadSection, PeopleSection, RoomSection, SoundSection, SpreadSection, VehicleSection, WindSection,
 };
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +35,8 @@ pub struct ScenarioFile {
     pub maneuvers: Vec<Maneuver>,
     /// How rotors and motors differ; alike where absent.
     pub spread: Option<SpreadSection>,
+    /// Unsteadiness of each motor for itself; none where absent.
+    pub motor_wander: Option<MotorWanderSection>,
     /// The air; where absent, the one in which the vehicle's constants were found, and 20 °C for the speed of sound.
     pub air: Option<AirSection>,
     /// Steady wind; none where absent.
@@ -68,6 +70,7 @@ impl Default for ScenarioFile {
             pilot: PilotSection::default(),
             maneuvers: Vec::new(),
             spread: None,
+            motor_wander: None,
             air: None,
             wind: None,
             gusts: None,

@@ -29,7 +29,8 @@ pub use run::ScenarioRun;
 pub use schedule::{Instruction, Schedule};
 pub use sections::{
     AirSection, AmbientSection, GroundSection, GustSection, JitterSection, LayoutName, MicrophoneSection,
-    PayloadSection, PeopleSection, RoomSection, SampleFormat, SoundSection, SpreadSection, VehicleSection, WindSection,
+    MotorWanderSection, PayloadSection, PeopleSection, RoomSection, SampleFormat, SoundSection, SpreadSection,
+    VehicleSection, WindSection,
 };
 pub use truth::{ScenarioTruth, SpanTruth};
 pub use truth_table::{TRUTH_COLUMNS, truth_cells};

@@ -7,7 +7,7 @@ use super::sections::{GustSection, JitterSection, MicrophoneSection, SampleForma
 use super::{Scenario, ScenarioError};
 use crate::control::Setpoint;
 use crate::environment::{Air, Gusts};
-use crate::flight_settings::{FlightSettings, Payload, Spread, Start};
+use crate::flight_settings::{FlightSettings, MotorWander, Payload, Spread, Start};
 use crate::sound::{
     AmbientSettings, BabbleSettings, MicrophoneSettings, Room, SoundSettings, SourceSettings, Surroundings,
     WallAbsorption,
@@ -81,6 +81,10 @@ impl ScenarioFile {
             start,
             payloads: self.payloads.iter().map(|p| Payload { mass_kg: p.mass_kg, position_m: p.position_m }).collect(),
             spread: self.spread_of()?,
+            motor_wander: self.motor_wander.map(|wander| MotorWander {
+                gain_std_share: wander.gain_std_share,
+                time_constant_s: wander.time_constant_s,
+            }),
             battery_sag: section.battery_sag,
             ground_effect: section.ground_effect,
             air: self.air.map(|air| Air {

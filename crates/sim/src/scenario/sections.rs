@@ -133,6 +133,22 @@ pub struct SpreadSection {
     pub motor_gain_std_share: f64,
 }
 
+/// How each motor's gain wanders in flight, for itself.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MotorWanderSection {
+    /// Standard deviation of each gain over its mean. 0.3 % makes speeds wander by 0.2 %, as those of quadrotors do that hover in a room.
+    pub gain_std_share: f64,
+    /// Its autocovariance goes with e^(-t/τ).
+    pub time_constant_s: f64,
+}
+
+impl Default for MotorWanderSection {
+    fn default() -> Self {
+        Self { gain_std_share: 0.003, time_constant_s: 0.4 }
+    }
+}
+
 /// The air as a weather station has it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]

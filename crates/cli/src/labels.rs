@@ -1,0 +1,132 @@
+//! Which rotor is which, by a log of the same flight.
+
+use crate::args::{BodyAxes, FrameLayout, LogArguments};
+use crate::failure::Failure;
+use hovertone::{FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, TrackPoint, labels_from_log};
+use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, flight_log_from_csv};
+use hovertone_report::{Notice, SpeedRecord};
+use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
+use std::fs;
+use std::path::Path;
+
+/// What the arguments mean.
+pub(crate) struct LabelPlan {
+    /// What the log holds, the most telling first.
+    logs: Vec<FlightLog>,
+    config: LabelsConfig,
+}
+
+/// Reads the log, where there is one.
+pub(crate) fn resolve(
+    arguments: &LogArguments,
+    vehicle: Option<&Vehicle>,
+    (recordings, rotors): (usize, u32),
+) -> Result<Option<LabelPlan>, Failure> {
+    let Some(path) = &arguments.log else { return Ok(None) };
+    let refused = |what: &str, hint: &str| Err(Failure::usage(what, hint));
+    if recordings != 1 {
+        let what = format!("a log is of one flight, and {recordings} recordings are given");
+        return refused(&what, "give the one recording that was made in the same flight");
+    }
+    if rotors < 2 {
+        return refused("a log tells rotors apart, and only one is heard", "say how many turn, as in --rotors 4");
+    }
+    let bytes = fs::read(path)
+        .map_err(|error| Failure::failed(format!("the log cannot be read: {error}"), "check its name", path))?;
+    let logged = flight_log_from_csv(&String::from_utf8_lossy(&bytes)).map_err(|error| Failure::Usage {
+        what: error.to_string(),
+        hint: error.hint().to_owned(),
+        path: Some(path.clone()),
+    })?;
+    let (offset_s_low, offset_s_high) = arguments.log_offset_s.unzip();
+    let config = LabelsConfig { offset_s_low, offset_s_high, ..LabelsConfig::default() };
+    config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    let logs = logs_of(logged, arguments, vehicle, path)?;
+    Ok(Some(LabelPlan { logs, config }))
+}
+
+/// Measured speeds say most, then commands, then what the rotors do to the body.
+fn logs_of(
+    logged: LoggedFlight,
+    arguments: &LogArguments,
+    vehicle: Option<&Vehicle>,
+    path: &Path,
+) -> Result<Vec<FlightLog>, Failure> {
+    let failed = |error: hovertone::LogError| Failure::failed(error.to_string(), "correct the log", path);
+    let motors = |logged: LoggedMotors, signal| {
+        let LoggedMotors { time_s, names, values } = logged;
+        FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(failed)
+    };
+    let LoggedFlight { speeds, commands, rates } = logged;
+    let speeds = speeds.map(|speeds| motors(speeds, MotorSignal::Speed)).transpose()?;
+    let commands = commands.map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
+    let mut logs: Vec<FlightLog> = speeds.into_iter().chain(commands).collect();
+    if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z] }) = rates {
+        match (arguments.log_axes, places_of(arguments.layout, vehicle)) {
+            (Some(axes), Some(places)) => {
+                let turned = |rates: Vec<f64>| match axes {
+                    BodyAxes::Flu => rates,
+                    BodyAxes::Frd => rates.into_iter().map(|rate| -rate).collect(),
+                };
+                let rates_rad_s = [x, turned(y), turned(z)];
+                let signals = LogSignals::BodyRates { places: places.to_vec(), rates_rad_s };
+                logs.push(FlightLog::new(time_s, signals).map_err(failed)?);
+            }
+            // motors are enough
+            _ if !logs.is_empty() => {}
+            (None, _) => {
+                return Err(Failure::usage(
+                    "the log has body rates, and it is not said how their axes point: front and rear would be a guess",
+                    "say --log-axes flu (x forward, y left, z up) or frd (y right, z down: PX4, ArduPilot)",
+                ));
+            }
+            (_, None) => {
+                return Err(Failure::usage(
+                    "the log has body rates, and it is not said where the rotors stand",
+                    "say --layout x or plus, or a vehicle whose layout is known (`hovertone vehicles`)",
+                ));
+            }
+        }
+    }
+    Ok(logs)
+}
+
+/// Only the proportions of the arms count.
+fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[RotorPlace; 4]> {
+    let known = || Some(vehicle?.flight_parameters()?.layout.value);
+    let layout = layout.map(|layout| match layout {
+        FrameLayout::X => Layout::X,
+        FrameLayout::Plus => Layout::Plus,
+    });
+    Some(layout.or_else(known)?.places(1.0))
+}
+
+/// Labels the rotors of a recording; what is not told is said.
+pub(crate) fn label(record: &mut SpeedRecord, plan: &LabelPlan) {
+    if record.speed().is_none() {
+        return;
+    }
+    let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+    let rotor_count = record.config.rotors.count as usize;
+    let labels = best_of(plan.logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, &plan.config)));
+    if let Some(reason) = labels.as_ref().and_then(|labels| labels.not_told.as_ref()) {
+        let text = format!("which rotor is which is not told in full: {reason}");
+        record.notices.push(Notice::new(text, reason.hint()));
+    }
+    record.labels = labels;
+}
+
+/// The first that tells all; else that which tells most.
+fn best_of(all: impl Iterator<Item = RotorLabels>) -> Option<RotorLabels> {
+    let told = |labels: &RotorLabels| labels.rotors.iter().flatten().count();
+    let mut best: Option<RotorLabels> = None;
+    for labels in all {
+        if labels.not_told.is_none() {
+            return Some(labels);
+        }
+        if best.as_ref().is_none_or(|best| told(&labels) > told(best)) {
+            best = Some(labels);
+        }
+    }
+    best
+}

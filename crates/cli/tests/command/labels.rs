@@ -1,0 +1,112 @@
+//! Which rotor is which: `hovertone speed --log`.
+
+use crate::testkit::{hovertone, text};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const FLIGHT: &str = "duration_s = 6.0\nseed = 4\ntruth_rate_hz = 20.0\n[spread]\nthrust_shares = [1.05, 0.95, 1.01, 0.98]\n\
+    [motor_wander]\n[sound]\nsample_rate_hz = 44100\ntone_level_db_spl = 70.0\n[[microphone]]\nposition_m = [-1.0, 0.5, 1.3]\n";
+
+/// Flies it; the sound, and the truth as a table.
+fn flown(folder: &Path) -> (PathBuf, csv::StringRecord, Vec<csv::StringRecord>) {
+    let scenario = folder.join("scenario.toml");
+    fs::write(&scenario, FLIGHT).unwrap();
+    let output = folder.join("flown");
+    hovertone(&["simulate", text(&scenario), "-o", text(&output)]).ends_with(0);
+    let mut table = csv::Reader::from_path(output.join("truth.csv")).unwrap();
+    let head = table.headers().unwrap().clone();
+    (output.join("sound.wav"), head, table.records().map(Result::unwrap).collect())
+}
+
+/// Some columns of the truth under other names, on a clock that is 31.4 s ahead.
+fn write_log(path: &Path, head: &csv::StringRecord, rows: &[csv::StringRecord], columns: &[(&str, &str, f64)]) {
+    let mut log = "time_s".to_owned();
+    columns.iter().for_each(|(_, name, _)| log += &format!(",{name}"));
+    for row in rows {
+        let number = |name: &str| row[head.iter().position(|known| known == name).unwrap()].parse::<f64>().unwrap();
+        log += &format!("\n{}", number("time_s") + 31.4);
+        columns.iter().for_each(|(column, _, factor)| log += &format!(",{}", factor * number(column)));
+    }
+    fs::write(path, log).unwrap();
+}
+
+fn names(line: &Value) -> Vec<&str> {
+    line["rotors"].as_array().unwrap().iter().map(|rotor| rotor["label"]["name"].as_str().unwrap_or("-")).collect()
+}
+
+#[test]
+fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, head, rows) = flown(folder.path());
+    let (gyro, speeds, track) =
+        (folder.path().join("gyro.csv"), folder.path().join("speeds.csv"), folder.path().join("track.csv"));
+    // PX4's axes: y to the right, z down
+    let rates = [
+        ("roll_rate_rad_s", "gyro_x_deg_s", 57.295_779_5),
+        ("pitch_rate_rad_s", "gyro_y_deg_s", -57.295_779_5),
+        ("yaw_rate_rad_s", "gyro_z_deg_s", -57.295_779_5),
+    ];
+    write_log(&gyro, &head, &rows, &rates);
+    let shafts: Vec<(String, String)> =
+        (1..=4).map(|number| (format!("speed_{number}_rad_s"), format!("motor{number}_speed_rad_s"))).collect();
+    let shafts: Vec<(&str, &str, f64)> = shafts.iter().map(|(from, to)| (from.as_str(), to.as_str(), 1.0)).collect();
+    write_log(&speeds, &head, &rows, &shafts);
+    let mean = |rotor: usize| -> f64 {
+        let column = head.iter().position(|known| known == format!("speed_{}_rad_s", rotor + 1)).unwrap();
+        rows.iter().map(|row| row[column].parse::<f64>().unwrap()).sum()
+    };
+    let mut rotors = [0, 1, 2, 3];
+    rotors.sort_by(|&a, &b| mean(b).total_cmp(&mean(a)));
+    assert_ne!(rotors, [0, 1, 2, 3]);
+    let speed = ["speed", "--vehicle", "ardrone", "--json", text(&sound)];
+    let run = |more: &[&str], code: i32| hovertone(&[&speed[..], more].concat()).ends_with(code).json_lines().remove(0);
+    let line = run(&["--log", text(&gyro), "--log-axes", "frd"], 0);
+    assert_eq!(names(&line), rotors.map(|rotor| ["front left", "rear left", "rear right", "front right"][rotor]));
+    assert_eq!(line["labels"]["source"], "body_rates");
+    let offset_s = line["labels"]["offset_s"].as_f64().unwrap();
+    // a step of the log, and three standard uncertainties
+    let allowed_s = 0.05 + 3.0 * line["labels"]["offset_std_uncertainty_s"].as_f64().unwrap();
+    assert!((offset_s + 31.4).abs() < allowed_s, "{}", line["labels"]);
+    let line = run(&["--log", text(&speeds), "--track", text(&track)], 0);
+    assert_eq!(names(&line), rotors.map(|rotor| ["motor 1", "motor 2", "motor 3", "motor 4"][rotor]));
+    let track = fs::read_to_string(&track).unwrap();
+    assert!(
+        track.starts_with("time_s,tone_hz,speed_rev_s,std_uncertainty_rev_s,level_db,rotor,label\n"),
+        "{track:.200}"
+    );
+    assert!(track.lines().nth(1).unwrap().ends_with(&format!(",1,motor {}", rotors[0] + 1)));
+    // what does not reach over the hover says nothing, and is said
+    let nothing = run(&["--log", text(&speeds), "--log-offset-s=-5:5"], 3);
+    assert_eq!(names(&nothing), ["-"; 4]);
+    assert!(nothing["warnings"].to_string().contains("share too little time"), "{}", nothing["warnings"]);
+    let without = run(&["--condition"], 0);
+    assert!(
+        without["labels"]["source"].is_null()
+            && without["labels"]["reason"].to_string().contains("order of their speeds")
+    );
+    assert!(without["rotors"][0]["label"].is_null() && without["rotors"][2]["condition"]["lines"].is_array());
+    let table = hovertone(&["speed", "--vehicle", "ardrone", "--condition", text(&sound)]).ends_with(0).stdout;
+    assert!(table.contains("rotor 1, by speed") && table.contains("once per turn"), "{table}");
+}
+
+#[test]
+fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("log.csv");
+    let refused = |content: &str, more: &[&str], words: &[&str]| {
+        fs::write(&log, content).unwrap();
+        let run = hovertone(&[&["speed", "a.wav", "--log", text(&log)], more].concat()).ends_with(2);
+        assert!(run.stdout.is_empty() && run.stderr.contains("hint:"), "{}", run.stderr);
+        words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}:\n{}", run.stderr));
+    };
+    let rates = "time_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s\n0,0,0,0\n1,0,0,0\n";
+    refused(rates, &["--vehicle", "ardrone"], &["how their axes point", "--log-axes"]);
+    refused(rates, &["--rotors", "4", "--blades", "2", "--log-axes", "flu"], &["where the rotors stand", "--layout"]);
+    refused(rates, &["--blades", "2"], &["only one is heard", "--rotors 4"]);
+    refused(rates, &["b.wav", "--vehicle", "ardrone"], &["2 recordings", "the same flight"]);
+    refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["time with its unit", "log.csv"]);
+    refused("time_s,motor1_pwm\n0,x\n", &["--vehicle", "ardrone"], &["line 2", "\"x\""]);
+    let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", "missing.csv"]).ends_with(1);
+    assert!(missing.stderr.contains("missing.csv"), "{}", missing.stderr);
+}

@@ -1,0 +1,146 @@
+//! Headers of flight logs → what their columns hold.
+
+use std::f64::consts::TAU;
+
+/// What a column holds. Factors are SI units in one unit of the column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum LogColumn {
+    Time {
+        factor: f64,
+    },
+    /// A time whose unit nobody says.
+    TimeWithoutUnit,
+    /// About x, y or z: 0, 1 or 2.
+    Rate {
+        axis: usize,
+        factor: f64,
+    },
+    MotorSpeed {
+        motor: u32,
+        factor: f64,
+    },
+    MotorCommand {
+        motor: u32,
+    },
+}
+
+const ABOUT: [&[&str]; 3] = [&["x", "roll", "p"], &["y", "pitch", "q"], &["z", "yaw", "r"]];
+
+/// What a header means; `None` for what tells no rotor.
+pub(super) fn column_of(header: &str) -> Option<LogColumn> {
+    let words = words_of(header);
+    let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
+    if has(&["time", "timestamp"]) || words.first().is_some_and(|word| word == "t") {
+        let units = [("s", 1.0), ("sec", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("ns", 1e-9)];
+        let unit = units.iter().find(|(unit, _)| has(&[unit]));
+        return Some(match unit {
+            Some(&(_, factor)) => LogColumn::Time { factor },
+            // PX4's logs say it nowhere, and always mean this
+            None if words == ["timestamp"] => LogColumn::Time { factor: 1e-6 },
+            None => LogColumn::TimeWithoutUnit,
+        });
+    }
+    if has(&["setpoint", "desired", "target", "torque", "thrust", "current", "temperature", "temp", "power"]) {
+        return None;
+    }
+    let number = words.iter().find_map(|word| word.parse::<u32>().ok());
+    if has(&["gyro", "gyroadc", "rate", "rates", "rollspeed", "pitchspeed", "yawspeed", "p", "q", "r"])
+        && !has(&["motor", "rotor", "esc"])
+    {
+        let named = ["rollspeed", "pitchspeed", "yawspeed"].iter().position(|name| has(&[name]));
+        let lettered = ABOUT.iter().position(|names| has(names));
+        let axis = named.or(lettered).or(number.map(|number| number as usize).filter(|axis| *axis < 3))?;
+        let factor = match () {
+            () if has(&["rad", "rads"]) => 1.0,
+            () if has(&["deg", "degrees", "dps"]) => TAU / 360.0,
+            () => return None,
+        };
+        return Some(LogColumn::Rate { axis, factor });
+    }
+    let motor = number?;
+    if has(&["rpm", "erpm"]) {
+        return Some(LogColumn::MotorSpeed { motor, factor: TAU / 60.0 });
+    }
+    if has(&["rad"]) && has(&["s"]) {
+        return Some(LogColumn::MotorSpeed { motor, factor: 1.0 });
+    }
+    if has(&["rps", "hz"]) || has(&["rev"]) && has(&["s"]) {
+        return Some(LogColumn::MotorSpeed { motor, factor: TAU });
+    }
+    let is_command = has(&["pwm", "command", "cmd", "duty", "output", "throttle", "voltage"]);
+    let is_bare = words.first().is_some_and(|word| ["motor", "rotor", "esc", "m"].contains(&word.as_str()))
+        && words.iter().skip(1).all(|word| word.parse::<u32>().is_ok() || ["us", "v"].contains(&word.as_str()));
+    (is_command || is_bare).then_some(LogColumn::MotorCommand { motor })
+}
+
+/// Lower-case words and whole numbers: "rotor1_speed_rad_s" is rotor, 1, speed, rad, s.
+fn words_of(header: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    let mut before: Option<char> = None;
+    for character in header.to_lowercase().chars() {
+        if character.is_alphanumeric() {
+            let goes_on = before.is_some_and(|before| {
+                before.is_alphanumeric() && before.is_ascii_digit() == character.is_ascii_digit()
+            });
+            match words.last_mut().filter(|_| goes_on) {
+                Some(word) => word.push(character),
+                None => words.push(character.to_string()),
+            }
+        }
+        before = Some(character);
+    }
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_as_programs_write_them() {
+        use LogColumn::{MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit};
+        let deg = TAU / 360.0;
+        for (header, column) in [
+            ("time_s", Time { factor: 1.0 }),
+            ("time (us)", Time { factor: 1e-6 }),
+            ("Time [ms]", Time { factor: 1e-3 }),
+            ("timestamp", Time { factor: 1e-6 }),
+            ("time", TimeWithoutUnit),
+            ("gyro_x_rad_s", Rate { axis: 0, factor: 1.0 }),
+            ("gyro.y (deg/s)", Rate { axis: 1, factor: deg }),
+            ("gyroADC[2] (deg/s)", Rate { axis: 2, factor: deg }),
+            ("roll_rate_rad_s", Rate { axis: 0, factor: 1.0 }),
+            ("pitch_rate_rad_s", Rate { axis: 1, factor: 1.0 }),
+            ("r_rad_s", Rate { axis: 2, factor: 1.0 }),
+            ("yawspeed_rad_s", Rate { axis: 2, factor: 1.0 }),
+            ("motor1_pwm", MotorCommand { motor: 1 }),
+            ("motor[0]", MotorCommand { motor: 0 }),
+            ("m4", MotorCommand { motor: 4 }),
+            ("output[3]", MotorCommand { motor: 3 }),
+            ("motor2 (us)", MotorCommand { motor: 2 }),
+            ("voltage_3_v", MotorCommand { motor: 3 }),
+            ("rotor1_speed_rad_s", MotorSpeed { motor: 1, factor: 1.0 }),
+            ("speed_2_rad_s", MotorSpeed { motor: 2, factor: 1.0 }),
+            ("esc[0].esc_rpm", MotorSpeed { motor: 0, factor: TAU / 60.0 }),
+            ("rotor3_speed_rev_s", MotorSpeed { motor: 3, factor: TAU }),
+        ] {
+            assert_eq!(column_of(header), Some(column), "{header}");
+        }
+        for header in [
+            "x_m",
+            "gyro_x",
+            "velocity_x_m_s",
+            "thrust_1_n",
+            "torque_1_n_m",
+            "command_roll",
+            "roll_deg",
+            "battery_v",
+            "motor1_temperature_c",
+            "esc[0].esc_current",
+            "acc[0]",
+            "rotor1_speed_setpoint_rad_s",
+        ] {
+            assert_eq!(column_of(header), None, "{header}");
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Logs as programs write them, and as they should not be.
+
+use super::*;
+use std::f64::consts::TAU;
+
+#[test]
+fn columns_are_found_wherever_they_stand_and_gaps_are_gaps() {
+    let text = "\u{feff}loop,motor[1],time (us),motor[0],gyroADC[0] (deg/s),gyroADC[1] (deg/s),gyroADC[2] (deg/s)\n\
+                1,1100,1000000,1000,180,0,0\n2,1110,1010000,1010,90,1,2\n3,,1020000,1020,0,0,360\n3,1,1020000,1,1,1,1\n";
+    let log = flight_log_from_csv(text).unwrap();
+    let commands = log.commands.unwrap();
+    assert_eq!(commands.names, ["motor 0", "motor 1"]);
+    // the third row lacks a motor, but not the rates; the fourth has its time, and then it is the motors' turn
+    assert_eq!(commands.time_s, [1.0, 1.01, 1.02]);
+    assert_eq!(commands.values, [[1000.0, 1010.0, 1.0], [1100.0, 1110.0, 1.0]]);
+    let rates = log.rates.unwrap();
+    assert_eq!(rates.time_s.len(), 3);
+    assert!((rates.rates_rad_s[0][0] - TAU / 2.0).abs() < 1e-12 && (rates.rates_rad_s[2][2] - TAU).abs() < 1e-12);
+    assert_eq!(log.speeds, None);
+}
+
+#[test]
+fn speeds_are_in_rad_s_and_in_the_order_of_their_numbers() {
+    let log = flight_log_from_csv("time_s;rotor2_rpm;rotor1_rpm\n0;120;60\n0.5;120;60\n").unwrap();
+    let speeds = log.speeds.unwrap();
+    assert_eq!(speeds.names, ["motor 1", "motor 2"]);
+    assert!((speeds.values[0][1] - TAU).abs() < 1e-12 && (speeds.values[1][0] - 2.0 * TAU).abs() < 1e-12);
+}
+
+#[test]
+fn what_means_nothing_is_refused_with_what_to_do() {
+    for (text, words) in [
+        ("time,motor1_pwm\n0,1\n", ["unit", "time, motor1_pwm"]),
+        ("motor1_pwm,motor2_pwm\n0,1\n", ["time", "columns are"]),
+        ("time_s,x_m\n0,1\n", ["motors or body rates", "time_s, x_m"]),
+        ("time_s,gyro_x_rad_s\n0,1\n", ["motors or body rates", "gyro_x_rad_s"]),
+        ("time_s,motor1_pwm,m1\n0,1,2\n", ["motor1_pwm", "m1"]),
+        ("time_s,motor1_pwm\n0,fast\n", ["line 2", "fast"]),
+        ("time_s,motor1_pwm\n0,inf\n", ["line 2", "inf"]),
+        ("time_s,motor1_pwm\n1,1\n0.5,1\n", ["line 3", "before"]),
+        ("", ["time", "columns are"]),
+    ] {
+        let error = flight_log_from_csv(text).unwrap_err();
+        let message = error.to_string();
+        assert!(words.iter().all(|word| message.contains(word)), "{text:?}: {message}");
+        assert!(!error.hint().is_empty());
+    }
+}

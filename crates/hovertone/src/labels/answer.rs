@@ -1,0 +1,168 @@
+//! What is known of which rotor is which, and why not more.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Where labels come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum LabelSource {
+    /// Speeds of the motors in a log.
+    MotorSpeeds,
+    /// Commands or PWM of the motors in a log.
+    MotorCommands,
+    /// Rates at which the body turns, in a log.
+    BodyRates,
+}
+
+impl LabelSource {
+    /// For people.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::MotorSpeeds => "the speeds of the motors",
+            Self::MotorCommands => "the commands of the motors",
+            Self::BodyRates => "the body's rates",
+        }
+    }
+}
+
+/// Which rotor a track is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RotorLabel {
+    /// Number of the motor or place, counted from 1, in the order of the log's motors or of the frame's places.
+    pub number: usize,
+    /// Its name: "motor 3", "front left".
+    pub name: String,
+    /// How probable it is that the track is this rotor's.
+    pub probability: f64,
+}
+
+/// Which rotors the tracks are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RotorLabels {
+    /// What tells it.
+    pub source: LabelSource,
+    /// What is to be added to the log's times to have the recording's; absent where nothing is told.
+    pub offset_s: Option<f64>,
+    /// Its standard uncertainty.
+    pub offset_std_s: Option<f64>,
+    /// Probability of the most probable assignment of all tracks; the rest is for the others, and for the log having nothing to do
+    /// with the tracks.
+    pub probability: Option<f64>,
+    /// For each track, in their order; absent where it is not told.
+    pub rotors: Vec<Option<RotorLabel>>,
+    /// Why some are not told.
+    pub not_told: Option<NotTold>,
+}
+
+/// Why labels are not told.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum NotTold {
+    /// The log knows another number of rotors.
+    OtherCount {
+        /// Rotors that turn.
+        rotors: usize,
+        /// Rotors of the log.
+        of_log: usize,
+    },
+    /// Too many to weigh every assignment.
+    TooManyRotors {
+        /// Rotors that turn.
+        rotors: usize,
+    },
+    /// Not enough rotors are told apart.
+    TooFewTracks {
+        /// Those that are.
+        tracks: usize,
+        /// Those that are needed.
+        needed: usize,
+    },
+    /// More offsets than can be tried.
+    TooManyOffsets {
+        /// The smallest.
+        low_s: f64,
+        /// The largest.
+        high_s: f64,
+    },
+    /// Log and hover share too little time.
+    NoOverlap,
+    /// Nothing in the log moves with the tracks.
+    NothingInCommon {
+        /// Probability that it has to do with them at all.
+        probability: f64,
+    },
+    /// The best offset is the smallest or largest that was tried.
+    OffsetAtLimit {
+        /// Where.
+        offset_s: f64,
+    },
+    /// Several assignments fit.
+    SeveralFit {
+        /// Tracks that have no label.
+        tracks: usize,
+    },
+}
+
+impl NotTold {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::OtherCount { .. } => "say how many rotors turn with --rotors, and give the log of the same flight",
+            Self::TooManyRotors { .. } => "they keep their numbers by speed",
+            Self::TooFewTracks { .. } => "a nearer microphone and higher harmonics tell more rotors apart",
+            Self::TooManyOffsets { .. } => "narrow them with --log-offset-s LOW:HIGH",
+            Self::NoOverlap => {
+                "give the log of the same flight, and limits with --log-offset-s LOW:HIGH that hold its offset"
+            }
+            Self::NothingInCommon { .. } => {
+                "check that the log is of the same flight, that --log-offset-s holds its offset, and how its axes point"
+            }
+            Self::OffsetAtLimit { .. } => "widen --log-offset-s LOW:HIGH",
+            Self::SeveralFit { .. } => {
+                "a longer hover, or one with small rolls and pitches in it, tells rotors apart that move alike"
+            }
+        }
+    }
+}
+
+impl fmt::Display for NotTold {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OtherCount { rotors, of_log } => write!(f, "{rotors} rotors turn, and the log is of {of_log}"),
+            Self::TooManyRotors { rotors } => {
+                write!(f, "{rotors} rotors have too many assignments; up to {} can be told", super::LABELLED_ROTORS_MAX)
+            }
+            Self::TooFewTracks { tracks, needed } => {
+                write!(f, "{tracks} rotors are told apart by their sound, and the log needs {needed}")
+            }
+            Self::TooManyOffsets { low_s, high_s } => {
+                write!(f, "the log could be anywhere from {low_s:.0} to {high_s:.0} s off the recording")
+            }
+            Self::NoOverlap => f.write_str("the log and the hover share too little time"),
+            Self::NothingInCommon { probability } => {
+                write!(f, "nothing in the log moves with the rotors' speeds (probability {probability:.2})")
+            }
+            Self::OffsetAtLimit { offset_s } => {
+                write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of what was tried")
+            }
+            Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors several labels fit the log"),
+        }
+    }
+}
+
+impl RotorLabels {
+    /// No label at all.
+    pub(super) fn not_told(source: LabelSource, tracks: usize, reason: NotTold) -> Self {
+        Self {
+            source,
+            offset_s: None,
+            offset_std_s: None,
+            probability: None,
+            rotors: vec![None; tracks],
+            not_told: Some(reason),
+        }
+    }
+}

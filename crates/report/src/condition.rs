@@ -1,0 +1,53 @@
+//! What rotors' lines say of their state, as a table: shown, not diagnosed.
+
+use crate::number::{DASH, rounded};
+use crate::recording::SpeedRecord;
+use crate::speed::name_of_rotor;
+use crate::text_table::{Column, TextTable};
+use hovertone::ShaftLine;
+
+/// The lines of all rotors, each against its own blade pass; nothing where nobody asked for them.
+pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
+    let mut table = TextTable::new(vec![
+        Column::words("lines against the blade pass"),
+        Column::numbers("once per turn", "dB"),
+        Column::numbers("loudest between", "dB"),
+        Column::numbers("its order", ""),
+        Column::numbers("harmonics missing", ""),
+    ]);
+    let wanted = || records.iter().filter(|record| record.config.rotors.wants_condition && record.speed().is_some());
+    wanted().next()?;
+    for record in wanted() {
+        let why_none = if record.rotors().is_empty() { "no rotors are told apart" } else { "" };
+        table.push_words(record.file.clone(), why_none.to_owned());
+        for (index, rotor) in record.rotors().iter().enumerate() {
+            let name = name_of_rotor(record, index);
+            let Some(condition) = &rotor.condition else {
+                table.push_words(
+                    name,
+                    "blades not known, or their pass not heard apart from another rotor's".to_owned(),
+                );
+                continue;
+            };
+            let between = condition.loudest_between();
+            let missing: Vec<String> = condition.missing_harmonics.iter().map(u32::to_string).collect();
+            table.push(vec![
+                name,
+                condition.lines.first().map_or_else(|| DASH.to_owned(), level),
+                between.map_or_else(|| DASH.to_owned(), level),
+                between.map_or_else(|| DASH.to_owned(), |line| line.order.to_string()),
+                if missing.is_empty() { DASH.to_owned() } else { missing.join(", ") },
+            ]);
+        }
+    }
+    Some(table.render())
+}
+
+/// A level; of a line that is not heard, what noise has there.
+fn level(line: &ShaftLine) -> String {
+    match (line.level_db, line.noise_db) {
+        (Some(level_db), _) => rounded(level_db, line.std_uncertainty_db),
+        (None, Some(noise_db)) => format!("< {noise_db:.0}"),
+        (None, None) => DASH.to_owned(),
+    }
+}
