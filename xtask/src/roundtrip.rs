@@ -162,7 +162,7 @@ fn print(trips: &[Trip], spread_share: f64) {
     for trip in trips {
         let cells = trip.answers.iter().map(|(_, answer)| match answer {
             Some(answer) => format!(
-                "{:+.2} | {} | {}",
+                "{:+.3} | {} | {}",
                 100.0 * answer.error_share,
                 answer.std_share.map_or("–".to_owned(), |std| format!("{:.2}", 100.0 * COVERAGE_FACTOR * std)),
                 if answer.is_within() { "yes" } else { "no" },
@@ -188,7 +188,7 @@ fn print(trips: &[Trip], spread_share: f64) {
         let mut errors: Vec<f64> = answers.iter().map(|answer| 100.0 * answer.error_share.abs()).collect();
         errors.sort_by(f64::total_cmp);
         let quantile = |share: f64| errors.get((share * (errors.len().max(1) - 1) as f64).round() as usize);
-        let shown = |value: Option<&f64>| value.map_or("–".to_owned(), |value| format!("{value:.2}"));
+        let shown = |value: Option<&f64>| value.map_or("–".to_owned(), |value| format!("{value:.3}"));
         println!(
             "| {name} | {} | {} | {} | {} | {} | {} | {} | {} |",
             answers.len(),

@@ -4,6 +4,14 @@ use crate::config::check_range;
 use crate::error::ConfigError;
 use serde::{Deserialize, Serialize};
 
+/// How far rotors scatter about their mean: those within ±1 % of it, evenly spread, have 0.58 %.
+pub(crate) const ROTOR_SPREAD_SHARE: f64 = 0.0058;
+
+/// How far one of so many rotors turns from their mean, as a standard deviation: `σ √(1 − 1/N)`.
+pub(crate) fn loudest_rotor_share(rotor_spread_share: f64, count: u32) -> f64 {
+    rotor_spread_share * (1.0 - 1.0 / f64::from(count.max(1))).sqrt()
+}
+
 /// What makes a speed uncertain that its sound does not show.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -12,17 +20,20 @@ pub struct BudgetConfig {
     pub clock_ppm: f64,
     /// The vehicle may move towards or away from the microphone this fast; 0 in a hover, whose drift averages out.
     pub radial_speed_m_s_max: f64,
+    /// Standard deviation of the speeds of several rotors about their mean, as a share; counts where one line stands for all.
+    pub rotor_spread_share: f64,
 }
 
 impl Default for BudgetConfig {
     fn default() -> Self {
-        Self { clock_ppm: 50.0, radial_speed_m_s_max: 0.0 }
+        Self { clock_ppm: 50.0, radial_speed_m_s_max: 0.0, rotor_spread_share: ROTOR_SPREAD_SHARE }
     }
 }
 
 impl BudgetConfig {
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("clock_ppm", self.clock_ppm, 0.0, 1e5)?;
-        check_range("radial_speed_m_s_max", self.radial_speed_m_s_max, 0.0, 100.0)
+        check_range("radial_speed_m_s_max", self.radial_speed_m_s_max, 0.0, 100.0)?;
+        check_range("rotor_spread_share", self.rotor_spread_share, 0.0, 0.3)
     }
 }

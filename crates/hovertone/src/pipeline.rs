@@ -14,8 +14,8 @@ use crate::span::Span;
 use crate::speed::{HarmonicWeights, RotorEstimate, SpeedEstimate, Track, TrackPoint};
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
 use crate::tone::{
-    BLADES_MAX, Band, CombMap, bands_around, bands_worth_following, foreign_series, lines_and_between, lines_around,
-    lines_between_speeds, lines_worth_hearing, search_range_rev_s,
+    BLADES_MAX, Band, CombMap, bands_around, bands_worth_following, families_agree, foreign_series, lines_and_between,
+    lines_around, lines_between_speeds, lines_worth_hearing, search_range_rev_s,
 };
 use crate::verdict::{
     NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_rotors,
@@ -181,6 +181,11 @@ fn speed_near(
         let steady_rev_s = harmonic.speed_in(None, config.tone.order).map_or(speed_rev_s, |found| found.speed.rev_s());
         not_a_line = slower_shaft_from_source(source, &hover, (&lines, steady_rev_s), config, on_progress)?;
     }
+    // several rotors crowd each other's lines; what both of their families say of the shaft is worth more
+    let are_crowded = config.rotors.are_several() && matches!(not_a_line, Some(NoTone::NotALine { .. }));
+    if are_crowded && families_agree(survey, map, &config.tone, sample_rate_hz, speed_rev_s)? {
+        not_a_line = None;
+    }
     if let Some(reason) = not_a_line
         .or_else(|| not_held_reason(restless_s(&hover, survey, map), &hover, tone_hz, &config.hover))
         .or_else(|| mains_hum_reason(clearest, survey))
@@ -207,7 +212,7 @@ fn speed_near(
                 None if method == Method::Separated => apart.speed_in(span, order),
                 None => harmonic.speed_in(span, order),
             })
-            .map(|speed| speed.with_budget(&config.budget))
+            .map(|speed| speed.with_budget(&config.budget, &config.rotors))
             .collect()
     };
     let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);

@@ -3,7 +3,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test may
 
-use hovertone::{Config, Method, Outcome, RotorTone, Signal, SpeedAnalysis, ToneConfig, Warning, speed_from_source};
+use hovertone::{
+    Config, Method, Outcome, RotorTone, Signal, SpeedAnalysis, ToneConfig, UncertaintySource, Warning,
+    speed_from_source,
+};
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
@@ -11,6 +14,8 @@ use std::f64::consts::TAU;
 
 const RATE_HZ: f64 = 48000.0;
 const LENGTH_S: f64 = 6.0;
+/// Noise beside lines of amplitude 1.
+const QUIET: f64 = 0.4;
 const LINES: [(f64, f64); 9] = [
     (69.0, 1.0),
     (70.0, 0.3),
@@ -49,10 +54,10 @@ impl Rotor {
 fn heard(rotors: &[Rotor], seed: u64) -> SpeedAnalysis {
     let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
     tone.blades = Some(2);
-    heard_by(rotors, &LINES, tone, seed)
+    heard_by(rotors, &LINES, QUIET, tone, seed)
 }
 
-fn heard_by(rotors: &[Rotor], lines: &[(f64, f64)], tone: ToneConfig, seed: u64) -> SpeedAnalysis {
+fn heard_by(rotors: &[Rotor], lines: &[(f64, f64)], noise_std: f64, tone: ToneConfig, seed: u64) -> SpeedAnalysis {
     let mut rng = rand_pcg::Pcg64::seed_from_u64(seed);
     let mut samples = vec![0.0; (LENGTH_S * RATE_HZ) as usize];
     for rotor in rotors {
@@ -67,7 +72,7 @@ fn heard_by(rotors: &[Rotor], lines: &[(f64, f64)], tone: ToneConfig, seed: u64)
     }
     let samples = samples.into_iter().map(|sample| {
         let noise: f64 = StandardNormal.sample(&mut rng);
-        (0.03 * (sample + 0.4 * noise)) as f32
+        (0.003 * (sample + noise_std * noise)) as f32
     });
     let mut config = Config::for_tone(tone);
     config.rotors.count = 4;
@@ -139,7 +144,7 @@ fn many_lines_of_four_rotors_are_no_other_sound() {
             .map(|(rotor, mean)| Rotor { swing_share: 0.002, swing_hz: 0.2 + 0.1 * rotor as f64, ..Rotor::at(mean) })
             .collect();
         let tone = ToneConfig::of_order(Order::new(2.0).unwrap());
-        let analysis = heard_by(&rotors, &lines, tone, 20 + seed);
+        let analysis = heard_by(&rotors, &lines, QUIET, tone, 20 + seed);
         let tone = tone_of(&analysis);
         assert_eq!(tone.rotors.len(), 4);
         let unused_s = LENGTH_S - analysis.hover.length_s();
@@ -151,6 +156,33 @@ fn many_lines_of_four_rotors_are_no_other_sound() {
             assert!(error.abs() < 1e-4, "seed {seed}: {error}");
         }
     }
+}
+
+#[test]
+fn rotors_in_loud_noise_say_how_little_is_known_of_them() {
+    let (mut answered, mut apart, mut within) = (0, 0, 0);
+    for (noise_std, seed) in [6.0, 9.0, 12.0, 20.0].into_iter().flat_map(|noise| (0..3).map(move |seed| (noise, seed)))
+    {
+        let swing = |mean| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean) };
+        let rotors = [59.4, 59.9, 60.3, 60.8].map(swing);
+        let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
+        tone.blades = Some(2);
+        let analysis = heard_by(&rotors, &LINES, noise_std, tone, 40 + seed);
+        let Outcome::Ok(tone) = &analysis.outcome else { continue };
+        let speed = tone.speed(Method::Separated).unwrap();
+        let std = speed.combined_std_uncertainty_rev_s().unwrap();
+        let of_rotors = speed.budget.iter().any(|term| term.source == UncertaintySource::Rotors);
+        assert_eq!(of_rotors, speed.method != Method::Separated);
+        answered += 1;
+        apart += u32::from(!of_rotors);
+        // the mean of swings that begin at 0 is 0.1 % higher over 6 s
+        let truth = rotors.iter().map(|rotor| rotor.turns(LENGTH_S) / LENGTH_S).sum::<f64>() / 4.0;
+        let error = speed.speed.rev_s() - truth;
+        assert!(error.abs() < 4.0 * std, "noise {noise_std}, seed {seed}: {error} ± {std}");
+        within += u32::from(error.abs() < 2.0 * std);
+    }
+    // half in the louder noise are refused; of the rest nine tenths within k = 2
+    assert!(answered >= 6 && apart >= 2 && 10 * within >= 9 * answered, "{within} of {answered}, {apart} apart");
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! What makes a speed uncertain: what the sound leaves open, the recorder's clock, and the motion of the vehicle.
 
 use super::SpeedEstimate;
-use crate::budget_config::BudgetConfig;
+use crate::budget_config::{BudgetConfig, loudest_rotor_share};
+use crate::method::Method;
+use crate::rotors_config::RotorsConfig;
 use serde::Serialize;
 
 /// Speed of sound in dry air of 20 °C. It changes by 0.17 % for each kelvin, which does not matter here.
@@ -18,6 +20,9 @@ pub enum UncertaintySource {
     Clock,
     /// A vehicle that moves along the line to the microphone by up to ±v: `n v / (c √3)`. A hover's own drift averages out.
     Doppler,
+    /// One ridge, or one line of several rotors that were not told apart, stands for all of them: their mean lies about it as
+    /// their speeds scatter.
+    Rotors,
 }
 
 /// One term of the uncertainty of a speed.
@@ -31,7 +36,7 @@ pub struct UncertaintyTerm {
 
 impl SpeedEstimate {
     /// The terms of its uncertainty; none where the sound itself leaves it unknown.
-    pub(crate) fn with_budget(mut self, config: &BudgetConfig) -> Self {
+    pub(crate) fn with_budget(mut self, config: &BudgetConfig, rotors: &RotorsConfig) -> Self {
         let limits = [
             (UncertaintySource::Clock, config.clock_ppm / 1e6),
             (UncertaintySource::Doppler, config.radial_speed_m_s_max / SOUND_M_S),
@@ -43,6 +48,13 @@ impl SpeedEstimate {
             };
             self.budget = vec![UncertaintyTerm { source: UncertaintySource::Sound, std_uncertainty_rev_s }];
             self.budget.extend(limits.into_iter().filter(|(_, share)| *share > 0.0).map(of_limit));
+            if rotors.are_several() && self.method != Method::Separated && config.rotor_spread_share > 0.0 {
+                self.budget.push(UncertaintyTerm {
+                    source: UncertaintySource::Rotors,
+                    std_uncertainty_rev_s: self.speed.rev_s()
+                        * loudest_rotor_share(config.rotor_spread_share, rotors.count),
+                });
+            }
         }
         self
     }
@@ -57,7 +69,6 @@ impl SpeedEstimate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::Method;
     use hovertone_vehicle::{Order, RotorSpeed};
 
     #[test]
@@ -73,12 +84,20 @@ mod tests {
             harmonics: Vec::new(),
             budget: Vec::new(),
         };
-        let config = BudgetConfig { clock_ppm: 3f64.sqrt() * 40.0, radial_speed_m_s_max: 0.0 };
-        let got = estimate.clone().with_budget(&config);
+        let config = BudgetConfig { clock_ppm: 3f64.sqrt() * 40.0, ..BudgetConfig::default() };
+        let one = RotorsConfig::default();
+        let got = estimate.clone().with_budget(&config, &one);
         assert!((got.combined_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
-        let config = BudgetConfig { clock_ppm: 0.0, radial_speed_m_s_max: SOUND_M_S * 1e-3 };
-        let got = estimate.with_budget(&config);
+        let config = BudgetConfig { clock_ppm: 0.0, radial_speed_m_s_max: SOUND_M_S * 1e-3, rotor_spread_share: 0.004 };
+        let got = estimate.clone().with_budget(&config, &one);
         assert_eq!(got.budget.len(), 2);
         assert!((got.budget[1].std_uncertainty_rev_s - 0.1 / 3f64.sqrt()).abs() < 1e-12);
+        // of four rotors, one line stands for all, unless they were told apart
+        let four = RotorsConfig { count: 4, ..one };
+        let got = estimate.clone().with_budget(&config, &four);
+        assert_eq!(got.budget[2].source, UncertaintySource::Rotors);
+        assert!((got.budget[2].std_uncertainty_rev_s - 0.4 * 0.75f64.sqrt()).abs() < 1e-12);
+        let apart = SpeedEstimate { method: Method::Separated, ..estimate };
+        assert_eq!(apart.with_budget(&config, &four).budget.len(), 2);
     }
 }

@@ -4,6 +4,7 @@ use super::{RotorEstimate, SpeedEstimate};
 use crate::budget_config::BudgetConfig;
 use crate::harmonic::{HarmonicTrack, RotorTrack, RotorTracks};
 use crate::method::Method;
+use crate::rotors_config::RotorsConfig;
 use crate::span::Span;
 use crate::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed};
@@ -37,12 +38,20 @@ impl RotorTracks {
 
     /// The rotors that are told apart, fastest first.
     pub(crate) fn rotors(&self, order: Order, budget: &BudgetConfig) -> Vec<RotorEstimate> {
+        let speeds: Vec<f64> =
+            self.resolved(None).filter_map(|rotor| Some(rotor.track.speed_in(None, order)?.speed.rev_s())).collect();
+        let among_rev_s = self.among_rev_s(&speeds);
         let mut rotors: Vec<RotorEstimate> = self
             .resolved(None)
             .filter_map(|rotor| {
-                let speed = rotor.track.speed_in(None, order)?;
+                let mut speed = rotor.track.speed_in(None, order)?;
+                let lost_rev_s = self.lost_share(rotor, None) * among_rev_s;
+                speed.std_uncertainty_rev_s = speed.std_uncertainty_rev_s.map(|std| std.hypot(lost_rev_s));
                 let mut track = rotor.track.points_in(None, order);
                 for point in &mut track {
+                    if rotor.lost.iter().any(|span| span.contains(point.time_s)) {
+                        point.std_uncertainty_rev_s = point.std_uncertainty_rev_s.max(among_rev_s);
+                    }
                     // where it is not apart from another rotor, it may be either
                     if rotor.merged.iter().any(|span| span.contains(point.time_s)) {
                         point.std_uncertainty_rev_s = point.std_uncertainty_rev_s.max(self.resolution_rev_s);
@@ -51,7 +60,7 @@ impl RotorTracks {
                 let mean_square_rad2_s2 = rotor.track.mean_square_rad2_s2(None);
                 let speed = SpeedEstimate { method: Method::Separated, mean_square_rad2_s2, ..speed };
                 Some(RotorEstimate {
-                    speed: speed.with_budget(budget),
+                    speed: speed.with_budget(budget, &RotorsConfig::default()),
                     merged: rotor.merged.clone(),
                     track,
                     condition: None,
@@ -64,7 +73,7 @@ impl RotorTracks {
 
     /// Mean of all rotors' speeds over a stretch of time, and their mean square. `None` where none is told apart.
     ///
-    /// Uncertainty: that of each rotor; and of `count` rotors of which k are told apart, `(1 − k / count)` times what is not known
+    /// Uncertainty: that of each rotor, which may be anywhere among the others while it is lost; and of `count` rotors of which k are told apart, `(1 − k / count)` times what is not known
     /// of the others: where a faint rotor would have been heard, they turn like one of the k, within the resolution; else they may
     /// be anywhere, 6 %.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
@@ -79,8 +88,11 @@ impl RotorTracks {
         let mean_rev_s = mean(&speeds)?;
         let stds = heard.iter().filter_map(|(speed, _)| speed.std_uncertainty_rev_s);
         let of_rotors: f64 = stds.map(|std| (std / resolved).powi(2)).sum();
+        let among_rev_s = self.among_rev_s(&speeds);
+        let of_lost: f64 =
+            self.resolved(span).map(|rotor| (self.lost_share(rotor, span) * among_rev_s / resolved).powi(2)).sum();
         let unknown_rev_s = if self.faint_s >= FAINT_SHARE_MIN * self.length_s {
-            std(&speeds).unwrap_or(0.0).hypot(self.resolution_rev_s)
+            among_rev_s
         } else {
             UNKNOWN_SPREAD_SHARE * mean_rev_s
         };
@@ -89,12 +101,24 @@ impl RotorTracks {
         Some(SpeedEstimate {
             method: Method::Separated,
             speed: RotorSpeed::from_rev_s(mean_rev_s),
-            std_uncertainty_rev_s: Some(of_rotors.sqrt().hypot(of_unresolved)),
+            std_uncertainty_rev_s: Some((of_rotors + of_lost).sqrt().hypot(of_unresolved)),
             spread_rev_s: mean(&spreads),
             mean_square_rad2_s2: mean(&squares),
             harmonics: Vec::new(),
             ..first
         })
+    }
+
+    /// How far a rotor that may be anywhere among these is from where it is looked for.
+    fn among_rev_s(&self, speeds_rev_s: &[f64]) -> f64 {
+        std(speeds_rev_s).unwrap_or(0.0).hypot(self.resolution_rev_s)
+    }
+
+    /// Share of a stretch of time in which a rotor may be anywhere among the others.
+    fn lost_share(&self, rotor: &RotorTrack, span: Option<&Span>) -> f64 {
+        let lost_s: f64 =
+            rotor.lost.iter().map(|own| span.map_or(*own, |span| own.overlap(*span)).length_s().max(0.0)).sum();
+        lost_s / span.map_or(self.length_s, Span::length_s).min(self.length_s).max(f64::MIN_POSITIVE)
     }
 
     /// The rotors that are told apart for most of a stretch of time.

@@ -1,5 +1,6 @@
 //! What can make a thrust constant wrong that no recording shows: how large each effect may be, with its reason.
 
+use crate::budget_config::{ROTOR_SPREAD_SHARE, loudest_rotor_share};
 use crate::config::check_range;
 use crate::error::ConfigError;
 use serde::{Deserialize, Serialize};
@@ -32,7 +33,7 @@ impl Default for UncertaintyInputs {
     fn default() -> Self {
         Self {
             scale_share_max: 0.001,
-            rotor_spread_share: 0.0058,
+            rotor_spread_share: ROTOR_SPREAD_SHARE,
             climb_rate_m_s_max: 0.05,
             tilt_deg_max: 2.0,
             hover_height_m: 1.0,
@@ -45,7 +46,7 @@ impl Default for UncertaintyInputs {
 impl UncertaintyInputs {
     /// How far the loudest of so many rotors is from their mean: any of them can be it.
     pub fn loudest_std_share(&self, rotor_count: u32) -> f64 {
-        self.rotor_spread_share * (1.0 - 1.0 / f64::from(rotor_count.max(1))).sqrt()
+        loudest_rotor_share(self.rotor_spread_share, rotor_count)
     }
 
     /// What is wrong with it, by name, value and limit.

@@ -1,5 +1,6 @@
 //! Tone families: which shaft speed explains the lines, and the band of each harmonic.
 
+mod agreement;
 mod band;
 mod band_choice;
 mod comb;
@@ -13,6 +14,7 @@ mod profile;
 mod reading;
 mod series;
 
+pub(crate) use agreement::families_agree;
 pub use band::Band;
 pub(crate) use band::{bands_around, lines_and_between, lines_around, lines_between_speeds, search_range_rev_s};
 pub(crate) use band_choice::{bands_worth_following, lines_worth_hearing};

@@ -84,6 +84,8 @@ pub(crate) struct RotorTrack {
     pub(crate) track: HarmonicTrack,
     /// When it is closer to another rotor than can be told apart, or not heard.
     pub(crate) merged: Vec<Span>,
+    /// When it is not heard, and no other rotor hides it: then it may be anywhere.
+    pub(crate) lost: Vec<Span>,
 }
 
 impl RotorScout {
@@ -147,7 +149,11 @@ impl RotorTracer {
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], mesh_order: Option<f64>, rough: RoughRotors) -> Self {
         let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
-        let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, merged: Vec::new() };
+        let rotor = RotorTrack {
+            track: HarmonicTrack { step_s, ..HarmonicTrack::default() },
+            merged: Vec::new(),
+            lost: Vec::new(),
+        };
         Self {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s: limits_rev_s(bands),
@@ -206,18 +212,24 @@ impl RotorTracer {
         self.tracks.length_s += ticks as f64 * tick_s;
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * ticks as f64 * tick_s;
         let resolution_rev_s = self.tracks.resolution_rev_s;
-        let is_apart = |rotor: usize, frame: usize| {
-            let of = |rotor: usize| &frames[labelling[frame][rotor]][frame];
-            let is_close = |other: usize| (of(other).speed_rev_s - of(rotor).speed_rev_s).abs() < resolution_rev_s;
-            // of two in one place the first stands for both
-            !(0..rotor).any(is_close) && (of(rotor).is_heard || (rotor + 1..labelling[frame].len()).any(is_close))
+        let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
+        let is_close = |rotor: usize, other: usize, frame: usize| {
+            (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < resolution_rev_s
         };
-        for (rotor, RotorTrack { track, merged }) in self.tracks.rotors.iter_mut().enumerate() {
-            for frame in (0..labelling.len()).filter(|&frame| !is_apart(rotor, frame)) {
-                extend(
-                    merged,
-                    Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s },
-                );
+        for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
+            for frame in 0..labelling.len() {
+                let span =
+                    Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s };
+                // of two in one place the first stands for both
+                let is_hidden = (0..rotor).any(|other| is_close(rotor, other, frame));
+                let hides = (rotor + 1..labelling[frame].len()).any(|other| is_close(rotor, other, frame));
+                let is_lost = !is_hidden && !hides && !of(rotor, frame).is_heard;
+                if is_hidden || is_lost {
+                    extend(merged, span);
+                }
+                if is_lost {
+                    extend(lost, span);
+                }
             }
             // stretches in which the rotor keeps one track
             let mut from = 0;

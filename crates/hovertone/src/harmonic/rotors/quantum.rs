@@ -29,7 +29,7 @@ const CLOSE_SHARE: f64 = 0.3;
 const RECLAIMS: usize = 2;
 /// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
 /// noise alone follows its maxima.
-const HEARD_MARGIN: f64 = 1.5;
+const HEARD_MARGIN: f64 = 3.0;
 
 /// What was heard of one rotor.
 pub(super) struct HeardRotor {
