@@ -12,6 +12,8 @@ mod experiment;
 mod harmonic;
 mod hover;
 mod method;
+mod picture;
+mod picture_config;
 mod pipeline;
 mod regression;
 mod ridge;
@@ -38,6 +40,8 @@ pub use experiment::{
 };
 pub use hover::{Cut, CutReason, Hover};
 pub use method::Method;
+pub use picture::{MeanSpectrum, Picture, PictureView, Pictures, pictures_from_source, views_of_recording};
+pub use picture_config::PictureConfig;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
 pub use regression::{
     Agreement, FitError, FitPoint, LineFit, ParameterPrior, ProportionalFit, line_fit, log_evidence_ratio,
