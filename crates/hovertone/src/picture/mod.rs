@@ -63,13 +63,15 @@ pub struct Pictures {
     pub spectrum: Option<MeanSpectrum>,
 }
 
-/// Reads a source once and pools its spectrogram into one picture for each view, and the frames within `hover` into a mean spectrum.
+/// Reads a source once and pools the spectrogram of the part `shown` into one picture for each view, and the frames within `hover` into a
+/// mean spectrum.
 /// Frames have the length of the view; those of the spectrum that of [`PictureConfig::zoom_window_s`].
 ///
 /// # Errors
 /// Settings that mean nothing, a source that fails.
 pub fn pictures_from_source(
     source: &mut dyn SignalSource,
+    shown: Span,
     views: &[PictureView],
     hover: &[Span],
     config: &PictureConfig,
@@ -92,8 +94,7 @@ pub fn pictures_from_source(
         })
         .collect();
     let mut spectrum = SpectrumSum::default();
-    let everything = [Span { from_s: f64::MIN, to_s: f64::INFINITY }];
-    for_each_piece(source, &everything, |piece| match piece {
+    for_each_piece(source, &[shown], |piece| match piece {
         Piece::Start(start_s) => transforms.iter_mut().for_each(|(_, stft)| stft.restart(start_s)),
         Piece::Samples(samples) => {
             for (window_s, stft) in &mut transforms {

@@ -4,6 +4,7 @@ use super::*;
 use crate::signal::Signal;
 use std::f64::consts::TAU;
 
+const ALL: Span = Span { from_s: f64::MIN, to_s: f64::INFINITY };
 const RATE_HZ: f64 = 8000.0;
 
 fn view(hz_low: f64, hz_high: f64) -> PictureView {
@@ -32,7 +33,8 @@ fn loudest_row(picture: &Picture, column: usize) -> (f64, f32) {
 fn a_tone_is_in_its_row_at_its_level() {
     let mut source = sound(3.0, 1000.0, 99.0, 0.0).with_start_s(5.0);
     let config = PictureConfig::default();
-    let pictures = pictures_from_source(&mut source, &[view(0.0, 4000.0), view(900.0, 1100.0)], &[], &config).unwrap();
+    let pictures =
+        pictures_from_source(&mut source, ALL, &[view(0.0, 4000.0), view(900.0, 1100.0)], &[], &config).unwrap();
     assert_eq!(pictures.pictures.len(), 2);
     assert!(pictures.spectrum.is_none());
     for picture in &pictures.pictures {
@@ -53,7 +55,7 @@ fn long_recordings_have_bounded_pictures_in_which_nothing_loud_is_lost() {
     let config = PictureConfig { columns_max: 16, rows_max: 20, ..PictureConfig::default() };
     for (length_s, loud_s) in [(0.9, 0.31), (7.3, 6.6), (60.0, 41.0)] {
         let mut source = sound(length_s, 1000.0, loud_s, 3000.0);
-        let pictures = pictures_from_source(&mut source, &[view(0.0, 4000.0)], &[], &config).unwrap();
+        let pictures = pictures_from_source(&mut source, ALL, &[view(0.0, 4000.0)], &[], &config).unwrap();
         let picture = &pictures.pictures[0];
         assert!((8..=16).contains(&picture.column_count) && picture.row_count == 20, "{}", picture.column_count);
         let column_s = picture.span.length_s() / picture.column_count as f64;
@@ -69,11 +71,21 @@ fn long_recordings_have_bounded_pictures_in_which_nothing_loud_is_lost() {
 }
 
 #[test]
+fn a_part_can_be_shown() {
+    let part = Span { from_s: 1.0, to_s: 2.0 };
+    let mut source = sound(3.0, 1000.0, 99.0, 0.0);
+    let pictures =
+        pictures_from_source(&mut source, part, &[view(0.0, 4000.0)], &[], &PictureConfig::default()).unwrap();
+    let span = pictures.pictures[0].span;
+    assert!(span.from_s >= 1.0 && span.to_s <= 2.0 && span.length_s() > 0.9, "{span:?}");
+}
+
+#[test]
 fn the_mean_spectrum_is_that_of_the_hover_alone() {
     let config = PictureConfig::default();
     let mut source = sound(4.0, 1000.0, 3.5, 3000.0);
     let hover = [Span { from_s: 0.5, to_s: 3.0 }];
-    let spectrum = pictures_from_source(&mut source, &[], &hover, &config).unwrap().spectrum.unwrap();
+    let spectrum = pictures_from_source(&mut source, ALL, &[], &hover, &config).unwrap().spectrum.unwrap();
     let at = |hz: f64| spectrum.level_db[(hz / spectrum.bin_hz).round() as usize];
     assert!((at(1000.0) + 20.0).abs() < 0.01, "{}", at(1000.0));
     assert!(at(3000.0) < -80.0, "the click outside the hover is in it: {}", at(3000.0));
@@ -83,11 +95,13 @@ fn the_mean_spectrum_is_that_of_the_hover_alone() {
 #[test]
 fn a_recording_shorter_than_a_frame_has_no_picture() {
     let mut source = sound(0.05, 1000.0, 99.0, 0.0);
-    let pictures = pictures_from_source(&mut source, &[view(0.0, 4000.0)], &[], &PictureConfig::default()).unwrap();
+    let pictures =
+        pictures_from_source(&mut source, ALL, &[view(0.0, 4000.0)], &[], &PictureConfig::default()).unwrap();
     assert!(pictures.pictures.is_empty() && pictures.spectrum.is_none());
     let mut source = sound(1.0, 1000.0, 99.0, 0.0);
-    let nowhere = pictures_from_source(&mut source, &[view(9000.0, 9100.0)], &[], &PictureConfig::default()).unwrap();
+    let nowhere =
+        pictures_from_source(&mut source, ALL, &[view(9000.0, 9100.0)], &[], &PictureConfig::default()).unwrap();
     assert!(nowhere.pictures.is_empty());
     let bad = PictureConfig { hop_share: 0.0, ..PictureConfig::default() };
-    assert!(pictures_from_source(&mut source, &[], &[], &bad).is_err());
+    assert!(pictures_from_source(&mut source, ALL, &[], &[], &bad).is_err());
 }
