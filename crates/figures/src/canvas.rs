@@ -105,7 +105,7 @@ impl Canvas {
     pub(crate) fn panel(&mut self, panel: &Panel) -> Result<(), FigureError> {
         let Panel { place, x, y, right, title } = panel;
         let (at_x, at_y) = (|value: f64| panel.x_unit(value), |value: f64| panel.y_unit(value));
-        let drawn = self.drawn(|area| {
+        let ticks = self.drawn(|area| {
             let sheet = Sheet { area };
             for (value, label) in x.ticks() {
                 sheet.line(&[(at_x(value), place.bottom), (at_x(value), place.bottom + TICK)], INK, LINE)?;
@@ -116,24 +116,26 @@ impl Canvas {
                 sheet.line(&[(place.left - TICK, at_y(value)), (place.left, at_y(value))], INK, LINE)?;
                 sheet.text(&label, (place.left - 16, at_y(value)), Anchor::Right, INK)?;
             }
-            if let Some((right_title, unit)) = right {
-                let again = Axis::new("", (y.from / unit, y.to / unit)).with_ticks(y.ticks_max);
-                for (value, label) in again.ticks() {
-                    sheet.line(
-                        &[(place.right, at_y(value * unit)), (place.right + TICK, at_y(value * unit))],
-                        INK,
-                        LINE,
-                    )?;
-                    sheet.text(&label, (place.right + 16, at_y(value * unit)), Anchor::Left, INK)?;
-                }
-                sheet.text(right_title, (place.right + 122, place.middle_y()), Anchor::Downwards, INK)?;
+            let Some((_, unit)) = right else { return Ok(()) };
+            for (value, label) in Axis::new("", (y.from / unit, y.to / unit)).with_ticks(y.ticks_max).ticks() {
+                let at = at_y(value * unit);
+                sheet.line(&[(place.right, at), (place.right + TICK, at)], INK, LINE)?;
+                sheet.text(&label, (place.right + 16, at), Anchor::Left, INK)?;
             }
-            let frame = [(place.left, place.top), (place.left, place.bottom), (place.right, place.bottom)];
-            sheet.line(&frame, INK, LINE)?;
+            Ok(())
+        })?;
+        let frame = self.drawn(|area| {
+            let sheet = Sheet { area };
+            let corners = [(place.left, place.top), (place.left, place.bottom), (place.right, place.bottom)];
+            sheet.line(&corners, INK, LINE)?;
             sheet.text(&x.title, (place.middle_x(), place.bottom + 72), Anchor::Middle, INK)?;
             sheet.text(&y.title, (place.left - 128, place.middle_y()), Anchor::Upwards, INK)?;
+            if let Some((right_title, _)) = right {
+                sheet.text(right_title, (place.right + 122, place.middle_y()), Anchor::Downwards, INK)?;
+            }
             sheet.text(title, (place.left, place.top - 24), Anchor::Left, INK)
         })?;
+        let drawn = format!("<g class=\"ticks\">\n{ticks}</g>\n<g class=\"frame\">\n{frame}</g>\n");
         self.panels += 1;
         let number = self.panels;
         let _ = writeln!(
@@ -146,7 +148,7 @@ impl Canvas {
             place.bottom - place.top
         );
         let mut about = format!(
-            " data-left=\"{}\" data-top=\"{}\" data-right=\"{}\" data-bottom=\"{}\" data-x-from=\"{}\" data-x-to=\"{}\" \
+            " data-panel=\"{number}\" data-left=\"{}\" data-top=\"{}\" data-right=\"{}\" data-bottom=\"{}\" data-x-from=\"{}\" data-x-to=\"{}\" \
              data-y-from=\"{}\" data-y-to=\"{}\" data-x-title=\"{}\" data-y-title=\"{}\"",
             place.left,
             place.top,
@@ -182,8 +184,7 @@ impl Canvas {
             );
             paint(&Plot { area: &area.clone().apply_coord_spec(coordinates) })
         })?;
-        let clip = format!(" clip-path=\"url(#{}-clip-{})\"", self.name, self.panels);
-        self.push_group(class, &clip, &drawn);
+        self.push_zoomable(class, &drawn);
         Ok(())
     }
 
@@ -202,14 +203,13 @@ impl Canvas {
             raster.level_db_high,
             raster.data_uri()?
         );
-        let clip = format!(" clip-path=\"url(#{}-clip-{})\"", self.name, self.panels);
-        self.push_group("pictures", &clip, &image);
+        self.push_zoomable("pictures", &image);
         Ok(())
     }
 
     /// The key of a spectrogram's colours, at the top of the sheet.
     pub(crate) fn colour_bar(&mut self, map: ColourMap, levels_db: (f64, f64)) -> Result<(), FigureError> {
-        let (left, width, height) = (WIDTH - 180 - 420, 420, 18);
+        let (left, width, height) = (WIDTH - 180 - 400 - 290, 400, 18);
         let raster = Raster::of_all_colours(map, levels_db);
         let image = format!(
             "<image x=\"{left}\" y=\"16\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" href=\"{}\"/>\n",
@@ -220,8 +220,14 @@ impl Canvas {
             let words = format!("{:.0} dB", levels_db.0).replace('-', "−");
             sheet.text(&words, (left - 14, 24), Anchor::Right, MUTED)?;
             let words = format!("{:.0} dB re full scale", levels_db.1).replace('-', "−");
-            sheet.text(&words, (left, 54), Anchor::Left, MUTED)
+            sheet.text(&words, (left + width + 14, 24), Anchor::Left, MUTED)
         })
+    }
+
+    /// A layer of the last panel: cut at its edges, and what is in it can be enlarged by whoever shows it.
+    fn push_zoomable(&mut self, class: &str, content: &str) {
+        let clip = format!(" data-panel=\"{1}\" clip-path=\"url(#{0}-clip-{1})\"", self.name, self.panels);
+        self.push_group(class, &clip, &format!("<g class=\"zoomable\">\n{content}</g>\n"));
     }
 
     fn push_group(&mut self, class: &str, attributes: &str, content: &str) {

@@ -33,7 +33,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
             place: Place { left: 180, top, right: WIDTH - 180, bottom: top + PANEL },
             x: Axis::new("joined time of the trials (s)", (0.0, end_s(joined))).with_ticks(11),
             y: Axis::new("frequency (kHz)", (0.0, hz_max / 1e3)).with_ticks(7),
-            right: order.map(|order| ("shaft speed (rev/s)".to_owned(), order / 1e3)),
+            right: order.map(|order| (format!("frequency / {order} (rev/s)"), order / 1e3)),
             title: shortened(load, 60),
         };
         canvas.panel(&panel)?;

@@ -3,7 +3,7 @@
 use crate::axis::Axis;
 use crate::canvas::{Canvas, LETTER, Panel, Place, WIDTH};
 use crate::colour::{ColourMap, INK, OVER_PICTURE, SERIES};
-use crate::figure::{Figure, FigureError, shortened};
+use crate::figure::{Figure, FigureError};
 use crate::raster::{Raster, level_range_db};
 use crate::spectrum::harmonic_name;
 use crate::trial::{Trial, track_lines};
@@ -13,6 +13,8 @@ use plotters::style::{Color, RGBColor};
 /// A margin around the tracks, as a share of what they cover.
 const MARGIN_SHARE: f64 = 0.35;
 const ROWS_MAX: usize = 400;
+/// Room for the key of one rotor.
+const KEY: i32 = 225;
 
 /// A trial whose rotors were told apart; `None` where they were not, or where there is no picture of a harmonic.
 ///
@@ -21,17 +23,12 @@ const ROWS_MAX: usize = 400;
 pub fn rotors_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, FigureError> {
     let mut canvas = Canvas::new(name, 940);
     let place = Place { left: 180, top: 100, right: WIDTH - 180, bottom: 810 };
-    let Some(words) = draw(&mut canvas, trial, place, "")? else { return Ok(None) };
-    Ok(Some(canvas.finish("Rotors told apart", words)))
+    let Some(words) = draw(&mut canvas, trial, place)? else { return Ok(None) };
+    Ok(Some(canvas.finish(format!("Rotors told apart: {}", trial.recording), words)))
 }
 
 /// Draws the panel; what is to be seen, or `None` where there is nothing.
-pub(crate) fn draw(
-    canvas: &mut Canvas,
-    trial: &Trial<'_>,
-    place: Place,
-    prefix: &str,
-) -> Result<Option<String>, FigureError> {
+pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Result<Option<String>, FigureError> {
     let Some(tone) = trial.tone().filter(|tone| !tone.rotors.is_empty()) else { return Ok(None) };
     let Some((picture, band)) = tone.bands.iter().rev().find_map(|band| Some((trial.around(band.harmonic)?, band)))
     else {
@@ -44,7 +41,7 @@ pub(crate) fn draw(
         x: Axis::new("time (s)", (picture.span.from_s, picture.span.to_s)).with_ticks(11),
         y: Axis::new("frequency (Hz)", range_hz).with_ticks(7),
         right: Some(("shaft speed (rev/s)".to_owned(), order)),
-        title: format!("{prefix}{} of {}", harmonic_name(band.harmonic), shortened(trial.recording, 40)),
+        title: format!("rotors told apart, {}", harmonic_name(band.harmonic)),
     };
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Greys);
@@ -60,7 +57,7 @@ pub(crate) fn draw(
         })?;
     }
     canvas.layer("key", |sheet| {
-        let mut at = (place.left + 760, place.top - LETTER + 4);
+        let mut at = (place.right - tone.rotors.len() as i32 * KEY, place.top - LETTER + 4);
         for index in 0..tone.rotors.len() {
             at.0 = sheet.key(at, colour_of_rotor(index), &format!("rotor {}", index + 1))?;
         }

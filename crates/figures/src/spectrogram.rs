@@ -42,7 +42,7 @@ pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>,
         draw_zoom(&mut canvas, trial, band, picture, place(heights[1]))?;
     }
     if heights[2] > 0 {
-        rotors::draw(&mut canvas, trial, place(heights[2]), "rotors told apart, ")?;
+        rotors::draw(&mut canvas, trial, place(heights[2]))?;
     }
     let words = match (trial.tone(), trial.reason) {
         (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; dimmed: what is no hover. Below: the band of the \
@@ -69,7 +69,8 @@ fn draw_whole(
         place,
         x: Axis::new("time (s)", range_s).with_ticks(11),
         y: Axis::new("frequency (Hz)", (0.0, picture.hz_high)).with_ticks(8),
-        right: trial.tone_order().map(|order| ("shaft speed (rev/s)".to_owned(), order)),
+        // of the fundamental; harmonic k lies at k times its shaft speed
+        right: trial.tone_order().map(|order| (format!("frequency / {order} (rev/s)"), order)),
         title: shortened(trial.recording, 60),
     };
     canvas.panel(&panel)?;
@@ -100,7 +101,7 @@ fn draw_whole(
         canvas.plot(&panel, "ridges", |plot| {
             for ridge in &tone.ridges {
                 for line in ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace) {
-                    plot.line(&line, OVER_PICTURE.mix(0.9).stroke_width(2))?;
+                    plot.line(&line, OVER_PICTURE.mix(0.7).stroke_width(1))?;
                 }
             }
             Ok(())

@@ -12,6 +12,8 @@ const RATES_HZ: [u32; 6] = [48_000, 24_000, 16_000, 12_000, 8000, 6000];
 const BYTES_PER_SAMPLE: usize = 2;
 /// Bytes of text for each byte of sound, in base64.
 const TEXT_PER_BYTE: f64 = 4.0 / 3.0;
+/// Seconds of a recording at most: a listener knows a hover after a minute.
+pub const SOUND_S_MAX: f64 = 60.0;
 /// The loudest sample is brought to this share of full scale: hovers filmed from afar are quiet.
 const PEAK_SHARE: f32 = 0.7;
 /// Louder by more than this is only louder noise.

@@ -10,6 +10,7 @@
 //! fitted_table  a thrust stand's table, fitted            flight_plan  how much flying a wish needs
 //! models      simulators' models beside what was heard   weighed      what hovers, by its sound
 //! flight      what a simulated flight was like            tones        tone families and what each can mean
+//! typeset     tables for documents: Markdown, LaTeX
 //! ```
 
 mod adequacy;
@@ -28,10 +29,11 @@ mod speed;
 mod text_table;
 mod thrust;
 mod tones;
+mod typeset;
 mod vehicles;
 mod weighed;
 
-pub use adequacy::{adequacy_text, laws_text};
+pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use cuts::cuts_in_words;
 pub use fitted_table::{FittedTable, fitted_table_json, fitted_table_text};
@@ -39,13 +41,15 @@ pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
 pub use models::{ComparedModel, models_json, models_text};
 pub use notice::Notice;
+pub use number::{ScaledNumber, scaled_number, with_uncertainty};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{Identification, InputRecord, results_json};
 pub use samples::samples_csv;
 pub use speed::{speed_json, speed_table, track_csv};
-pub use text_table::wrapped;
-pub use thrust::{method_title, thrust_summary, thrust_table};
+pub use text_table::{Column, Row, TextTable, wrapped};
+pub use thrust::{method_title, methods_table, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
+pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use vehicles::{vehicles_json, vehicles_text};
 pub use weighed::{weighed_json, weighed_text};
 
