@@ -1,7 +1,7 @@
 //! A figure as pixels.
 
 use crate::figure::{Figure, FigureError};
-use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 use std::sync::Arc;
 
@@ -28,6 +28,8 @@ pub fn figure_png(figure: &Figure, dots_per_inch: f64) -> Result<Vec<u8>, Figure
     let size = tree.size().to_int_size().scale_by(scale);
     let size = size.ok_or_else(|| pixels(&"it has no size"))?;
     let mut pixmap = Pixmap::new(size.width(), size.height()).ok_or_else(|| pixels(&"it is too large"))?;
+    // a sheet that ends within a pixel has no dark edge
+    pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     packed(&pixmap, dots_per_inch)
 }

@@ -10,7 +10,7 @@ use hovertone::{CutReason, Span};
 const ROW: i32 = 62;
 const LOAD_GAP: i32 = 56;
 const TOP: i32 = 70;
-const LEFT: i32 = 520;
+const LEFT: i32 = 570;
 /// More trials than this are summed up: nobody reads longer sheets.
 const TRIALS_MAX: usize = 60;
 /// Words are written into a cut that has room for so many letters.

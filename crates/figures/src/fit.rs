@@ -80,7 +80,7 @@ pub(crate) fn figure(tables: &[ThrustTable], reported: Method) -> Result<Option<
             plot.dashed(at(range_x.0), at(range_x.1), MUTED, 2)
         })?;
     }
-    for table in tables {
+    for table in reported_last(tables, reported) {
         let Some(fit) = &table.fit else { continue };
         let (colour, name) = (colour_of_method(table.method), table.method.name());
         canvas.plot(&panel, &format!("law method-{name}"), |plot| {
@@ -130,6 +130,12 @@ pub(crate) fn figure(tables: &[ThrustTable], reported: Method) -> Result<Option<
                        uncertainty (k = 2) of the reported one, shaded. Below: how far each load is off the reported law; vertical bars are its own \
                        expanded uncertainty.";
     Ok(Some(canvas.finish("Weight against squared speed: the fit and its residuals", description)))
+}
+
+/// What is reported lies over the others.
+fn reported_last(tables: &[ThrustTable], reported: Method) -> impl Iterator<Item = &ThrustTable> {
+    let is_reported = move |table: &&ThrustTable| table.method == reported;
+    tables.iter().filter(move |table| !is_reported(table)).chain(tables.iter().filter(is_reported))
 }
 
 fn share_of(value: f64, (low, high): (f64, f64), (from, to): (i32, i32)) -> i32 {

@@ -1,7 +1,14 @@
 //! The trials of a load one after the other, as the paper's figure 6 joins them.
 
+use crate::canvas::{Anchor, Panel, Sheet};
+use crate::colour::{INK, MUTED};
+use crate::figure::{FigureError, shortened};
 use crate::trial::Trial;
 use hovertone::Span;
+
+/// Trials narrower than these have their number alone, or nothing above them.
+const WIDTH_OF_WORDS: f64 = 120.0;
+const WIDTH_OF_NUMBER: f64 = 40.0;
 
 /// A trial and where it stands on the joined axis.
 #[derive(Clone, Copy)]
@@ -39,4 +46,26 @@ pub(crate) fn joined_by_load<'a>(trials: &[Trial<'a>]) -> Vec<(&'a str, Vec<Join
 /// Where the joined trials of a load end.
 pub(crate) fn end_s(joined: &[Joined<'_>]) -> f64 {
     joined.last().map_or(1.0, |last| last.shown.to_s + last.shift_s)
+}
+
+/// Above a panel: the name of its load, and the numbers of the trials where they have room.
+pub(crate) fn joined_words(
+    sheet: &Sheet<'_, '_>,
+    panel: &Panel,
+    load: &str,
+    joined: &[Joined<'_>],
+) -> Result<(), FigureError> {
+    let (left, top) = (panel.place.left, panel.place.top);
+    sheet.text(&shortened(load, 80), (left, top - 60), Anchor::Left, INK)?;
+    let unit_per_s = f64::from(panel.place.right - left) / end_s(joined);
+    for one in joined {
+        let words = match one.shown.length_s() * unit_per_s {
+            width if width >= WIDTH_OF_WORDS => format!("trial {}", one.number),
+            width if width >= WIDTH_OF_NUMBER => one.number.to_string(),
+            _ => continue,
+        };
+        let middle = f64::from(left) + (one.shown.middle_s() + one.shift_s) * unit_per_s;
+        sheet.text(&words, (middle as i32, top - 24), Anchor::Middle, MUTED)?;
+    }
+    Ok(())
 }

@@ -1,20 +1,20 @@
 //! Figure 6 of the paper: the spectrogram of each load, its trials joined.
 
 use crate::axis::Axis;
-use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
-use crate::colour::{ColourMap, MUTED, OVER_PICTURE};
-use crate::figure::{Figure, FigureError, shortened};
-use crate::joined::{end_s, joined_by_load};
+use crate::canvas::{Canvas, Panel, Place, WIDTH};
+use crate::colour::{ColourMap, OVER_PICTURE};
+use crate::figure::{Figure, FigureError};
+use crate::joined::{end_s, joined_by_load, joined_words};
 use crate::raster::{Raster, level_range_db};
 use crate::trial::Trial;
 use plotters::style::Color;
 
 const PANEL: i32 = 400;
-const PITCH: i32 = 570;
-const TOP: i32 = 110;
-/// Pixels of a panel: 250 dpi in height, and the trials share its width.
-const ROWS_MAX: usize = 400;
-const COLUMNS_MAX: usize = 1500;
+const PITCH: i32 = 600;
+const TOP: i32 = 140;
+/// Pixels of a panel: 150 dpi in height, and the trials share its width.
+const ROWS_MAX: usize = 240;
+const COLUMNS_MAX: usize = 1200;
 
 /// `None` where there is nothing to see.
 pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError> {
@@ -34,7 +34,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
             x: Axis::new("joined time of the trials (s)", (0.0, end_s(joined))).with_ticks(11),
             y: Axis::new("frequency (kHz)", (0.0, hz_max / 1e3)).with_ticks(7),
             right: order.map(|order| (format!("frequency / {order} (rev/s)"), order / 1e3)),
-            title: shortened(load, 60),
+            title: String::new(),
         };
         canvas.panel(&panel)?;
         let columns = (COLUMNS_MAX / joined.len()).max(16);
@@ -51,13 +51,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
                 plot.line(&[(at_s, 0.0), (at_s, hz_max / 1e3)], OVER_PICTURE.stroke_width(3))
             })
         })?;
-        canvas.layer("trial-numbers", |sheet| {
-            joined.iter().try_for_each(|one| {
-                let middle = (one.shown.middle_s() + one.shift_s) / end_s(joined);
-                let x = f64::from(panel.place.left) + middle * f64::from(panel.place.right - panel.place.left);
-                sheet.text(&format!("trial {}", one.number), (x as i32, top - 24), Anchor::Middle, MUTED)
-            })
-        })?;
+        canvas.layer("trial-numbers", |sheet| joined_words(sheet, &panel, load, joined))?;
     }
     let description = "Level of the sound over time and frequency, one picture for each load, its trials joined as in figure 6 of the \
                        paper. The bright lines are the tone of the rotors and its harmonics; heavier loads have them higher.";

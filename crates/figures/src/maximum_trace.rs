@@ -1,17 +1,17 @@
 //! Figure 8 of the paper: the maximum trace of the fundamental over time, for each load.
 
 use crate::axis::{Axis, range_with_margin};
-use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
+use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{GRID, MUTED, colour_of_method};
-use crate::figure::{Figure, FigureError, shortened};
-use crate::joined::{Joined, end_s, joined_by_load};
+use crate::figure::{Figure, FigureError};
+use crate::joined::{Joined, end_s, joined_by_load, joined_words};
 use crate::trial::{Trial, ridge_lines};
 use hovertone::{Method, Ridge};
 use plotters::style::Color;
 
 const PANEL: i32 = 330;
-const PITCH: i32 = 500;
-const TOP: i32 = 70;
+const PITCH: i32 = 530;
+const TOP: i32 = 90;
 
 /// `None` where no trial has a tone.
 pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError> {
@@ -33,7 +33,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
             x: Axis::new("joined time of the trials (s)", (0.0, end_s(joined))).with_ticks(11),
             y: Axis::new("frequency (Hz)", range_hz).with_ticks(6),
             right: order.map(|order| ("shaft speed (rev/s)".to_owned(), order)),
-            title: shortened(load, 60),
+            title: String::new(),
         };
         canvas.panel(&panel)?;
         canvas.plot(&panel, "trial-borders", |plot| {
@@ -58,13 +58,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
                 plot.dashed((from_s, mean_hz), (to_s, mean_hz), MUTED, 3)
             })?;
         }
-        canvas.layer("trial-numbers", |sheet| {
-            joined.iter().try_for_each(|one| {
-                let middle = (one.shown.middle_s() + one.shift_s) / end_s(joined);
-                let x = f64::from(panel.place.left) + middle * f64::from(panel.place.right - panel.place.left);
-                sheet.text(&format!("trial {}", one.number), (x as i32, top - 24), Anchor::Middle, MUTED)
-            })
-        })?;
+        canvas.layer("trial-numbers", |sheet| joined_words(sheet, &panel, load, joined))?;
     }
     let description = "Frequency of the fundamental in every frame by the Maximum Trace method, one plot for each load, trials joined; \
                        dashed: the mean of each trial (eq 7). Where nothing stands out of the noise there is a gap.";

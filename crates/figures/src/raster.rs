@@ -7,7 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use hovertone::Picture;
 
 /// This share of the cells lies below the darkest colour: the floor of the noise is one colour, not confetti.
-const FLOOR_SHARE: f64 = 0.35;
+const FLOOR_SHARE: f64 = 0.5;
 /// The brightest colour is at most so far above the darkest: what is fainter than this beside a rotor is not seen anyway.
 const LEVELS_DB_MAX: f64 = 60.0;
 /// Pixels at most on each side.

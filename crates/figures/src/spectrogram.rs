@@ -11,7 +11,7 @@ use crate::trial::{Trial, ridge_lines, track_lines};
 use hovertone::{Method, Picture};
 use plotters::style::Color;
 
-const ROWS_MAX: usize = 420;
+const ROWS_MAX: usize = 330;
 const COLUMNS_MAX: usize = 2048;
 const TOP: i32 = 130;
 const PITCH: i32 = 190;
