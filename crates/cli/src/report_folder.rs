@@ -9,7 +9,8 @@ use hovertone_figures::{
 };
 use hovertone_page::{Report, SOUND_S_MAX, TrialReport, experiment_tables, report_html};
 use hovertone_report::{
-    Identification, SpeedRecord, TextTable, TitledTable, results_json, samples_csv, tables_latex, tables_markdown,
+    Identification, RESULTS_SCHEMA, SpeedRecord, TextTable, TitledTable, results_json, samples_csv, tables_latex,
+    tables_markdown,
 };
 use rayon::prelude::*;
 use std::fs;
@@ -40,6 +41,7 @@ pub(crate) fn write_report(
     fs::create_dir_all(&figures_folder).map_err(|error| Failure::cannot_write(&error, &figures_folder))?;
     // what was measured is safe before anything is drawn
     write(&folder.join("results.json"), results_json(identification).map_err(Failure::internal)?)?;
+    write(&folder.join("results.schema.json"), RESULTS_SCHEMA)?;
     write(&folder.join("samples.csv"), samples_csv(identification.tables).map_err(Failure::internal)?)?;
     let mut tables = experiment_tables(identification);
     tables.extend_from_slice(extras.more_tables);

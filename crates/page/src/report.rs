@@ -84,6 +84,11 @@ impl Page<'_> {
         self.report.figures.iter().find(|figure| figure.name == name)
     }
 
+    /// Recordings that were used from their first sample to their last.
+    fn used_whole(&self) -> usize {
+        self.trials.iter().filter(|trial| trial.reason.is_none() && trial.cuts.is_none()).count()
+    }
+
     /// The tables of one method.
     fn method(&self, name: &str) -> Option<&MethodView> {
         self.methods.iter().find(|method| method.name == name)

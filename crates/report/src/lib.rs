@@ -43,7 +43,7 @@ pub use models::{ComparedModel, models_json, models_text};
 pub use notice::Notice;
 pub use number::{ScaledNumber, scaled_number, with_uncertainty};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
-pub use results::{Identification, InputRecord, results_json};
+pub use results::{Identification, InputRecord, RESULTS_SCHEMA, results_json};
 pub use samples::samples_csv;
 pub use speed::{speed_json, speed_table, track_csv};
 pub use text_table::{Column, Row, TextTable, wrapped};

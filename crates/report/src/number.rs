@@ -56,6 +56,13 @@ pub struct ScaledNumber {
     pub exponent: i32,
 }
 
+impl ScaledNumber {
+    /// The exponent with a minus as long as a plus.
+    pub fn superscript(&self) -> String {
+        self.exponent.to_string().replace('-', "−")
+    }
+}
+
 /// A value and its uncertainty, standard or expanded, with one digit before the point.
 pub fn scaled_number(value: f64, uncertainty: Option<f64>) -> ScaledNumber {
     let unit = PowerOfTen::of([value]);

@@ -3,12 +3,15 @@
 // The lints know tests by their attribute, and what tests share has none.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+mod chromium;
 mod codecs;
 mod demo;
 mod identify;
 mod real_recordings;
+mod report;
 mod roundtrip;
 mod simulate;
+mod spectrogram;
 mod speed;
 mod testkit;
 mod thrust;
