@@ -262,7 +262,7 @@
   for (const svg of document.querySelectorAll("figure svg")) svg.panels = prepare(svg);
 
   // sound and its place in the pictures
-  for (const trial of document.querySelectorAll(".trial")) {
+  for (const trial of document.querySelectorAll("details.trial")) {
     const [audio, svg] = [trial.querySelector("audio"), trial.querySelector("svg")];
     if (!audio || !svg) continue;
     const fromS = Number(trial.dataset.soundFromS);

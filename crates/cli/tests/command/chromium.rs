@@ -76,6 +76,7 @@ impl Browser {
         for domain in ["Page", "Runtime", "Log", "Network"] {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
+        browser.call("Page.bringToFront", json!({}));
         let screen = json!({ "width": 1100, "height": 900, "deviceScaleFactor": 1, "mobile": false });
         browser.call("Emulation.setDeviceMetricsOverride", screen);
         Some(browser)
@@ -104,6 +105,11 @@ impl Browser {
     pub(crate) fn text(&mut self, expression: &str) -> String {
         let value = self.value(expression);
         value.as_str().unwrap_or_else(|| panic!("{expression} is no text but {value}")).to_owned()
+    }
+
+    /// Draws the page as it is now: what was opened is laid out only when it is seen.
+    pub(crate) fn draw(&mut self) {
+        self.call("Page.captureScreenshot", json!({ "format": "jpeg", "quality": 1 }));
     }
 
     /// Moves, presses or releases the mouse at a place of the window.
