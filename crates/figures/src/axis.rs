@@ -61,7 +61,7 @@ pub(crate) fn range_with_margin(values: impl IntoIterator<Item = f64>, share: f6
         .into_iter()
         .filter(|value| value.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    (low <= high).then(|| (low - share * (high - low), high + share * (high - low)))
+    (low <= high).then_some((low - share * (high - low), high + share * (high - low)))
 }
 
 #[cfg(test)]

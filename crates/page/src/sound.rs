@@ -156,7 +156,7 @@ mod tests {
     #[test]
     fn many_clips_share_the_page() {
         let ten_s = clip(10.0, 48_000.0, 440.0);
-        let rate_hz = rate_for(&vec![&ten_s; 15], 5e6);
+        let rate_hz = rate_for(&[&ten_s; 15], 5e6);
         assert_eq!(rate_hz, 12_000);
         let total: usize = (0..15).map(|_| wav_uri(&ten_s, rate_hz).unwrap().len()).sum();
         assert!(total < 5_000_000, "{total}");
