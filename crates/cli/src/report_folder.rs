@@ -9,8 +9,8 @@ use hovertone_figures::{
 };
 use hovertone_page::{Report, SOUND_S_MAX, TrialReport, experiment_tables, report_html};
 use hovertone_report::{
-    Identification, RESULTS_SCHEMA, SpeedRecord, TextTable, TitledTable, results_json, samples_csv, tables_latex,
-    tables_markdown,
+    Identification, RESULTS_SCHEMA, SpeedRecord, TextTable, TitledTable, loads_data, results_json, samples_data,
+    tables_latex, tables_markdown,
 };
 use rayon::prelude::*;
 use std::fs;
@@ -42,7 +42,11 @@ pub(crate) fn write_report(
     // what was measured is safe before anything is drawn
     write(&folder.join("results.json"), results_json(identification).map_err(Failure::internal)?)?;
     write(&folder.join("results.schema.json"), RESULTS_SCHEMA)?;
-    write(&folder.join("samples.csv"), samples_csv(identification.tables).map_err(Failure::internal)?)?;
+    for table in [samples_data(identification.tables), loads_data(identification.tables)] {
+        write(&folder.join(format!("{}.csv", table.name)), table.csv().map_err(Failure::internal)?)?;
+        #[cfg(feature = "parquet")]
+        write(&folder.join(format!("{}.parquet", table.name)), table.parquet().map_err(Failure::internal)?)?;
+    }
     let mut tables = experiment_tables(identification);
     tables.extend_from_slice(extras.more_tables);
     write(&folder.join("tables.md"), tables_markdown(&tables))?;

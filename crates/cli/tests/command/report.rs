@@ -257,6 +257,18 @@ fn everything_is_written_and_escaped() {
         let png = fs::read(out.join(format!("figures/{name}.png"))).unwrap();
         assert!(png.starts_with(b"\x89PNG") && png.len() > 5000, "{name}");
     }
+    let loads: Vec<csv::StringRecord> =
+        csv::Reader::from_path(out.join("loads.csv")).unwrap().records().map(Result::unwrap).collect();
+    let methods = results["methods"].as_object().unwrap();
+    assert_eq!(loads.len(), methods.values().map(|method| method["loads"].as_array().unwrap().len()).sum::<usize>());
+    for load in loads.iter().filter(|load| load[0] == *results["method"].as_str().unwrap()) {
+        let of_results = results["loads"].as_array().unwrap().iter().find(|known| known["name"] == load[1]).unwrap();
+        assert_eq!(load[7].parse::<f64>().unwrap(), of_results["speed_rad_s"].as_f64().unwrap());
+    }
+    for name in ["samples.parquet", "loads.parquet"] {
+        let bytes = fs::read(out.join(name)).unwrap();
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "{name}");
+    }
     let page = read("report.html");
     assert!(!page.contains("<script>alert") && !page.contains("<img "), "a name became markup");
     assert!(page.contains("default-src &#39;none&#39;") || page.contains("default-src 'none'"));
