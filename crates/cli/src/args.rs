@@ -216,8 +216,8 @@ pub(crate) struct HearingArguments {
 
 /// The paper's experiment in simulated flight: three loads, five trials each, identified like anybody's recordings
 ///
-/// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the truth about every rotor; identifies the files; and
-/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth.
+/// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the truth about every rotor; identifies the files;
+/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth; and writes report.html with its figures.
 #[derive(Args, Debug)]
 #[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
 pub(crate) struct DemoArguments {

@@ -1,7 +1,7 @@
 //! What the page is made of.
 
 use crate::seal::policy;
-use crate::sound::{SoundClip, rate_for};
+use crate::sound::{SoundClip, rate_and_count};
 use crate::view::{Answer, InputView, MethodView, PageTable, TrialView, Words};
 use askama::Template;
 use hovertone::Method;
@@ -73,6 +73,7 @@ struct Page<'a> {
     trials: Vec<TrialView<'a>>,
     inputs: Vec<InputView<'a>>,
     sound_rate_hz: Option<u32>,
+    mute_count: usize,
     settings: String,
     command: &'a str,
     report: &'a Report<'a>,
@@ -108,12 +109,17 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
     let identification = report.identification;
     let reported = identification.reported();
     let clips: Vec<&SoundClip> = report.trials.iter().filter_map(|trial| trial.sound).collect();
-    let rate_hz = rate_for(&clips, SOUND_BYTES_MAX);
+    let (rate_hz, count) = rate_and_count(&clips, SOUND_BYTES_MAX);
+    let mut sounding = 0;
     let trials: Vec<TrialView<'_>> = identification
         .inputs
         .iter()
         .zip(report.trials)
-        .map(|(input, trial)| TrialView::new(input, trial, rate_hz))
+        .map(|(input, trial)| {
+            sounding += usize::from(trial.sound.is_some());
+            let sound = trial.sound.filter(|_| sounding <= count);
+            TrialView::new(input, &TrialReport { sound, ..*trial }, rate_hz)
+        })
         .collect();
     let page = Page {
         policy: policy(STYLE, SCRIPT),
@@ -140,6 +146,7 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
             Some(PageTable::new("", &budget_table(budget, fit.thrust_constant_n_s2.value)))
         }),
         more_tables: report.more_tables.iter().map(|titled| PageTable::new(&titled.title, &titled.table)).collect(),
+        mute_count: clips.len() - count,
         sound_rate_hz: trials.iter().any(|trial| trial.sound.is_some()).then_some(rate_hz),
         trials,
         inputs: identification.inputs.iter().map(InputView::new).collect(),

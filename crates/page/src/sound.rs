@@ -52,11 +52,19 @@ pub fn clip_from_source(source: &mut dyn SignalSource, span: Span) -> Result<Sou
     Ok(SoundClip { from_s: start_s + first as f64 / sample_rate_hz, sample_rate_hz, samples })
 }
 
-/// The highest rate at which all clips together, as text in a page, take at most so many bytes.
-pub(crate) fn rate_for(clips: &[&SoundClip], bytes_max: f64) -> u32 {
-    let seconds: f64 = clips.iter().map(|clip| clip.samples.len() as f64 / clip.sample_rate_hz).sum();
-    let fits = |rate: &u32| seconds * f64::from(*rate) * BYTES_PER_SAMPLE as f64 * TEXT_PER_BYTE <= bytes_max;
-    RATES_HZ.into_iter().find(fits).unwrap_or(RATES_HZ[RATES_HZ.len() - 1])
+/// The highest rate at which all clips together, as text in a page, take at most so many bytes, and how many of them have sound: where even the
+/// lowest rate is too much, the first ones that fit.
+pub(crate) fn rate_and_count(clips: &[&SoundClip], bytes_max: f64) -> (u32, usize) {
+    let bytes = |clips: &[&SoundClip], rate_hz: u32| {
+        let seconds: f64 = clips.iter().map(|clip| clip.samples.len() as f64 / clip.sample_rate_hz).sum();
+        seconds * f64::from(rate_hz) * BYTES_PER_SAMPLE as f64 * TEXT_PER_BYTE
+    };
+    if let Some(rate_hz) = RATES_HZ.into_iter().find(|&rate_hz| bytes(clips, rate_hz) <= bytes_max) {
+        return (rate_hz, clips.len());
+    }
+    let lowest_hz = RATES_HZ[RATES_HZ.len() - 1];
+    let fitting = (0..=clips.len()).take_while(|&count| bytes(&clips[..count], lowest_hz) <= bytes_max).last();
+    (lowest_hz, fitting.unwrap_or(0))
 }
 
 /// The clip as a 16-bit WAV at a rate, in the form of an address. A clip that is recorded more coarsely keeps its own rate. `None` where
@@ -156,8 +164,11 @@ mod tests {
     #[test]
     fn many_clips_share_the_page() {
         let ten_s = clip(10.0, 48_000.0, 440.0);
-        let rate_hz = rate_for(&[&ten_s; 15], 5e6);
-        assert_eq!(rate_hz, 12_000);
+        let (rate_hz, count) = rate_and_count(&[&ten_s; 15], 5e6);
+        assert_eq!((rate_hz, count), (12_000, 15));
+        // 6 kHz, 16 bits and base64 are 160 kB for ten seconds
+        assert_eq!(rate_and_count(&[&ten_s; 100], 5e6), (6000, 31));
+        assert_eq!(rate_and_count(&[], 5e6).1, 0);
         let total: usize = (0..15).map(|_| wav_uri(&ten_s, rate_hz).unwrap().len()).sum();
         assert!(total < 5_000_000, "{total}");
     }
