@@ -1,5 +1,6 @@
 //! What was typed. What it means is found out by each command's `resolve`.
 
+use crate::spectrogram_args::SpectrogramArguments;
 use crate::thrust_args::{CompareArguments, ExportArguments, FitArguments, IdentifyArguments, WeighArguments};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -13,6 +14,7 @@ Examples:
   hovertone speed --blades 2 hover.mp4        rotor speed of a recording
   hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
   hovertone tones hover.mp4                   which tones it holds, and what each can mean
+  hovertone spectrogram hover.mp4 -o x.png    the picture, with bands and ridge over it
   hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
   hovertone fit stand.csv                     the same fit on a thrust stand's table
   hovertone fit --plan --mass-kg 0.413        how much flying a wanted uncertainty needs
@@ -46,6 +48,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     Speed(Box<SpeedArguments>),
     Tones(Box<TonesArguments>),
+    Spectrogram(Box<SpectrogramArguments>),
     Identify(IdentifyArguments),
     Fit(Box<FitArguments>),
     Weigh(Box<WeighArguments>),
@@ -252,8 +255,8 @@ pub(crate) struct HearingArguments {
 
 /// The paper's experiment in simulated flight: three loads, five trials each, identified like anybody's recordings
 ///
-/// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the truth about every rotor; identifies the files; and
-/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth.
+/// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the truth about every rotor; identifies the files;
+/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth; and writes report.html with its figures.
 #[derive(Args, Debug)]
 #[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
 pub(crate) struct DemoArguments {

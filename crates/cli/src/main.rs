@@ -6,6 +6,7 @@
 mod args;
 mod compare;
 mod demo;
+mod drawing;
 mod export;
 mod failure;
 mod files;
@@ -17,12 +18,16 @@ mod output_folder;
 mod place;
 mod progress;
 mod recording;
+mod report_folder;
 mod simulate;
+mod spectrogram;
+mod spectrogram_args;
 mod speed;
 mod terminal;
 mod thrust_args;
 mod toml_file;
 mod tones;
+mod typed;
 mod vehicles;
 mod wav;
 mod weigh;
@@ -39,6 +44,7 @@ fn main() -> ExitCode {
     let ending = match &arguments.command {
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
         Command::Tones(arguments) => tones::run(arguments, &mut terminal),
+        Command::Spectrogram(arguments) => spectrogram::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),
         Command::Fit(arguments) => fit::run(arguments, &mut terminal),
         Command::Weigh(arguments) => weigh::run(arguments, &mut terminal),

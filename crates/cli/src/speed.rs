@@ -1,6 +1,6 @@
 //! `hovertone speed`: rotor speeds of recordings.
 
-use crate::args::{SpeedArguments, ToneArguments};
+use crate::args::{AnalysisArguments, KnownArguments, SpeedArguments, ToneArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::files_of;
 use crate::labels::{LabelPlan, label};
@@ -61,7 +61,7 @@ pub(crate) fn ending_of<'a>(records: impl IntoIterator<Item = &'a SpeedRecord>) 
 }
 
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
-    let (config, discovery) = config_of(arguments)?;
+    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     let jobs = jobs_of(&arguments.files, &config, discovery);
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
@@ -92,20 +92,22 @@ pub(crate) fn jobs_of(names: &[PathBuf], config: &Config, discovery: Option<Disc
 }
 
 /// The settings, and how the tone is found where nothing tells which it is.
-fn config_of(arguments: &SpeedArguments) -> Result<(Config, Option<Discovery>), Failure> {
-    let (tone, discovery) = match tone_of(&arguments.tone)? {
+pub(crate) fn config_of(
+    asked: &ToneArguments,
+    known: &KnownArguments,
+    analysis: &AnalysisArguments,
+) -> Result<(Config, Option<Discovery>), Failure> {
+    let (tone, discovery) = match tone_of(asked)? {
         Some(tone) => (tone, None),
         None => {
-            let (tone, discovery) = discovery_of(&arguments.known, arguments.tone.vehicle.as_deref(), false)?;
-            let harmonics = arguments.tone.harmonics.unwrap_or(tone.harmonics);
-            (ToneConfig { band_hz: arguments.tone.band, harmonics, ..tone }, Some(discovery))
+            let (tone, discovery) = discovery_of(known, asked.vehicle.as_deref(), false)?;
+            let harmonics = asked.harmonics.unwrap_or(tone.harmonics);
+            (ToneConfig { band_hz: asked.band, harmonics, ..tone }, Some(discovery))
         }
     };
     let mut config = Config::for_tone(tone);
-    let analysis = &arguments.analysis;
-    let of_vehicle =
-        arguments.tone.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
-    config.rotors.count = arguments.known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
+    let of_vehicle = asked.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
+    config.rotors.count = known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
     config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
     config.rotors.wants_condition = analysis.condition;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);

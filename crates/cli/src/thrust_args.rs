@@ -55,7 +55,7 @@ pub(crate) struct IdentifyArguments {
     /// What was flown, with which masses, and where the recordings are
     #[arg(value_name = "EXPERIMENT.toml")]
     pub(crate) experiment: PathBuf,
-    /// Write results.json and samples.csv there
+    /// Write report.html, results.json, tables and figures there
     #[arg(short, long, value_name = "DIR", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     /// Print results.json instead of the tables

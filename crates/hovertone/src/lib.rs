@@ -14,7 +14,10 @@ mod harmonic;
 mod hover;
 mod labels;
 mod labels_config;
+mod listening;
 mod method;
+mod picture;
+mod picture_config;
 mod pipeline;
 mod regression;
 mod ridge;
@@ -48,6 +51,8 @@ pub use labels::{
 };
 pub use labels_config::LabelsConfig;
 pub use method::Method;
+pub use picture::{MeanSpectrum, Picture, PictureView, Pictures, pictures_from_source, views_of_recording};
+pub use picture_config::PictureConfig;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};
 pub use regression::{
     Agreement, FitError, FitPoint, LineFit, ParameterPrior, ProportionalFit, line_fit, log_evidence_ratio,

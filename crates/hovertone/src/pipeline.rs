@@ -6,6 +6,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorScout, RotorTracer, RotorTracks};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
+use crate::listening::{HoverSound, PASS_COUNT, listen_again};
 use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
@@ -23,8 +24,6 @@ use crate::verdict::{
 };
 use crate::warning::Warning;
 use serde::Serialize;
-
-const PASS_COUNT: u32 = 2;
 
 /// What a recording says of its rotors.
 #[derive(Clone, Debug, Serialize)]
@@ -265,34 +264,6 @@ pub(crate) fn survey_from_source(
         Piece::Heard(time_s) => on_progress(Progress { pass: 1, pass_count: PASS_COUNT, time_s }),
     })?;
     Ok((builder.finish(to_s), Span { from_s, to_s: to_s.max(from_s) }))
-}
-
-/// A piece of the hover.
-enum HoverSound<'a> {
-    /// A stretch begins, and should last so long.
-    Start {
-        start_s: f64,
-        length_s: f64,
-    },
-    Samples(&'a [f32]),
-}
-
-/// Any reading after the first: the stretches of the hover, one after the other.
-fn listen_again(
-    source: &mut dyn SignalSource,
-    hover: &Hover,
-    on_progress: &mut dyn FnMut(Progress),
-    mut take: impl FnMut(HoverSound<'_>),
-) -> Result<(), Error> {
-    let mut segments = hover.segments.iter();
-    for_each_piece(source, &hover.segments, |piece| match piece {
-        Piece::Start(start_s) => {
-            take(HoverSound::Start { start_s, length_s: segments.next().map_or(0.0, Span::length_s) });
-        }
-        Piece::Samples(samples) => take(HoverSound::Samples(samples)),
-        Piece::Heard(time_s) => on_progress(Progress { pass: PASS_COUNT, pass_count: PASS_COUNT, time_s }),
-    })?;
-    Ok(())
 }
 
 /// Third reading, where a steady tone is too weak for the comb to have settled its octave: whether lines between the assumed ones

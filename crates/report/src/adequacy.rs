@@ -29,6 +29,11 @@ pub fn adequacy_text(table: &ThrustTable) -> String {
 
 /// How well the square law holds, and the laws beside it with their probabilities.
 pub fn laws_text(fit: &SquareLawFit) -> String {
+    laws_table(fit).render() + &agreement_text(fit)
+}
+
+/// The square law and the laws beside it, with their probabilities.
+pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     let unit = PowerOfTen::of([fit.thrust_constant_n_s2.value]);
     let constant = |constant: hovertone_vehicle::Estimate| {
         let std = constant.std_uncertainty.map(|std| unit.scale(std));
@@ -62,7 +67,12 @@ pub fn laws_text(fit: &SquareLawFit) -> String {
         let exponent = with_uncertainty(law.exponent.value, law.exponent.std_uncertainty);
         row(ForceLaw::Power, [DASH.to_owned(), "0".to_owned(), exponent]);
     }
-    let agreement = match fit.agreement {
+    text
+}
+
+/// How well the square law holds, on one line; empty where there is nothing to compare.
+pub fn agreement_text(fit: &SquareLawFit) -> String {
+    match fit.agreement {
         Some(agreement) => format!(
             "χ² = {} with {} degree{} of freedom, p {}; residuals {:.2} % of full scale\n",
             significant(agreement.chi_square, 3),
@@ -79,12 +89,11 @@ pub fn laws_text(fit: &SquareLawFit) -> String {
             format!("residuals {:.2} % of full scale\n", 100.0 * fit.residual_rms_share)
         }
         None => String::new(),
-    };
-    text.render() + &agreement
+    }
 }
 
 /// The budget, largest contribution first; what contributes nothing is left to the JSON.
-fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> String {
+pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable {
     let mut lines: Vec<&BudgetLine> =
         budget.lines.iter().filter(|line| line.contribution_n_s2 > NEGLIGIBLE_SHARE * constant_n_s2).collect();
     lines.sort_by(|a, b| b.contribution_n_s2.total_cmp(&a.contribution_n_s2));
@@ -115,7 +124,7 @@ fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> String {
         significant(combined, 2),
         "100.0".to_owned(),
     ]);
-    text.render()
+    text
 }
 
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {

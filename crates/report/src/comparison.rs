@@ -46,7 +46,7 @@ impl LoadTruth {
 }
 
 /// One method's table with the paper's columns beside its own. `printed` has one row for each load.
-pub fn comparison_with_paper(table: &ThrustTable, printed: &[PrintedRow]) -> String {
+pub fn comparison_with_paper(table: &ThrustTable, printed: &[PrintedRow]) -> TextTable {
     let mut text = TextTable::new(vec![
         Column::words("load"),
         Column::numbers("mass", "g"),
@@ -74,12 +74,12 @@ pub fn comparison_with_paper(table: &ThrustTable, printed: &[PrintedRow]) -> Str
             format!("{:.4}", PAPER_UNIT.scale(paper.thrust_constant_total_n_s2)),
         ]);
     }
-    text.render()
+    text
 }
 
 /// The constant of the whole vehicle from every load by every method, and how far it is from the truth. `truths` has
 /// one entry for each load.
-pub fn comparison_with_truth(tables: &[ThrustTable], truths: &[LoadTruth]) -> String {
+pub fn comparison_with_truth(tables: &[ThrustTable], truths: &[LoadTruth]) -> TextTable {
     let mut columns = vec![Column::words("C_f, vehicle"), Column::numbers("truth", &PAPER_UNIT.unit(CONSTANT_UNIT))];
     for table in tables {
         columns.push(Column::numbers(method_title(table.method), &PAPER_UNIT.unit(CONSTANT_UNIT)));
@@ -96,7 +96,7 @@ pub fn comparison_with_truth(tables: &[ThrustTable], truths: &[LoadTruth]) -> St
         }
         text.push(cells);
     }
-    text.render()
+    text
 }
 
 fn error_percent(constant: Estimate, truth: f64) -> String {

@@ -4,19 +4,21 @@
 //! number      digits that follow the uncertainty          text_table   aligned columns
 //! notice      a warning with its hint                     cuts         what was not used, on one line
 //! recording   what one recording said                     speed        its table row, its JSON, its track
-//! thrust      the paper's tables, any vehicle             results      results.json, samples.csv
+//! thrust      the paper's tables, any vehicle             results      results.json and its schema
 //! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
 //! adequacy    how well the square law holds, the laws beside it, the uncertainty budget
 //! fitted_table  a thrust stand's table, fitted            flight_plan  how much flying a wish needs
 //! models      simulators' models beside what was heard   weighed      what hovers, by its sound
 //! condition   what rotors' lines say of their state
 //! flight      what a simulated flight was like            tones        tone families and what each can mean
+//! typeset     tables for documents: Markdown, LaTeX        data_table   tables for programs: CSV, Parquet
 //! ```
 
 mod adequacy;
 mod comparison;
 mod condition;
 mod cuts;
+mod data_table;
 mod fitted_table;
 mod flight;
 mod flight_plan;
@@ -30,25 +32,29 @@ mod speed;
 mod text_table;
 mod thrust;
 mod tones;
+mod typeset;
 mod vehicles;
 mod weighed;
 
-pub use adequacy::{adequacy_text, laws_text};
+pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use condition::condition_table;
 pub use cuts::cuts_in_words;
+pub use data_table::{DataColumn, DataTable, Values};
 pub use fitted_table::{FittedTable, fitted_table_json, fitted_table_text};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use notice::Notice;
+pub use number::{ScaledNumber, scaled_number, with_uncertainty};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
-pub use results::{Identification, InputRecord, results_json};
-pub use samples::samples_csv;
+pub use results::{Identification, InputRecord, RESULTS_SCHEMA, results_json};
+pub use samples::{loads_data, samples_data};
 pub use speed::{speed_json, speed_table, track_csv};
-pub use text_table::wrapped;
-pub use thrust::{method_title, thrust_summary, thrust_table};
+pub use text_table::{Column, Row, TextTable, wrapped};
+pub use thrust::{method_title, methods_table, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
+pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use vehicles::{vehicles_json, vehicles_text};
 pub use weighed::{weighed_json, weighed_text};
 

@@ -39,12 +39,35 @@ pub(crate) fn uncertainty(std_uncertainty: Option<f64>) -> String {
     }
 }
 
-/// "2.8315 ± 0.0035".
-pub(crate) fn with_uncertainty(value: f64, std_uncertainty: Option<f64>) -> String {
+/// "2.8315 ± 0.0035": a value, rounded to the second digit of its uncertainty.
+pub fn with_uncertainty(value: f64, std_uncertainty: Option<f64>) -> String {
     match decimals(std_uncertainty) {
         Some(_) => format!("{} ± {}", rounded(value, std_uncertainty), uncertainty(std_uncertainty)),
         None => rounded(value, None),
     }
+}
+
+/// A number with its uncertainty and the power of ten that both are to be multiplied by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ScaledNumber {
+    /// "2.8315 ± 0.0035".
+    pub digits: String,
+    /// Exponent of the power of ten; 0 where it is 1.
+    pub exponent: i32,
+}
+
+impl ScaledNumber {
+    /// The exponent with a minus as long as a plus.
+    pub fn superscript(&self) -> String {
+        self.exponent.to_string().replace('-', "−")
+    }
+}
+
+/// A value and its uncertainty, standard or expanded, with one digit before the point.
+pub fn scaled_number(value: f64, uncertainty: Option<f64>) -> ScaledNumber {
+    let unit = PowerOfTen::of([value]);
+    let digits = with_uncertainty(unit.scale(value), uncertainty.map(|uncertainty| unit.scale(uncertainty)));
+    ScaledNumber { digits, exponent: unit.0 }
 }
 
 /// What stands where there is no number.

@@ -43,8 +43,15 @@ impl Identification<'_> {
     }
 }
 
+/// Version of the layout of `results.json`: rises when a field is renamed, removed or means something else.
+const SCHEMA_VERSION: u32 = 1;
+
+/// What `results.json` may hold, field by field with units, as a JSON Schema (draft 2020-12).
+pub const RESULTS_SCHEMA: &str = include_str!("results.schema.json");
+
 #[derive(Serialize)]
 struct Results<'a> {
+    schema_version: u32,
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
     method: Method,
@@ -158,6 +165,7 @@ pub fn results_json(identification: &Identification<'_>) -> Result<String, serde
     let Identification { experiment, method, tables, .. } = *identification;
     let reported = identification.reported();
     let results = Results {
+        schema_version: SCHEMA_VERSION,
         thrust_constant_total_n_s2: reported.and_then(|table| table.thrust_constant_total_n_s2),
         thrust_constant_per_rotor_n_s2: reported.and_then(|table| table.thrust_constant_per_rotor_n_s2),
         method,

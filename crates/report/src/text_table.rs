@@ -1,18 +1,20 @@
-//! Aligned columns of text.
+//! Tables for people: aligned columns of text; `typeset` has the same for documents.
 
+use std::fmt;
 use std::iter::zip;
 
 /// Between two columns.
 const GAP: &str = "  ";
 
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Left,
     Right,
 }
 
 /// Head of a column.
-pub(crate) struct Column {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
     title: String,
     unit: String,
     side: Side,
@@ -28,17 +30,35 @@ impl Column {
     pub(crate) fn numbers(title: &str, unit: &str) -> Self {
         Self { title: title.to_owned(), unit: unit.to_owned(), side: Side::Right }
     }
+
+    /// What the column holds.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Its unit; empty where it has none.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// Whether it holds numbers, which stand at the right.
+    pub fn is_number(&self) -> bool {
+        self.side == Side::Right
+    }
 }
 
 /// A line of a table.
-enum Row {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Row {
+    /// One cell for each column.
     Cells(Vec<String>),
     /// The first cell, and words across all the others.
     Words(String, String),
 }
 
-/// A table that is printed with spaces.
-pub(crate) struct TextTable {
+/// A table for people. Its `Display` aligns the columns with spaces.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TextTable {
     columns: Vec<Column>,
     rows: Vec<Row>,
 }
@@ -58,6 +78,21 @@ impl TextTable {
         self.rows.push(Row::Words(first, words));
     }
 
+    /// Heads of the columns.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Its lines.
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Whether any column has a unit.
+    pub fn has_units(&self) -> bool {
+        self.columns.iter().any(|column| !column.unit.is_empty())
+    }
+
     /// Title, units, a rule and the rows, each line ending with a line feed and none with a space.
     pub(crate) fn render(&self) -> String {
         let widths = self.widths();
@@ -71,7 +106,7 @@ impl TextTable {
             format!("{}\n", padded.join(GAP).trim_end())
         };
         let mut text = line(self.columns.iter().map(|column| column.title.as_str()).collect());
-        if self.columns.iter().any(|column| !column.unit.is_empty()) {
+        if self.has_units() {
             text += &line(self.columns.iter().map(|column| column.unit.as_str()).collect());
         }
         let total = widths.iter().sum::<usize>() + GAP.len() * widths.len().saturating_sub(1);
@@ -106,6 +141,12 @@ impl TextTable {
             }
         }
         widths
+    }
+}
+
+impl fmt::Display for TextTable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render())
     }
 }
 

@@ -20,7 +20,7 @@ pub fn method_title(method: Method) -> &'static str {
 }
 
 /// One method's table: a row for each load, like the paper's tables 1 and 2.
-pub fn thrust_table(table: &ThrustTable) -> String {
+pub fn thrust_table(table: &ThrustTable) -> TextTable {
     let has_mass = table.loads.iter().any(|load| load.mass_kg.is_some());
     let has_bench = table.loads.iter().any(|load| load.mass_kg.is_none());
     let has_verdict = table.loads.iter().any(|load| load.fits.is_some());
@@ -57,7 +57,7 @@ pub fn thrust_table(table: &ThrustTable) -> String {
         cells.extend(has_verdict.then(|| verdict(load.fits)));
         text.push(cells);
     }
-    text.render()
+    text
 }
 
 /// Speed in rpm, its spread, and the speed in rad/s.
@@ -102,10 +102,9 @@ fn units_of(table: &ThrustTable) -> (PowerOfTen, PowerOfTen) {
     )
 }
 
-/// The answer: the constant of the whole vehicle and of one rotor by every method, which of them is reported, and the paper's
-/// plain mean of the loads beside it.
-/// Where the air and the propeller's diameter are known, C_T in both conventions follows.
-pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
+/// The constant of the whole vehicle and of one rotor by every method, which of them is reported, and the paper's plain mean of the loads
+/// beside it.
+pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     let values = |constant: &dyn Fn(&ThrustTable) -> Option<Estimate>| -> PowerOfTen {
         PowerOfTen::of(tables.iter().filter_map(|table| Some(constant(table)?.value)))
     };
@@ -126,6 +125,11 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
             constant_cell(table.plain_mean_total_n_s2, total_unit),
         ]);
     }
+    text
+}
+
+/// The answer: the table of the methods, and where the air and the propeller's diameter are known, C_T in both conventions.
+pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {
         format!(
@@ -135,5 +139,5 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
             significant(both.density_kg_m3, 4),
         )
     });
-    text.render() + &coefficients
+    methods_table(tables, reported).render() + &coefficients
 }

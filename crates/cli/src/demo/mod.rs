@@ -7,9 +7,13 @@ use crate::args::DemoArguments;
 use crate::failure::{Ending, Failure};
 use crate::identify::{ExperimentSource, identify};
 use crate::recording::Hearing;
+use crate::report_folder::Extras;
 use crate::terminal::Terminal;
+use crate::typed::typed_command;
 use hovertone::{Method, ThrustTable};
-use hovertone_report::{PrintedRow, comparison_with_paper, comparison_with_truth, method_title};
+use hovertone_report::{
+    PrintedRow, TextTable, TitledTable, comparison_with_paper, comparison_with_truth, method_title,
+};
 use hovertone_sim::paper::{LOADS, PaperLoad};
 
 /// Flies, writes, identifies, compares.
@@ -23,29 +27,40 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     let hearing = Hearing { wants_hash: true, wants_samples: true, ..Hearing::default() };
     let method = source.experiment.config.method;
     let identified = identify(source, None, hearing, method, !arguments.no_progress)?;
+    let compared: Vec<(Method, TextTable)> = identified
+        .tables()
+        .iter()
+        .map(|table| (table.method, comparison_with_paper(table, &printed_rows(table))))
+        .collect();
+    let against_truth = comparison_with_truth(identified.tables(), &render::truth_of_loads(&truths));
     let mut text = format!(
         "The paper's experiment in simulated flight: {} loads, {} recordings, seed {}\n",
         LOADS.len(),
         truths.len(),
         arguments.seed
     );
-    for table in identified.tables() {
-        text += &format!("\n{}\n{}", title_beside_paper(table), comparison_with_paper(table, &printed_rows(table)));
+    for (table, (_, compared)) in identified.tables().iter().zip(&compared) {
+        text += &format!("\n{}\n{compared}", title_beside_paper(table));
     }
-    text += &format!("\nAgainst the truth of the sound as written, m g / mean(Σω²), times four rotors\n{}", {
-        comparison_with_truth(identified.tables(), &render::truth_of_loads(&truths))
-    });
+    text += &format!("\n{TRUTH_TITLE}\n{against_truth}");
     terminal.data(&(text + "\n" + &identified.summary() + FOOTNOTE))?;
     terminal.flush()?;
     identified.say_notes(terminal);
-    identified.write(folder)?;
+    let extras = Extras {
+        compared: &compared,
+        more_tables: &[TitledTable::new(TRUTH_TITLE, against_truth)],
+        command: &typed_command(),
+    };
+    identified.write(folder, &extras)?;
     terminal.say(&format!(
-        "written: experiment.toml, {} recordings, truth.csv, truth_tracks.csv, results.json, samples.csv\n  {}",
+        "written: report.html, results.json, tables and figures; experiment.toml, {} recordings, truth.csv, truth_tracks.csv\n  {}",
         truths.len(),
         folder.display()
     ));
     Ok(identified.ending())
 }
+
+const TRUTH_TITLE: &str = "Against the truth of the sound as written, m g / mean(Σω²), times four rotors";
 
 const FOOTNOTE: &str = "
 The paper's columns are printed with the units that their numbers have: rpm, rad/s, and

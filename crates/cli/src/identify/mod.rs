@@ -8,18 +8,19 @@ pub(crate) use experiment_file::ExperimentSource;
 use crate::args::HearingArguments;
 use crate::failure::{Ending, Failure};
 use crate::progress::Progress;
-use crate::recording::{Hearing, hear_all};
+use crate::recording::{Hearing, Job, hear_all};
+use crate::report_folder::{Extras, write_report};
 use crate::speed::ending_of;
 use crate::terminal::Terminal;
 use crate::thrust_args::IdentifyArguments;
+use crate::typed::typed_command;
 use hovertone::{Experiment, LoadSpeeds, Method, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
-    Identification, InputRecord, Notice, adequacy_text, method_title, results_json, samples_csv, thrust_summary,
-    thrust_table, vehicle_model_text,
+    Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary, thrust_table,
+    vehicle_model_text,
 };
 use recordings::jobs_of;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// An experiment, what its recordings said, and what follows from it.
 pub(crate) struct Identified {
@@ -27,6 +28,9 @@ pub(crate) struct Identified {
     method: Method,
     inputs: Vec<InputRecord>,
     tables: Vec<ThrustTable>,
+    /// What was heard, recording by recording, to be read again for its pictures.
+    jobs: Vec<Job>,
+    hearing: Hearing,
 }
 
 /// Identifies the experiment and prints its tables.
@@ -45,11 +49,12 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     identified.say_notes(terminal);
     match &arguments.output {
         Some(folder) => {
-            let written = identified.write(folder)?;
+            let extras = Extras { command: &typed_command(), ..Extras::default() };
+            let written = identified.write(folder, &extras)?;
             terminal.say(&format!("written: {}", written.join(", ")));
         }
         None if !arguments.json => {
-            terminal.say("nothing was written; -o DIR writes results.json and samples.csv there");
+            terminal.say("nothing was written; -o DIR writes report.html, results.json, tables and figures there");
         }
         None => {}
     }
@@ -68,7 +73,7 @@ pub(crate) fn identify(
     method: Method,
     shows_progress: bool,
 ) -> Result<Identified, Failure> {
-    let (jobs, loads) = jobs_of(&source, data_root)?.into_iter().unzip::<_, _, Vec<_>, Vec<_>>();
+    let (jobs, loads) = jobs_of(&source, data_root)?.into_iter().unzip::<_, _, Vec<Job>, Vec<_>>();
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = hear_all(&jobs, hearing, &progress);
     progress.finish();
@@ -88,7 +93,7 @@ pub(crate) fn identify(
             thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings)
         })
         .collect();
-    Ok(Identified { source, method, inputs, tables })
+    Ok(Identified { source, method, inputs, tables, jobs, hearing })
 }
 
 /// Whether all rotors were told apart in every recording.
@@ -180,18 +185,8 @@ impl Identified {
         }
     }
 
-    /// Writes `results.json` and `samples.csv`; gives back where.
-    pub(crate) fn write(&self, folder: &Path) -> Result<Vec<String>, Failure> {
-        fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
-        let contents = [
-            ("results.json", results_json(&self.identification()).map_err(Failure::internal)?),
-            ("samples.csv", samples_csv(&self.tables).map_err(Failure::internal)?),
-        ];
-        contents.into_iter().map(|(name, text)| write_text(&folder.join(name), &text)).collect()
+    /// Writes the report and all that belongs to it; gives back where.
+    pub(crate) fn write(&self, folder: &Path, extras: &Extras<'_>) -> Result<Vec<String>, Failure> {
+        write_report(&self.identification(), &self.jobs, self.hearing, extras, folder)
     }
-}
-
-fn write_text(path: &PathBuf, text: &str) -> Result<String, Failure> {
-    fs::write(path, text).map_err(|error| Failure::cannot_write(&error, path))?;
-    Ok(path.display().to_string())
 }

@@ -1,15 +1,18 @@
 //! The command as a person runs it: what it prints, what it writes, how it ends.
 
 // The lints know tests by their attribute, and what tests share has none.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
+mod chromium;
 mod codecs;
 mod demo;
 mod identify;
 mod labels;
 mod real_recordings;
+mod report;
 mod roundtrip;
 mod simulate;
+mod spectrogram;
 mod speed;
 mod testkit;
 mod thrust;

@@ -85,6 +85,7 @@ fn help_and_version_are_data() {
     for command in [
         "speed",
         "tones",
+        "spectrogram",
         "identify",
         "fit",
         "weigh",
@@ -97,7 +98,19 @@ fn help_and_version_are_data() {
     ] {
         assert!(help.contains(command), "{command}");
     }
-    for command in ["speed", "tones", "identify", "fit", "weigh", "export", "compare", "demo", "simulate", "vehicles"] {
+    for command in [
+        "speed",
+        "tones",
+        "spectrogram",
+        "identify",
+        "fit",
+        "weigh",
+        "export",
+        "compare",
+        "demo",
+        "simulate",
+        "vehicles",
+    ] {
         let help = hovertone(&[command, "--help"]).ends_with(0).stdout;
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
     }

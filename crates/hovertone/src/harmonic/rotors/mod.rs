@@ -217,12 +217,12 @@ impl RotorTracer {
             (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < resolution_rev_s
         };
         for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
-            for frame in 0..labelling.len() {
+            for (frame, labels) in labelling.iter().enumerate() {
                 let span =
                     Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s };
                 // of two in one place the first stands for both
                 let is_hidden = (0..rotor).any(|other| is_close(rotor, other, frame));
-                let hides = (rotor + 1..labelling[frame].len()).any(|other| is_close(rotor, other, frame));
+                let hides = (rotor + 1..labels.len()).any(|other| is_close(rotor, other, frame));
                 let is_lost = !is_hidden && !hides && !of(rotor, frame).is_heard;
                 if is_hidden || is_lost {
                     extend(merged, span);

@@ -1,0 +1,66 @@
+//! `hovertone spectrogram`: a recording as a picture.
+
+use crate::drawing::{drawing_of, trial_of};
+use crate::failure::{Ending, Failure};
+use crate::progress::Progress;
+use crate::recording::{Hearing, Job, hear_all};
+use crate::spectrogram_args::SpectrogramArguments;
+use crate::speed::{config_of, ending_of};
+use crate::terminal::Terminal;
+use hovertone_figures::{figure_png, recording_figure};
+use std::fs;
+use std::path::Path;
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Png,
+    Svg,
+}
+
+/// Hears a recording and draws it.
+pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let kind = kind_of(&arguments.output)?;
+    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    let job = Job { name: arguments.file.display().to_string(), path: arguments.file.clone(), config, discovery };
+    let hearing = Hearing {
+        audio_track: arguments.hearing.audio_track,
+        channel: arguments.hearing.channel,
+        wants_hash: false,
+        wants_samples: false,
+    };
+    let jobs = [job];
+    let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
+    let records = hear_all(&jobs, hearing, &progress);
+    progress.finish();
+    let ending = ending_of(&records);
+    terminal.notes(&records.iter().collect::<Vec<_>>());
+    let [job] = &jobs;
+    let Some(record) = records.first().filter(|record| !record.has_failed()) else { return Ok(ending) };
+    let drawing = drawing_of(job, record, hearing, None)?;
+    let reason = record.reason();
+    let trial = trial_of("", record, reason.as_deref(), Some(&drawing));
+    let Some(figure) = recording_figure(&trial, "spectrogram").map_err(Failure::internal)? else {
+        let hint = "a recording needs a tenth of a second of sound for a picture";
+        return Err(Failure::failed("the sound is too short for a spectrogram: nothing was written", hint, &job.path));
+    };
+    let bytes = match kind {
+        Kind::Svg => figure.svg.into_bytes(),
+        Kind::Png => figure_png(&figure, f64::from(arguments.dpi)).map_err(Failure::internal)?,
+    };
+    fs::write(&arguments.output, bytes).map_err(|error| Failure::cannot_write(&error, &arguments.output))?;
+    terminal.say(&format!("written: {}", arguments.output.display()));
+    Ok(ending)
+}
+
+fn kind_of(output: &Path) -> Result<Kind, Failure> {
+    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("png") => Ok(Kind::Png),
+        Some("svg") => Ok(Kind::Svg),
+        _ => Err(Failure::Usage {
+            what: "the picture's name ends neither with .png nor with .svg".to_owned(),
+            hint: "say -o spectrogram.png or -o spectrogram.svg".to_owned(),
+            path: Some(output.to_owned()),
+        }),
+    }
+}

@@ -1,0 +1,31 @@
+//! The command as it was typed, for whoever wants to type it again.
+
+use std::env;
+
+/// The whole command line, quoted for a shell. Words that are no text are shown with their damage.
+pub(crate) fn typed_command() -> String {
+    let words = env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
+    ["hovertone".to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// A word that a shell takes as one.
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=:,+@%".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn a_shell_reads_every_word_as_one() {
+        assert_eq!(quoted("no_hull/trial-1.wav"), "no_hull/trial-1.wav");
+        assert_eq!(quoted("it's $HOME"), "'it'\\''s $HOME'");
+        assert_eq!(quoted(""), "''");
+    }
+}

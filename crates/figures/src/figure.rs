@@ -1,0 +1,73 @@
+//! A figure: its name, its words and its drawing.
+
+/// A figure that was drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Figure {
+    /// Its name, good for a file name: `figure-6-spectrograms`.
+    pub name: String,
+    /// One line: what it is.
+    pub title: String,
+    /// What is to be seen, for a caption and for those who cannot see it.
+    pub description: String,
+    /// The drawing, complete in itself.
+    pub svg: String,
+}
+
+/// A figure that could not be drawn.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// The plotting library refused.
+    #[error("a figure could not be drawn: {0}")]
+    Drawing(String),
+    /// A picture could not be packed.
+    #[error("a picture could not be packed: {0}")]
+    Packing(#[from] png::EncodingError),
+    /// The drawing could not be turned into pixels.
+    #[error("a figure could not be turned into pixels: {0}")]
+    Pixels(String),
+}
+
+/// Text as XML wants it.
+pub(crate) fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            // no XML can hold these
+            '\u{0}'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {
+                escaped.push('\u{fffd}');
+            }
+            letter => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+/// The name itself, or its beginning and end where it is longer than `letters`.
+pub(crate) fn shortened(name: &str, letters: usize) -> String {
+    let count = name.chars().count();
+    if count <= letters {
+        return name.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect();
+    }
+    let head = letters / 2;
+    let tail = letters.saturating_sub(head + 1);
+    let kept = name.chars().take(head).chain(['…']).chain(name.chars().skip(count - tail));
+    kept.map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_no_markup() {
+        assert_eq!(escaped("<b a='\"'>&\u{1}"), "&lt;b a=&#39;&quot;&#39;&gt;&amp;\u{fffd}");
+        assert_eq!(shortened("no_hull/trial_1.wav", 11), "no_hu…1.wav");
+        assert_eq!(shortened("a\nb", 11), "a\u{fffd}b");
+    }
+}

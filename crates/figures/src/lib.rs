@@ -1,0 +1,38 @@
+//! Results as figures: SVG for reading and printing, and the same as PNG. Pure functions; where the bytes go is the caller's business.
+//!
+//! ```text
+//! canvas       layers of drawing on one sheet, by plotters        axis      ranges, ticks and their labels
+//! raster       a spectrogram as the pixels of a PNG               colour    colours that everybody can tell apart
+//! figure       name, words and SVG of a figure                    bitmap    SVG → PNG
+//! trial        what the figures show of a recording               joined    trials one after the other on one time axis
+//! ```
+//!
+//! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian` (9),
+//! `fit`, `budget`, `rotors`, `spectrogram` of one recording.
+
+mod axis;
+mod bitmap;
+mod budget;
+mod canvas;
+mod colour;
+mod database;
+mod experiment;
+mod figure;
+mod fit;
+mod gaussian;
+mod joined;
+mod load_spectrograms;
+mod maximum_trace;
+mod raster;
+mod rotors;
+mod spectrogram;
+mod spectrum;
+mod trial;
+
+pub use bitmap::{DOTS_PER_INCH, figure_png};
+pub use colour::{LEVEL_COUNT, level_colours, method_colour};
+pub use experiment::{ExperimentFigures, figures_of_experiment};
+pub use figure::{Figure, FigureError};
+pub use rotors::rotors_figure;
+pub use spectrogram::recording_figure;
+pub use trial::Trial;

@@ -1,0 +1,157 @@
+//! The spectrogram of one recording, with the bands, what was cut, and the ridge or the rotors over it.
+
+use crate::axis::Axis;
+use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
+use crate::colour::{BAND, ColourMap, INK, MUTED, OVER_PICTURE, PAPER};
+use crate::figure::{Figure, FigureError, shortened};
+use crate::raster::{Raster, level_range_db};
+use crate::rotors;
+use crate::spectrum::harmonic_name;
+use crate::trial::{Trial, ridge_lines, track_lines};
+use hovertone::{Method, Picture};
+use plotters::style::Color;
+
+const ROWS_MAX: usize = 330;
+const COLUMNS_MAX: usize = 2048;
+const TOP: i32 = 130;
+const PITCH: i32 = 190;
+
+/// The spectrogram of a recording: all frequencies in Hz and as shaft speeds, the band around the tone with the ridge over it, and the
+/// rotors where they were told apart. `None` where the recording is too short for a picture.
+///
+/// # Errors
+/// What the plotting library refuses.
+pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, FigureError> {
+    let Some(whole) = trial.whole() else { return Ok(None) };
+    let first = trial.bands().first();
+    let zoom = first.and_then(|band| Some((band, trial.around(band.harmonic)?)));
+    let has_rotors = trial.tone().is_some_and(|tone| !tone.rotors.is_empty());
+    let heights = [560, if zoom.is_some() { 420 } else { 0 }, if has_rotors && zoom.is_some() { 420 } else { 0 }];
+    let count = heights.iter().filter(|&&height| height > 0).count() as i32;
+    let mut canvas = Canvas::new(name, TOP + heights.iter().sum::<i32>() + (count - 1) * PITCH + 120);
+    let levels_db = level_range_db([whole]);
+    canvas.colour_bar(ColourMap::Viridis, levels_db)?;
+    let mut top = TOP;
+    let mut place = |height: i32| {
+        let place = Place { left: 180, top, right: WIDTH - 180, bottom: top + height };
+        top += height + PITCH;
+        place
+    };
+    draw_whole(&mut canvas, trial, whole, place(heights[0]), levels_db)?;
+    if let Some((band, picture)) = zoom {
+        draw_zoom(&mut canvas, trial, band, picture, place(heights[1]))?;
+    }
+    if heights[2] > 0 {
+        rotors::draw(&mut canvas, trial, place(heights[2]))?;
+    }
+    let words = match (trial.tone(), trial.reason) {
+        (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; dimmed: what is no hover. Below: the band of the \
+                         tone, with the ridge over it."
+            .to_owned(),
+        (None, Some(reason)) => format!("No speed: {reason}."),
+        (None, None) => String::new(),
+    };
+    Ok(Some(canvas.finish(
+        format!("Spectrogram of {}", shortened(trial.recording, 80)),
+        format!("Level of the sound of {} over time and frequency. {words}", trial.recording),
+    )))
+}
+
+fn draw_whole(
+    canvas: &mut Canvas,
+    trial: &Trial<'_>,
+    picture: &Picture,
+    place: Place,
+    levels_db: (f64, f64),
+) -> Result<(), FigureError> {
+    let range_s = (picture.span.from_s, picture.span.to_s);
+    let panel = Panel {
+        place,
+        x: Axis::new("time (s)", range_s).with_ticks(11),
+        y: Axis::new("frequency (Hz)", (0.0, picture.hz_high)).with_ticks(8),
+        // of the fundamental; harmonic k lies at k times its shaft speed
+        right: trial.tone_order().map(|order| (format!("frequency / {order} (rev/s)"), order)),
+        title: shortened(trial.recording, 60),
+    };
+    canvas.panel(&panel)?;
+    let raster = Raster::from_picture(picture, (0.0, picture.hz_high), levels_db, ColourMap::Viridis);
+    canvas.picture(&panel, range_s, &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
+    if let Some(hover) = trial.hover() {
+        canvas.plot(&panel, "cuts", |plot| {
+            hover
+                .cuts
+                .iter()
+                .try_for_each(|cut| plot.block((cut.span.from_s, cut.span.to_s), (0.0, picture.hz_high), PAPER, 0.45))
+        })?;
+    }
+    // bands are marked where they do not hide the tone: at both sides, and by thin edges
+    canvas.plot(&panel, "bands", |plot| {
+        let flag_s = 0.012 * (range_s.1 - range_s.0);
+        for band in trial.bands() {
+            let edges_hz = (band.band_hz_low, band.band_hz_high);
+            for hz in [edges_hz.0, edges_hz.1] {
+                plot.dashed((range_s.0, hz), (range_s.1, hz), BAND, 2)?;
+            }
+            plot.block((range_s.0, range_s.0 + flag_s), edges_hz, BAND, 1.0)?;
+            plot.block((range_s.1 - flag_s, range_s.1), edges_hz, BAND, 1.0)?;
+        }
+        Ok(())
+    })?;
+    if let Some(tone) = trial.tone() {
+        canvas.plot(&panel, "ridges", |plot| {
+            for ridge in &tone.ridges {
+                for line in ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace) {
+                    plot.line(&line, OVER_PICTURE.mix(0.7).stroke_width(1))?;
+                }
+            }
+            Ok(())
+        })?;
+    } else if let Some(reason) = trial.reason {
+        canvas.layer("reason", |sheet| {
+            sheet.text(&shortened(reason, 110), (place.left, place.top - 66), Anchor::Left, MUTED)
+        })?;
+    }
+    Ok(())
+}
+
+fn draw_zoom(
+    canvas: &mut Canvas,
+    trial: &Trial<'_>,
+    band: &hovertone::Band,
+    picture: &Picture,
+    place: Place,
+) -> Result<(), FigureError> {
+    let order = band.order.lines_per_turn();
+    let range_s = trial.whole().map_or(picture.span, |whole| whole.span);
+    let range_hz = (picture.hz_low, picture.hz_high);
+    let panel = Panel {
+        place,
+        x: Axis::new("time (s)", (range_s.from_s, range_s.to_s)).with_ticks(11),
+        y: Axis::new("frequency (Hz)", range_hz).with_ticks(6),
+        right: Some(("shaft speed (rev/s)".to_owned(), order)),
+        title: format!("{}, with the ridge", harmonic_name(band.harmonic)),
+    };
+    canvas.panel(&panel)?;
+    let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Viridis);
+    canvas.picture(&panel, (picture.span.from_s, picture.span.to_s), &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
+    let Some(tone) = trial.tone() else { return Ok(()) };
+    // the ridge of the paper's methods where they were asked for, else the track of the speed
+    let lines = if trial.method.name() == Method::MaximumTrace.name() || tone.track.is_empty() {
+        let ridge = tone.ridges.iter().find(|ridge| ridge.band.harmonic == band.harmonic);
+        ridge.map_or(Vec::new(), |ridge| ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace))
+    } else {
+        let in_hz = |line: Vec<(f64, f64)>| line.into_iter().map(|(time_s, rev_s)| (time_s, order * rev_s)).collect();
+        track_lines(&tone.track).into_iter().map(in_hz).collect()
+    };
+    canvas.plot(&panel, "bands", |plot| {
+        [band.band_hz_low, band.band_hz_high]
+            .into_iter()
+            .try_for_each(|hz| plot.dashed((range_s.from_s, hz), (range_s.to_s, hz), BAND, 3))
+    })?;
+    canvas.plot(&panel, "track", |plot| {
+        lines.iter().try_for_each(|line| {
+            plot.line(line, INK.mix(0.85).stroke_width(7))?;
+            plot.line(line, OVER_PICTURE.stroke_width(3))
+        })
+    })
+}

@@ -1,0 +1,183 @@
+//! What the page is made of.
+
+use crate::seal::policy;
+use crate::sound::{SoundClip, rate_and_count};
+use crate::view::{Answer, InputView, MethodView, PageTable, TrialView, Words};
+use askama::Template;
+use hovertone::Method;
+use hovertone_figures::{Figure, level_colours, method_colour};
+use hovertone_report::{
+    Identification, TextTable, TitledTable, VERSION, agreement_text, budget_table, laws_table, method_title,
+    methods_table, thrust_table,
+};
+
+const STYLE: &str = include_str!("../templates/report.css");
+const SCRIPT: &str = include_str!("../templates/report.js");
+/// All sound together takes at most this much of the page, as text: with the pictures of 15 trials it stays below 10 MB.
+const SOUND_BYTES_MAX: f64 = 5e6;
+
+/// An identified experiment with all that there is to see and to hear of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Report<'a> {
+    /// The results.
+    pub identification: &'a Identification<'a>,
+    /// The figures of the experiment.
+    pub figures: &'a [Figure],
+    /// One entry for each recording of the identification, in its order.
+    pub trials: &'a [TrialReport<'a>],
+    /// Tables that stand in place of a method's own: those with the paper's columns beside them.
+    pub compared: &'a [(Method, TextTable)],
+    /// More tables of the caller's: against the truth, where it is known.
+    pub more_tables: &'a [TitledTable],
+    /// The command that makes the same again.
+    pub command: &'a str,
+}
+
+/// A recording.
+#[derive(Clone, Copy, Debug)]
+pub struct TrialReport<'a> {
+    /// Its spectrogram.
+    pub figure: Option<&'a Figure>,
+    /// Its sound.
+    pub sound: Option<&'a SoundClip>,
+}
+
+/// A page that could not be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PageError {
+    /// The template refused.
+    #[error("the page could not be made: {0}")]
+    Template(#[from] askama::Error),
+    /// The settings could not be written.
+    #[error("the settings could not be written: {0}")]
+    Settings(#[from] serde_json::Error),
+}
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    policy: String,
+    style: &'static str,
+    script: &'static str,
+    level_colours: String,
+    version: &'static str,
+    words: Words<'a>,
+    answer: Option<Answer>,
+    methods: Vec<MethodView>,
+    method_constants: PageTable,
+    laws: Option<PageTable>,
+    agreement: String,
+    budget: Option<PageTable>,
+    more_tables: Vec<PageTable>,
+    trials: Vec<TrialView<'a>>,
+    inputs: Vec<InputView<'a>>,
+    sound_rate_hz: Option<u32>,
+    mute_count: usize,
+    settings: String,
+    command: &'a str,
+    report: &'a Report<'a>,
+}
+
+impl Page<'_> {
+    /// The drawing of a figure; nothing where it was left out.
+    fn figure(&self, name: &str) -> Option<&Figure> {
+        self.report.figures.iter().find(|figure| figure.name == name)
+    }
+
+    /// Recordings that were used from their first sample to their last.
+    fn used_whole(&self) -> usize {
+        self.trials.iter().filter(|trial| trial.reason.is_none() && trial.cuts.is_none()).count()
+    }
+
+    /// The tables of one method.
+    fn method(&self, name: &str) -> Option<&MethodView> {
+        self.methods.iter().find(|method| method.name == name)
+    }
+
+    /// The methods that are not the paper's.
+    fn our_methods(&self) -> impl Iterator<Item = &MethodView> {
+        self.methods.iter().filter(|method| !method.is_papers)
+    }
+}
+
+/// The page. It loads nothing from anywhere: style, script, pictures and sound are in it. Same report, same bytes.
+///
+/// # Errors
+/// None that is known of: the template is compiled in, the types can all be written.
+pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
+    let identification = report.identification;
+    let reported = identification.reported();
+    let clips: Vec<&SoundClip> = report.trials.iter().filter_map(|trial| trial.sound).collect();
+    let (rate_hz, count) = rate_and_count(&clips, SOUND_BYTES_MAX);
+    let mut sounding = 0;
+    let trials: Vec<TrialView<'_>> = identification
+        .inputs
+        .iter()
+        .zip(report.trials)
+        .map(|(input, trial)| {
+            sounding += usize::from(trial.sound.is_some());
+            let sound = trial.sound.filter(|_| sounding <= count);
+            TrialView::new(input, &TrialReport { sound, ..*trial }, rate_hz)
+        })
+        .collect();
+    let page = Page {
+        policy: policy(STYLE, SCRIPT),
+        style: STYLE,
+        script: SCRIPT,
+        level_colours: serde_json::to_string(&level_colours().to_vec())?,
+        version: VERSION,
+        words: Words::new(identification),
+        answer: reported.and_then(Answer::new),
+        methods: identification
+            .tables
+            .iter()
+            .map(|table| {
+                let compared = report.compared.iter().find(|(method, _)| *method == table.method);
+                let shown = compared.map_or_else(|| thrust_table(table), |(_, compared)| compared.clone());
+                MethodView::new(table, &shown, method_colour(table.method), identification.method)
+            })
+            .collect(),
+        method_constants: PageTable::new("", &methods_table(identification.tables, identification.method)),
+        laws: reported.and_then(|table| table.fit.as_ref()).map(|fit| PageTable::new("", &laws_table(fit))),
+        agreement: reported.and_then(|table| table.fit.as_ref()).map(agreement_text).unwrap_or_default(),
+        budget: reported.and_then(|table| {
+            let (budget, fit) = (table.budget.as_ref()?, table.fit.as_ref()?);
+            Some(PageTable::new("", &budget_table(budget, fit.thrust_constant_n_s2.value)))
+        }),
+        more_tables: report.more_tables.iter().map(|titled| PageTable::new(&titled.title, &titled.table)).collect(),
+        mute_count: clips.len() - count,
+        sound_rate_hz: trials.iter().any(|trial| trial.sound.is_some()).then_some(rate_hz),
+        trials,
+        inputs: identification.inputs.iter().map(InputView::new).collect(),
+        settings: serde_json::to_string_pretty(identification.experiment)?,
+        command: report.command,
+        report,
+    };
+    Ok(page.render()?)
+}
+
+/// The same tables as in the page, for documents: the paper's two first.
+pub fn experiment_tables(identification: &Identification<'_>) -> Vec<TitledTable> {
+    let number = |method: Method| match method {
+        Method::MaximumTrace => "Table 1: ",
+        Method::Gaussian => "Table 2: ",
+        _ => "",
+    };
+    let mut tables: Vec<TitledTable> = identification
+        .tables
+        .iter()
+        .map(|table| {
+            TitledTable::new(format!("{}{}", number(table.method), method_title(table.method)), thrust_table(table))
+        })
+        .collect();
+    tables.sort_by_key(|titled| !titled.title.starts_with("Table"));
+    tables.push(TitledTable::new("Thrust constant", methods_table(identification.tables, identification.method)));
+    if let Some(table) = identification.reported()
+        && let (Some(fit), Some(budget)) = (&table.fit, &table.budget)
+    {
+        tables.push(TitledTable::new("Laws", laws_table(fit)));
+        tables.push(TitledTable::new("Uncertainty budget", budget_table(budget, fit.thrust_constant_n_s2.value)));
+    }
+    tables
+}

@@ -1,0 +1,251 @@
+//! The words, cells and numbers of the template. All of it is escaped there.
+
+use crate::report::TrialReport;
+use crate::sound::wav_uri;
+use hovertone::{Method, ThrustTable};
+use hovertone_report::{
+    Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, TextTable, cuts_in_words, method_title,
+    scaled_number, with_uncertainty,
+};
+use hovertone_vehicle::Estimate;
+
+/// A unit as people write it: "1e-5 N s²" is 10⁻⁵ N s².
+pub(crate) struct Unit {
+    pub(crate) exponent: Option<i32>,
+    pub(crate) name: String,
+}
+
+impl Unit {
+    fn new(text: &str) -> Self {
+        let power =
+            text.split_once(' ').and_then(|(power, name)| Some((power.strip_prefix("1e")?.parse().ok()?, name)));
+        match power {
+            Some((exponent, name)) => Self { exponent: Some(exponent), name: name.to_owned() },
+            None => Self { exponent: None, name: text.to_owned() },
+        }
+    }
+}
+
+pub(crate) struct Head {
+    pub(crate) title: String,
+    pub(crate) unit: Unit,
+    pub(crate) is_number: bool,
+}
+
+pub(crate) struct Cell {
+    pub(crate) text: String,
+    pub(crate) is_number: bool,
+    pub(crate) columns: usize,
+}
+
+/// A table as HTML has it.
+pub(crate) struct PageTable {
+    pub(crate) title: String,
+    pub(crate) heads: Vec<Head>,
+    pub(crate) has_units: bool,
+    pub(crate) rows: Vec<Vec<Cell>>,
+}
+
+impl PageTable {
+    pub(crate) fn new(title: &str, table: &TextTable) -> Self {
+        let heads: Vec<Head> = table
+            .columns()
+            .iter()
+            .map(|column| Head {
+                title: column.title().to_owned(),
+                unit: Unit::new(column.unit()),
+                is_number: column.is_number(),
+            })
+            .collect();
+        let cells = |row: &Row| match row {
+            Row::Cells(cells) => heads
+                .iter()
+                .zip(cells)
+                .map(|(head, text)| Cell { text: text.clone(), is_number: head.is_number, columns: 1 })
+                .collect(),
+            Row::Words(first, words) => vec![
+                Cell { text: first.clone(), is_number: false, columns: 1 },
+                Cell { text: words.clone(), is_number: false, columns: heads.len().saturating_sub(1).max(1) },
+            ],
+        };
+        let rows = table.rows().iter().map(cells).collect();
+        Self { title: title.to_owned(), has_units: table.has_units(), rows, heads }
+    }
+}
+
+/// A number of the answer: for people, and exactly.
+pub(crate) struct Number {
+    pub(crate) scaled: ScaledNumber,
+    pub(crate) value: f64,
+    pub(crate) uncertainty: Option<f64>,
+}
+
+impl Number {
+    fn new(value: f64, uncertainty: Option<f64>) -> Self {
+        Self { scaled: scaled_number(value, uncertainty), value, uncertainty }
+    }
+
+    fn of_estimate(estimate: Estimate) -> Self {
+        Self::new(estimate.value, estimate.std_uncertainty)
+    }
+
+    /// The uncertainty for a machine; empty where there is none.
+    pub(crate) fn exact_uncertainty(&self) -> String {
+        self.uncertainty.map_or(String::new(), |uncertainty| uncertainty.to_string())
+    }
+}
+
+/// What stands on top.
+pub(crate) struct Answer {
+    pub(crate) method: &'static str,
+    /// Of the whole vehicle, with the expanded uncertainty where there is a budget, else the standard one.
+    pub(crate) total: Number,
+    pub(crate) coverage: Option<f64>,
+    pub(crate) expanded_percent: Option<String>,
+    pub(crate) total_with_std: Number,
+    pub(crate) per_rotor: Option<Number>,
+    pub(crate) plain_mean: Option<Number>,
+    pub(crate) coefficient: Option<String>,
+    pub(crate) verdict: Option<(bool, String)>,
+    pub(crate) warnings: Vec<Notice>,
+}
+
+impl Answer {
+    pub(crate) fn new(table: &ThrustTable) -> Option<Self> {
+        let constant = table.thrust_constant_total_n_s2?;
+        let budget = table.budget.as_ref();
+        let uncertainty = budget.map(|budget| budget.expanded_uncertainty_n_s2).or(constant.std_uncertainty);
+        let misfits: Vec<&str> =
+            table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
+        let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
+            format!(" (χ² = {:.2}, p = {:.2})", agreement.chi_square, agreement.p_value)
+        });
+        let is_compared = table.loads.iter().any(|load| load.fits.is_some());
+        let verdict = is_compared.then(|| match misfits.as_slice() {
+            [] => (true, format!("every load agrees with the others{agreement}")),
+            _ => (false, format!("these loads do not fit the others: {}{agreement}", misfits.join(", "))),
+        });
+        Some(Self {
+            method: method_title(table.method),
+            total: Number::new(constant.value, uncertainty),
+            coverage: budget.map(|budget| budget.coverage_factor),
+            expanded_percent: budget.map(|budget| format!("{:.2}", 100.0 * budget.expanded_share)),
+            total_with_std: Number::of_estimate(constant),
+            per_rotor: table.thrust_constant_per_rotor_n_s2.map(Number::of_estimate),
+            plain_mean: table.plain_mean_total_n_s2.map(Number::of_estimate),
+            coefficient: table
+                .coefficients
+                .map(|both| format!("{:.4} = T/(ρ n² D⁴), or {:.5} = T/(ρ A (ωR)²)", both.propeller, both.rotorcraft)),
+            verdict,
+            warnings: table.warnings.iter().map(Notice::from).collect(),
+        })
+    }
+}
+
+/// One method's table.
+pub(crate) struct MethodView {
+    pub(crate) name: &'static str,
+    pub(crate) title: &'static str,
+    pub(crate) colour: String,
+    pub(crate) is_papers: bool,
+    pub(crate) is_reported: bool,
+    pub(crate) table: PageTable,
+    pub(crate) plain_mean: Option<Number>,
+}
+
+impl MethodView {
+    pub(crate) fn new(table: &ThrustTable, shown: &TextTable, colour: String, reported: Method) -> Self {
+        Self {
+            name: table.method.name(),
+            title: method_title(table.method),
+            colour,
+            is_papers: matches!(table.method, Method::MaximumTrace | Method::Gaussian),
+            is_reported: table.method == reported,
+            table: PageTable::new("", shown),
+            plain_mean: table.plain_mean_total_n_s2.map(Number::of_estimate),
+        }
+    }
+}
+
+/// What the page is about.
+pub(crate) struct Words<'a> {
+    pub(crate) vehicle: &'a str,
+    pub(crate) experiment: &'a str,
+    pub(crate) sha256: &'a str,
+    pub(crate) rotor_count: u32,
+    pub(crate) order: String,
+    pub(crate) load_count: usize,
+    pub(crate) recording_count: usize,
+    pub(crate) heard_count: usize,
+}
+
+impl<'a> Words<'a> {
+    pub(crate) fn new(identification: &Identification<'a>) -> Self {
+        let experiment = identification.experiment;
+        Self {
+            vehicle: &experiment.vehicle_name,
+            experiment: identification.file,
+            sha256: identification.sha256,
+            rotor_count: experiment.rotor_count,
+            order: experiment.config.tone.order.to_string(),
+            load_count: experiment.loads.len(),
+            recording_count: identification.inputs.len(),
+            heard_count: identification.inputs.iter().filter(|input| input.record.speed().is_some()).count(),
+        }
+    }
+}
+
+/// A sound that can be played.
+pub(crate) struct SoundView {
+    pub(crate) uri: String,
+    pub(crate) from_s: f64,
+}
+
+/// A recording with its picture and sound.
+pub(crate) struct TrialView<'a> {
+    pub(crate) load: &'a str,
+    pub(crate) file: &'a str,
+    pub(crate) speed: Option<String>,
+    pub(crate) reason: Option<String>,
+    pub(crate) cuts: Option<String>,
+    pub(crate) warnings: &'a [Notice],
+    pub(crate) svg: Option<&'a str>,
+    pub(crate) words: &'a str,
+    pub(crate) sound: Option<SoundView>,
+}
+
+impl<'a> TrialView<'a> {
+    pub(crate) fn new(input: &'a InputRecord, trial: &TrialReport<'a>, sound_rate_hz: u32) -> Self {
+        let record = &input.record;
+        let sound =
+            trial.sound.and_then(|clip| Some(SoundView { uri: wav_uri(clip, sound_rate_hz)?, from_s: clip.from_s }));
+        Self {
+            load: &input.load,
+            file: &record.file,
+            speed: record
+                .speed()
+                .map(|speed| with_uncertainty(speed.speed.rev_s(), speed.combined_std_uncertainty_rev_s())),
+            reason: record.reason(),
+            cuts: record.analysis().and_then(|analysis| cuts_in_words(&analysis.hover.cuts)),
+            warnings: &record.notices,
+            svg: trial.figure.map(|figure| figure.svg.as_str()),
+            words: trial.figure.map_or("", |figure| figure.description.as_str()),
+            sound,
+        }
+    }
+}
+
+/// A recording's origin.
+pub(crate) struct InputView<'a> {
+    pub(crate) load: &'a str,
+    pub(crate) file: &'a str,
+    pub(crate) status: &'static str,
+    pub(crate) facts: Option<&'a RecordingFacts>,
+}
+
+impl<'a> InputView<'a> {
+    pub(crate) fn new(input: &'a InputRecord) -> Self {
+        let record = &input.record;
+        Self { load: &input.load, file: &record.file, status: record.status(), facts: record.recording.as_ref() }
+    }
+}
