@@ -45,8 +45,8 @@ impl RotorTracks {
             .resolved(None)
             .filter_map(|rotor| {
                 let mut speed = rotor.track.speed_in(None, order)?;
-                let lost_rev_s = self.lost_share(rotor, None) * among_rev_s;
-                speed.std_uncertainty_rev_s = speed.std_uncertainty_rev_s.map(|std| std.hypot(lost_rev_s));
+                let doubt_rev_s = self.doubt_share(rotor, None) * among_rev_s;
+                speed.std_uncertainty_rev_s = speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s));
                 let mut track = rotor.track.points_in(None, order);
                 for point in &mut track {
                     if rotor.lost.iter().any(|span| span.contains(point.time_s)) {
@@ -73,7 +73,8 @@ impl RotorTracks {
 
     /// Mean of all rotors' speeds over a stretch of time, and their mean square. `None` where none is told apart.
     ///
-    /// Uncertainty: that of each rotor, which may be anywhere among the others while it is lost; and of `count` rotors of which k are told apart, `(1 − k / count)` times what is not known
+    /// Uncertainty: that of each rotor, which may be anywhere among the others while it is lost, or
+    /// close to others for much of the time; and of `count` rotors of which k are told apart, `(1 − k / count)` times what is not known
     /// of the others: where a faint rotor would have been heard, they turn like one of the k, within the resolution; else they may
     /// be anywhere, 6 %.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
@@ -89,8 +90,8 @@ impl RotorTracks {
         let stds = heard.iter().filter_map(|(speed, _)| speed.std_uncertainty_rev_s);
         let of_rotors: f64 = stds.map(|std| (std / resolved).powi(2)).sum();
         let among_rev_s = self.among_rev_s(&speeds);
-        let of_lost: f64 =
-            self.resolved(span).map(|rotor| (self.lost_share(rotor, span) * among_rev_s / resolved).powi(2)).sum();
+        let of_doubt: f64 =
+            self.resolved(span).map(|rotor| (self.doubt_share(rotor, span) * among_rev_s / resolved).powi(2)).sum();
         let unknown_rev_s = if self.faint_s >= FAINT_SHARE_MIN * self.length_s {
             among_rev_s
         } else {
@@ -101,7 +102,7 @@ impl RotorTracks {
         Some(SpeedEstimate {
             method: Method::Separated,
             speed: RotorSpeed::from_rev_s(mean_rev_s),
-            std_uncertainty_rev_s: Some((of_rotors + of_lost).sqrt().hypot(of_unresolved)),
+            std_uncertainty_rev_s: Some((of_rotors + of_doubt).sqrt().hypot(of_unresolved)),
             spread_rev_s: mean(&spreads),
             mean_square_rad2_s2: mean(&squares),
             harmonics: Vec::new(),
@@ -114,11 +115,13 @@ impl RotorTracks {
         std(speeds_rev_s).unwrap_or(0.0).hypot(self.resolution_rev_s)
     }
 
-    /// Share of a stretch of time in which a rotor may be anywhere among the others.
-    fn lost_share(&self, rotor: &RotorTrack, span: Option<&Span>) -> f64 {
+    /// Share of a stretch of time in which a rotor may be anywhere among the others: it is lost, or rotors are so close to each other
+    /// that beats of some can pass for others.
+    fn doubt_share(&self, rotor: &RotorTrack, span: Option<&Span>) -> f64 {
         let lost_s: f64 =
             rotor.lost.iter().map(|own| span.map_or(*own, |span| own.overlap(*span)).length_s().max(0.0)).sum();
-        lost_s / span.map_or(self.length_s, Span::length_s).min(self.length_s).max(f64::MIN_POSITIVE)
+        let length_s = span.map_or(self.length_s, Span::length_s).min(self.length_s);
+        (lost_s / length_s.max(f64::MIN_POSITIVE)).max(self.close_s / self.length_s.max(f64::MIN_POSITIVE))
     }
 
     /// The rotors that are told apart for most of a stretch of time.

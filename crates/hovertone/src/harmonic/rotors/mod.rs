@@ -76,6 +76,8 @@ pub(crate) struct RotorTracks {
     pub(crate) length_s: f64,
     /// For how long of that a rotor of a tenth of the loudest one's power would have been heard.
     pub(crate) faint_s: f64,
+    /// For how long rotors were close to each other, where they often were: then some of them may be the beats of others.
+    pub(crate) close_s: f64,
 }
 
 /// One rotor.
@@ -164,6 +166,7 @@ impl RotorTracer {
                 resolution_rev_s: resolution_rev_s(bands),
                 length_s: 0.0,
                 faint_s: 0.0,
+                close_s: 0.0,
             },
             rough: rough.quanta.into_iter(),
             cutter,
@@ -211,6 +214,7 @@ impl RotorTracer {
             heard.iter().map(|rotor| self.blocks_of(rotor, (start_s, tick_s))).collect();
         self.tracks.length_s += ticks as f64 * tick_s;
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * ticks as f64 * tick_s;
+        self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * ticks as f64 * tick_s;
         let resolution_rev_s = self.tracks.resolution_rev_s;
         let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
         let is_close = |rotor: usize, other: usize, frame: usize| {

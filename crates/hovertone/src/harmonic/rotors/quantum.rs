@@ -44,6 +44,8 @@ pub(super) struct HeardRotor {
     are_heard: Vec<bool>,
     /// Share of the frames in which that would be so for a rotor of a tenth of its power.
     pub(super) faint_share: f64,
+    /// Share of the frames in which two rotors are close to each other, where that is often so.
+    pub(super) close_share: f64,
 }
 
 impl HeardRotor {
@@ -121,7 +123,8 @@ pub(super) fn rotors_of_quantum(
     let Some(mut hearing) = Hearing::new(quantum, atoms, rough, planner) else { return Vec::new() };
     let mut apart = hearing.searched(rough, COMMON_SEARCH);
     let mut frame_hz_s2 = COMMON_SEARCH.frame_hz_s2;
-    if share_close(&apart.tracks(), CLOSE_CELLS * hearing.cell_rev_s(frame_hz_s2)) > CLOSE_SHARE {
+    let close_rev_s = CLOSE_CELLS * hearing.cell_rev_s(frame_hz_s2);
+    if share_close(&apart.tracks(), close_rev_s) > CLOSE_SHARE {
         frame_hz_s2 = CLOSE_SEARCH.frame_hz_s2;
         for search in [CLOSE_SEARCH, CLOSE_SEARCH_AFRESH] {
             let finer = hearing.searched(&apart.tracks(), search);
@@ -140,6 +143,8 @@ pub(super) fn rotors_of_quantum(
         left = hearing.left_over(&apart, frame_hz_s2);
     }
 
+    let close_share =
+        Some(share_close(&apart.tracks(), close_rev_s)).filter(|&share| share > CLOSE_SHARE).unwrap_or(0.0);
     let Apart { paths, rotors, .. } = apart;
     let nulls: Vec<f64> = left
         .scores
@@ -161,7 +166,7 @@ pub(super) fn rotors_of_quantum(
             let are_heard = worths.iter().zip(&nulls).map(|(worth, null)| worth > null).collect();
             let faint = faint_worths.iter().zip(&nulls).filter(|(worth, null)| worth > null).count();
             let faint_share = faint as f64 / nulls.len().max(1) as f64;
-            HeardRotor { line_count: lines.len(), level, traced, path, levels, are_heard, faint_share }
+            HeardRotor { line_count: lines.len(), level, traced, path, levels, are_heard, faint_share, close_share }
         })
         .collect()
 }
