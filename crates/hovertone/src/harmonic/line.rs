@@ -16,27 +16,91 @@ pub(super) struct Line {
     pub(super) ticks: Vec<Complex<f64>>,
 }
 
-/// `exp(j 2π (o turns(t) − f t))` at the samples of one tick of a channel around f: a line of order o and amplitude 1, as the channel
-/// shows it.
-pub(super) fn tick_phasors(
-    (order, centre_hz, rate_hz): (f64, f64, f64),
-    path: &SpeedPath,
+/// After so many ticks the phase is taken from the path again, before the roundings of its recurrence add up to anything.
+const EXACT_EVERY_TICKS: usize = 64;
+/// Below this angle the first terms of sine and cosine are all of their digits.
+const SMALL_TURN: f64 = 0.01;
+
+/// `exp(j 2π (o turns(t) − f t))` at the samples of a channel around f: a line of order o and amplitude 1, as the channel shows it.
+///
+/// The phase advances by a step that itself advances, by the same within each tick: all by multiplication.
+pub(super) struct LinePhasors<'a> {
+    path: &'a SpeedPath,
+    order: f64,
+    centre_hz: f64,
+    step_s: f64,
+    samples_per_tick: usize,
     tick: usize,
-) -> impl Iterator<Item = Complex<f64>> {
-    let (turns, from, to) = path.tick(tick);
-    let cycles = order * turns - centre_hz * tick as f64 * path.tick_s;
-    // the phase advances by a step that itself advances: both by multiplication
-    let step_s = 1.0 / rate_hz;
-    let bend = PI * order * (to - from) / path.tick_s * step_s * step_s;
-    let mut turn = Complex::from_polar(1.0, TAU * cycles.fract());
-    let mut step = Complex::from_polar(1.0, TAU * (order * from - centre_hz) * step_s + bend);
-    let step_of_step = Complex::from_polar(1.0, 2.0 * bend);
-    std::iter::repeat_with(move || {
-        let now = turn;
-        turn *= step;
-        step *= step_of_step;
-        now
-    })
+    samples_left: usize,
+    turn: Complex<f64>,
+    step: Complex<f64>,
+    step_of_step: Complex<f64>,
+    bend: f64,
+}
+
+impl<'a> LinePhasors<'a> {
+    pub(super) fn new(
+        (order, centre_hz, rate_hz): (f64, f64, f64),
+        path: &'a SpeedPath,
+        samples_per_tick: usize,
+    ) -> Self {
+        Self {
+            path,
+            order,
+            centre_hz,
+            step_s: 1.0 / rate_hz,
+            samples_per_tick,
+            tick: 0,
+            samples_left: 0,
+            turn: Complex::default(),
+            step: Complex::default(),
+            step_of_step: Complex::default(),
+            bend: 0.0,
+        }
+    }
+
+    fn begin_tick(&mut self) {
+        let (turns, from, to) = self.path.tick(self.tick);
+        let bend = PI * self.order * (to - from) / self.path.tick_s * self.step_s * self.step_s;
+        if self.tick.is_multiple_of(EXACT_EVERY_TICKS) {
+            let cycles = self.order * turns - self.centre_hz * self.tick as f64 * self.path.tick_s;
+            self.turn = Complex::from_polar(1.0, TAU * cycles.fract());
+            self.step = Complex::from_polar(1.0, TAU * (self.order * from - self.centre_hz) * self.step_s + bend);
+        } else {
+            self.step *= small_turn(bend - self.bend);
+        }
+        self.step_of_step = small_turn(2.0 * bend);
+        self.bend = bend;
+        self.tick += 1;
+        self.samples_left = self.samples_per_tick;
+    }
+}
+
+impl Iterator for LinePhasors<'_> {
+    type Item = Complex<f64>;
+
+    fn next(&mut self) -> Option<Complex<f64>> {
+        if self.samples_left == 0 {
+            if self.tick >= self.path.ticks() {
+                return None;
+            }
+            self.begin_tick();
+        }
+        self.samples_left -= 1;
+        let now = self.turn;
+        self.turn *= self.step;
+        self.step *= self.step_of_step;
+        Some(now)
+    }
+}
+
+/// `exp(j angle)`.
+fn small_turn(angle: f64) -> Complex<f64> {
+    if angle.abs() > SMALL_TURN {
+        return Complex::from_polar(1.0, angle);
+    }
+    let square = angle * angle;
+    Complex::new(1.0 - square / 2.0 * (1.0 - square / 12.0), angle * (1.0 - square / 6.0 * (1.0 - square / 20.0)))
 }
 
 /// Turns a channel back by the shaft's angle times its order and adds up each tick.
@@ -46,13 +110,36 @@ pub(super) fn demodulated(
     samples_per_tick: usize,
     path: &SpeedPath,
 ) -> Vec<Complex<f64>> {
+    let mut phasors = LinePhasors::new(place, path, samples_per_tick);
     series
         .chunks_exact(samples_per_tick)
         .take(path.ticks())
-        .enumerate()
-        .map(|(tick, samples)| {
-            let turned = samples.iter().zip(tick_phasors(place, path, tick));
+        .map(|samples| {
+            let turned = samples.iter().zip(phasors.by_ref());
             turned.map(|(z, phasor)| phasor.conj() * Complex::new(f64::from(z.re), f64::from(z.im))).sum()
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phasors_by_multiplication_are_those_of_the_path() {
+        let (tick_s, samples_per_tick, order, centre_hz) = (0.0106, 13, 207.0, 12_400.0);
+        let speeds: Vec<f64> = (0..=1000).map(|tick| 60.0 + (f64::from(tick) * 0.05).sin()).collect();
+        let path = SpeedPath::from_borders(tick_s, speeds);
+        let rate_hz = samples_per_tick as f64 / tick_s;
+        let phasors: Vec<_> = LinePhasors::new((order, centre_hz, rate_hz), &path, samples_per_tick).collect();
+        assert_eq!(phasors.len(), 1000 * samples_per_tick);
+        for (sample, phasor) in phasors.iter().enumerate() {
+            let (tick, within) = (sample / samples_per_tick, (sample % samples_per_tick) as f64 / rate_hz);
+            let (turns, from, to) = path.tick(tick);
+            let turned = turns + from * within + (to - from) / tick_s * within * within / 2.0;
+            let cycles = order * turned - centre_hz * (tick as f64 * tick_s + within);
+            let error = (phasor - Complex::from_polar(1.0, TAU * cycles.fract())).norm();
+            assert!(error < 1e-8, "sample {sample}: {error}");
+        }
+    }
 }

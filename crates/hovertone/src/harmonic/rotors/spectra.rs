@@ -2,7 +2,7 @@
 //! far it is from that.
 
 use super::super::frame::FrameTransform;
-use super::super::line::tick_phasors;
+use super::super::line::LinePhasors;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use crate::channel::TICKS_PER_HOP;
@@ -169,8 +169,7 @@ pub(super) fn phasors(
     samples_per_tick: usize,
     samples: usize,
 ) -> Vec<Complex<f32>> {
-    (0..path.ticks())
-        .flat_map(|tick| tick_phasors(place, path, tick).take(samples_per_tick))
+    LinePhasors::new(place, path, samples_per_tick)
         .take(samples)
         .map(|phasor| Complex::new(phasor.re as f32, phasor.im as f32))
         .collect()
