@@ -7,7 +7,7 @@ use super::peers::{PEERS, make_band_passed};
 use super::single_rotor::shown;
 use super::track::{Score, TrackFrame, TrueTrack, median, score_of_track};
 use super::workbench::{Workbench, output_of};
-use hovertone::{Method, Outcome, ToneConfig};
+use hovertone::{Method, Outcome, RotorEstimate, RotorTone, ToneConfig};
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_vehicle::Gear;
 use std::fs;
@@ -16,6 +16,9 @@ use std::path::PathBuf;
 /// Writes the truth, kept in numpy's own format, as a table.
 const TRUTH_TO_CSV: &str = "import sys, numpy as np; d = np.load(sys.argv[1]); \
     np.savetxt(sys.argv[2], np.column_stack([d['t'], d['rev'].T]), delimiter=',', fmt='%.17g')";
+
+/// Points of two tracks no further apart than this are of one time.
+const SAME_TIME_S: f64 = 1e-3;
 
 /// A signal and how the peers' script is told to make it.
 struct Case {
@@ -87,7 +90,7 @@ pub(super) fn add_four_rotors(document: &mut Document, workbench: Option<&Workbe
     };
     document.paragraph(
         "60 s at 48 kHz: gear mesh 69, 138, 207, blade pass 2 to 12, pink and white noise (the peers' `make_signal.py`). \
-         hovertone with `--gear 8:69 --blades 2` and nothing else; the others were told the band to look in, as far as they \
+         hovertone with `--gear 8:69 --blades 2`, `--rotors` and nothing else; the others were told the band to look in, as far as they \
          can be. \"Band-passed\" programs cannot, and heard a recording that was filtered to 3450–4830 Hz for them. Scored \
          frame by frame against the mean of the rotors, half a second cut at both ends: share of frames with an answer, \
          median |error|, share of all frames within 1 % and off by more than 20 %, median distance to the nearest rotor, \
@@ -132,11 +135,12 @@ impl Row {
 
     fn said_below(&self) -> Option<String> {
         match &self.came {
-            Came::Scored(score) if !score.each_rotor.is_empty() => {
+            Came::Scored(score) => {
                 let each: Vec<String> = score.each_rotor.iter().map(|error| format!("{:.3}", 100.0 * error)).collect();
-                Some(format!("rotor by rotor, median error %, {}", each.join(", ")))
+                let rotors = (!each.is_empty()).then(|| format!("rotor by rotor, median error %, {}", each.join(", ")));
+                let said: Vec<String> = self.note.clone().into_iter().chain(rotors).collect();
+                (!said.is_empty()).then(|| said.join("; "))
             }
-            Came::Scored(_) => self.note.clone(),
             Came::Silent(reason) => Some(format!("nothing, {reason}")),
             Came::LeftOut(reason) => Some(format!("left out, {reason}")),
         }
@@ -163,12 +167,15 @@ impl Case {
 
 /// hovertone by each method.
 fn hovertone_rows(files: &Files) -> Result<Vec<Row>, String> {
-    drawn(Method::ALL.len(), |index| {
-        let method = Method::ALL[index];
+    let rotor_count = files.truth.rotor_count() as u32;
+    let methods: Vec<Method> =
+        Method::ALL.into_iter().filter(|method| rotor_count > 1 || *method != Method::Separated).collect();
+    drawn(methods.len(), |index| {
+        let method = methods[index];
         let order = Gear { pinion: 8, wheel: 69 }.mesh_order().map_err(|error| error.to_string())?;
         let tone = ToneConfig { blades: Some(2), ..ToneConfig::of_order(order) };
         let mut recording = Recording::open(&files.wav, &OpenOptions::default()).map_err(|error| error.to_string())?;
-        let analysis = heard(&mut recording, tone, method)?;
+        let analysis = heard(&mut recording, tone, rotor_count, method)?;
         let name = format!("hovertone, {}", shown(method));
         let tone = match &analysis.outcome {
             Outcome::NoRotorTone { reason } => {
@@ -182,11 +189,29 @@ fn hovertone_rows(files: &Files) -> Result<Vec<Row>, String> {
                 let error_rev_s = speed.speed.rev_s() - truth_rev_s;
                 format!("mean {:.4} rev/s, stated u {u}, off by {error_rev_s:+.1e}", speed.speed.rev_s())
             });
-        let frames: Vec<TrackFrame> = tone.track.iter().map(TrackFrame::from).collect();
+        let frames = frames_of(tone);
         let steps = frames.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
         let frame_count = median(steps).map(|step_s| files.truth.scored_s() / step_s);
         Ok(Row { name, came: came_of(&frames, &files.truth, frame_count), note })
     })
+}
+
+/// The track, with the rotors one by one where they were told apart.
+fn frames_of(tone: &RotorTone) -> Vec<TrackFrame> {
+    let mut frames: Vec<TrackFrame> = tone.track.iter().map(TrackFrame::from).collect();
+    for frame in &mut frames {
+        let at_frame = |rotor: &RotorEstimate| {
+            let after = rotor.track.partition_point(|point| point.time_s < frame.time_s - SAME_TIME_S);
+            rotor
+                .track
+                .get(after)
+                .filter(|point| point.time_s < frame.time_s + SAME_TIME_S)
+                .map(|point| point.speed_rev_s)
+        };
+        frame.rotors_rev_s = tone.rotors.iter().filter_map(at_frame).collect();
+        frame.rotors_rev_s.sort_by(f64::total_cmp);
+    }
+    frames
 }
 
 fn came_of(frames: &[TrackFrame], truth: &TrueTrack, frame_count: Option<f64>) -> Came {

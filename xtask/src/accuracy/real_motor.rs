@@ -1,5 +1,6 @@
 //! A real motor on the bench with two plateaus of speed: is the track on the right one of the rotor's lines?
 
+use super::condition::METHODS;
 use super::document::Document;
 use super::single_rotor::shown;
 use super::track::median;
@@ -42,7 +43,7 @@ pub(super) fn add_real_motor(document: &mut Document, root: &Path) -> Result<(),
          hovertone keeps the stretch of one speed and says what it cut; then of each plateau with `--from` and `--to`.",
     );
     let (mut rows, mut notes) = (Vec::new(), Vec::new());
-    for method in Method::ALL {
+    for method in METHODS {
         let whole = track(&wav, method, SpanConfig::default())?.unwrap_or_default();
         for plateau in &PLATEAUS {
             let span = SpanConfig { from_s: Some(plateau.from_s), to_s: Some(plateau.to_s) };

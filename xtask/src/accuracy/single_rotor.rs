@@ -1,6 +1,6 @@
 //! One rotor with exact truth: how near each method comes to the Cramér-Rao bound, and whether its ± holds.
 
-use super::condition::{Condition, MethodScore, Scored, Tones, scored};
+use super::condition::{Condition, METHODS, MethodScore, Scored, Tones, scored};
 use super::document::{Document, percent, percent_with_uncertainty, three_digits};
 use super::sound::Colour;
 use hovertone::Method;
@@ -35,7 +35,7 @@ pub(super) fn add_bounds(document: &mut Document, draws: usize) -> Result<(), St
             }
         }
         let mut heads: Vec<String> = ["noise", "SNR dB", "bound", "answered %"].map(str::to_owned).into();
-        for method in Method::ALL {
+        for method in METHODS {
             heads.extend(["error / bound", "covered %"].map(|column| format!("{}: {column}", shown(method))));
         }
         document.table(&heads, &rows);
@@ -68,7 +68,7 @@ pub(super) fn add_coverage(document: &mut Document, draws: usize) -> Result<(), 
         rows.push(row);
     }
     let mut heads: Vec<String> = ["rotor", "tones", "noise", "SNR dB", "answered %"].map(str::to_owned).into();
-    for method in Method::ALL {
+    for method in METHODS {
         heads.extend(["covered %", "u / scatter"].map(|column| format!("{}: {column}", shown(method))));
     }
     document.table(&heads, &rows);

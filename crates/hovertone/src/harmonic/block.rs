@@ -10,6 +10,7 @@
 
 use super::line::Line;
 use super::path::SpeedPath;
+use super::phasors::{OrderPhasors, small_turn};
 use crate::channel::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -91,26 +92,28 @@ impl Cells {
         let turns_middle = path.turns_at(middle_s);
         let (speed, slope) = guess;
         // by how far, and how fast, the guess runs ahead of the path
-        let ahead: Vec<(f64, f64)> = (tick_from..tick_to)
+        let (turns, speeds): (Vec<f64>, Vec<f64>) = (tick_from..tick_to)
             .map(|tick| {
                 let t = (tick as f64 + 0.5) * tick_s - middle_s;
                 let turns = speed * t + slope * t * t / 2.0 - (path.turns_at_middle(tick) - turns_middle);
                 (turns, speed + slope * t - (path.speed_rev_s(tick) + path.speed_rev_s(tick + 1)) / 2.0)
             })
-            .collect();
+            .unzip();
+        let mut phasors = OrderPhasors::new(&turns);
         let halves = ticks.div_ceil(TICKS_PER_HOP / 2);
+        let mut turned = Vec::with_capacity(ticks);
         let mut sums = vec![Complex::default(); lines.len() * cells];
         let mut half_hops = vec![Complex::default(); lines.len() * halves];
         for ((line, sums), half_hops) in
             lines.iter().zip(sums.chunks_exact_mut(cells)).zip(half_hops.chunks_exact_mut(halves))
         {
             // the mean time of a tick's samples lies half a sample before its middle
-            let half_sample_s = tick_s / line.samples_per_tick / 2.0;
-            for (index, (z, (turns, speed))) in line.ticks[tick_from..tick_to].iter().zip(&ahead).enumerate() {
-                let turned = z * Complex::from_polar(1.0, -TAU * line.order * (turns - speed * half_sample_s));
-                sums[index / per_cell] += turned;
-                half_hops[index / (TICKS_PER_HOP / 2)] += turned;
-            }
+            let half_sample = TAU * line.order * tick_s / line.samples_per_tick / 2.0;
+            let ticks = line.ticks[tick_from..tick_to].iter().zip(phasors.of(line.order)).zip(&speeds);
+            turned.clear();
+            turned.extend(ticks.map(|((z, phasor), speed)| z * phasor * small_turn(speed * half_sample)));
+            add_up(&turned, per_cell, sums);
+            add_up(&turned, TICKS_PER_HOP / 2, half_hops);
         }
         let times_of = |cells: usize, per_cell: usize| -> Vec<f64> {
             (0..cells)
@@ -161,12 +164,14 @@ impl Cells {
     /// J, its gradient and its second derivatives at an offset.
     pub(super) fn expansion(&self, offset: f64, bend: f64) -> (f64, [f64; 2], [f64; 3]) {
         let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
+        let turns: Vec<f64> = self.times_s.iter().map(|t| t * (offset + bend * t / 2.0)).collect();
+        let mut phasors = OrderPhasors::new(&turns);
         for (order, scale, sums) in self.lines() {
             let w = TAU * order;
             // moments Σ z τ^m, m = 0 … 4
             let mut moments = [Complex::<f64>::default(); 5];
-            for (z, &t) in sums.iter().zip(&self.times_s) {
-                let mut z = z * Complex::from_polar(1.0, -w * t * (offset + bend * t / 2.0));
+            for ((z, phasor), &t) in sums.iter().zip(phasors.of(order)).zip(&self.times_s) {
+                let mut z = z * phasor;
                 for moment in &mut moments {
                     *moment += z;
                     z *= t;
@@ -190,13 +195,12 @@ impl Cells {
 
     /// J on a grid of speeds around the guess, `points` to either side.
     fn on_grid(&self, step_rev_s: f64, points: usize, values: &mut [f64]) {
+        let turns_at = |offset: f64| -> Vec<f64> { self.times_s.iter().map(|t| t * offset).collect() };
+        let (first, step) = (turns_at(-step_rev_s * points as f64), turns_at(step_rev_s));
+        let (mut firsts, mut steps) = (OrderPhasors::new(&first), OrderPhasors::new(&step));
         for (order, scale, sums) in self.lines() {
-            let turn = |t: f64, offset: f64| Complex::from_polar(1.0, -TAU * order * t * offset);
-            let mut cells: Vec<(Complex<f64>, Complex<f64>)> = sums
-                .iter()
-                .zip(&self.times_s)
-                .map(|(z, &t)| (z * turn(t, -step_rev_s * points as f64), turn(t, step_rev_s)))
-                .collect();
+            let turned = sums.iter().zip(firsts.of(order)).map(|(z, first)| z * first);
+            let mut cells: Vec<(Complex<f64>, Complex<f64>)> = turned.zip(steps.of(order).iter().copied()).collect();
             for value in values.iter_mut() {
                 let mut sum = Complex::<f64>::default();
                 for (z, step) in &mut cells {
@@ -280,6 +284,8 @@ impl Cells {
             is_first_heard: false,
         };
         let mut turned = vec![Complex::<f64>::default(); halves];
+        let turns: Vec<f64> = self.half_hop_times_s.iter().map(|t| t * (offset + bend * t / 2.0)).collect();
+        let mut phasors = OrderPhasors::new(&turns);
         // phases are compared in so many pieces that what rotates quickly, such as another line nearby, has averaged out
         let piece = halves.div_ceil(PHASE_PIECES);
         let pieces = halves.div_ceil(piece);
@@ -287,8 +293,8 @@ impl Cells {
         for (index, half_hops) in self.half_hops.chunks_exact(halves).enumerate() {
             let (order, scale) = (self.orders[index], self.scales[index].0);
             let mut sum = Complex::<f64>::default();
-            for ((into, z), t) in turned.iter_mut().zip(half_hops).zip(&self.half_hop_times_s) {
-                *into = z * Complex::from_polar(1.0, -TAU * order * t * (offset + bend * t / 2.0));
+            for ((into, z), phasor) in turned.iter_mut().zip(half_hops).zip(phasors.of(order)) {
+                *into = z * phasor;
                 sum += *into;
             }
             seen.strongest_power = seen.strongest_power.max(sum.norm_sqr() / self.scales[index].1.powi(2));
@@ -325,6 +331,11 @@ impl Cells {
         }
         seen
     }
+}
+
+/// Sums of so many values each.
+fn add_up(values: &[Complex<f64>], per_sum: usize, sums: &mut [Complex<f64>]) {
+    sums.iter_mut().zip(values.chunks(per_sum)).for_each(|(sum, values)| *sum = values.iter().sum());
 }
 
 /// The offset of the highest point of a grid that reaches `cells` resolution cells to either side; of several blocks, all around

@@ -93,25 +93,42 @@ pub(super) fn first_level(lines: &[Line], path: &SpeedPath) -> Level {
     level(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), FIRST_GUESS_CELLS, guess)
 }
 
-/// The level with the greatest evidence, starting from a path that is already good.
-pub(super) fn best_level(lines: &[Line], path: &SpeedPath) -> Level {
-    let hops = path.ticks().div_ceil(TICKS_PER_HOP);
-    let from_path = |from: usize, to: usize| guess_from_path(path, from, to);
-    let mut best = level(lines, path, hops, 0.0, from_path);
-    let halves = level(lines, path, 2 * hops, 0.0, |from, to| guess_from_blocks(&best.blocks, path, from, to));
-    let mut below = best.clone();
-    if halves.evidence > best.evidence {
-        best = halves;
+/// The level with the greatest evidence, from a path that is already good and blocks of a hop around a rougher one.
+///
+/// Where one block for all explains more than those did, it is halved for as long as that helps; where not, blocks of a hop are
+/// doubled for as long as that helps.
+pub(super) fn best_level(lines: &[Line], path: &SpeedPath, coarse: &Level) -> Level {
+    let whole = level(lines, path, 1, NEXT_GUESS_CELLS, |from, to| guess_from_blocks(&coarse.blocks, path, from, to));
+    if whole.evidence > coarse.evidence {
+        return best_of(whole, |above| Some(halved(lines, path, above)));
     }
-    let (mut count, mut worse) = (hops, 0);
-    while count > 1 && worse < WORSE_LEVELS_MAX {
-        count = count.div_ceil(2);
-        let above = level(lines, path, count, 0.0, |from, to| guess_from_blocks(&below.blocks, path, from, to));
-        worse = if above.evidence > best.evidence { 0 } else { worse + 1 };
+    doubled_level(lines, path)
+}
+
+/// The level with the greatest evidence, from blocks of a hop around a good path upwards.
+pub(super) fn doubled_level(lines: &[Line], path: &SpeedPath) -> Level {
+    let hops = path.ticks().div_ceil(TICKS_PER_HOP);
+    let single = level(lines, path, hops, 0.0, |from, to| guess_from_path(path, from, to));
+    let half_hops = level(lines, path, 2 * hops, 0.0, |from, to| guess_from_blocks(&single.blocks, path, from, to));
+    let doubled = |below: &Level| {
+        let count = below.blocks.len().div_ceil(2);
+        let guess = |from: usize, to: usize| guess_from_blocks(&below.blocks, path, from, to);
+        (below.blocks.len() > 1).then(|| level(lines, path, count, 0.0, guess))
+    };
+    best_of(single, doubled).or_better(half_hops)
+}
+
+/// The best of a level and of those that follow it, each from the one before, until some are worse.
+fn best_of(first: Level, next: impl Fn(&Level) -> Option<Level>) -> Level {
+    let (mut best, mut last, mut worse) = (first.clone(), first, 0);
+    while worse < WORSE_LEVELS_MAX
+        && let Some(level) = next(&last)
+    {
+        worse = if level.evidence > best.evidence { 0 } else { worse + 1 };
         if worse == 0 {
-            best = above.clone();
+            best = level.clone();
         }
-        below = above;
+        last = level;
     }
     best
 }

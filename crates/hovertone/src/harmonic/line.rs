@@ -1,6 +1,7 @@
 //! A channel, turned back by the shaft's angle: one sum for each tick.
 
 use super::path::SpeedPath;
+use super::phasors::small_turn;
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -18,8 +19,6 @@ pub(super) struct Line {
 
 /// After so many ticks the phase is taken from the path again, before the roundings of its recurrence add up to anything.
 const EXACT_EVERY_TICKS: usize = 64;
-/// Below this angle the first terms of sine and cosine are all of their digits.
-const SMALL_TURN: f64 = 0.01;
 
 /// `exp(j 2π (o turns(t) − f t))` at the samples of a channel around f: a line of order o and amplitude 1, as the channel shows it.
 ///
@@ -35,6 +34,8 @@ pub(super) struct LinePhasors<'a> {
     turn: Complex<f64>,
     step: Complex<f64>,
     step_of_step: Complex<f64>,
+    /// Half of the second difference of the phase, for each rev/s that the speed gains in a tick; and that of this tick.
+    bend_per_rev_s: f64,
     bend: f64,
 }
 
@@ -44,11 +45,13 @@ impl<'a> LinePhasors<'a> {
         path: &'a SpeedPath,
         samples_per_tick: usize,
     ) -> Self {
+        let step_s = 1.0 / rate_hz;
         Self {
+            bend_per_rev_s: PI * order / path.tick_s * step_s * step_s,
             path,
             order,
             centre_hz,
-            step_s: 1.0 / rate_hz,
+            step_s,
             samples_per_tick,
             tick: 0,
             samples_left: 0,
@@ -61,7 +64,7 @@ impl<'a> LinePhasors<'a> {
 
     fn begin_tick(&mut self) {
         let (turns, from, to) = self.path.tick(self.tick);
-        let bend = PI * self.order * (to - from) / self.path.tick_s * self.step_s * self.step_s;
+        let bend = self.bend_per_rev_s * (to - from);
         if self.tick.is_multiple_of(EXACT_EVERY_TICKS) {
             let cycles = self.order * turns - self.centre_hz * self.tick as f64 * self.path.tick_s;
             self.turn = Complex::from_polar(1.0, TAU * cycles.fract());
@@ -73,6 +76,20 @@ impl<'a> LinePhasors<'a> {
         self.bend = bend;
         self.tick += 1;
         self.samples_left = self.samples_per_tick;
+    }
+
+    /// The sum of all samples of the next tick, turned back.
+    fn tick_turned_back(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
+        self.begin_tick();
+        let (mut turn, mut step) = (self.turn, self.step);
+        let mut sum = Complex::default();
+        for z in samples {
+            sum += turn.conj() * Complex::new(f64::from(z.re), f64::from(z.im));
+            turn *= step;
+            step *= self.step_of_step;
+        }
+        (self.turn, self.step, self.samples_left) = (turn, step, 0);
+        sum
     }
 }
 
@@ -94,15 +111,6 @@ impl Iterator for LinePhasors<'_> {
     }
 }
 
-/// `exp(j angle)`.
-fn small_turn(angle: f64) -> Complex<f64> {
-    if angle.abs() > SMALL_TURN {
-        return Complex::from_polar(1.0, angle);
-    }
-    let square = angle * angle;
-    Complex::new(1.0 - square / 2.0 * (1.0 - square / 12.0), angle * (1.0 - square / 6.0 * (1.0 - square / 20.0)))
-}
-
 /// Turns a channel back by the shaft's angle times its order and adds up each tick.
 pub(super) fn demodulated(
     series: &[Complex<f32>],
@@ -111,14 +119,7 @@ pub(super) fn demodulated(
     path: &SpeedPath,
 ) -> Vec<Complex<f64>> {
     let mut phasors = LinePhasors::new(place, path, samples_per_tick);
-    series
-        .chunks_exact(samples_per_tick)
-        .take(path.ticks())
-        .map(|samples| {
-            let turned = samples.iter().zip(phasors.by_ref());
-            turned.map(|(z, phasor)| phasor.conj() * Complex::new(f64::from(z.re), f64::from(z.im))).sum()
-        })
-        .collect()
+    series.chunks_exact(samples_per_tick).take(path.ticks()).map(|samples| phasors.tick_turned_back(samples)).collect()
 }
 
 #[cfg(test)]

@@ -43,10 +43,10 @@ struct Line {
     order: f64,
     /// Whether no other line of the rotor reaches into its band.
     is_alone: bool,
-    centre_hz: f64,
-    bin_hz: f64,
     frames: FrameTransform,
     amplitude: Vec<f32>,
+    /// Where the line lies in the spectrum at each speed: the bin below, and how far on it is to the next.
+    places: Vec<(u32, f32)>,
 }
 
 /// Scores speeds between two limits.
@@ -65,6 +65,8 @@ impl SpeedMap {
         let order_max = channels.iter().map(|channel| channel.order).fold(1.0, f64::max);
         let frame_s = FRAME_HOPS as f64 * hop_s;
         let points = ((high - low) * GRID_PER_CELL * order_max * frame_s).ceil().clamp(3.0, GRID_POINTS_MAX);
+        let step = (high - low) / points;
+        let speeds_rev_s: Vec<f64> = (0..=points as usize).map(|index| low + step * index as f64).collect();
         let lines = channels
             .iter()
             .map(|channel| {
@@ -77,15 +79,13 @@ impl SpeedMap {
                 Line {
                     order: channel.order,
                     is_alone: channel.order * (high - low) / 2.0 <= apart * low / 2.0,
-                    centre_hz: channel.centre_hz,
-                    bin_hz: channel.rate_hz / (2 * length) as f64,
                     amplitude: vec![0.0; 2 * length + 1],
+                    places: places_of(channel, length, &speeds_rev_s),
                     frames: FrameTransform::new(length, 2, planner),
                 }
             })
             .collect();
-        let step = (high - low) / points;
-        Self { lines, speeds_rev_s: (0..=points as usize).map(|index| low + step * index as f64).collect() }
+        Self { lines, speeds_rev_s }
     }
 
     /// The slowest and fastest speed that is looked for.
@@ -109,7 +109,7 @@ impl SpeedMap {
                 self.lines.iter_mut().zip(series).zip(noise_variances).zip(on_grid.chunks_exact_mut(points))
             {
                 line.transform(&series[frame * line.frames.length()..], noise);
-                line.interpolate(&self.speeds_rev_s, row);
+                line.interpolate(row);
             }
             let peaks: Vec<f32> = on_grid.chunks_exact(points).map(highest).collect();
             let cap = second_largest(&peaks);
@@ -252,18 +252,26 @@ impl Line {
     }
 
     /// The spectrum at the line's place for each speed.
-    fn interpolate(&self, speeds_rev_s: &[f64], row: &mut [f32]) {
-        let length = self.frames.length() as f64;
-        let first = (self.order * speeds_rev_s[0] - self.centre_hz) / self.bin_hz + length;
-        let step = self.order * (speeds_rev_s[1] - speeds_rev_s[0]) / self.bin_hz;
-        let last = self.amplitude.len() - 2;
-        for (index, into) in row.iter_mut().enumerate() {
-            let place = (first + step * index as f64).max(0.0);
-            let bin = (place as usize).min(last);
-            let share = (place - bin as f64).min(1.0) as f32;
-            *into = self.amplitude[bin] + share * (self.amplitude[bin + 1] - self.amplitude[bin]);
+    fn interpolate(&self, row: &mut [f32]) {
+        for (into, &(bin, share)) in row.iter_mut().zip(&self.places) {
+            let pair = &self.amplitude[bin as usize..][..2];
+            *into = pair[0] + share * (pair[1] - pair[0]);
         }
     }
+}
+
+/// Where the line of a channel lies in frames of `length` samples that are transformed at twice their length, lowest frequency first.
+fn places_of(channel: &Channel, length: usize, speeds_rev_s: &[f64]) -> Vec<(u32, f32)> {
+    let bin_hz = channel.rate_hz / (2 * length) as f64;
+    let last = (2 * length - 1) as f64;
+    speeds_rev_s
+        .iter()
+        .map(|speed_rev_s| {
+            let place = ((channel.order * speed_rev_s - channel.centre_hz) / bin_hz + length as f64).max(0.0);
+            let bin = place.floor().min(last);
+            (bin as u32, (place - bin).min(1.0) as f32)
+        })
+        .collect()
 }
 
 fn second_largest(values: &[f32]) -> f32 {

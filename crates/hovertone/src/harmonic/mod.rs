@@ -12,6 +12,7 @@ mod join;
 mod line;
 mod map;
 mod path;
+mod phasors;
 mod quanta;
 mod rotors;
 mod track;
@@ -46,6 +47,8 @@ const UNKNOWN_LOUDNESS_SHARE: f64 = 0.2;
 /// Where this share of the shortest blocks stands out by so many times what they must, the path cannot be wrong.
 const CLEAR_SHARE: f64 = 0.9;
 const CLEAR_TIMES: f64 = 2.0;
+/// Lines need not be turned back again along a path that turns the highest of them by less than this within a tick.
+const NEAR_TURNS: f64 = 0.02;
 /// A quantum in more blocks than this is not steady.
 const STEADY_BLOCKS_MAX: usize = 8;
 /// A block that knows the speed no better than to 10 rev/s knows nothing.
@@ -168,20 +171,26 @@ fn level_of_quantum(quantum: &Quantum<'_>, map: &mut SpeedMap, records: &mut [Li
         .map(|block| (block.middle_s(tick_s), block.speed_rev_s))
         .collect();
     let path = SpeedPath::through(&better, tick_s, ticks).filter(|_| coarse.heard_share(used.len(), 1.0) > 0.5);
-    let following = path.map(|path| best_level(&lines_along(&path), &path));
-    let best = match following {
-        Some(level) if coarse.heard_share(used.len(), CLEAR_TIMES) > CLEAR_SHARE => level,
+    let following = path.map(|path| {
+        let lines = lines_along(&path);
+        (best_level(&lines, &path, &coarse), (lines, path))
+    });
+    let (best, along) = match following {
+        Some((level, along)) if coarse.heard_share(used.len(), CLEAR_TIMES) > CLEAR_SHARE => (level, Some(along)),
         following => {
             // single blocks are weak: perhaps all of them together are a rotor that holds its speed
             let steady = SpeedPath::through(&[(0.0, *steady_rev_s)], tick_s, ticks)?;
             let straight = straight_level(&lines_along(&steady), &steady);
-            following.map_or(straight.clone(), |level| straight.or_better(level))
+            (following.map_or(straight.clone(), |(level, _)| straight.or_better(level)), None)
         }
     };
     let coheres = best.likelihood() > COHERENT_SHARE * coarse.likelihood_over_noise(used.len());
     let points = best.points(threshold, tick_s);
     let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
-    let lines = lines_along(&path);
+    let order_max = used.iter().map(|&index| channels[index].order).fold(1.0, f64::max);
+    let near_rev_s = NEAR_TURNS / (order_max * tick_s);
+    let (lines, path) =
+        along.filter(|(_, along)| along.is_within(near_rev_s, &path)).unwrap_or_else(|| (lines_along(&path), path));
     let best = joined(&lines, &path, &best);
     if best.blocks.len() <= STEADY_BLOCKS_MAX {
         let likelihoods = line_likelihoods(&lines, &path, &best);

@@ -63,6 +63,12 @@ impl SpeedPath {
         self.turns.last().map_or(0.0, |turns| turns / (self.ticks().max(1) as f64 * self.tick_s))
     }
 
+    /// Whether the other path is nowhere further off than that.
+    pub(super) fn is_within(&self, distance_rev_s: f64, other: &Self) -> bool {
+        let speeds = self.speeds_rev_s.iter().zip(&other.speeds_rev_s);
+        self.ticks() == other.ticks() && speeds.into_iter().all(|(a, b)| (a - b).abs() <= distance_rev_s)
+    }
+
     /// Turns at the middle of a tick.
     pub(super) fn turns_at_middle(&self, tick: usize) -> f64 {
         let (turns, from, to) = self.tick(tick);

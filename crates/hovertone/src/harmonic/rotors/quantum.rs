@@ -1,6 +1,6 @@
 //! One quantum of sound → the blocks of each rotor.
 
-use super::super::coherence::{Level, best_level, likelihood_min};
+use super::super::coherence::{Level, doubled_level, likelihood_min};
 use super::super::join::joined;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
@@ -159,7 +159,7 @@ pub(super) fn rotors_of_quantum(
         .into_iter()
         .zip(rotors)
         .map(|(path, SeparatedRotor { lines, levels, worths, faint_worths, .. })| {
-            let level = joined(&lines, &path, &best_level(&lines, &path));
+            let level = joined(&lines, &path, &doubled_level(&lines, &path));
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let traced = path;
             let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or_else(|| traced.clone());
