@@ -6,7 +6,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorScout, RotorTracer, RotorTracks};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
-use crate::listening::{HoverSound, PASS_COUNT, listen_again};
+use crate::listening::{PASS_COUNT, listen_again};
 use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
 use crate::sample::samples_from_hover;
@@ -280,10 +280,7 @@ fn slower_shaft_from_source(
         return Ok(None);
     }
     let mut harmonic = HarmonicTracer::new(source.sample_rate_hz(), &lines_and_between(lines, order, speed_rev_s));
-    listen_again(source, hover, on_progress, |sound| match sound {
-        HoverSound::Start { start_s, length_s } => harmonic.restart(start_s, length_s),
-        HoverSound::Samples(samples) => harmonic.push(samples),
-    })?;
+    listen_again(source, hover, &mut harmonic, on_progress)?;
     Ok(harmonic.finish().lines_between(order).map(|between| NoTone::SlowerShaft {
         line_count: between.count,
         speed_rev_s: between.times_slower.map(|times| speed_rev_s / f64::from(times)),
@@ -303,24 +300,16 @@ fn lines_from_source(
     let sample_rate_hz = source.sample_rate_hz();
     let spectrogram = &config.spectrogram;
     let frames_max = if config.wants_ridges() { spectrogram.frames_max } else { spectrogram.verdict_frames_max };
-    let mut tracers: Vec<RidgeTracer> = spectrogram
+    let tracers: Vec<RidgeTracer> = spectrogram
         .ladder_s(bands.first().map_or(0.0, Band::width_hz))
         .into_iter()
         .chain(spectrogram.window_s)
         .map(|window_s| (window_s, spectrogram.hop_s(window_s, hover.length_s(), frames_max)))
         .map(|frames_s| RidgeTracer::new(frames_s, bands, sample_rate_hz, spectrogram, &config.ridge))
         .collect();
-    let mut harmonic = HarmonicTracer::new(sample_rate_hz, lines);
-    listen_again(source, hover, on_progress, |sound| match sound {
-        HoverSound::Start { start_s, length_s } => {
-            tracers.iter_mut().for_each(|tracer| tracer.restart(start_s));
-            harmonic.restart(start_s, length_s);
-        }
-        HoverSound::Samples(samples) => {
-            tracers.iter_mut().for_each(|tracer| tracer.push(samples));
-            harmonic.push(samples);
-        }
-    })?;
+    let mut listeners = (tracers, HarmonicTracer::new(sample_rate_hz, lines));
+    listen_again(source, hover, &mut listeners, on_progress)?;
+    let (tracers, harmonic) = listeners;
     Ok((tracers.into_iter().map(RidgeTracer::finish).collect(), harmonic.finish()))
 }
 
@@ -342,16 +331,10 @@ fn rotors_from_source(
     let share = config.rotors.band_half_width_share;
     let wide = lines_in((speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share)));
     let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
-    listen_again(source, hover, on_progress, |sound| match sound {
-        HoverSound::Start { start_s, length_s } => scout.restart(start_s, length_s),
-        HoverSound::Samples(samples) => scout.push(samples),
-    })?;
+    listen_again(source, hover, &mut scout, on_progress)?;
     let rough = scout.finish();
     let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
-    listen_again(source, hover, on_progress, |sound| match sound {
-        HoverSound::Start { start_s, length_s } => tracer.restart(start_s, length_s),
-        HoverSound::Samples(samples) => tracer.push(samples),
-    })?;
+    listen_again(source, hover, &mut tracer, on_progress)?;
     Ok(tracer.finish())
 }
 
@@ -365,10 +348,7 @@ fn condition_from_source(
 ) -> Result<(), Error> {
     let Some(blades) = blades_known(&config.tone).filter(|_| config.rotors.wants_condition) else { return Ok(()) };
     let mut reader = ConditionReader::new(source.sample_rate_hz(), rotors, blades);
-    listen_again(source, hover, on_progress, |sound| match sound {
-        HoverSound::Start { start_s, .. } => reader.restart(start_s),
-        HoverSound::Samples(samples) => reader.push(samples),
-    })?;
+    listen_again(source, hover, &mut reader, on_progress)?;
     rotors.iter_mut().zip(reader.finish()).for_each(|(rotor, condition)| rotor.condition = condition);
     Ok(())
 }

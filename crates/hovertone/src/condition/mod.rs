@@ -9,6 +9,7 @@ mod lines;
 mod turns;
 
 use crate::config::ToneConfig;
+use crate::listening::HoverListener;
 use crate::speed::RotorEstimate;
 use crate::tone::BLADES_MAX;
 use lines::{BlockLines, LineSums};
@@ -101,33 +102,6 @@ impl ConditionReader {
         }
     }
 
-    /// A new stretch of sound begins.
-    pub(crate) fn restart(&mut self, start_s: f64) {
-        self.end_block();
-        self.next_s = start_s;
-    }
-
-    pub(crate) fn push(&mut self, samples: &[f32]) {
-        let step_s = 1.0 / self.sample_rate_hz;
-        for &sample in samples {
-            let time_s = self.next_s;
-            self.next_s += step_s;
-            if self.block.as_ref().is_some_and(|block| block.has_lasted_s(time_s) >= BLOCK_S) {
-                self.end_block();
-            }
-            // where a rotor is not followed nothing is known of its phase: the block ends
-            let turns: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(time_s)).collect();
-            match turns {
-                Some(turns) => {
-                    let (rotors, order_max) = (self.turns.len(), self.order_max);
-                    let block = self.block.get_or_insert_with(|| LineSums::new(time_s, BLOCK_S, rotors, order_max));
-                    block.add(f64::from(sample), time_s, &turns);
-                }
-                None => self.end_block(),
-            }
-        }
-    }
-
     /// The state of each rotor, in their order; nothing where no block is long enough, or the blade pass is not heard.
     pub(crate) fn finish(mut self) -> Vec<Option<RotorCondition>> {
         self.end_block();
@@ -162,6 +136,34 @@ impl ConditionReader {
         // the last digits of a time must not cost a block
         if block.has_lasted_s(self.next_s) >= BLOCK_S * (1.0 - 1e-9) {
             self.blocks.push(block.solved());
+        }
+    }
+}
+
+impl HoverListener for ConditionReader {
+    fn restart(&mut self, start_s: f64, _length_s: f64) {
+        self.end_block();
+        self.next_s = start_s;
+    }
+
+    fn push(&mut self, samples: &[f32]) {
+        let step_s = 1.0 / self.sample_rate_hz;
+        for &sample in samples {
+            let time_s = self.next_s;
+            self.next_s += step_s;
+            if self.block.as_ref().is_some_and(|block| block.has_lasted_s(time_s) >= BLOCK_S) {
+                self.end_block();
+            }
+            // where a rotor is not followed nothing is known of its phase: the block ends
+            let turns: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(time_s)).collect();
+            match turns {
+                Some(turns) => {
+                    let (rotors, order_max) = (self.turns.len(), self.order_max);
+                    let block = self.block.get_or_insert_with(|| LineSums::new(time_s, BLOCK_S, rotors, order_max));
+                    block.add(f64::from(sample), time_s, &turns);
+                }
+                None => self.end_block(),
+            }
         }
     }
 }

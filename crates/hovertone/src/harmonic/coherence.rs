@@ -206,6 +206,23 @@ pub(super) fn line_likelihoods(lines: &[Line], path: &SpeedPath, level: &Level) 
     sums
 }
 
+/// Blocks from the middle of each to the middle of the next, where both stand out of the noise: a block knows its speed best in its
+/// middle, and these have theirs where the others end.
+pub(super) fn blocks_between(lines: &[Line], path: &SpeedPath, level: &Level) -> Vec<BlockFit> {
+    let threshold = likelihood_min(lines.len());
+    let pairs = level.blocks.windows(2).filter(|pair| pair.iter().all(|block| block.likelihood >= threshold));
+    pairs
+        .map(|pair| {
+            let ticks = ((pair[0].tick_from + pair[0].tick_to) / 2, (pair[1].tick_from + pair[1].tick_to) / 2);
+            let middle_s = (ticks.0 + ticks.1) as f64 / 2.0 * path.tick_s;
+            let speeds = [0, 1].map(|index: usize| pair[index].speed_at(middle_s, path.tick_s));
+            let apart_s = pair[1].middle_s(path.tick_s) - pair[0].middle_s(path.tick_s);
+            let guess = ((speeds[0] + speeds[1]) / 2.0, (pair[1].speed_rev_s - pair[0].speed_rev_s) / apart_s);
+            Cells::new(lines, path, ticks, guess).fit(ticks, 0.0, slope_std(guess.0))
+        })
+        .collect()
+}
+
 /// The same blocks once more, around themselves.
 pub(super) fn polished(lines: &[Line], path: &SpeedPath, level: &Level) -> Level {
     let blocks = level

@@ -2,7 +2,8 @@
 //!
 //! The hover is heard in quanta of up to ten seconds. In each, a map of all lines finds the path of the speed (`map`); the
 //! lines are turned back along it (`block`); and blocks as long as one straight line of speed explains them (`coherence`)
-//! give speed, slope and the uncertainty that the noise leaves.
+//! give speed, slope and the uncertainty that the noise leaves. Where one block ends and the next begins the track leans on a
+//! third one, from middle to middle.
 
 mod block;
 mod coherence;
@@ -21,13 +22,13 @@ use crate::channel::{ChannelBand, TICKS_PER_HOP};
 use crate::span::Span;
 use crate::spectrogram::power_db;
 use block::BlockFit;
-use coherence::{Level, best_level, first_level, likelihood_min, line_likelihoods, straight_level};
+use coherence::{Level, best_level, blocks_between, first_level, likelihood_min, line_likelihoods, straight_level};
 use join::joined;
 pub(crate) use join::{EndBlock, joined_variance_turns2};
 use line::{Line, demodulated};
 use map::{Centroid, FRAME_HOPS, LinePresence, MapPath, STRONG_POWER_MIN, SpeedMap};
 use path::SpeedPath;
-use quanta::{Quantum, QuantumCutter, limits_rev_s};
+use quanta::{InQuanta, Quantum, QuantumCutter, QuantumListener, limits_rev_s};
 pub(crate) use rotors::{RotorScout, RotorTracer, RotorTrack, RotorTracks};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LineRecord};
 
@@ -63,61 +64,36 @@ const COHERENT_SHARE: f64 = 0.4;
 
 /// Follows the speed through stretches of sound.
 pub(crate) struct HarmonicTracer {
-    cutter: QuantumCutter,
     map: SpeedMap,
     track: HarmonicTrack,
 }
 
 impl HarmonicTracer {
     /// Hears the lines of `bands`, which all stand for the same limits of speed.
-    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
+    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> InQuanta<Self> {
         let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let map = SpeedMap::new(cutter.channels(), limits_rev_s(bands), cutter.hop_s(), &mut FftPlanner::new());
         let track = HarmonicTrack {
             step_s: cutter.hop_s(),
-            blocks: Vec::new(),
             lines: bands.iter().map(|band| LineRecord { order: band.order, ..LineRecord::default() }).collect(),
+            ..HarmonicTrack::default()
         };
-        Self { cutter, map, track }
+        InQuanta::new(cutter, Self { map, track })
     }
+}
 
-    /// A new stretch of sound begins at `start_s` and should last `length_s`.
-    pub(crate) fn restart(&mut self, start_s: f64, length_s: f64) {
-        self.end_stretch();
-        self.cutter.restart(start_s, length_s);
-    }
+impl QuantumListener for HarmonicTracer {
+    type Heard = HarmonicTrack;
 
-    pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.cutter.push(samples);
-        while let Some(ticks) = self.cutter.ready_ticks() {
-            self.take_quantum(ticks);
-        }
-    }
-
-    pub(crate) fn finish(mut self) -> HarmonicTrack {
-        self.end_stretch();
-        self.track
-    }
-
-    fn end_stretch(&mut self) {
-        if let Some((ticks, end_s)) = self.cutter.last_ticks() {
-            self.take_quantum(ticks);
-            if let Some(last) = self.track.blocks.last_mut().filter(|last| last.span.to_s > end_s) {
-                *last = last.until(end_s);
-            }
-        }
-    }
-
-    /// Analyses the first ticks of what has come in, and drops them.
-    fn take_quantum(&mut self, ticks: usize) {
-        let Self { cutter, map, track } = self;
-        let quantum = cutter.quantum(ticks);
+    fn hear(&mut self, quantum: &Quantum<'_>) {
+        let Self { map, track } = self;
         let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
         let (lines, limits) = (quantum.channels.len(), map.limits_rev_s());
-        match level_of_quantum(&quantum, map, &mut track.lines) {
-            Some(Heard::One(level, coheres)) => {
-                let blocks = level.blocks.iter().map(|fit| block_at(fit, coheres, (start_s, tick_s), (lines, limits)));
-                track.blocks.extend(blocks);
+        match level_of_quantum(quantum, map, &mut track.lines) {
+            Some(Heard::One { level, between, coheres }) => {
+                let at = |fit: &BlockFit| block_at(fit, coheres, (start_s, tick_s), (lines, limits));
+                track.blocks.extend(level.blocks.iter().map(at));
+                track.between.extend(between.iter().map(at).filter(|block| block.is_heard));
             }
             Some(Heard::Several(centroids)) => {
                 let frame_s = (FRAME_HOPS * TICKS_PER_HOP) as f64 * tick_s;
@@ -125,7 +101,16 @@ impl HarmonicTracer {
             }
             None => {}
         }
-        cutter.drop_ticks(ticks);
+    }
+
+    fn end_stretch(&mut self, end_s: f64) {
+        if let Some(last) = self.track.blocks.last_mut().filter(|last| last.span.to_s > end_s) {
+            *last = last.until(end_s);
+        }
+    }
+
+    fn finish(self) -> HarmonicTrack {
+        self.track
     }
 }
 
@@ -186,7 +171,9 @@ fn level_of_quantum(quantum: &Quantum<'_>, map: &mut SpeedMap, records: &mut [Li
     };
     let coheres = best.likelihood() > COHERENT_SHARE * coarse.likelihood_over_noise(used.len());
     let points = best.points(threshold, tick_s);
-    let Some(path) = SpeedPath::through(&points, tick_s, ticks) else { return Some(Heard::One(best, coheres)) };
+    let Some(path) = SpeedPath::through(&points, tick_s, ticks) else {
+        return Some(Heard::One { level: best, between: Vec::new(), coheres });
+    };
     let order_max = used.iter().map(|&index| channels[index].order).fold(1.0, f64::max);
     let near_rev_s = NEAR_TURNS / (order_max * tick_s);
     let (lines, path) =
@@ -198,14 +185,14 @@ fn level_of_quantum(quantum: &Quantum<'_>, map: &mut SpeedMap, records: &mut [Li
             records[index].steady_likelihood += likelihood;
         }
     }
-    Some(Heard::One(best, coheres))
+    Some(Heard::One { between: blocks_between(&lines, &path, &best), level: best, coheres })
 }
 
 /// What a quantum holds.
 enum Heard {
-    /// One rotor, or several that turn as one; and whether its blocks hold most of what short ones find, so that the lines
-    /// really keep their phase.
-    One(Level, bool),
+    /// One rotor, or several that turn as one: its blocks, those from the middle of one to the middle of the next, and whether blocks
+    /// hold most of what short ones find, so that the lines really keep their phase.
+    One { level: Level, between: Vec<BlockFit>, coheres: bool },
     /// Several, and where their energy lies in each frame.
     Several(Vec<Centroid>),
 }

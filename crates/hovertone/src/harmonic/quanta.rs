@@ -3,6 +3,7 @@
 use super::floor::FloorMeter;
 use super::map::FRAME_HOPS;
 use crate::channel::{Channel, ChannelBand, ChannelBank, TICKS_PER_HOP};
+use crate::listening::HoverListener;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
@@ -16,6 +17,68 @@ const ROUNDING_SHARE: f64 = 1e-12;
 /// The speeds between which all bands stand.
 pub(super) fn limits_rev_s(bands: &[ChannelBand]) -> (f64, f64) {
     bands.first().map_or((0.0, 1.0), |band| (band.band_hz_low / band.order, band.band_hz_high / band.order))
+}
+
+/// What hears sound quantum by quantum.
+pub(crate) trait QuantumListener {
+    /// What it has heard in the end.
+    type Heard;
+
+    /// Noise power per Hz at each order, where it is known before the next quantum comes.
+    fn known_floors(&self) -> &[(f64, f64)] {
+        &[]
+    }
+
+    /// The next quantum.
+    fn hear(&mut self, quantum: &Quantum<'_>);
+
+    /// A stretch of sound ends, at a time within the last quantum.
+    fn end_stretch(&mut self, _end_s: f64) {}
+
+    fn finish(self) -> Self::Heard;
+}
+
+/// Lets something hear stretches of sound in quanta.
+pub(crate) struct InQuanta<L> {
+    cutter: QuantumCutter,
+    listener: L,
+}
+
+impl<L: QuantumListener> InQuanta<L> {
+    pub(super) fn new(cutter: QuantumCutter, listener: L) -> Self {
+        Self { cutter, listener }
+    }
+
+    pub(crate) fn finish(mut self) -> L::Heard {
+        self.end_stretch();
+        self.listener.finish()
+    }
+
+    fn take_quantum(&mut self, ticks: usize) {
+        self.listener.hear(&self.cutter.quantum(ticks, self.listener.known_floors()));
+        self.cutter.drop_ticks(ticks);
+    }
+
+    fn end_stretch(&mut self) {
+        if let Some((ticks, end_s)) = self.cutter.last_ticks() {
+            self.take_quantum(ticks);
+            self.listener.end_stretch(end_s);
+        }
+    }
+}
+
+impl<L: QuantumListener> HoverListener for InQuanta<L> {
+    fn restart(&mut self, start_s: f64, length_s: f64) {
+        self.end_stretch();
+        self.cutter.restart(start_s, length_s);
+    }
+
+    fn push(&mut self, samples: &[f32]) {
+        self.cutter.push(samples);
+        while let Some(ticks) = self.cutter.ready_ticks() {
+            self.take_quantum(ticks);
+        }
+    }
 }
 
 /// Gathers the channels of stretches of sound and cuts them into quanta of nearly equal length.
@@ -34,7 +97,7 @@ pub(super) struct QuantumCutter {
 }
 
 /// All channels over a stretch of time.
-pub(super) struct Quantum<'a> {
+pub(crate) struct Quantum<'a> {
     pub(super) channels: &'a [Channel],
     /// Samples of each channel.
     pub(super) series: Vec<&'a [Complex<f32>]>,
@@ -84,7 +147,7 @@ impl QuantumCutter {
     }
 
     /// A new stretch begins at `start_s` and should last `length_s`; the one before has been taken to its end.
-    pub(super) fn restart(&mut self, start_s: f64, length_s: f64) {
+    fn restart(&mut self, start_s: f64, length_s: f64) {
         self.series.iter_mut().for_each(Vec::clear);
         self.bank.restart();
         (self.start_s, self.stretch_start_s, self.samples_in, self.squares) = (start_s, start_s, 0, 0.0);
@@ -92,20 +155,20 @@ impl QuantumCutter {
         self.quantum_hops = (length_s / quanta / self.bank.hop_s()).ceil().max(1.0) as usize;
     }
 
-    pub(super) fn push(&mut self, samples: &[f32]) {
+    fn push(&mut self, samples: &[f32]) {
         self.samples_in += samples.len() as u64;
         self.squares += sum_of_squares(samples);
         self.bank.push(samples, &mut self.series);
     }
 
     /// Ticks of the next quantum, if it has come in whole. A stretch that ends a little later than it should must not leave a crumb.
-    pub(super) fn ready_ticks(&self) -> Option<usize> {
+    fn ready_ticks(&self) -> Option<usize> {
         (self.hops() >= self.quantum_hops + self.quantum_hops / 2).then_some(self.quantum_hops * TICKS_PER_HOP)
     }
 
     /// The stretch ends here: ticks of what is left, if it is worth anything, and the time of the last sample. The last tick is
     /// heard even if the stretch ends within it: it has faded out by then.
-    pub(super) fn last_ticks(&mut self) -> Option<(usize, f64)> {
+    fn last_ticks(&mut self) -> Option<(usize, f64)> {
         self.bank.finish(&mut self.series);
         let end_s = self.stretch_start_s + self.samples_in as f64 / self.sample_rate_hz;
         let ticks = ((end_s - self.start_s) / self.tick_s() - 1e-6).ceil() as usize;
@@ -114,19 +177,8 @@ impl QuantumCutter {
         (ticks >= FRAME_HOPS * TICKS_PER_HOP).then_some((ticks, end_s))
     }
 
-    /// The first ticks of what has come in, with a floor that is known: noise power per Hz at each order.
-    pub(super) fn quantum_over(&mut self, ticks: usize, floors: &[(f64, f64)]) -> Quantum<'_> {
-        let mut quantum = self.quantum(ticks);
-        for (channel, variance) in quantum.channels.iter().zip(&mut quantum.noise_variances) {
-            if let Some((_, density)) = floors.iter().find(|(order, _)| *order == channel.order) {
-                *variance = density * channel.rate_hz;
-            }
-        }
-        quantum
-    }
-
-    /// The first ticks of what has come in.
-    pub(super) fn quantum(&mut self, ticks: usize) -> Quantum<'_> {
+    /// The first ticks of what has come in. The floor is measured where `floors`, noise power per Hz at each order, does not know it.
+    fn quantum(&mut self, ticks: usize, floors: &[(f64, f64)]) -> Quantum<'_> {
         let channels = &self.bank.channels;
         let series: Vec<&[Complex<f32>]> = channels
             .iter()
@@ -135,15 +187,22 @@ impl QuantumCutter {
             .collect();
         let mean_square = self.squares / self.samples_in.max(1) as f64;
         let noise_variance_min = NOISE_VARIANCE_MIN.max(ROUNDING_SHARE * mean_square);
-        let floors = self.floors.iter_mut().zip(&series);
-        let noise_variances =
-            floors.map(|(floor, series)| floor.noise_variance(series).unwrap_or(0.0).max(noise_variance_min)).collect();
+        let noise_variances = channels
+            .iter()
+            .zip(&mut self.floors)
+            .zip(&series)
+            .map(|((channel, meter), series)| {
+                let known = floors.iter().find(|(order, _)| *order == channel.order);
+                let measured = || meter.noise_variance(series).unwrap_or(0.0).max(noise_variance_min);
+                known.map_or_else(measured, |(_, density)| density * channel.rate_hz)
+            })
+            .collect();
         let tick_s = self.bank.hop_s() / TICKS_PER_HOP as f64;
         Quantum { channels, series, start_s: self.start_s, tick_s, ticks, noise_variances }
     }
 
     /// Forgets the first ticks.
-    pub(super) fn drop_ticks(&mut self, ticks: usize) {
+    fn drop_ticks(&mut self, ticks: usize) {
         for (channel, series) in self.bank.channels.iter().zip(&mut self.series) {
             let samples = (ticks * channel.hop_samples / TICKS_PER_HOP).min(series.len());
             series.drain(..samples);

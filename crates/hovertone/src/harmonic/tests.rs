@@ -1,6 +1,7 @@
 //! Against the Cramér-Rao bound, with the truth known at every instant. `cargo xtask bench accuracy` does it with many more draws.
 
 use super::*;
+use crate::listening::HoverListener;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::{PI, TAU};

@@ -84,6 +84,8 @@ pub(crate) struct HarmonicTrack {
     /// Time between points of the track.
     pub(crate) step_s: f64,
     pub(crate) blocks: Vec<HarmonicBlock>,
+    /// Blocks from the middle of one to the middle of the next, where the track leans on them.
+    pub(crate) between: Vec<HarmonicBlock>,
     pub(crate) lines: Vec<LineRecord>,
 }
 

@@ -7,6 +7,7 @@ mod peak;
 pub use peak::peak_offset_bins;
 
 use crate::config::{RidgeConfig, SpectrogramConfig};
+use crate::listening::HoverListener;
 use crate::method::Method;
 use crate::spectrogram::{Frame, Stft, power_db};
 use crate::tone::Band;
@@ -129,12 +130,24 @@ impl RidgeTracer {
         }
     }
 
-    /// A new stretch of sound begins at `start_s`.
-    pub(crate) fn restart(&mut self, start_s: f64) {
+    pub(crate) fn finish(self) -> Vec<Ridge> {
+        let (window_s, hop_s, resolution_hz) = (self.window_s, self.hop_s, self.stft.resolution_hz());
+        self.ridges
+            .into_iter()
+            .map(|Drawn { band, frames, line_count, .. }| {
+                let line_share = line_count as f64 / frames.len().max(1) as f64;
+                Ridge { band, window_s, hop_s, resolution_hz, frames, line_share }
+            })
+            .collect()
+    }
+}
+
+impl HoverListener for RidgeTracer {
+    fn restart(&mut self, start_s: f64, _length_s: f64) {
         self.stft.restart(start_s);
     }
 
-    pub(crate) fn push(&mut self, samples: &[f32]) {
+    fn push(&mut self, samples: &[f32]) {
         let Self { stft, config, ridges, scratch, lobe_half_cells, .. } = self;
         let cell_hz = stft.resolution_hz();
         stft.push(samples, |frame| {
@@ -145,17 +158,6 @@ impl RidgeTracer {
                 drawn.frames.push(RidgeFrame { time_s: frame.centre_s, peak });
             }
         });
-    }
-
-    pub(crate) fn finish(self) -> Vec<Ridge> {
-        let (window_s, hop_s, resolution_hz) = (self.window_s, self.hop_s, self.stft.resolution_hz());
-        self.ridges
-            .into_iter()
-            .map(|Drawn { band, frames, line_count, .. }| {
-                let line_share = line_count as f64 / frames.len().max(1) as f64;
-                Ridge { band, window_s, hop_s, resolution_hz, frames, line_share }
-            })
-            .collect()
     }
 }
 

@@ -18,7 +18,7 @@ mod separation;
 mod spectra;
 
 use super::block_at;
-use super::quanta::{QuantumCutter, limits_rev_s};
+use super::quanta::{InQuanta, Quantum, QuantumCutter, QuantumListener, limits_rev_s};
 use super::track::{HarmonicBlock, HarmonicTrack};
 use crate::channel::ChannelBand;
 use crate::span::Span;
@@ -30,7 +30,6 @@ use spectra::FRAME_TICKS;
 
 /// Looks where the rotors are, in a wide band of speeds.
 pub(crate) struct RotorScout {
-    cutter: QuantumCutter,
     atoms: Vec<ChannelAtoms>,
     limits_rev_s: (f64, f64),
     count: usize,
@@ -57,7 +56,6 @@ struct RoughQuantum {
 
 /// Follows the speeds of several rotors through the stretches of sound in which a scout has been before.
 pub(crate) struct RotorTracer {
-    cutter: QuantumCutter,
     atoms: Vec<ChannelAtoms>,
     limits_rev_s: (f64, f64),
     planner: FftPlanner<f32>,
@@ -93,49 +91,35 @@ pub(crate) struct RotorTrack {
 impl RotorScout {
     /// Looks for `count` rotors in the lines of `bands`, which all stand for the same limits of speed. `mesh_order` is the order of
     /// the gear mesh, if there is one.
-    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], mesh_order: Option<f64>, count: usize) -> Self {
+    pub(crate) fn new(
+        sample_rate_hz: f64,
+        bands: &[ChannelBand],
+        mesh_order: Option<f64>,
+        count: usize,
+    ) -> InQuanta<Self> {
         let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let limits_rev_s = limits_rev_s(bands);
-        Self {
+        let scout = Self {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s,
             count,
             planner: FftPlanner::new(),
             rough: RoughRotors { count, limits_rev_s, quanta: Vec::new() },
-            cutter,
-        }
+        };
+        InQuanta::new(cutter, scout)
+    }
+}
+
+impl QuantumListener for RotorScout {
+    type Heard = RoughRotors;
+
+    fn hear(&mut self, quantum: &Quantum<'_>) {
+        let tracks = rough_tracks(quantum, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
+        self.rough.quanta.push(RoughQuantum { tracks, floors: quantum.floors() });
     }
 
-    /// A new stretch of sound begins at `start_s` and should last `length_s`.
-    pub(crate) fn restart(&mut self, start_s: f64, length_s: f64) {
-        self.end_stretch();
-        self.cutter.restart(start_s, length_s);
-    }
-
-    pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.cutter.push(samples);
-        while let Some(ticks) = self.cutter.ready_ticks() {
-            self.take_quantum(ticks);
-        }
-    }
-
-    pub(crate) fn finish(mut self) -> RoughRotors {
-        self.end_stretch();
+    fn finish(self) -> RoughRotors {
         self.rough
-    }
-
-    fn end_stretch(&mut self) {
-        if let Some((ticks, _)) = self.cutter.last_ticks() {
-            self.take_quantum(ticks);
-        }
-    }
-
-    fn take_quantum(&mut self, ticks: usize) {
-        let quantum = self.cutter.quantum(ticks);
-        let tracks = rough_tracks(&quantum, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
-        let floors = quantum.floors();
-        self.cutter.drop_ticks(ticks);
-        self.rough.quanta.push(RoughQuantum { tracks, floors });
     }
 }
 
@@ -148,15 +132,16 @@ impl RoughRotors {
 
 impl RotorTracer {
     /// Hears rotors in the lines of `bands`, which all stand for the same limits of speed.
-    pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand], mesh_order: Option<f64>, rough: RoughRotors) -> Self {
+    pub(crate) fn new(
+        sample_rate_hz: f64,
+        bands: &[ChannelBand],
+        mesh_order: Option<f64>,
+        rough: RoughRotors,
+    ) -> InQuanta<Self> {
         let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
-        let rotor = RotorTrack {
-            track: HarmonicTrack { step_s, ..HarmonicTrack::default() },
-            merged: Vec::new(),
-            lost: Vec::new(),
-        };
-        Self {
+        let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, ..RotorTrack::default() };
+        let tracer = Self {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s: limits_rev_s(bands),
             planner: FftPlanner::new(),
@@ -164,93 +149,17 @@ impl RotorTracer {
             tracks: RotorTracks {
                 rotors: vec![rotor; rough.count],
                 resolution_rev_s: resolution_rev_s(bands),
-                length_s: 0.0,
-                faint_s: 0.0,
-                close_s: 0.0,
+                ..RotorTracks::default()
             },
             rough: rough.quanta.into_iter(),
-            cutter,
-        }
-    }
-
-    /// A new stretch of sound begins at `start_s` and should last `length_s`.
-    pub(crate) fn restart(&mut self, start_s: f64, length_s: f64) {
-        self.end_stretch();
-        self.cutter.restart(start_s, length_s);
-    }
-
-    pub(crate) fn push(&mut self, samples: &[f32]) {
-        self.cutter.push(samples);
-        while let Some(ticks) = self.cutter.ready_ticks() {
-            self.take_quantum(ticks);
-        }
-    }
-
-    /// The rotors, in no order.
-    pub(crate) fn finish(mut self) -> RotorTracks {
-        self.end_stretch();
-        self.tracks
-    }
-
-    fn end_stretch(&mut self) {
-        if let Some((ticks, end_s)) = self.cutter.last_ticks() {
-            self.take_quantum(ticks);
-            for last in self.tracks.rotors.iter_mut().filter_map(|rotor| rotor.track.blocks.last_mut()) {
-                *last = last.until(end_s.min(last.span.to_s));
-            }
-        }
-    }
-
-    fn take_quantum(&mut self, ticks: usize) {
-        let rough = self.rough.next().unwrap_or_default();
-        let quantum = self.cutter.quantum_over(ticks, &rough.floors);
-        let (start_s, tick_s) = (quantum.start_s, quantum.tick_s);
-        let heard = rotors_of_quantum(&quantum, &self.atoms, &rough.tracks, &mut self.planner);
-        self.cutter.drop_ticks(ticks);
-        let frame_s = FRAME_TICKS as f64 * tick_s;
-        let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
-        let labelling = self.identity.labelled(&frames, frame_s);
-        let blocks: Vec<Vec<HarmonicBlock>> =
-            heard.iter().map(|rotor| self.blocks_of(rotor, (start_s, tick_s))).collect();
-        self.tracks.length_s += ticks as f64 * tick_s;
-        self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * ticks as f64 * tick_s;
-        self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * ticks as f64 * tick_s;
-        let resolution_rev_s = self.tracks.resolution_rev_s;
-        let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
-        let is_close = |rotor: usize, other: usize, frame: usize| {
-            (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < resolution_rev_s
         };
-        for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
-            for (frame, labels) in labelling.iter().enumerate() {
-                let span =
-                    Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s };
-                // of two in one place the first stands for both
-                let is_hidden = (0..rotor).any(|other| is_close(rotor, other, frame));
-                let hides = (rotor + 1..labels.len()).any(|other| is_close(rotor, other, frame));
-                let is_lost = !is_hidden && !hides && !of(rotor, frame).is_heard;
-                if is_hidden || is_lost {
-                    extend(merged, span);
-                }
-                if is_lost {
-                    extend(lost, span);
-                }
-            }
-            // stretches in which the rotor keeps one track
-            let mut from = 0;
-            while let Some(first) = labelling.get(from) {
-                let kept = labelling[from..].iter().take_while(|labels| labels[rotor] == first[rotor]).count();
-                let to = from + kept;
-                let end_s = if to == labelling.len() { f64::INFINITY } else { start_s + to as f64 * frame_s };
-                let stretch = Span { from_s: start_s + from as f64 * frame_s, to_s: end_s };
-                let parts = blocks[first[rotor]].iter().filter_map(|block| block.within(stretch));
-                // the search knows even the shortest part to within its resolution
-                track.blocks.extend(parts.map(|part| HarmonicBlock {
-                    std_uncertainty_rev_s: part.std_uncertainty_rev_s.min(resolution_rev_s),
-                    ..part
-                }));
-                from = to;
-            }
-        }
+        InQuanta::new(cutter, tracer)
+    }
+
+    /// The blocks from the middle of one to the middle of the next.
+    fn blocks_between(&self, rotor: &HeardRotor, place: (f64, f64)) -> Vec<HarmonicBlock> {
+        let between = rotor.between.iter().map(|fit| block_at(fit, true, place, (rotor.line_count, self.limits_rev_s)));
+        between.filter(|block| block.is_heard).collect()
     }
 
     /// The blocks of a rotor. Where its lines do not keep their phase, or are too weak for that, it goes along the line that the
@@ -281,6 +190,78 @@ impl RotorTracer {
             }
         }
         blocks
+    }
+}
+
+impl QuantumListener for RotorTracer {
+    type Heard = RotorTracks;
+
+    fn known_floors(&self) -> &[(f64, f64)] {
+        self.rough.as_slice().first().map_or(&[], |rough| &rough.floors)
+    }
+
+    fn hear(&mut self, quantum: &Quantum<'_>) {
+        let rough = self.rough.next().unwrap_or_default();
+        let (start_s, tick_s, length_s) = (quantum.start_s, quantum.tick_s, quantum.ticks as f64 * quantum.tick_s);
+        let heard = rotors_of_quantum(quantum, &self.atoms, &rough.tracks, &mut self.planner);
+        let frame_s = FRAME_TICKS as f64 * tick_s;
+        let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
+        let labelling = self.identity.labelled(&frames, frame_s);
+        let place = (start_s, tick_s);
+        let blocks: Vec<Vec<HarmonicBlock>> = heard.iter().map(|rotor| self.blocks_of(rotor, place)).collect();
+        let between: Vec<Vec<HarmonicBlock>> = heard.iter().map(|rotor| self.blocks_between(rotor, place)).collect();
+        self.tracks.length_s += length_s;
+        self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;
+        self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * length_s;
+        let resolution_rev_s = self.tracks.resolution_rev_s;
+        let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
+        let is_close = |rotor: usize, other: usize, frame: usize| {
+            (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < resolution_rev_s
+        };
+        for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
+            for (frame, labels) in labelling.iter().enumerate() {
+                let span =
+                    Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s };
+                // of two in one place the first stands for both
+                let is_hidden = (0..rotor).any(|other| is_close(rotor, other, frame));
+                let hides = (rotor + 1..labels.len()).any(|other| is_close(rotor, other, frame));
+                let is_lost = !is_hidden && !hides && !of(rotor, frame).is_heard;
+                if is_hidden || is_lost {
+                    extend(merged, span);
+                }
+                if is_lost {
+                    extend(lost, span);
+                }
+            }
+            // stretches in which the rotor keeps one track
+            let mut from = 0;
+            while let Some(first) = labelling.get(from) {
+                let kept = labelling[from..].iter().take_while(|labels| labels[rotor] == first[rotor]).count();
+                let to = from + kept;
+                let end_s = if to == labelling.len() { f64::INFINITY } else { start_s + to as f64 * frame_s };
+                let stretch = Span { from_s: start_s + from as f64 * frame_s, to_s: end_s };
+                // the search knows even the shortest part to within its resolution
+                let part_of = |block: &HarmonicBlock| {
+                    let part = block.within(stretch)?;
+                    let std_uncertainty_rev_s = part.std_uncertainty_rev_s.min(resolution_rev_s);
+                    Some(HarmonicBlock { std_uncertainty_rev_s, ..part })
+                };
+                track.blocks.extend(blocks[first[rotor]].iter().filter_map(part_of));
+                track.between.extend(between[first[rotor]].iter().filter_map(part_of));
+                from = to;
+            }
+        }
+    }
+
+    fn end_stretch(&mut self, end_s: f64) {
+        for last in self.tracks.rotors.iter_mut().filter_map(|rotor| rotor.track.blocks.last_mut()) {
+            *last = last.until(end_s.min(last.span.to_s));
+        }
+    }
+
+    /// The rotors, in no order.
+    fn finish(self) -> RotorTracks {
+        self.tracks
     }
 }
 

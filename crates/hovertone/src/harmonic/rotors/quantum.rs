@@ -1,6 +1,7 @@
 //! One quantum of sound → the blocks of each rotor.
 
-use super::super::coherence::{Level, doubled_level, likelihood_min};
+use super::super::block::BlockFit;
+use super::super::coherence::{Level, blocks_between, doubled_level, likelihood_min};
 use super::super::join::joined;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
@@ -35,6 +36,7 @@ const HEARD_MARGIN: f64 = 3.0;
 pub(super) struct HeardRotor {
     pub(super) line_count: usize,
     pub(super) level: Level,
+    pub(super) between: Vec<BlockFit>,
     /// Its path as the search has it, and as the blocks that stand out of the noise have it.
     pub(super) traced: SpeedPath,
     path: SpeedPath,
@@ -160,13 +162,24 @@ pub(super) fn rotors_of_quantum(
         .zip(rotors)
         .map(|(path, SeparatedRotor { lines, levels, worths, faint_worths, .. })| {
             let level = joined(&lines, &path, &doubled_level(&lines, &path));
+            let between = blocks_between(&lines, &path, &level);
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let traced = path;
             let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or_else(|| traced.clone());
             let are_heard = worths.iter().zip(&nulls).map(|(worth, null)| worth > null).collect();
             let faint = faint_worths.iter().zip(&nulls).filter(|(worth, null)| worth > null).count();
             let faint_share = faint as f64 / nulls.len().max(1) as f64;
-            HeardRotor { line_count: lines.len(), level, traced, path, levels, are_heard, faint_share, close_share }
+            HeardRotor {
+                line_count: lines.len(),
+                level,
+                between,
+                traced,
+                path,
+                levels,
+                are_heard,
+                faint_share,
+                close_share,
+            }
         })
         .collect()
 }
