@@ -162,16 +162,28 @@ fn step_between(blocks: [&BlockFit; 2], middles: [&Middle; 2], path: &SpeedPath)
 
 /// The step δ with the greatest Σ Re(z exp(−j w δ)), if there is only one.
 fn most_likely_step(lines: &[(f64, Complex<f64>)], std_turns: f64) -> Option<f64> {
-    let value = |step: f64| -> f64 { lines.iter().map(|(w, z)| (z * Complex::from_polar(1.0, -w * step)).re).sum() };
     let (low, high) = lines.iter().fold((f64::INFINITY, 0.0f64), |(low, high), (w, _)| (low.min(*w), high.max(*w)));
     let likely_turns = std_turns + BEND_PHASE_RAD / low;
     // in a turn of the lowest line all that it can be has come up
     let reach = (REACH_STDS * likely_turns).min(TAU / low);
     let grid_step = TAU / high / GRID_PER_CYCLE;
     let points = (reach / grid_step).ceil() as i32;
+    let mut turning: Vec<(Complex<f64>, Complex<f64>)> = lines
+        .iter()
+        .map(|(w, z)| {
+            let first = Complex::from_polar(1.0, w * f64::from(points) * grid_step);
+            (z * first, Complex::from_polar(1.0, -w * grid_step))
+        })
+        .collect();
     let values: Vec<f64> = (-points..=points)
-        .map(|point| f64::from(point) * grid_step)
-        .map(|step| value(step) - (step / likely_turns).powi(2) / 2.0)
+        .map(|point| {
+            let mut value = -(f64::from(point) * grid_step / likely_turns).powi(2) / 2.0;
+            for (z, turn) in &mut turning {
+                value += z.re;
+                *z *= *turn;
+            }
+            value
+        })
         .collect();
     let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
     let is_summit = |index: &usize| {

@@ -6,7 +6,7 @@ use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
 use super::paths::{around, continuous_paths, offsets_from, path_through, paths_along, smoothed_mean, tracks_of};
 use super::retrace::retraced;
-use super::search::{OffsetGrid, found_tracks, reclaimed_tracks, scores_of_frame};
+use super::search::{GridScores, OffsetGrid, found_tracks, reclaimed_tracks};
 use super::separation::{SeparatedRotor, separated};
 use super::spectra::{FRAME_TICKS, Spectra};
 use realfft::num_complex::Complex;
@@ -138,8 +138,8 @@ impl<'a, 'p> Hearing<'a, 'p> {
         };
         let offsets = offsets_from(&tracks, &spectra.common_rev_s);
         let grid = OffsetGrid::new(around(&offsets, MARGIN_SHARE * self.middle_rev_s), &spectra);
-        let scores =
-            (0..spectra.frames()).map(|frame| scores_of_frame(&spectra, self.atoms, frame, &grid, &[])).collect();
+        let grid_scores = GridScores::new(&spectra, self.atoms, &grid);
+        let scores = (0..spectra.frames()).map(|frame| grid_scores.of_frame(frame, &[])).collect();
         LeftOver { scores, grid, common_rev_s: spectra.common_rev_s }
     }
 

@@ -70,11 +70,11 @@ pub(super) fn found_tracks(
     let step_std = grid.step_std(middle) * (spectra.frames_apart() as f64).sqrt();
     let mut searches: Vec<SearchBeside> = (0..count).map(|_| SearchBeside::new(spectra.frames())).collect();
     let mut tracks: Vec<Vec<f64>> = start.to_vec();
+    let grid_scores = GridScores::new(spectra, atoms, grid);
     let mut find = |rotor: usize, tracks: &[Vec<f64>]| -> Vec<f64> {
         let others: Vec<&Vec<f64>> =
             tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
-        let scores =
-            searches[rotor].scores(&others, |frame, others| scores_of_frame(spectra, atoms, frame, grid, others));
+        let scores = searches[rotor].scores(&others, |frame, others| grid_scores.of_frame(frame, others));
         best_path(scores, step_std).into_iter().map(|place| grid.offset_rev_s(place)).collect()
     };
     while tracks.len() < count {
@@ -170,40 +170,60 @@ pub(super) fn worth(likelihood: f64) -> f64 {
     likelihood.ln_1p()
 }
 
-/// What speaks for one more rotor at each point of the grid, beside others at known offsets.
-pub(super) fn scores_of_frame(
-    spectra: &Spectra,
-    atoms: &[ChannelAtoms],
-    frame: usize,
-    grid: &OffsetGrid,
-    others_rev_s: &[f64],
-) -> Vec<f64> {
-    let mut scores = vec![0.0; grid.points];
-    let mut products = vec![1.0f64; grid.points];
-    let mut left = LeftBeside::default();
-    for (index, (line, atoms)) in spectra.lines.iter().zip(atoms).enumerate() {
-        let bin_of =
-            |point: usize| line.bin_of(line.order * (grid.first_rev_s + point as f64 * grid.step_rev_s) * line.frame_s);
-        let (first, step) = (bin_of(0), bin_of(1) - bin_of(0));
-        let from = (first.max(0.0) as usize).min(line.frame(frame).len() - 2);
-        let to = (bin_of(grid.points - 1) as usize + 2).clamp(from + 2, line.frame(frame).len());
-        left.take_away(line, atoms, (frame, from..to), spectra.common_rev_s[frame], others_rev_s);
-        let last = left.likelihoods.len() - 2;
-        for (point, product) in products.iter_mut().enumerate() {
-            let place = (first - from as f64 + step * point as f64).max(0.0);
-            let bin = (place as usize).min(last);
-            let share = (place - bin as f64).min(1.0) as f32;
-            let likelihood = left.likelihoods[bin] + share * (left.likelihoods[bin + 1] - left.likelihoods[bin]);
-            *product *= 1.0 + f64::from(likelihood.min(LIKELIHOOD_MAX));
-        }
-        // one logarithm for many lines
-        if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == spectra.lines.len() {
-            for (score, product) in scores.iter_mut().zip(&mut products) {
-                *score += std::mem::replace(product, 1.0).ln();
+/// Scores of the points of a grid, frame by frame.
+pub(super) struct GridScores<'a> {
+    spectra: &'a Spectra,
+    atoms: &'a [ChannelAtoms],
+    places: Vec<LinePlaces>,
+    points: usize,
+}
+
+/// Where a line is at each point of a grid.
+struct LinePlaces {
+    /// The bins into which it can fall.
+    bins: Range<usize>,
+    /// Among them, the bin below it and how far on it is to the next.
+    at_points: Vec<(u32, f32)>,
+}
+
+impl<'a> GridScores<'a> {
+    pub(super) fn new(spectra: &'a Spectra, atoms: &'a [ChannelAtoms], grid: &OffsetGrid) -> Self {
+        let places_of = |line: &LineSpectra| {
+            let bin_of = |point: usize| line.bin_of(line.order * grid.offset_rev_s(point) * line.frame_s);
+            let from = (bin_of(0).max(0.0) as usize).min(line.frame_bins() - 2);
+            let to = (bin_of(grid.points - 1) as usize + 2).clamp(from + 2, line.frame_bins());
+            let at_points = (0..grid.points).map(|point| {
+                let place = (bin_of(point) - from as f64).max(0.0);
+                let bin = place.floor().min((to - from - 2) as f64);
+                (bin as u32, (place - bin).min(1.0) as f32)
+            });
+            LinePlaces { bins: from..to, at_points: at_points.collect() }
+        };
+        Self { places: spectra.lines.iter().map(places_of).collect(), spectra, atoms, points: grid.points }
+    }
+
+    /// What speaks for one more rotor at each point, beside others at known offsets.
+    pub(super) fn of_frame(&self, frame: usize, others_rev_s: &[f64]) -> Vec<f64> {
+        let mut scores = vec![0.0; self.points];
+        let mut products = vec![1.0f64; self.points];
+        let mut left = LeftBeside::default();
+        let lines = &self.spectra.lines;
+        for (index, ((line, atoms), places)) in lines.iter().zip(self.atoms).zip(&self.places).enumerate() {
+            left.take_away(line, atoms, (frame, places.bins.clone()), self.spectra.common_rev_s[frame], others_rev_s);
+            for (&(bin, share), product) in places.at_points.iter().zip(&mut products) {
+                let pair = &left.likelihoods[bin as usize..][..2];
+                let likelihood = pair[0] + share * (pair[1] - pair[0]);
+                *product *= 1.0 + f64::from(likelihood.min(LIKELIHOOD_MAX));
+            }
+            // one logarithm for many lines
+            if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == lines.len() {
+                for (score, product) in scores.iter_mut().zip(&mut products) {
+                    *score += std::mem::replace(product, 1.0).ln();
+                }
             }
         }
+        scores
     }
-    scores
 }
 
 /// A line's likelihood in some bins of a frame, once other rotors have been taken away.

@@ -114,6 +114,11 @@ impl Spectra {
 }
 
 impl LineSpectra {
+    /// Bins of a frame.
+    pub(super) fn frame_bins(&self) -> usize {
+        2 * self.half_bins
+    }
+
     pub(super) fn frame(&self, frame: usize) -> &[Complex<f32>] {
         &self.bins[2 * frame * self.half_bins..2 * (frame + 1) * self.half_bins]
     }
