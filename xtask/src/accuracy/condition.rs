@@ -130,7 +130,7 @@ impl MethodScore {
     }
 }
 
-/// A condition with what each method made of it, in the order of [`METHODS`].
+/// A condition with what each method made of it.
 pub(super) struct Scored {
     pub(super) condition: Condition,
     /// Mean of the bound over the draws, as a share of the speed.
@@ -140,25 +140,30 @@ pub(super) struct Scored {
 
 struct Draw {
     bound_share: f64,
-    /// In the order of [`METHODS`]; `None` where no rotor tone was found.
+    /// One for each method; `None` where no rotor tone was found.
     answers: Vec<Option<Answer>>,
 }
 
-/// Draws a condition and scores it. `number` tells conditions apart: each has draws of its own.
-pub(super) fn scored(condition: Condition, number: usize, draw_count: usize) -> Result<Scored, String> {
+/// Draws a condition and scores it by some methods. `number` tells conditions apart: each has draws of its own.
+pub(super) fn scored(
+    condition: Condition,
+    number: usize,
+    draw_count: usize,
+    methods: &[Method],
+) -> Result<Scored, String> {
     let draws =
-        drawn(draw_count, |draw| condition.draw(&mut Pcg64::seed_from_u64((number as u64) << 32 | draw as u64)))?;
+        drawn(draw_count, |draw| condition.draw(&mut Pcg64::seed_from_u64((number as u64) << 32 | draw as u64), methods))?;
     let answers_by =
         |index: usize| -> Vec<&Answer> { draws.iter().filter_map(|draw| draw.answers.get(index)?.as_ref()).collect() };
     Ok(Scored {
         condition,
         bound_share: draws.iter().map(|draw| draw.bound_share).sum::<f64>() / draws.len().max(1) as f64,
-        methods: (0..).take(METHODS.len()).map(|index| MethodScore::of(draws.len(), &answers_by(index))).collect(),
+        methods: (0..methods.len()).map(|index| MethodScore::of(draws.len(), &answers_by(index))).collect(),
     })
 }
 
 impl Condition {
-    fn draw(&self, random: &mut Pcg64) -> Result<Draw, String> {
+    fn draw(&self, random: &mut Pcg64, methods: &[Method]) -> Result<Draw, String> {
         let series = self.tones.series();
         let noise = Noise::of_power(self.colour, tone_power(&series) / 10_f64.powf(self.snr_db / 10.0));
         let mean_rev_s = random.random_range(SPEED_REV_S);
@@ -168,7 +173,7 @@ impl Condition {
         let sound = rendered(&rotor, random);
         let mut signal = Signal::new(sound.samples.clone(), SAMPLE_RATE_HZ);
         let mut answers = Vec::new();
-        for method in METHODS {
+        for &method in methods {
             let analysis = heard(&mut signal, self.tones.asked()?, 1, method)?;
             let speed = match &analysis.outcome {
                 Outcome::Ok(tone) => tone.speed(method),
@@ -222,7 +227,7 @@ mod tests {
     fn a_loud_rotor_is_found() {
         for tones in Tones::ALL {
             let condition = Condition { tones, colour: Colour::White, snr_db: 20.0, wanders: false };
-            let draw = condition.draw(&mut Pcg64::seed_from_u64(9)).unwrap();
+            let draw = condition.draw(&mut Pcg64::seed_from_u64(9), &METHODS).unwrap();
             assert_eq!(draw.answers.len(), METHODS.len());
             for (answer, method) in draw.answers.iter().zip(METHODS) {
                 let error_rev_s = answer.as_ref().unwrap().error_rev_s;
