@@ -151,8 +151,9 @@ pub(super) fn scored(
     draw_count: usize,
     methods: &[Method],
 ) -> Result<Scored, String> {
-    let draws =
-        drawn(draw_count, |draw| condition.draw(&mut Pcg64::seed_from_u64((number as u64) << 32 | draw as u64), methods))?;
+    let draws = drawn(draw_count, |draw| {
+        condition.draw(&mut Pcg64::seed_from_u64((number as u64) << 32 | draw as u64), methods)
+    })?;
     let answers_by =
         |index: usize| -> Vec<&Answer> { draws.iter().filter_map(|draw| draw.answers.get(index)?.as_ref()).collect() };
     Ok(Scored {

@@ -9,6 +9,9 @@ const SNRS_DB: [f64; 5] = [-20.0, -10.0, 0.0, 10.0, 20.0];
 /// Conditions of the table of coverage are numbered from here, so that they have draws of their own.
 const COVERAGE_FROM: usize = 1000;
 
+/// Of the draws for a steady rotor, a wandering one has this part.
+const WANDERING_PART: usize = 4;
+
 /// The steady rotor at every tone set, colour and ratio.
 pub(super) fn add_bounds(document: &mut Document, draws: usize) -> Result<(), String> {
     document.heading("One steady rotor against the Cramér-Rao bound");
@@ -48,15 +51,17 @@ pub(super) fn add_coverage(document: &mut Document, draws: usize) -> Result<(), 
     document.heading("Is the stated ± true?");
     document.paragraph(&format!(
         "Share of answers with |error| ≤ 2 u (95.4 % where errors are normal and u is their standard deviation), {draws} \
-         draws for each line, by the harmonic likelihood, otherwise as above. Wandering: the speed of the rotor is a smooth random process, standard \
+         draws for each line ({} where it wanders), by the harmonic likelihood, otherwise as above. Wandering: the speed of the rotor is a smooth random process, standard \
          deviation 0.4 %, correlation time 0.8 s, and the truth is its exact mean over the stretches that were used. \
-         u / scatter: median u over the standard deviation that the median |error| means; above 1, u is wider than it need be."
+         u / scatter: median u over the standard deviation that the median |error| means; above 1, u is wider than it need be.",
+        draws.div_ceil(WANDERING_PART)
     ));
     let mut rows = Vec::new();
     for (number, condition) in (COVERAGE_FROM..).zip(coverage_conditions()) {
         let turning = if condition.wanders { "wandering" } else { "steady" };
         let colour_name = name_of(condition.colour);
         eprintln!("coverage: {turning}, {}, {colour_name}, {} dB", condition.tones.name(), condition.snr_db);
+        let draws = if condition.wanders { draws.div_ceil(WANDERING_PART) } else { draws };
         let scored = scored(condition, number, draws, &[Method::Harmonic])?;
         let snr = format!("{:+.0}", condition.snr_db);
         let mut row: Vec<String> = [turning, condition.tones.name(), colour_name, &snr].map(str::to_owned).into();
