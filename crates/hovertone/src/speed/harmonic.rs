@@ -14,6 +14,10 @@ const END_STDS: f64 = 4.0;
 /// What a block counts for at its very ends.
 const NEARNESS_MIN: f64 = 1e-3;
 
+/// The mean of two that disagree is off by half of that if their errors are independent, and by more because both hear half of the
+/// same sound.
+const DISAGREEMENT_SHARE: f64 = 0.7;
+
 /// Borders of blocks nearer than this are one.
 const SAME_TIME_S: f64 = 1e-6;
 
@@ -85,6 +89,7 @@ impl HarmonicTrack {
     /// counting for how near its own middle is.
     pub(crate) fn points_in(&self, span: Option<&Span>, order: Order) -> Vec<TrackPoint> {
         let step_s = self.step_s;
+        let disagreement_rev_s = self.disagreement_rev_s();
         self.blocks
             .iter()
             .filter(|block| block.is_heard)
@@ -98,13 +103,29 @@ impl HarmonicTrack {
                         time_s,
                         tone_hz: at.speed_rev_s * order.lines_per_turn(),
                         speed_rev_s: at.speed_rev_s,
-                        std_uncertainty_rev_s: at.std_uncertainty_rev_s,
+                        std_uncertainty_rev_s: at.std_uncertainty_rev_s.max(DISAGREEMENT_SHARE * disagreement_rev_s),
                         level_db: block.level_db,
                     }
                 })
             })
             .filter(|point| span.is_none_or(|span| span.contains(point.time_s)))
             .collect()
+    }
+
+    /// By how much blocks and those between them differ where each counts for half: by noise, by a speed that bends, and by lines that
+    /// do not keep their phase, of which no block knows. Root mean square.
+    fn disagreement_rev_s(&self) -> f64 {
+        let quarters =
+            |block: &HarmonicBlock| [0.25, 0.75].map(|share| block.span.from_s + share * block.span.length_s());
+        let differences: Vec<f64> = self
+            .blocks
+            .iter()
+            .filter(|block| block.is_heard)
+            .flat_map(|block| quarters(block).map(|time_s| (block, time_s)))
+            .filter_map(|(block, time_s)| Some(self.between_at(time_s)?.speed_at(time_s) - block.speed_at(time_s)))
+            .collect();
+        let squares: Vec<f64> = differences.iter().map(|difference| difference * difference).collect();
+        mean(&squares).unwrap_or(0.0).sqrt()
     }
 
     fn between_at(&self, time_s: f64) -> Option<&HarmonicBlock> {
