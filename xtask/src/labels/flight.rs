@@ -144,6 +144,11 @@ impl Flown {
         Some((self.channels.first()?.clone(), f64::from(self.file.sound.sample_rate_hz)))
     }
 
+    /// What all microphones heard, and its rate.
+    pub(super) fn channels(&self) -> (Vec<Vec<f32>>, f64) {
+        (self.channels.clone(), f64::from(self.file.sound.sample_rate_hz))
+    }
+
     /// Which rotor a track is nearest to, on the average.
     pub(super) fn rotor_of(&self, track: &[TrackPoint]) -> usize {
         let off = |rotor: usize| -> f64 {

@@ -2,12 +2,13 @@
 //! people; its tests fly fewer.
 
 mod flight;
+mod microphones;
 
 use crate::accuracy::drawn;
 use crate::rotors::REPORT;
 use flight::{Flown, Logged};
 use hovertone::{
-    Config, LabelsConfig, Method, Outcome, RotorLabels, Signal, ToneConfig, TrackPoint, labels_from_log,
+    Config, LabelsConfig, Method, Outcome, RotorEstimate, RotorLabels, Signal, ToneConfig, TrackPoint, labels_from_log,
     speed_from_source,
 };
 use hovertone_sim::scenario::{MicrophoneSection, MotorWanderSection, ScenarioFile, SoundSection, SpreadSection};
@@ -75,6 +76,14 @@ struct Count {
 }
 
 impl Count {
+    fn right_share(&self) -> f64 {
+        self.right as f64 / self.flights as f64
+    }
+
+    fn wrong_share(&self) -> f64 {
+        self.wrong as f64 / self.flights as f64
+    }
+
     fn add(&mut self, labels: &RotorLabels, rotors: &[usize], offset_s: f64) {
         let judged: Vec<Option<bool>> = labels
             .rotors
@@ -132,20 +141,28 @@ fn heard_hover(seed: u64, thrust_std_share: f64) -> ScenarioFile {
     }
 }
 
+/// The rotors of an AR.Drone that the separation tells apart; nothing where there is no tone.
+fn separated(samples: Vec<f32>, sample_rate_hz: f64) -> Result<Option<Vec<RotorEstimate>>, String> {
+    let mut tone = ToneConfig::of_order(Order::new(69.0).map_err(|error| error.to_string())?);
+    tone.blades = Some(2);
+    let mut config = Config::for_tone(tone);
+    (config.rotors.count, config.method) = (4, Method::Separated);
+    let mut signal = Signal::new(samples, sample_rate_hz);
+    let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
+    match analysis.outcome {
+        Outcome::Ok(tone) => Ok(Some(tone.rotors)),
+        Outcome::NoRotorTone { .. } => Ok(None),
+    }
+}
+
 /// Labels what the separation makes of the sound; with how many flights had four rotors told apart.
 fn by_sound(flights: usize, thrust_std_share: f64) -> Result<(Count, usize), String> {
     let outcomes = drawn(flights, |seed| {
         let mut flown = Flown::of(heard_hover(seed as u64 + 1, thrust_std_share), true)?;
         let (samples, sample_rate_hz) = flown.sound().ok_or("nobody heard it".to_owned())?;
         let (log, offset_s) = flown.log(Logged::BodyRates)?;
-        let mut tone = ToneConfig::of_order(Order::new(69.0).map_err(|error| error.to_string())?);
-        tone.blades = Some(2);
-        let mut config = Config::for_tone(tone);
-        (config.rotors.count, config.method) = (4, Method::Separated);
-        let mut signal = Signal::new(samples, sample_rate_hz);
-        let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
-        let Outcome::Ok(tone) = &analysis.outcome else { return Ok(None) };
-        let tracks: Vec<&[TrackPoint]> = tone.rotors.iter().map(|rotor| rotor.track.as_slice()).collect();
+        let Some(rotors) = separated(samples, sample_rate_hz)? else { return Ok(None) };
+        let tracks: Vec<&[TrackPoint]> = rotors.iter().map(|rotor| rotor.track.as_slice()).collect();
         let rotors: Vec<usize> = tracks.iter().map(|track| flown.rotor_of(track)).collect();
         Ok(Some((labels_from_log(&tracks, 4, &log, &LabelsConfig::default()), rotors, offset_s)))
     })?;
@@ -168,6 +185,10 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         given.map_or(Ok(otherwise), |text| text.parse::<usize>().map_err(|error| format!("{name}: {error}")))
     };
     let (flights, heard) = (option("--count", FLIGHTS)?, option("--heard", HEARD)?);
+    if options.contains(&"--only-microphones") {
+        println!("{}", microphones::section(flights, heard)?);
+        return Ok(());
+    }
     let mut text = TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string());
     for kind in kinds() {
         let count = by_tracks(&kind, flights)?;

@@ -14,12 +14,16 @@ mod body_rates;
 mod curve;
 mod evidence;
 mod log;
+mod microphones;
 mod motors;
 mod rows;
 mod whitening;
 
 pub use answer::{LabelSource, NotTold, RotorLabel, RotorLabels};
 pub use log::{FlightLog, LogError, LogSignals, MotorSignal};
+pub use microphones::{
+    ArrayError, MicrophoneArray, MicrophoneLines, PlacedRotor, labels_from_microphones, microphone_lines_from_source,
+};
 
 use crate::labels_config::LabelsConfig;
 use crate::span::Span;
