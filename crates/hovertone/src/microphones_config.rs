@@ -7,8 +7,8 @@ use serde::Serialize;
 /// How levels and delays at several microphones are compared with where microphones and rotors stand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MicrophonesConfig {
-    /// How well the distance from any rotor to any microphone is known: a tape measure, and a vehicle that holds its place over a spot
-    /// within a hand's breadth. Microphones fixed to the vehicle are known to 0.01 m.
+    /// How well each coordinate of a microphone in the vehicle's frame is known: a vehicle that hovers over a spot is off it by a hand's
+    /// breadth on the average, and its heading by 5° (a tenth of the distance). Microphones fixed to the vehicle are known to 0.01 m.
     pub position_std_m: f64,
     /// How well microphones are as sensitive as each other: those of one kind agree within ±3 dB.
     pub gain_std_db: f64,
@@ -24,9 +24,11 @@ pub struct MicrophonesConfig {
     pub phase_std_rad: [f64; 3],
     /// Share of lines whose phase says nothing, because something else sounds there.
     pub phase_outlier_share: f64,
-    /// Lines are solved for in blocks of this length: resolves rotors half a turn per second apart from the second line on, while a
-    /// vehicle that drifts at 2 cm/s stays within half a wave length up to 4 kHz.
+    /// Lines are solved for in blocks of at most this length: resolves rotors half a turn per second apart from the second line on.
     pub block_s: f64,
+    /// And at most this over their order: 3 resolution cells between rotors of 60 rev/s that differ by 0.2 %, while errors of a track
+    /// of 0.03 % leave the phase alone, and so does a vehicle that drifts at 0.1 m/s.
+    pub block_order_s: f64,
     /// Power over that of noise at which a line is heard in one block; in n blocks, by a √n less far above.
     pub heard_over_noise: f64,
     /// Power of the likelihood that is believed, as for logs: errors of echoes and shadows are not independent from line to line.
@@ -38,7 +40,7 @@ pub struct MicrophonesConfig {
 impl Default for MicrophonesConfig {
     fn default() -> Self {
         Self {
-            position_std_m: 0.05,
+            position_std_m: 0.1,
             gain_std_db: 3.0,
             temperature_c: 20.0,
             level_std_db: 3.0,
@@ -46,6 +48,7 @@ impl Default for MicrophonesConfig {
             phase_std_rad: [0.3, 0.8, 1.6],
             phase_outlier_share: 0.1,
             block_s: 2.0,
+            block_order_s: 24.0,
             heard_over_noise: 8.0,
             evidence_share: 0.5,
             probability_min: 0.99,
@@ -66,6 +69,7 @@ impl MicrophonesConfig {
         }
         check_range("phase_outlier_share", self.phase_outlier_share, 0.001, 0.9)?;
         check_range("block_s", self.block_s, 0.1, 60.0)?;
+        check_range("block_order_s", self.block_order_s, 1.0, 1e4)?;
         check_range("heard_over_noise", self.heard_over_noise, 1.0, 1e6)?;
         check_range("evidence_share", self.evidence_share, 0.01, 1.0)?;
         check_range("probability_min", self.probability_min, 0.5, 1.0)

@@ -1,7 +1,7 @@
 //! Simulated hovers, what a log on board holds of them, and what an ear makes of their rotors.
 
 use hovertone::{FlightLog, LogSignals, MotorSignal, TrackPoint};
-use hovertone_sim::FlightState;
+use hovertone_sim::{FlightSound, FlightState, RotorState, SoundState};
 use hovertone_sim::scenario::{ScenarioFile, ScenarioRun};
 use hovertone_vehicle::find_flight_parameters;
 use rand::seq::SliceRandom;
@@ -144,10 +144,29 @@ impl Flown {
         Some((self.channels.first()?.clone(), f64::from(self.file.sound.sample_rate_hz)))
     }
 
-    /// What all microphones heard, and its rate.
-    pub(super) fn channels(&self) -> (Vec<Vec<f32>>, f64) {
-        (self.channels.clone(), f64::from(self.file.sound.sample_rate_hz))
+    /// What all microphones of the scenario hear, and its rate: those that stand, or those that fly along with a vehicle about its start.
+    pub(super) fn heard_by_all(&self, fly_along: bool) -> Result<(Vec<Vec<f32>>, f64), String> {
+        let scenario = self.file.resolve(&BTreeMap::new()).map_err(|error| error.to_string())?;
+        let sample_rate_hz = f64::from(scenario.sound.sample_rate_hz);
+        let mut sound = FlightSound::new(scenario.sound).map_err(|error| error.to_string())?;
+        let mut channels = Vec::new();
+        for state in &self.states {
+            let still = FlightState { position_m: self.states[0].position_m, attitude: [1.0, 0.0, 0.0, 0.0], ..*state };
+            let seen = if fly_along { still } else { *state };
+            let (places, axis) = (seen.rotor_positions_m(), seen.thrust_axis());
+            let rotors = (0..4).map(|rotor| RotorState {
+                speed_rad_s: state.speed_rad_s[rotor],
+                position_m: places[rotor],
+                axis,
+            });
+            let seen = SoundState { time_s: state.time_s, rotors: rotors.collect() };
+            sound.push(&seen, &mut channels).map_err(|error| error.to_string())?;
+        }
+        sound.finish(&mut channels);
+        Ok((channels, sample_rate_hz))
     }
+
+    pub(super) fn debug(&self) -> [f64;3] { let m: Vec<[f64;3]> = self.states.iter().map(|s| s.position_m).collect(); let f = |i: usize| { let mu = m.iter().map(|p| p[i]).sum::<f64>()/m.len() as f64; eprintln!("axis {i} mean {mu:.3} min {:.3} max {:.3}", m.iter().map(|p| p[i]).fold(9.9,f64::min), m.iter().map(|p| p[i]).fold(-9.9,f64::max)); mu}; [f(0),f(1),f(2)] }
 
     /// Which rotor a track is nearest to, on the average.
     pub(super) fn rotor_of(&self, track: &[TrackPoint]) -> usize {

@@ -11,14 +11,16 @@ use hovertone_sim::scenario::{
     MicrophoneSection, MotorWanderSection, RoomSection, ScenarioFile, SoundSection, SpreadSection,
 };
 use hovertone_vehicle::{Order, find_flight_parameters};
+use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 const DURATION_S: f64 = 5.0;
-/// Of the rotors' constants, as a standard deviation: speeds about 1 % apart.
-const SPREAD_STD_SHARE: f64 = 0.02;
+/// How far apart neighbours in speed are.
+const APART_SHARE: Range<f64> = 0.01..0.02;
 const TRACK_ERROR_SHARE: f64 = 0.0003;
 const HEIGHT_M: f64 = 1.0;
 const REVERBERATION_S: f64 = 0.4;
@@ -40,21 +42,21 @@ struct Setup {
 const SETUPS: [Setup; 8] = [
     Setup {
         name: "2 on the vehicle",
-        microphones_m: &[[0.14, 0.05, -0.05], [-0.09, 0.02, -0.05]],
+        microphones_m: &[[0.22, 0.08, 0.0], [-0.05, 0.24, 0.0]],
         position_std_m: 0.01,
         is_on_vehicle: true,
         can_tell: true,
     },
     Setup {
         name: "3 on the vehicle",
-        microphones_m: &[[0.12, 0.12, -0.05], [0.12, -0.12, -0.05], [-0.12, 0.12, -0.05]],
+        microphones_m: &[[0.22, 0.2, 0.0], [0.2, -0.22, 0.0], [-0.22, 0.2, 0.0]],
         position_std_m: 0.01,
         is_on_vehicle: true,
         can_tell: true,
     },
     Setup {
         name: "4 on the vehicle",
-        microphones_m: &[[0.12, 0.12, -0.05], [-0.12, 0.12, -0.05], [-0.12, -0.12, -0.05], [0.12, -0.12, -0.05]],
+        microphones_m: &[[0.22, 0.2, 0.0], [-0.22, 0.2, 0.0], [-0.2, -0.22, 0.0], [0.2, -0.22, 0.0]],
         position_std_m: 0.01,
         is_on_vehicle: true,
         can_tell: true,
@@ -62,35 +64,35 @@ const SETUPS: [Setup; 8] = [
     Setup {
         name: "2 on stands",
         microphones_m: &[[0.9, 0.35, -0.1], [-0.35, 0.9, 0.1]],
-        position_std_m: 0.03,
+        position_std_m: 0.1,
         is_on_vehicle: false,
         can_tell: true,
     },
     Setup {
         name: "3 on stands",
         microphones_m: &[[0.9, 0.35, -0.1], [-0.7, 0.7, 0.1], [-0.3, -1.0, -0.2]],
-        position_std_m: 0.03,
+        position_std_m: 0.1,
         is_on_vehicle: false,
         can_tell: true,
     },
     Setup {
         name: "4 on stands",
         microphones_m: &[[0.8, 0.6, -0.1], [-0.7, 0.7, 0.1], [-0.6, -0.8, -0.2], [0.7, -0.6, 0.0]],
-        position_std_m: 0.03,
+        position_std_m: 0.1,
         is_on_vehicle: false,
         can_tell: true,
     },
     Setup {
         name: "4 below, on the floor",
         microphones_m: &[[0.4, 0.5, -0.95], [-0.5, 0.4, -0.95], [-0.4, -0.5, -0.95], [0.5, -0.4, -0.95]],
-        position_std_m: 0.03,
+        position_std_m: 0.1,
         is_on_vehicle: false,
         can_tell: true,
     },
     Setup {
         name: "2 in the plane of symmetry",
         microphones_m: &[[0.9, 0.0, -0.1], [-0.9, 0.0, 0.1]],
-        position_std_m: 0.03,
+        position_std_m: 0.1,
         is_on_vehicle: false,
         can_tell: false,
     },
@@ -120,6 +122,7 @@ struct Heard {
 impl Heard {
     fn of(setup: &Setup, is_room: bool, seed: u64) -> Result<Self, String> {
         let mut random = Pcg64::seed_from_u64(seed + 5000);
+        let thrust_shares = thrust_shares(&mut random);
         let mut normal = || random.sample::<f64, _>(StandardNormal);
         let heading_rad = if setup.is_on_vehicle { 0.0 } else { HEADING_STD_RAD * normal() };
         let microphones = setup.microphones_m.iter().map(|at_m| {
@@ -136,7 +139,7 @@ impl Heard {
         let file = ScenarioFile {
             seed,
             duration_s: Some(DURATION_S),
-            spread: Some(SpreadSection { thrust_std_share: SPREAD_STD_SHARE, ..SpreadSection::default() }),
+            spread: Some(SpreadSection { thrust_shares: Some(thrust_shares), ..SpreadSection::default() }),
             motor_wander: Some(MotorWanderSection::default()),
             sound: SoundSection { sample_rate_hz: 44_100, tone_level_db_spl: 65.0, ..SoundSection::default() },
             microphones: microphones.collect(),
@@ -149,8 +152,9 @@ impl Heard {
             name: place.name.to_owned(),
             position_m: [place.x_m, place.y_m, 0.0],
         });
-        let flown = Flown::of(file, true)?;
-        let (channels, sample_rate_hz) = flown.channels();
+        let flown = Flown::of(file, false)?;
+        if std::env::var("MICDEBUG").is_ok() { flown.debug(); }
+        let (channels, sample_rate_hz) = flown.heard_by_all(setup.is_on_vehicle)?;
         Ok(Self { flown, channels, sample_rate_hz, rotors: rotors.to_vec(), random })
     }
 
@@ -184,6 +188,17 @@ impl Heard {
     }
 }
 
+/// Rotors' constants that make their speeds differ by equal steps, all lifting alike. Nothing turns the body if rotors that turn the same
+/// way, which stand opposite each other, have the outer two speeds, and the others those between.
+fn thrust_shares(random: &mut Pcg64) -> [f64; 4] {
+    let half_step = random.random_range(APART_SHARE) / 2.0;
+    let mut pairs = [[3.0, -3.0], [1.0, -1.0]];
+    pairs.iter_mut().for_each(|pair| pair.shuffle(random));
+    pairs.shuffle(random);
+    let [[a, c], [b, d]] = pairs;
+    [a, b, c, d].map(|steps| (1.0 + half_step * steps).powi(-2))
+}
+
 fn tone() -> Result<ToneConfig, String> {
     let mut tone = ToneConfig::of_order(Order::new(69.0).map_err(|error| error.to_string())?);
     tone.blades = Some(2);
@@ -198,7 +213,7 @@ fn by_tracks(setup: &Setup, is_room: bool, flights: usize) -> Result<[Count; 4],
         let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
         let lines = heard.lines(&tracks, &tone()?)?;
         let labels: Vec<RotorLabels> =
-            ALL.iter().map(|&by| heard.labels(&lines, setup, by)).collect::<Result<_, _>>()?;
+            ALL.iter().map(|&by| { if std::env::var("MICDEBUG").is_ok() { eprintln!("--- {} room {is_room} seed {seed} {by:?} truth {rotors:?}", setup.name);} let l = heard.labels(&lines, setup, by); if std::env::var("MICDEBUG").is_ok() { eprintln!("{:?} {:?}", l.as_ref().map(|l| l.rotors.iter().map(|r| r.as_ref().map(|r| (r.number-1, (r.probability*1000.0).round()))).collect::<Vec<_>>()), l.as_ref().map(|l| (l.probability, l.not_told.clone())));} l}).collect::<Result<_, _>>()?;
         Ok((labels, rotors))
     })?;
     let mut counts = [Count::default(); 4];
@@ -238,7 +253,7 @@ fn by_sound(setup: &Setup, is_room: bool, flights: usize) -> Result<(Count, usiz
 pub(super) fn section(flights: usize, heard: usize) -> Result<String, String> {
     let mut text = HEAD.replace("{flights}", &flights.to_string()).replace("{heard}", &heard.to_string());
     for is_room in [false, true] {
-        for setup in &SETUPS {
+        for setup in SETUPS.iter().filter(|s| std::env::var("SETUP").is_err() || std::env::var("SETUP").is_ok_and(|n| s.name.contains(&n))) {
             let counts = by_tracks(setup, is_room, flights)?;
             let (sound, apart) = if heard > 0 { by_sound(setup, is_room, heard)? } else { (Count::default(), 0) };
             let share = |count: &Count| format!("{:.2} / {:.2}", count.right_share(), count.wrong_share());

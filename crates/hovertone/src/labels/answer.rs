@@ -178,7 +178,7 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors have too many assignments; up to {} can be told", super::LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{tracks} rotors are told apart by their sound, and the log needs {needed}")
+                write!(f, "{tracks} rotors are told apart by their sound, and {needed} are needed")
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(f, "the log could be anywhere from {low_s:.0} to {high_s:.0} s off the recording")

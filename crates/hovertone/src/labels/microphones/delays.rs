@@ -1,88 +1,128 @@
-//! When each rotor's lines arrive at one microphone after another, against how much further it is.
+//! When the lines of each rotor arrive at one microphone after another, against those of the other rotors and where all stand.
 
-use super::heard::HeardLine;
-use super::{MicrophoneArray, distance_m};
+use super::heard::PhaseDifference;
+use super::{MicrophoneArray, direction, distance_m};
 use crate::labels::evidence::log_sum_exp;
 use crate::microphones_config::MicrophonesConfig;
-use std::f64::consts::{PI, SQRT_2, TAU};
+use std::f64::consts::{PI, TAU};
 
-/// Path differences are integrated over in so many steps, out to so many standard deviations: a step is at most 0.4 rad of the highest
-/// line that is used.
+/// Path differences are integrated over in so many steps to either side, out to so many standard deviations: a step is at most 0.4 rad
+/// of the highest line that is used.
 const STEPS: i32 = 24;
 const REACH_STD: f64 = 3.0;
+/// A rotor sounds from somewhere on its disc, and not from its hub: this far off in each path.
+const SOURCE_STD_M: f64 = 0.01;
 
-/// Logarithm of the likelihood ratio of each track's phases at each place to phases that mean nothing: `ratios[track][rotor]`.
+/// Logarithm of the likelihood ratio of the phases of two tracks at two places to phases that mean nothing.
 pub(super) struct Delays {
-    ratios: Vec<Vec<f64>>,
+    /// Tracks, and `ratios[rotor of the first][rotor of the second]`.
+    ratios: Vec<((usize, usize), Vec<Vec<f64>>)>,
+    tracks: usize,
 }
 
 /// A phase difference, ready to be compared.
 struct Phase {
     phase_rad: f64,
-    rad_per_m: f64,
-    /// Inverse variances, and the logarithm of the density of that von Mises distribution at its peak over uniform, for each scatter.
+    /// Of each rotor, and of both on the average.
+    rad_per_m: (f64, f64),
+    mean_rad_per_m: f64,
+    /// Inverse variance, and the logarithm of the density of that von Mises distribution at its peak over uniform, for each scatter.
     kappas: [(f64, f64); 3],
+}
+
+/// How much further two rotors are from one microphone than from another, and how well that is known against each other.
+#[derive(Clone, Copy)]
+struct Paths {
+    further_m: (f64, f64),
+    std_m: f64,
 }
 
 impl Delays {
     pub(super) fn new(
-        lines: &[HeardLine],
+        phases: &[PhaseDifference],
         tracks: usize,
         array: &MicrophoneArray,
         config: &MicrophonesConfig,
     ) -> Self {
         let microphones = array.microphones_m.len();
-        let mut ratios = vec![vec![0.0; array.rotors.len()]; tracks];
-        // all pairs, none of which is new where the others are known
-        let weight = 2.0 / microphones as f64;
-        for (track, ratios) in ratios.iter_mut().enumerate() {
-            for pair in (0..microphones).flat_map(|a| (a + 1..microphones).map(move |b| (a, b))) {
-                let phases = phases_of(lines, track, pair, config);
-                for (ratio, rotor) in ratios.iter_mut().zip(&array.rotors) {
-                    let to = |microphone: usize| distance_m(rotor.position_m, array.microphones_m[microphone]);
-                    *ratio += weight * log_ratio(&phases, to(pair.0) - to(pair.1), config);
+        let rotors = array.rotors.len();
+        let pairs = |count: usize| (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)));
+        // all pairs of microphones, none of which is new where those with the first are known; so with rotors
+        let weight = 2.0 / microphones as f64 * 2.0 / tracks as f64;
+        let mut ratios: Vec<((usize, usize), Vec<Vec<f64>>)> =
+            pairs(tracks).map(|of| (of, vec![vec![0.0; rotors]; rotors])).collect();
+        for between in pairs(microphones) {
+            let all: Vec<Vec<Paths>> =
+                (0..rotors).map(|a| (0..rotors).map(|b| Paths::of((a, b), between, array, config)).collect()).collect();
+            // the same lines for all assignments
+            let std_m = all.iter().flatten().map(|paths| paths.std_m).fold(0.0, f64::max);
+            for (of, ratios) in &mut ratios {
+                let own = phases.iter().filter(|phase| phase.rotors == *of && phase.microphones == between);
+                let own: Vec<Phase> = own.filter_map(|phase| Phase::of(phase, std_m, config)).collect();
+                for (a, b) in (0..rotors).flat_map(|a| (0..rotors).map(move |b| (a, b))).filter(|(a, b)| a != b) {
+                    ratios[a][b] += weight * log_ratio(&own, all[a][b], config);
                 }
             }
         }
-        Self { ratios }
+        Self { ratios, tracks }
     }
 
     pub(super) fn log_ratio(&self, assignment: &[usize]) -> f64 {
-        self.ratios.iter().zip(assignment).map(|(ratios, &rotor)| ratios[rotor]).sum()
+        debug_assert_eq!(assignment.len(), self.tracks);
+        self.ratios.iter().map(|((a, b), ratios)| ratios[assignment[*a]][assignment[*b]]).sum()
     }
 }
 
-/// The lines of a track whose phases mean something between two microphones: beyond half a wave of what is not known of the path
-/// they would not tell one place from another.
-fn phases_of(lines: &[HeardLine], track: usize, pair: (usize, usize), config: &MicrophonesConfig) -> Vec<Phase> {
-    let path_std_m = SQRT_2 * config.position_std_m;
-    let own = lines.iter().filter(|line| line.rotor == track);
-    own.filter_map(|line| {
-        let heard = line.phases.iter().find(|phase| phase.microphones == pair)?;
-        let rad_per_m = TAU * line.hz / config.sound_m_s();
-        let kappas = config.phase_std_rad.map(|std_rad| {
-            let kappa = 1.0 / (std_rad * std_rad + heard.variance_rad2);
-            (kappa, kappa - log_bessel_i0(kappa))
-        });
-        (rad_per_m * path_std_m < PI).then_some(Phase { phase_rad: heard.phase_rad, rad_per_m, kappas })
-    })
-    .collect()
+impl Paths {
+    fn of(rotors: (usize, usize), microphones: (usize, usize), array: &MicrophoneArray, config: &MicrophonesConfig) -> Self {
+        let rotor_m = |rotor: usize| array.rotors[rotor].position_m;
+        let microphone_m = |microphone: usize| array.microphones_m[microphone];
+        let further_m = |rotor: usize| {
+            let to = |microphone: usize| distance_m(rotor_m(rotor), microphone_m(microphone));
+            to(microphones.0) - to(microphones.1)
+        };
+        // a microphone that stands elsewhere changes both rotors' paths, by as much as it lies in the same direction from both
+        let turned2 = |microphone: usize| {
+            let towards = |rotor: usize| direction(rotor_m(rotor), microphone_m(microphone));
+            distance_m(towards(rotors.0), towards(rotors.1)).powi(2)
+        };
+        let from_positions_m2 = config.position_std_m.powi(2) * (turned2(microphones.0) + turned2(microphones.1));
+        let std_m = (from_positions_m2 + 4.0 * SOURCE_STD_M.powi(2)).sqrt();
+        Self { further_m: (further_m(rotors.0), further_m(rotors.1)), std_m }
+    }
 }
 
-/// Over what is not known of the path, and over how much single lines are off.
-fn log_ratio(phases: &[Phase], further_m: f64, config: &MicrophonesConfig) -> f64 {
-    let path_std_m = SQRT_2 * config.position_std_m;
+impl Phase {
+    /// Nothing where what is not known of the path makes more than half a wave: it would not tell one place from another.
+    fn of(heard: &PhaseDifference, path_std_m: f64, config: &MicrophonesConfig) -> Option<Self> {
+        let per_m = |hz: f64| TAU * hz / config.sound_m_s();
+        let rad_per_m = (per_m(heard.hz.0), per_m(heard.hz.1));
+        let mean_rad_per_m = (rad_per_m.0 + rad_per_m.1) / 2.0;
+        // rotors of unlike speeds do not feel the same of what the whole vehicle does
+        let common_rad = (rad_per_m.0 - rad_per_m.1) * config.position_std_m;
+        let kappas = config.phase_std_rad.map(|std_rad| {
+            let kappa = 1.0 / (std_rad * std_rad + heard.variance_rad2 + 2.0 * common_rad * common_rad);
+            (kappa, kappa - log_bessel_i0(kappa))
+        });
+        let is_telling = mean_rad_per_m * path_std_m < PI;
+        is_telling.then_some(Self { phase_rad: heard.phase_rad, rad_per_m, mean_rad_per_m, kappas })
+    }
+}
+
+/// Over what is not known of the paths, and over how much single lines are off.
+fn log_ratio(phases: &[Phase], paths: Paths, config: &MicrophonesConfig) -> f64 {
     let outliers = config.phase_outlier_share;
     let steps: Vec<(f64, f64)> = (-STEPS..=STEPS)
         .map(|step| REACH_STD * f64::from(step) / f64::from(STEPS))
-        .map(|z| (z * path_std_m, -z * z / 2.0))
+        .map(|z| (z * paths.std_m, -z * z / 2.0))
         .collect();
     let log_total = log_sum_exp(steps.iter().map(|step| step.1));
     let of_scatter = |scatter: usize| {
         let of_step = |&(off_m, log_weight): &(f64, f64)| -> f64 {
             let of_phase = |phase: &Phase| {
                 // the later a line arrives, the less its phase
-                let off_rad = phase.phase_rad + phase.rad_per_m * (further_m + off_m);
+                let path_rad = phase.rad_per_m.0 * paths.further_m.0 - phase.rad_per_m.1 * paths.further_m.1;
+                let off_rad = phase.phase_rad + path_rad + phase.mean_rad_per_m * off_m;
                 let (kappa, at_peak) = phase.kappas[scatter];
                 (outliers + (1.0 - outliers) * (at_peak + kappa * (off_rad.cos() - 1.0)).exp()).ln()
             };
@@ -131,18 +171,26 @@ mod tests {
         }
     }
 
-    /// Phases of a path that is known point to it; those of lines too high for what is known of it are left out.
+    /// Phases of paths that are known point to them.
     #[test]
-    fn phases_point_to_the_path_they_took() {
+    fn phases_point_to_the_paths_they_took() {
         let config = MicrophonesConfig::default();
-        let phase = |hz: f64, further_m: f64| {
-            let rad_per_m = TAU * hz / config.sound_m_s();
-            let kappas = config.phase_std_rad.map(|std| 1.0 / (std * std)).map(|kappa| (kappa, kappa - log_bessel_i0(kappa)));
-            Phase { phase_rad: -rad_per_m * further_m, rad_per_m, kappas }
+        let heard = |line: i32| {
+            let hz = (120.0 * f64::from(line), 121.0 * f64::from(line));
+            let phase_rad = -TAU * (hz.0 * 0.3 - hz.1 * 0.1) / config.sound_m_s();
+            PhaseDifference { rotors: (0, 1), hz, microphones: (0, 1), phase_rad, variance_rad2: 0.0 }
         };
-        let phases: Vec<Phase> = (1..=10).map(|line| phase(120.0 * f64::from(line), 0.3)).collect();
-        let at = |further_m: f64| log_ratio(&phases, further_m, &config);
-        assert!(at(0.3) > 8.0 && at(0.3) > at(0.2) + 0.5 && at(0.3) > at(-0.1) + 10.0, "{} {} {}", at(0.3), at(0.2), at(-0.1));
-        assert_eq!(log_ratio(&[], 0.3, &config), 0.0);
+        let phases: Vec<Phase> = (1..=10).filter_map(|line| Phase::of(&heard(line), 0.05, &config)).collect();
+        let at = |first_m: f64, second_m: f64| {
+            log_ratio(&phases, Paths { further_m: (first_m, second_m), std_m: 0.05 }, &config)
+        };
+        let found = [at(0.3, 0.1), at(0.2, 0.1), at(0.1, 0.3)];
+        assert!(phases.len() == 10 && found[0] > 8.0, "{found:?}");
+        assert!(found[0] > found[1] + 0.5 && found[0] > found[2] + 10.0, "{found:?}");
+        // what moves both does not matter
+        assert!((at(0.4, 0.2) - found[0]).abs() < 0.3);
+        // beyond half a wave nothing is told
+        assert!(Phase::of(&heard(30), 0.05, &config).is_none());
+        assert_eq!(log_ratio(&[], Paths { further_m: (0.3, 0.1), std_m: 0.05 }, &config), 0.0);
     }
 }

@@ -1,6 +1,6 @@
 //! How loud each rotor is at each microphone, against how far it is from there.
 
-use super::heard::HeardLine;
+use super::heard::LineLevels;
 use super::{MicrophoneArray, distance_m};
 use crate::microphones_config::MicrophonesConfig;
 
@@ -26,7 +26,7 @@ pub(super) struct Levels {
 
 impl Levels {
     pub(super) fn new(
-        lines: &[HeardLine],
+        lines: &[LineLevels],
         tracks: usize,
         array: &MicrophoneArray,
         config: &MicrophonesConfig,
@@ -72,6 +72,8 @@ impl Levels {
             level_db2: config.level_std_db.powi(2),
         }
     }
+
+    pub(super) fn debug(&self) { eprintln!("levels {:.1?}\nplaces {:.1?}\nunrelated {}", self.rotors, self.places, self.unrelated_db2.sqrt()); }
 
     /// Logarithm of the likelihood ratio of an assignment to levels that have nothing to do with the places.
     pub(super) fn log_ratio(&self, assignment: &[usize]) -> f64 {

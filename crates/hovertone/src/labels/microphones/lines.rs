@@ -31,27 +31,33 @@ pub(super) type C = Complex<f64>;
 /// for all microphones.
 #[derive(Clone, Debug)]
 pub struct MicrophoneLines {
-    /// Lines per turn.
-    pub(super) orders: Vec<f64>,
     /// Mean speed of each rotor.
     pub(super) speeds_rev_s: Vec<f64>,
-    pub(super) blocks: Vec<BlockLines>,
+    pub(super) lines: Vec<LineBlocks>,
 }
 
-/// One block: `[rotor][line]`, nothing where a line is not apart from another.
+/// One line of every rotor, block by block.
 #[derive(Clone, Debug)]
-pub(super) struct BlockLines {
+pub(super) struct LineBlocks {
+    /// Lines per turn.
+    pub(super) order: f64,
+    pub(super) blocks: Vec<LineBlock>,
+}
+
+/// A line in one block: of each rotor, nothing where it is not apart from others.
+#[derive(Clone, Debug)]
+pub(super) struct LineBlock {
     pub(super) start_s: f64,
     /// Amplitude, and by how much the others widen its variance.
-    pub(super) lines: Vec<Vec<Option<(C, f64)>>>,
+    pub(super) amplitudes: Vec<Option<(C, f64)>>,
     /// Power of noise beside the line.
-    pub(super) noise: Vec<Vec<Option<f64>>>,
+    pub(super) noise: Vec<Option<f64>>,
 }
 
 /// Hears the lines of rotors whose speeds are known, in one channel.
 ///
 /// `tracks` are those of the rotors that were told apart, `tone` says which lines they have. Every line of every rotor, with the
-/// sidebands of a gear mesh, is solved for together by least squares in blocks of [`MicrophonesConfig::block_s`] along the rotors'
+/// sidebands of a gear mesh, is solved for together by least squares in blocks of up to [`MicrophonesConfig::block_s`] along the rotors'
 /// turns. All channels of a recording have to be heard with the same tracks.
 ///
 /// # Errors
@@ -63,7 +69,7 @@ pub fn microphone_lines_from_source(
     config: &MicrophonesConfig,
     on_progress: &mut dyn FnMut(Progress),
 ) -> Result<MicrophoneLines, Error> {
-    let mut reader = LineReader::new(checked_rate_hz(source)?, tracks, tone, config.block_s);
+    let mut reader = LineReader::new(checked_rate_hz(source)?, tracks, tone, config);
     let times = || tracks.iter().copied().flatten().map(|point| point.time_s);
     let span = Span { from_s: times().fold(f64::INFINITY, f64::min), to_s: times().fold(f64::NEG_INFINITY, f64::max) };
     if span.from_s < span.to_s {
@@ -73,7 +79,30 @@ pub fn microphone_lines_from_source(
             Piece::Heard(time_s) => on_progress(Progress { pass: 1, pass_count: 1, time_s }),
         })?;
     }
-    Ok(reader.lines)
+    let lines = reader.banks.into_iter().flat_map(|bank| bank.lines).collect();
+    Ok(MicrophoneLines { speeds_rev_s: reader.speeds_rev_s, lines })
+}
+
+/// Follows the rotors' turns through the samples.
+struct LineReader {
+    sample_rate_hz: f64,
+    speeds_rev_s: Vec<f64>,
+    turns: Vec<RotorTurns>,
+    next_s: f64,
+    pending: Vec<f32>,
+    banks: Vec<LineBank>,
+}
+
+/// Lines that are heard in blocks of one length.
+struct LineBank {
+    block_s: f64,
+    rotors: usize,
+    /// Those of each rotor in a row: lines, what is beside them, and others that may disturb them.
+    atoms: Vec<Atom>,
+    /// Hann window of a block.
+    window: Vec<f64>,
+    block: Option<BlockSums>,
+    lines: Vec<LineBlocks>,
 }
 
 /// One complex exponential along a rotor's turns.
@@ -83,17 +112,13 @@ struct Atom {
     order: f64,
 }
 
-struct LineReader {
-    sample_rate_hz: f64,
-    turns: Vec<RotorTurns>,
-    /// Those of each rotor in a row: lines, what is beside them, sidebands.
-    atoms: Vec<Atom>,
-    /// Hann window of a block.
-    window: Vec<f64>,
-    next_s: f64,
-    pending: Vec<f32>,
-    block: Option<BlockSums>,
-    lines: MicrophoneLines,
+/// Some samples, weighted by nothing yet, and the turns of all rotors at their start and over them.
+struct Chunk<'a> {
+    start_s: f64,
+    length_s: f64,
+    samples: &'a [f32; CHUNK],
+    from_turns: Vec<f64>,
+    made_turns: Vec<f64>,
 }
 
 /// Sums over a block, as chunks come in.
@@ -108,7 +133,7 @@ struct BlockSums {
 }
 
 impl LineReader {
-    fn new(sample_rate_hz: f64, tracks: &[&[TrackPoint]], tone: &ToneConfig, block_s: f64) -> Self {
+    fn new(sample_rate_hz: f64, tracks: &[&[TrackPoint]], tone: &ToneConfig, config: &MicrophonesConfig) -> Self {
         let mean_rev_s = |track: &&[TrackPoint]| {
             track.iter().map(|point| point.speed_rev_s).sum::<f64>() / (track.len() as f64).max(1.0)
         };
@@ -121,25 +146,28 @@ impl LineReader {
         let is_mesh = |order: f64| mesh_order.is_some_and(|mesh| (order / mesh).fract() == 0.0);
         let sidebands =
             orders.iter().filter(|order| is_mesh(**order)).flat_map(|order| SIDEBANDS.map(|away| order + away));
-        let is_new = |order: &f64| orders.iter().all(|line| (line - order).abs() > 0.1);
-        let of_rotor: Vec<f64> = orders
-            .iter()
-            .copied()
-            .chain(orders.iter().map(|order| order + BESIDE))
-            .chain(sidebands.filter(is_new))
-            .collect();
-        let atoms = (0..tracks.len()).flat_map(|rotor| of_rotor.iter().map(move |&order| Atom { rotor, order }));
-        let chunks = (block_s * sample_rate_hz / CHUNK as f64).round().max(1.0);
-        let length = chunks as usize * CHUNK;
+        let sounding: Vec<f64> = orders.iter().copied().chain(sidebands).collect();
+        // the length of a block in halvings of the longest
+        let halvings = |order: f64| (config.block_s * order / config.block_order_s).log2().ceil().max(0.0) as u32;
+        let mut lengths: Vec<u32> = orders.iter().map(|order| halvings(*order)).collect();
+        lengths.dedup();
+        // how far the lines of two rotors may be apart in order and still fall on each other
+        let reach = fastest_rev_s / slowest_rev_s.max(f64::MIN_POSITIVE) * (1.0 + 2.0 * WANDER_SHARE);
+        let banks = lengths.into_iter().map(|length| {
+            let own: Vec<f64> = orders.iter().copied().filter(|order| halvings(*order) == length).collect();
+            let is_other = |order: &f64| own.iter().all(|line| (line - order).abs() > 0.1);
+            let disturbs = |order: &f64| own.iter().any(|line| *order < line * reach + 1.0 && *order > line / reach - 1.0);
+            let others = sounding.iter().copied().filter(|order| is_other(order) && disturbs(order));
+            let block_s = config.block_s / f64::from(2u32.saturating_pow(length));
+            LineBank::new(sample_rate_hz, block_s, tracks.len(), own.clone(), others.collect())
+        });
         Self {
             sample_rate_hz,
             turns: tracks.iter().map(|track| RotorTurns::of(track)).collect(),
-            atoms: atoms.collect(),
-            window: (0..length).map(|n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()).collect(),
             next_s: 0.0,
             pending: Vec::new(),
-            block: None,
-            lines: MicrophoneLines { orders, speeds_rev_s, blocks: Vec::new() },
+            banks: banks.collect(),
+            speeds_rev_s,
         }
     }
 
@@ -151,34 +179,55 @@ impl LineReader {
         self.pending = rest.to_vec();
     }
 
-    fn take(&mut self, chunk: &[f32; CHUNK]) {
-        let chunk_s = CHUNK as f64 / self.sample_rate_hz;
-        let (from_s, to_s) = (self.next_s, self.next_s + chunk_s);
-        self.next_s = to_s;
-        let from: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(from_s)).collect();
-        let to: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(to_s)).collect();
-        // where a rotor is not followed nothing is known of its phase: the block is lost. After a gap turns begin anew
-        let (Some(from), Some(to)) = (from, to) else {
-            self.block = None;
+    fn take(&mut self, samples: &[f32; CHUNK]) {
+        let (start_s, length_s) = (self.next_s, CHUNK as f64 / self.sample_rate_hz);
+        self.next_s += length_s;
+        let from: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(start_s)).collect();
+        let to: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(start_s + length_s)).collect();
+        let (Some(from_turns), Some(to)) = (from, to) else {
+            // where a rotor is not followed nothing is known of its phase: the blocks are lost
+            self.banks.iter_mut().for_each(|bank| bank.block = None);
             return;
         };
-        let made: Vec<f64> = from.iter().zip(&to).map(|(from, to)| to - from).collect();
+        let made_turns = from_turns.iter().zip(&to).map(|(from, to)| to - from).collect();
+        let chunk = Chunk { start_s, length_s, samples, from_turns, made_turns };
+        self.banks.iter_mut().for_each(|bank| bank.take(&chunk));
+    }
+}
+
+impl LineBank {
+    fn new(sample_rate_hz: f64, block_s: f64, rotors: usize, own: Vec<f64>, others: Vec<f64>) -> Self {
+        let beside = own.iter().map(|order| order + BESIDE);
+        let of_rotor: Vec<f64> = own.iter().copied().chain(beside).chain(others).collect();
+        let atoms = (0..rotors).flat_map(|rotor| of_rotor.iter().map(move |&order| Atom { rotor, order }));
+        let length = (block_s * sample_rate_hz / CHUNK as f64).round().max(1.0) as usize * CHUNK;
+        Self {
+            block_s,
+            rotors,
+            atoms: atoms.collect(),
+            window: (0..length).map(|n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()).collect(),
+            block: None,
+            lines: own.into_iter().map(|order| LineBlocks { order, blocks: Vec::new() }).collect(),
+        }
+    }
+
+    fn take(&mut self, chunk: &Chunk<'_>) {
         let (atoms, window) = (&self.atoms, &self.window);
-        let block_s = window.len() as f64 / self.sample_rate_hz;
-        let block = self.block.get_or_insert_with(|| BlockSums::new(from_s, block_s, atoms, |a| made[a] / chunk_s));
+        let block = self.block.get_or_insert_with(|| BlockSums::new(chunk, self.block_s, atoms));
         let window = &window[block.samples..block.samples + CHUNK];
         let weighted: Vec<f64> =
-            window.iter().zip(chunk).map(|(weight, sample)| weight * f64::from(*sample)).collect();
-        let weight: f64 = window.iter().sum();
-        let middle = |atom: &Atom| turned(atom.order * (from[atom.rotor] + made[atom.rotor] / 2.0));
+            window.iter().zip(chunk.samples).map(|(weight, sample)| weight * f64::from(*sample)).collect();
         for (atom, sum) in atoms.iter().zip(&mut block.sound) {
-            let step = turned(-atom.order * made[atom.rotor] / CHUNK as f64);
-            let mut phasor = turned(-atom.order * from[atom.rotor]);
+            let step = turned(-atom.order * chunk.made_turns[atom.rotor] / CHUNK as f64);
+            let mut phasor = turned(-atom.order * chunk.from_turns[atom.rotor]);
             for sample in &weighted {
                 *sum += phasor * *sample;
                 phasor *= step;
             }
         }
+        let weight: f64 = window.iter().sum();
+        let middle =
+            |atom: &Atom| turned(atom.order * (chunk.from_turns[atom.rotor] + chunk.made_turns[atom.rotor] / 2.0));
         for (a, b, sum) in &mut block.pairs {
             *sum += middle(&atoms[*a]).conj() * middle(&atoms[*b]) * weight;
         }
@@ -187,8 +236,18 @@ impl LineReader {
         if block.samples >= self.window.len()
             && let Some(block) = self.block.take()
         {
-            let solved = block.solved(atoms, self.turns.len(), self.lines.orders.len());
-            self.lines.blocks.push(solved);
+            let solved = block.solved();
+            let of_rotor = self.atoms.len() / self.rotors;
+            let count = self.lines.len();
+            for (index, line) in self.lines.iter_mut().enumerate() {
+                let of = |place: usize| (0..self.rotors).map(|rotor| solved[rotor * of_rotor + place]).collect::<Vec<_>>();
+                let power = |beside: Option<(C, f64)>| beside.map(|(noise, inflation)| noise.norm_sqr() / inflation);
+                line.blocks.push(LineBlock {
+                    start_s: block.start_s,
+                    amplitudes: of(index),
+                    noise: of(count + index).into_iter().map(power).collect(),
+                });
+            }
         }
     }
 }
@@ -200,8 +259,8 @@ fn turned(turns: f64) -> C {
 }
 
 impl BlockSums {
-    fn new(start_s: f64, block_s: f64, atoms: &[Atom], speed_rev_s: impl Fn(usize) -> f64) -> Self {
-        let hz: Vec<f64> = atoms.iter().map(|atom| atom.order * speed_rev_s(atom.rotor)).collect();
+    fn new(chunk: &Chunk<'_>, block_s: f64, atoms: &[Atom]) -> Self {
+        let hz: Vec<f64> = atoms.iter().map(|atom| atom.order * chunk.made_turns[atom.rotor] / chunk.length_s).collect();
         let is_near =
             |a: usize, b: usize| (hz[a] - hz[b]).abs() < REACH_CELLS / block_s + WANDER_SHARE * hz[a].max(hz[b]);
         let pairs = (0..hz.len())
@@ -209,20 +268,20 @@ impl BlockSums {
             .filter(|&(a, b)| is_near(a, b))
             .map(|(a, b)| (a, b, C::default()))
             .collect();
-        Self { start_s, samples: 0, weights: 0.0, sound: vec![C::default(); atoms.len()], pairs }
+        Self { start_s: chunk.start_s, samples: 0, weights: 0.0, sound: vec![C::default(); atoms.len()], pairs }
     }
 
-    /// The amplitudes of each group of atoms that disturb each other.
-    fn solved(&self, atoms: &[Atom], rotors: usize, lines: usize) -> BlockLines {
-        let mut solved: Vec<Option<(C, f64)>> = vec![None; atoms.len()];
+    /// The amplitude of each atom, and by how much the others widen its variance; nothing where they widen it too much.
+    fn solved(&self) -> Vec<Option<(C, f64)>> {
+        let mut solved = vec![None; self.sound.len()];
         for group in self.groups() {
             let entry = |a: usize, b: usize| {
                 if a == b {
                     return C::new(self.weights, 0.0);
                 }
-                let pair = |a: usize, b: usize| self.pairs.iter().find(|pair| (pair.0, pair.1) == (a, b));
-                let direct = pair(a.min(b), a.max(b)).map_or(C::default(), |pair| pair.2);
-                if a < b { direct } else { direct.conj() }
+                let pair = self.pairs.iter().find(|pair| (pair.0, pair.1) == (a.min(b), a.max(b)));
+                let product = pair.map_or(C::default(), |pair| pair.2);
+                if a < b { product } else { product.conj() }
             };
             let matrix = group.iter().map(|&a| group.iter().map(|&b| entry(a, b)).collect()).collect();
             let Some(inverse) = inverse(matrix) else { continue };
@@ -232,18 +291,7 @@ impl BlockSums {
                 solved[atom] = (inflation <= INFLATION_MAX).then_some((amplitude, inflation));
             }
         }
-        let of_rotor = atoms.len() / rotors.max(1);
-        let row = |rotor: usize, from: usize| &solved[rotor * of_rotor + from..][..lines];
-        BlockLines {
-            start_s: self.start_s,
-            lines: (0..rotors).map(|rotor| row(rotor, 0).to_vec()).collect(),
-            noise: (0..rotors)
-                .map(|rotor| {
-                    let power = |beside: &Option<(C, f64)>| beside.map(|(noise, inflation)| noise.norm_sqr() / inflation);
-                    row(rotor, lines).iter().map(power).collect()
-                })
-                .collect(),
-        }
+        solved
     }
 
     /// Atoms that are near each other, or near one that is.

@@ -26,6 +26,9 @@ use levels::Levels;
 /// Nothing on or about a vehicle is further away.
 const POSITION_M_MAX: f64 = 1000.0;
 
+/// One rotor alone compares with nothing.
+const TRACKS_MIN: usize = 2;
+
 /// Where a rotor stands on the vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedRotor {
@@ -110,9 +113,10 @@ impl MicrophoneArray {
 ///   of turning blades would make of it, ± the other half; ± what bodies and arms do
 ///   ([`level_std_db`](MicrophonesConfig::level_std_db)), ± the microphones' gains, which are the same for all rotors, ± the scatter of
 ///   its lines, which is measured.
-/// - *Delays*: the phase of a line between two microphones is `−2π f (d_a − d_b + δ) / c`, where δ, the same for all lines of a rotor,
-///   is what is not known of the positions, and is integrated over; single lines scatter by von Mises, in a width that is integrated
-///   over, and some say nothing. Lines of which δ makes more than half a wave are left out.
+/// - *Delays*: the phase of a line between two microphones is `−2π f (d_a − d_b) / c`. Of each two rotors the difference of these
+///   phases is compared, in which a vehicle that drifts is the same and cancels. What else is not known of the positions adds to the path
+///   of all lines of a rotor alike, and is integrated over; single lines scatter by von Mises, in a width that is integrated over, and
+///   some say nothing. Lines of which the positions make more than half a wave are left out.
 ///
 /// The answer is "not told" where nothing stands out, per rotor and altogether: microphones in a plane of symmetry of the vehicle do not
 /// tell its two sides. Measured limits: docs/rotors.md.
@@ -126,22 +130,30 @@ pub fn labels_from_microphones(
     if heard.len() != array.microphones_m.len() {
         return not_told(NotTold::OtherChannels { channels: heard.len(), microphones: array.microphones_m.len() });
     }
-    if tracks == 0 || tracks > array.rotors.len() {
+    if tracks < TRACKS_MIN {
+        return not_told(NotTold::TooFewTracks { tracks, needed: TRACKS_MIN });
+    }
+    if tracks > array.rotors.len() {
         return not_told(NotTold::OtherPlaces { tracks, places: array.rotors.len() });
     }
     let lines = heard_lines(heard, config);
-    let hears = |microphone: &usize| lines.iter().any(|line| line.powers[*microphone].is_some());
+    let hears = |microphone: &usize| lines.levels.iter().any(|line| line.powers[*microphone].is_some());
     if let Some(deaf) = (0..heard.len()).find(|microphone| !hears(microphone)) {
         return not_told(NotTold::NothingHeard { microphone: deaf + 1 });
     }
     let assignments = assignments(tracks, array.rotors.len());
     let (levels, delays) =
-        (Levels::new(&lines, tracks, array, config), Delays::new(&lines, tracks, array, config));
+        (Levels::new(&lines.levels, tracks, array, config), Delays::new(&lines.phases, tracks, array, config));
     let believed = assignments
         .iter()
         .map(|assignment| levels.log_ratio(assignment) + delays.log_ratio(assignment))
         // numbers that overflow say nothing
         .map(|ratio| if ratio.is_finite() { config.evidence_share * ratio } else { 0.0 });
+    if std::env::var("MICDEBUG").is_ok() {
+        levels.debug();
+        let mut d: Vec<_> = assignments.iter().map(|a| (delays.log_ratio(a), levels.log_ratio(a), a)).collect(); d.sort_by(|a,b| (b.0+b.1).total_cmp(&(a.0+a.1)));
+        eprintln!("{:.1?}", &d[..4]);
+    }
     // there is one clock
     let mut posterior = Posterior::new(&assignments, 1);
     posterior.add(0.0, Some(believed.collect()));
@@ -154,6 +166,12 @@ pub fn labels_from_microphones(
         other => other,
     });
     RotorLabels { offset_s: None, offset_std_s: None, not_told, ..labels }
+}
+
+/// The unit vector from one place to another; none where they are the same.
+fn direction(from_m: [f64; 3], to_m: [f64; 3]) -> [f64; 3] {
+    let far_m = distance_m(from_m, to_m).max(f64::MIN_POSITIVE);
+    std::array::from_fn(|axis| (to_m[axis] - from_m[axis]) / far_m)
 }
 
 fn distance_m(a_m: [f64; 3], b_m: [f64; 3]) -> f64 {
