@@ -31,6 +31,9 @@ pub struct MicrophonesConfig {
     pub block_order_s: f64,
     /// Power over that of noise at which a line is heard in one block; in n blocks, by a √n less far above.
     pub heard_over_noise: f64,
+    /// Probability that microphones and rotors stand where it is said, before anything is heard: who measures gets it wrong in one of two
+    /// hundred set-ups. Two microphones cannot tell more of it than this; with four a wrong place shows.
+    pub array_prior: f64,
     /// Power of the likelihood that is believed, as for logs: errors of echoes and shadows are not independent from line to line.
     pub evidence_share: f64,
     /// A rotor is labelled if the label has this probability.
@@ -50,6 +53,7 @@ impl Default for MicrophonesConfig {
             block_s: 2.0,
             block_order_s: 24.0,
             heard_over_noise: 8.0,
+            array_prior: 0.995,
             evidence_share: 0.5,
             probability_min: 0.99,
         }
@@ -71,6 +75,7 @@ impl MicrophonesConfig {
         check_range("block_s", self.block_s, 0.1, 60.0)?;
         check_range("block_order_s", self.block_order_s, 1.0, 1e4)?;
         check_range("heard_over_noise", self.heard_over_noise, 1.0, 1e6)?;
+        check_range("array_prior", self.array_prior, 0.5, 0.9999)?;
         check_range("evidence_share", self.evidence_share, 0.01, 1.0)?;
         check_range("probability_min", self.probability_min, 0.5, 1.0)
     }

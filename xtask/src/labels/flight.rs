@@ -1,8 +1,8 @@
 //! Simulated hovers, what a log on board holds of them, and what an ear makes of their rotors.
 
 use hovertone::{FlightLog, LogSignals, MotorSignal, TrackPoint};
-use hovertone_sim::{FlightSound, FlightState, RotorState, SoundState};
 use hovertone_sim::scenario::{ScenarioFile, ScenarioRun};
+use hovertone_sim::{FlightSound, FlightState, RotorState, SoundState};
 use hovertone_vehicle::find_flight_parameters;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -165,8 +165,6 @@ impl Flown {
         sound.finish(&mut channels);
         Ok((channels, sample_rate_hz))
     }
-
-    pub(super) fn debug(&self) -> [f64;3] { let m: Vec<[f64;3]> = self.states.iter().map(|s| s.position_m).collect(); let f = |i: usize| { let mu = m.iter().map(|p| p[i]).sum::<f64>()/m.len() as f64; eprintln!("axis {i} mean {mu:.3} min {:.3} max {:.3}", m.iter().map(|p| p[i]).fold(9.9,f64::min), m.iter().map(|p| p[i]).fold(-9.9,f64::max)); mu}; [f(0),f(1),f(2)] }
 
     /// Which rotor a track is nearest to, on the average.
     pub(super) fn rotor_of(&self, track: &[TrackPoint]) -> usize {

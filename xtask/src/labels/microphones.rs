@@ -148,12 +148,9 @@ impl Heard {
         };
         let parameters = find_flight_parameters(&file.vehicle.preset).ok_or("no flight parameters".to_owned())?;
         let places = parameters.layout.value.places(parameters.arm_length_m.value);
-        let rotors = places.map(|place| PlacedRotor {
-            name: place.name.to_owned(),
-            position_m: [place.x_m, place.y_m, 0.0],
-        });
+        let rotors =
+            places.map(|place| PlacedRotor { name: place.name.to_owned(), position_m: [place.x_m, place.y_m, 0.0] });
         let flown = Flown::of(file, false)?;
-        if std::env::var("MICDEBUG").is_ok() { flown.debug(); }
         let (channels, sample_rate_hz) = flown.heard_by_all(setup.is_on_vehicle)?;
         Ok(Self { flown, channels, sample_rate_hz, rotors: rotors.to_vec(), random })
     }
@@ -213,7 +210,7 @@ fn by_tracks(setup: &Setup, is_room: bool, flights: usize) -> Result<[Count; 4],
         let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
         let lines = heard.lines(&tracks, &tone()?)?;
         let labels: Vec<RotorLabels> =
-            ALL.iter().map(|&by| { if std::env::var("MICDEBUG").is_ok() { eprintln!("--- {} room {is_room} seed {seed} {by:?} truth {rotors:?}", setup.name);} let l = heard.labels(&lines, setup, by); if std::env::var("MICDEBUG").is_ok() { eprintln!("{:?} {:?}", l.as_ref().map(|l| l.rotors.iter().map(|r| r.as_ref().map(|r| (r.number-1, (r.probability*1000.0).round()))).collect::<Vec<_>>()), l.as_ref().map(|l| (l.probability, l.not_told.clone())));} l}).collect::<Result<_, _>>()?;
+            ALL.iter().map(|&by| heard.labels(&lines, setup, by)).collect::<Result<_, _>>()?;
         Ok((labels, rotors))
     })?;
     let mut counts = [Count::default(); 4];
@@ -253,7 +250,7 @@ fn by_sound(setup: &Setup, is_room: bool, flights: usize) -> Result<(Count, usiz
 pub(super) fn section(flights: usize, heard: usize) -> Result<String, String> {
     let mut text = HEAD.replace("{flights}", &flights.to_string()).replace("{heard}", &heard.to_string());
     for is_room in [false, true] {
-        for setup in SETUPS.iter().filter(|s| std::env::var("SETUP").is_err() || std::env::var("SETUP").is_ok_and(|n| s.name.contains(&n))) {
+        for setup in &SETUPS {
             let counts = by_tracks(setup, is_room, flights)?;
             let (sound, apart) = if heard > 0 { by_sound(setup, is_room, heard)? } else { (Count::default(), 0) };
             let share = |count: &Count| format!("{:.2} / {:.2}", count.right_share(), count.wrong_share());

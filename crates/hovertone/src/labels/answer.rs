@@ -156,7 +156,9 @@ impl NotTold {
             Self::SeveralFit { .. } => {
                 "a longer hover, or one with small rolls and pitches in it, tells rotors apart that move alike"
             }
-            Self::OtherChannels { .. } => "give the position of each channel's microphone, in the order of the channels",
+            Self::OtherChannels { .. } => {
+                "give the position of each channel's microphone, in the order of the channels"
+            }
             Self::OtherPlaces { .. } => "say where every rotor stands",
             Self::NothingHeard { .. } => "check that the channel is not silent; a longer hover shows fainter lines",
             Self::OtherArray { .. } => {

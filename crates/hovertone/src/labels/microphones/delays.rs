@@ -6,14 +6,13 @@ use crate::labels::evidence::log_sum_exp;
 use crate::microphones_config::MicrophonesConfig;
 use std::f64::consts::{PI, TAU};
 
-/// Path differences are integrated over in so many steps to either side, out to so many standard deviations: a step is at most 0.4 rad
-/// of the highest line that is used.
-const STEPS: i32 = 24;
+/// What is not known of paths is integrated over out to so many standard deviations, in steps of so much of the highest line's phase.
 const REACH_STD: f64 = 3.0;
+const STEP_RAD: f64 = 0.4;
 /// A rotor sounds from somewhere on its disc, and not from its hub: this far off in each path.
 const SOURCE_STD_M: f64 = 0.01;
 
-/// Logarithm of the likelihood ratio of the phases of two tracks at two places to phases that mean nothing.
+/// Logarithm of the likelihood ratio of the phases of two tracks at two places to those of rotors that stand anywhere about as far apart.
 pub(super) struct Delays {
     /// Tracks, and `ratios[rotor of the first][rotor of the second]`.
     ratios: Vec<((usize, usize), Vec<Vec<f64>>)>,
@@ -56,11 +55,13 @@ impl Delays {
                 (0..rotors).map(|a| (0..rotors).map(|b| Paths::of((a, b), between, array, config)).collect()).collect();
             // the same lines for all assignments
             let std_m = all.iter().flatten().map(|paths| paths.std_m).fold(0.0, f64::max);
+            let anywhere = Paths::anywhere(&all, std_m);
             for (of, ratios) in &mut ratios {
                 let own = phases.iter().filter(|phase| phase.rotors == *of && phase.microphones == between);
                 let own: Vec<Phase> = own.filter_map(|phase| Phase::of(phase, std_m, config)).collect();
+                let log_anywhere = log_ratio(&own, anywhere, config);
                 for (a, b) in (0..rotors).flat_map(|a| (0..rotors).map(move |b| (a, b))).filter(|(a, b)| a != b) {
-                    ratios[a][b] += weight * log_ratio(&own, all[a][b], config);
+                    ratios[a][b] += weight * (log_ratio(&own, all[a][b], config) - log_anywhere);
                 }
             }
         }
@@ -74,7 +75,12 @@ impl Delays {
 }
 
 impl Paths {
-    fn of(rotors: (usize, usize), microphones: (usize, usize), array: &MicrophoneArray, config: &MicrophonesConfig) -> Self {
+    fn of(
+        rotors: (usize, usize),
+        microphones: (usize, usize),
+        array: &MicrophoneArray,
+        config: &MicrophonesConfig,
+    ) -> Self {
         let rotor_m = |rotor: usize| array.rotors[rotor].position_m;
         let microphone_m = |microphone: usize| array.microphones_m[microphone];
         let further_m = |rotor: usize| {
@@ -89,6 +95,15 @@ impl Paths {
         let from_positions_m2 = config.position_std_m.powi(2) * (turned2(microphones.0) + turned2(microphones.1));
         let std_m = (from_positions_m2 + 4.0 * SOURCE_STD_M.powi(2)).sqrt();
         Self { further_m: (further_m(rotors.0), further_m(rotors.1)), std_m }
+    }
+}
+
+impl Paths {
+    /// Those of two rotors of which it is only known how far apart such rotors are.
+    fn anywhere(all: &[Vec<Self>], std_m: f64) -> Self {
+        let differences = all.iter().flatten().map(|paths| (paths.further_m.0 - paths.further_m.1).powi(2));
+        let count = (all.len() * all.len().saturating_sub(1)).max(1) as f64;
+        Self { further_m: (0.0, 0.0), std_m: (differences.sum::<f64>() / count + std_m * std_m).sqrt() }
     }
 }
 
@@ -109,11 +124,14 @@ impl Phase {
     }
 }
 
-/// Over what is not known of the paths, and over how much single lines are off.
+/// Logarithm of the likelihood ratio to phases that mean nothing, over what is not known of the paths, and over how much single lines
+/// are off.
 fn log_ratio(phases: &[Phase], paths: Paths, config: &MicrophonesConfig) -> f64 {
     let outliers = config.phase_outlier_share;
-    let steps: Vec<(f64, f64)> = (-STEPS..=STEPS)
-        .map(|step| REACH_STD * f64::from(step) / f64::from(STEPS))
+    let highest_rad_per_m = phases.iter().map(|phase| phase.mean_rad_per_m).fold(0.0, f64::max);
+    let half = (REACH_STD * paths.std_m * highest_rad_per_m / STEP_RAD).ceil().max(1.0) as i32;
+    let steps: Vec<(f64, f64)> = (-half..=half)
+        .map(|step| REACH_STD * f64::from(step) / f64::from(half))
         .map(|z| (z * paths.std_m, -z * z / 2.0))
         .collect();
     let log_total = log_sum_exp(steps.iter().map(|step| step.1));

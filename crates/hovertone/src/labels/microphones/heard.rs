@@ -79,7 +79,8 @@ impl<'a> SharedLine<'a> {
     /// Power of the line of a rotor at each microphone that hears it.
     fn powers(&self, rotor: usize, config: &MicrophonesConfig) -> Vec<Option<f64>> {
         let of_channel = |channel: usize| {
-            let apart: Vec<(C, f64)> = self.blocks.iter().filter_map(|block| block[channel].amplitudes[rotor]).collect();
+            let apart: Vec<(C, f64)> =
+                self.blocks.iter().filter_map(|block| block[channel].amplitudes[rotor]).collect();
             let count = apart.len() as f64;
             let power = apart.iter().map(|(amplitude, _)| amplitude.norm_sqr()).sum::<f64>() / count;
             let noise = self.noise[channel] * apart.iter().map(|(_, inflation)| inflation).sum::<f64>() / count;
@@ -117,8 +118,7 @@ impl<'a> SharedLine<'a> {
             for to in from + 1..self.noise.len() {
                 let (Some(noise_from), Some(noise_to)) = (noise_share(from), noise_share(to)) else { continue };
                 let products: Vec<C> = apart.iter().map(|block| block[from] * block[to].conj()).collect();
-                let (sum, squares) =
-                    (products.iter().sum::<C>(), products.iter().map(C::norm_sqr).sum::<f64>());
+                let (sum, squares) = (products.iter().sum::<C>(), products.iter().map(C::norm_sqr).sum::<f64>());
                 if squares <= 0.0 {
                     continue;
                 }

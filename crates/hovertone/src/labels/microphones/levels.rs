@@ -38,8 +38,7 @@ impl Levels {
             let db = |power: &Option<f64>| power.map(|power| 10.0 * power.log10());
             own.filter_map(|line| line.powers.iter().map(db).collect()).collect()
         };
-        let (mut squares, mut degrees) =
-            (SCATTER_PRIOR_LINES * config.line_level_std_db.powi(2), SCATTER_PRIOR_LINES);
+        let (mut squares, mut degrees) = (SCATTER_PRIOR_LINES * config.line_level_std_db.powi(2), SCATTER_PRIOR_LINES);
         let mut heard = Vec::new();
         for track in 0..tracks {
             let levels = of_track(track);
@@ -73,8 +72,6 @@ impl Levels {
         }
     }
 
-    pub(super) fn debug(&self) { eprintln!("levels {:.1?}\nplaces {:.1?}\nunrelated {}", self.rotors, self.places, self.unrelated_db2.sqrt()); }
-
     /// Logarithm of the likelihood ratio of an assignment to levels that have nothing to do with the places.
     pub(super) fn log_ratio(&self, assignment: &[usize]) -> f64 {
         let placed = |track: usize, microphone: usize| self.places[assignment[track]][microphone];
@@ -84,8 +81,9 @@ impl Levels {
 
     fn log_density(&self, expected: &dyn Fn(usize, usize) -> (f64, f64)) -> f64 {
         let microphones = self.places.first().map_or(0, Vec::len);
-        let at: Vec<(usize, usize)> =
-            (0..self.rotors.len()).flat_map(|rotor| (0..microphones).map(move |microphone| (rotor, microphone))).collect();
+        let at: Vec<(usize, usize)> = (0..self.rotors.len())
+            .flat_map(|rotor| (0..microphones).map(move |microphone| (rotor, microphone)))
+            .collect();
         let off = at.iter().map(|&(rotor, microphone)| {
             let (track, levels, _) = &self.rotors[rotor];
             levels[microphone] - expected(*track, microphone).0

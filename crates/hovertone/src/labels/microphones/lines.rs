@@ -156,7 +156,8 @@ impl LineReader {
         let banks = lengths.into_iter().map(|length| {
             let own: Vec<f64> = orders.iter().copied().filter(|order| halvings(*order) == length).collect();
             let is_other = |order: &f64| own.iter().all(|line| (line - order).abs() > 0.1);
-            let disturbs = |order: &f64| own.iter().any(|line| *order < line * reach + 1.0 && *order > line / reach - 1.0);
+            let disturbs =
+                |order: &f64| own.iter().any(|line| *order < line * reach + 1.0 && *order > line / reach - 1.0);
             let others = sounding.iter().copied().filter(|order| is_other(order) && disturbs(order));
             let block_s = config.block_s / f64::from(2u32.saturating_pow(length));
             LineBank::new(sample_rate_hz, block_s, tracks.len(), own.clone(), others.collect())
@@ -240,7 +241,8 @@ impl LineBank {
             let of_rotor = self.atoms.len() / self.rotors;
             let count = self.lines.len();
             for (index, line) in self.lines.iter_mut().enumerate() {
-                let of = |place: usize| (0..self.rotors).map(|rotor| solved[rotor * of_rotor + place]).collect::<Vec<_>>();
+                let of =
+                    |place: usize| (0..self.rotors).map(|rotor| solved[rotor * of_rotor + place]).collect::<Vec<_>>();
                 let power = |beside: Option<(C, f64)>| beside.map(|(noise, inflation)| noise.norm_sqr() / inflation);
                 line.blocks.push(LineBlock {
                     start_s: block.start_s,
@@ -260,7 +262,8 @@ fn turned(turns: f64) -> C {
 
 impl BlockSums {
     fn new(chunk: &Chunk<'_>, block_s: f64, atoms: &[Atom]) -> Self {
-        let hz: Vec<f64> = atoms.iter().map(|atom| atom.order * chunk.made_turns[atom.rotor] / chunk.length_s).collect();
+        let hz: Vec<f64> =
+            atoms.iter().map(|atom| atom.order * chunk.made_turns[atom.rotor] / chunk.length_s).collect();
         let is_near =
             |a: usize, b: usize| (hz[a] - hz[b]).abs() < REACH_CELLS / block_s + WANDER_SHARE * hz[a].max(hz[b]);
         let pairs = (0..hz.len())
@@ -286,7 +289,8 @@ impl BlockSums {
             let matrix = group.iter().map(|&a| group.iter().map(|&b| entry(a, b)).collect()).collect();
             let Some(inverse) = inverse(matrix) else { continue };
             for (row, &atom) in group.iter().enumerate() {
-                let amplitude = group.iter().zip(&inverse[row]).map(|(&other, weight)| weight * self.sound[other]).sum();
+                let amplitude =
+                    group.iter().zip(&inverse[row]).map(|(&other, weight)| weight * self.sound[other]).sum();
                 let inflation = inverse[row][row].re * self.weights;
                 solved[atom] = (inflation <= INFLATION_MAX).then_some((amplitude, inflation));
             }

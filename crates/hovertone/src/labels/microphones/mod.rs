@@ -14,9 +14,9 @@ mod lines;
 
 pub use lines::{MicrophoneLines, microphone_lines_from_source};
 
+use super::LABELLED_ROTORS_MAX;
 use super::answer::{LabelSource, NotTold, RotorLabels};
 use super::assignment::{Posterior, assignments};
-use super::LABELLED_ROTORS_MAX;
 use crate::labels_config::LabelsConfig;
 use crate::microphones_config::MicrophonesConfig;
 use delays::Delays;
@@ -107,7 +107,8 @@ impl MicrophoneArray {
 /// Which rotor each track is, from what several microphones heard of its lines: `heard` has one entry for each microphone of `array`,
 /// in its order, all made with the same tracks.
 ///
-/// Every assignment of tracks to rotors is weighed by its likelihood ratio to "these microphones do not stand about these rotors":
+/// Every assignment of tracks to rotors is weighed by its likelihood ratio to "rotors and microphones stand elsewhere, as far apart as
+/// these, in no order":
 ///
 /// - *Levels*: the mean level of a rotor's lines at a microphone is its loudness (not known) `− 20 log₁₀ d` + half of what the pattern
 ///   of turning blades would make of it, ± the other half; ± what bodies and arms do
@@ -148,12 +149,8 @@ pub fn labels_from_microphones(
         .iter()
         .map(|assignment| levels.log_ratio(assignment) + delays.log_ratio(assignment))
         // numbers that overflow say nothing
-        .map(|ratio| if ratio.is_finite() { config.evidence_share * ratio } else { 0.0 });
-    if std::env::var("MICDEBUG").is_ok() {
-        levels.debug();
-        let mut d: Vec<_> = assignments.iter().map(|a| (delays.log_ratio(a), levels.log_ratio(a), a)).collect(); d.sort_by(|a,b| (b.0+b.1).total_cmp(&(a.0+a.1)));
-        eprintln!("{:.1?}", &d[..4]);
-    }
+        .map(|ratio| if ratio.is_finite() { config.evidence_share * ratio } else { 0.0 })
+        .map(|believed| believed + (config.array_prior / (1.0 - config.array_prior)).ln());
     // there is one clock
     let mut posterior = Posterior::new(&assignments, 1);
     posterior.add(0.0, Some(believed.collect()));
