@@ -31,7 +31,7 @@ pub struct MicrophonesConfig {
     pub block_order_s: f64,
     /// Power over that of noise at which a line is heard in one block; in n blocks, by a √n less far above.
     pub heard_over_noise: f64,
-    /// Probability that microphones and rotors stand where it is said, before anything is heard: who measures gets it wrong in one of two
+    /// Probability that microphones and rotors stand where it is said, before anything is heard: who measures gets it wrong in one of five
     /// hundred set-ups. Two microphones cannot tell more of it than this; with four a wrong place shows.
     pub array_prior: f64,
     /// Power of the likelihood that is believed, as for logs: errors of echoes and shadows are not independent from line to line.
@@ -53,7 +53,7 @@ impl Default for MicrophonesConfig {
             block_s: 2.0,
             block_order_s: 24.0,
             heard_over_noise: 8.0,
-            array_prior: 0.995,
+            array_prior: 0.998,
             evidence_share: 0.5,
             probability_min: 0.99,
         }

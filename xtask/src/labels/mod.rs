@@ -1,4 +1,4 @@
-//! `cargo xtask bench labels`: which rotor is which, from logs of simulated flights. Writes a section of `docs/rotors.md`. Run by
+//! `cargo xtask bench labels`: which rotor is which, from logs and several microphones of simulated flights. Writes a section of `docs/rotors.md`. Run by
 //! people; its tests fly fewer.
 
 mod flight;
@@ -76,14 +76,6 @@ struct Count {
 }
 
 impl Count {
-    fn right_share(&self) -> f64 {
-        self.right as f64 / self.flights as f64
-    }
-
-    fn wrong_share(&self) -> f64 {
-        self.wrong as f64 / self.flights as f64
-    }
-
     fn add(&mut self, labels: &RotorLabels, rotors: &[usize], offset_s: f64) {
         let judged: Vec<Option<bool>> = labels
             .rotors
@@ -180,15 +172,31 @@ fn by_sound(flights: usize, thrust_std_share: f64) -> Result<(Count, usize), Str
 }
 
 pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
+    let given = |name: &str| options.iter().position(|option| *option == name).and_then(|at| options.get(at + 1));
     let option = |name: &str, otherwise: usize| {
-        let given = options.iter().position(|option| *option == name).and_then(|at| options.get(at + 1));
-        given.map_or(Ok(otherwise), |text| text.parse::<usize>().map_err(|error| format!("{name}: {error}")))
+        given(name).map_or(Ok(otherwise), |text| text.parse::<usize>().map_err(|error| format!("{name}: {error}")))
     };
+    let report = root.join(REPORT);
+    let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
+    let section = section_of(&before);
+    let (kept, (logs, microphones)) = (
+        before.strip_suffix(section).unwrap_or(&before),
+        section.split_at(section.find(microphones::TITLE).unwrap_or(section.len())),
+    );
+    let (logs, microphones) = match given("--only").copied() {
+        None => (by_logs(&option)?, microphones::section(&option)?),
+        Some("logs") => (by_logs(&option)?, microphones.to_owned()),
+        Some("microphones") => (logs.to_owned(), microphones::section(&option)?),
+        Some(part) => return Err(format!("--only {part}: there are logs and microphones")),
+    };
+    fs::write(&report, kept.to_owned() + &logs + &microphones).map_err(|error| format!("{REPORT}: {error}"))?;
+    println!("written: {REPORT}");
+    Ok(())
+}
+
+/// The part of the section that is about logs.
+fn by_logs(option: &dyn Fn(&str, usize) -> Result<usize, String>) -> Result<String, String> {
     let (flights, heard) = (option("--count", FLIGHTS)?, option("--heard", HEARD)?);
-    if options.contains(&"--only-microphones") {
-        println!("{}", microphones::section(flights, heard)?);
-        return Ok(());
-    }
     let mut text = TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string());
     for kind in kinds() {
         let count = by_tracks(&kind, flights)?;
@@ -211,12 +219,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         print!("{words}");
         text += &words;
     }
-    let report = root.join(REPORT);
-    let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
-    let kept = before.strip_suffix(section_of(&before)).unwrap_or(&before);
-    fs::write(&report, kept.to_owned() + &text).map_err(|error| format!("{REPORT}: {error}"))?;
-    println!("written: {REPORT}");
-    Ok(())
+    Ok(text)
 }
 
 /// The section of this bench in a report; nothing where there is none.

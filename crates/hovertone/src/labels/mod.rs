@@ -7,6 +7,8 @@
 //!                                                                                                                    │
 //! labels, their probability, the offset of the clocks ◀── posterior over all assignments and offsets (assignment) ◀──┘
 //! ```
+//!
+//! Or what several microphones heard, whose places are known (`microphones`).
 
 mod answer;
 mod assignment;
