@@ -27,7 +27,7 @@ pub struct MicrophonesConfig {
     /// Lines are solved for in blocks of at most this length: resolves rotors half a turn per second apart from the second line on.
     pub block_s: f64,
     /// And at most this over their order: 3 resolution cells between rotors of 60 rev/s that differ by 0.2 %, while errors of a track
-    /// of 0.03 % leave the phase alone, and so does a vehicle that drifts at 0.1 m/s.
+    /// of 0.03 % leave the phase alone, and so does a vehicle that drifts at 0.05 m/s.
     pub block_order_s: f64,
     /// Power over that of noise at which a line is heard in one block; in n blocks, by a √n less far above.
     pub heard_over_noise: f64,
