@@ -29,6 +29,9 @@ pub struct MicrophonesConfig {
     /// And at most this over their order: 3 resolution cells between rotors of 60 rev/s that differ by 0.2 %, while errors of a track
     /// of 0.03 % leave the phase alone, and so does a vehicle that drifts at 0.05 m/s.
     pub block_order_s: f64,
+    /// No more than this is listened to, from where rotors are first followed: what noise there is has averaged out by then, and echoes,
+    /// shadows and places do not. It bounds what is kept.
+    pub listen_s_max: f64,
     /// Power over that of noise at which a line is heard in one block; in n blocks, by a √n less far above.
     pub heard_over_noise: f64,
     /// Probability that microphones and rotors stand where it is said, before anything is heard: who measures gets it wrong in one of five
@@ -52,6 +55,7 @@ impl Default for MicrophonesConfig {
             phase_outlier_share: 0.1,
             block_s: 2.0,
             block_order_s: 24.0,
+            listen_s_max: 120.0,
             heard_over_noise: 8.0,
             array_prior: 0.998,
             evidence_share: 0.5,
@@ -74,6 +78,7 @@ impl MicrophonesConfig {
         check_range("phase_outlier_share", self.phase_outlier_share, 0.001, 0.9)?;
         check_range("block_s", self.block_s, 0.1, 60.0)?;
         check_range("block_order_s", self.block_order_s, 1.0, 1e4)?;
+        check_range("listen_s_max", self.listen_s_max, 1.0, 1e5)?;
         check_range("heard_over_noise", self.heard_over_noise, 1.0, 1e6)?;
         check_range("array_prior", self.array_prior, 0.5, 0.9999)?;
         check_range("evidence_share", self.evidence_share, 0.01, 1.0)?;

@@ -58,7 +58,7 @@ pub(super) struct LineBlock {
 ///
 /// `tracks` are those of the rotors that were told apart, `tone` says which lines they have. Every line of every rotor, with the
 /// sidebands of a gear mesh, is solved for together by least squares in blocks of up to [`MicrophonesConfig::block_s`] along the rotors'
-/// turns. All channels of a recording have to be heard with the same tracks.
+/// turns, for [`MicrophonesConfig::listen_s_max`] at most. All channels of a recording have to be heard with the same tracks.
 ///
 /// # Errors
 /// A source that fails, an impossible sample rate.
@@ -71,7 +71,9 @@ pub fn microphone_lines_from_source(
 ) -> Result<MicrophoneLines, Error> {
     let mut reader = LineReader::new(checked_rate_hz(source)?, tracks, tone, config);
     let times = || tracks.iter().copied().flatten().map(|point| point.time_s);
-    let span = Span { from_s: times().fold(f64::INFINITY, f64::min), to_s: times().fold(f64::NEG_INFINITY, f64::max) };
+    let from_s = times().fold(f64::INFINITY, f64::min);
+    let to_s = times().fold(f64::NEG_INFINITY, f64::max).min(from_s + config.listen_s_max);
+    let span = Span { from_s, to_s };
     if span.from_s < span.to_s {
         for_each_piece(source, &[span], |piece| match piece {
             Piece::Start(start_s) => reader.next_s = start_s,
