@@ -59,7 +59,7 @@ fn heard(rotors: &[PlacedRotor], microphones_m: &[[f64; 3]]) -> Vec<Vec<f32>> {
             (track, order, 0.02 * (0.3 * level).exp() / order.sqrt(), phase)
         })
         .collect();
-    let mut channel = |at_m: &[f64; 3]| -> Vec<f32> {
+    let channel = |at_m: &[f64; 3]| -> Vec<f32> {
         let far_m = |rotor: usize| -> f64 {
             at_m.iter().zip(rotors[rotor].position_m).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
         };
@@ -78,7 +78,7 @@ fn heard(rotors: &[PlacedRotor], microphones_m: &[[f64; 3]]) -> Vec<Vec<f32>> {
             })
             .collect()
     };
-    microphones_m.iter().map(|at_m| channel(at_m)).collect()
+    microphones_m.iter().map(channel).collect()
 }
 
 fn lines_of(channels: &[Vec<f32>], tracks: &[Vec<TrackPoint>]) -> Vec<MicrophoneLines> {

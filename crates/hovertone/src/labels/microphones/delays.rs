@@ -14,9 +14,14 @@ const SOURCE_STD_M: f64 = 0.01;
 
 /// Logarithm of the likelihood ratio of the phases of two tracks at two places to those of rotors that stand anywhere about as far apart.
 pub(super) struct Delays {
-    /// Tracks, and `ratios[rotor of the first][rotor of the second]`.
-    ratios: Vec<((usize, usize), Vec<Vec<f64>>)>,
-    tracks: usize,
+    pairs: Vec<TrackPair>,
+}
+
+/// Two tracks.
+struct TrackPair {
+    tracks: (usize, usize),
+    /// `ratios[rotor of the first][rotor of the second]`.
+    ratios: Vec<Vec<f64>>,
 }
 
 /// A phase difference, ready to be compared.
@@ -48,29 +53,28 @@ impl Delays {
         let pairs = |count: usize| (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)));
         // all pairs of microphones, none of which is new where those with the first are known; so with rotors
         let weight = 2.0 / microphones as f64 * 2.0 / tracks as f64;
-        let mut ratios: Vec<((usize, usize), Vec<Vec<f64>>)> =
-            pairs(tracks).map(|of| (of, vec![vec![0.0; rotors]; rotors])).collect();
+        let mut all_pairs: Vec<TrackPair> =
+            pairs(tracks).map(|tracks| TrackPair { tracks, ratios: vec![vec![0.0; rotors]; rotors] }).collect();
         for between in pairs(microphones) {
             let all: Vec<Vec<Paths>> =
                 (0..rotors).map(|a| (0..rotors).map(|b| Paths::of((a, b), between, array, config)).collect()).collect();
             // the same lines for all assignments
             let std_m = all.iter().flatten().map(|paths| paths.std_m).fold(0.0, f64::max);
             let anywhere = Paths::anywhere(&all, std_m);
-            for (of, ratios) in &mut ratios {
-                let own = phases.iter().filter(|phase| phase.rotors == *of && phase.microphones == between);
+            for pair in &mut all_pairs {
+                let own = phases.iter().filter(|phase| phase.rotors == pair.tracks && phase.microphones == between);
                 let own: Vec<Phase> = own.filter_map(|phase| Phase::of(phase, std_m, config)).collect();
                 let log_anywhere = log_ratio(&own, anywhere, config);
                 for (a, b) in (0..rotors).flat_map(|a| (0..rotors).map(move |b| (a, b))).filter(|(a, b)| a != b) {
-                    ratios[a][b] += weight * (log_ratio(&own, all[a][b], config) - log_anywhere);
+                    pair.ratios[a][b] += weight * (log_ratio(&own, all[a][b], config) - log_anywhere);
                 }
             }
         }
-        Self { ratios, tracks }
+        Self { pairs: all_pairs }
     }
 
     pub(super) fn log_ratio(&self, assignment: &[usize]) -> f64 {
-        debug_assert_eq!(assignment.len(), self.tracks);
-        self.ratios.iter().map(|((a, b), ratios)| ratios[assignment[*a]][assignment[*b]]).sum()
+        self.pairs.iter().map(|TrackPair { tracks: (a, b), ratios }| ratios[assignment[*a]][assignment[*b]]).sum()
     }
 }
 
