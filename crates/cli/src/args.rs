@@ -69,6 +69,7 @@ Examples:
   hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
   hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
+  hovertone speed --vehicle ardrone --microphones stands.toml hover.wav          the same, by the channels' microphones
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 
 /// Rotor speed of recordings: mean, uncertainty and spread
@@ -189,6 +190,9 @@ pub(crate) struct LogArguments {
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
+    /// Where the microphone of each channel stands in the vehicle's frame: levels and delays tell which rotor is which
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "log")]
+    pub(crate) microphones: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -13,6 +13,7 @@ mod files;
 mod fit;
 mod identify;
 mod labels;
+mod microphones;
 mod nearest;
 mod output_folder;
 mod place;

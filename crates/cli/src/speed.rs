@@ -4,6 +4,7 @@ use crate::args::{AnalysisArguments, KnownArguments, SpeedArguments, ToneArgumen
 use crate::failure::{Ending, Failure};
 use crate::files::files_of;
 use crate::labels::{LabelPlan, label};
+use crate::microphones::{ArrayPlan, label_all};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, hear_all};
 use crate::terminal::Terminal;
@@ -20,6 +21,7 @@ struct Plan {
     hearing: Hearing,
     track: Option<PathBuf>,
     labels: Option<LabelPlan>,
+    microphones: Option<ArrayPlan>,
 }
 
 /// Hears all files and prints their speeds.
@@ -30,6 +32,9 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     progress.finish();
     if let Some(labels) = &plan.labels {
         records.iter_mut().for_each(|record| label(record, labels));
+    }
+    if let Some(array) = &plan.microphones {
+        label_all(&mut records, &plan.jobs, array, !arguments.hearing.no_progress);
     }
     if arguments.json {
         for record in &records {
@@ -71,7 +76,8 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
     };
     let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let labels = crate::labels::resolve(&arguments.log, vehicle, (jobs.len(), config.rotors.count))?;
-    Ok(Plan { jobs, hearing, track: arguments.track.clone(), labels })
+    let microphones = crate::microphones::resolve(&arguments.log, vehicle, (&jobs, hearing), config.rotors.count)?;
+    Ok(Plan { jobs, hearing, track: arguments.track.clone(), labels, microphones })
 }
 
 /// One job for each file, all alike.

@@ -16,6 +16,7 @@ mod labels;
 mod labels_config;
 mod listening;
 mod method;
+mod microphones_config;
 mod picture;
 mod picture_config;
 mod pipeline;
@@ -46,11 +47,13 @@ pub use experiment::{
 };
 pub use hover::{Cut, CutReason, Hover};
 pub use labels::{
-    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorLabel, RotorLabels,
-    labels_from_log,
+    ArrayError, FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MicrophoneArray, MicrophoneLines,
+    MotorSignal, NotTold, PlacedRotor, RotorLabel, RotorLabels, labels_from_log, labels_from_microphones,
+    microphone_lines_from_source,
 };
 pub use labels_config::LabelsConfig;
 pub use method::Method;
+pub use microphones_config::MicrophonesConfig;
 pub use picture::{MeanSpectrum, Picture, PictureView, Pictures, pictures_from_source, views_of_recording};
 pub use picture_config::PictureConfig;
 pub use pipeline::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis, speed_from_source};

@@ -1,8 +1,8 @@
 //! Simulated hovers, what a log on board holds of them, and what an ear makes of their rotors.
 
 use hovertone::{FlightLog, LogSignals, MotorSignal, TrackPoint};
-use hovertone_sim::FlightState;
 use hovertone_sim::scenario::{ScenarioFile, ScenarioRun};
+use hovertone_sim::{FlightSound, FlightState, RotorState, SoundState};
 use hovertone_vehicle::find_flight_parameters;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -142,6 +142,28 @@ impl Flown {
     /// What the first microphone heard, and its rate.
     pub(super) fn sound(&self) -> Option<(Vec<f32>, f64)> {
         Some((self.channels.first()?.clone(), f64::from(self.file.sound.sample_rate_hz)))
+    }
+
+    /// What all microphones of the scenario hear, and its rate: those that stand, or those that fly along with a vehicle about its start.
+    pub(super) fn heard_by_all(&self, fly_along: bool) -> Result<(Vec<Vec<f32>>, f64), String> {
+        let scenario = self.file.resolve(&BTreeMap::new()).map_err(|error| error.to_string())?;
+        let sample_rate_hz = f64::from(scenario.sound.sample_rate_hz);
+        let mut sound = FlightSound::new(scenario.sound).map_err(|error| error.to_string())?;
+        let mut channels = Vec::new();
+        for state in &self.states {
+            let still = FlightState { position_m: self.states[0].position_m, attitude: [1.0, 0.0, 0.0, 0.0], ..*state };
+            let seen = if fly_along { still } else { *state };
+            let (places, axis) = (seen.rotor_positions_m(), seen.thrust_axis());
+            let rotors = (0..4).map(|rotor| RotorState {
+                speed_rad_s: state.speed_rad_s[rotor],
+                position_m: places[rotor],
+                axis,
+            });
+            let seen = SoundState { time_s: state.time_s, rotors: rotors.collect() };
+            sound.push(&seen, &mut channels).map_err(|error| error.to_string())?;
+        }
+        sound.finish(&mut channels);
+        Ok((channels, sample_rate_hz))
     }
 
     /// Which rotor a track is nearest to, on the average.

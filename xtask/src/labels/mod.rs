@@ -1,13 +1,14 @@
-//! `cargo xtask bench labels`: which rotor is which, from logs of simulated flights. Writes a section of `docs/rotors.md`. Run by
+//! `cargo xtask bench labels`: which rotor is which, from logs and several microphones of simulated flights. Writes a section of `docs/rotors.md`. Run by
 //! people; its tests fly fewer.
 
 mod flight;
+mod microphones;
 
 use crate::accuracy::drawn;
 use crate::rotors::REPORT;
 use flight::{Flown, Logged};
 use hovertone::{
-    Config, LabelsConfig, Method, Outcome, RotorLabels, Signal, ToneConfig, TrackPoint, labels_from_log,
+    Config, LabelsConfig, Method, Outcome, RotorEstimate, RotorLabels, Signal, ToneConfig, TrackPoint, labels_from_log,
     speed_from_source,
 };
 use hovertone_sim::scenario::{MicrophoneSection, MotorWanderSection, ScenarioFile, SoundSection, SpreadSection};
@@ -132,20 +133,28 @@ fn heard_hover(seed: u64, thrust_std_share: f64) -> ScenarioFile {
     }
 }
 
+/// The rotors of an AR.Drone that the separation tells apart; nothing where there is no tone.
+fn separated(samples: Vec<f32>, sample_rate_hz: f64) -> Result<Option<Vec<RotorEstimate>>, String> {
+    let mut tone = ToneConfig::of_order(Order::new(69.0).map_err(|error| error.to_string())?);
+    tone.blades = Some(2);
+    let mut config = Config::for_tone(tone);
+    (config.rotors.count, config.method) = (4, Method::Separated);
+    let mut signal = Signal::new(samples, sample_rate_hz);
+    let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
+    match analysis.outcome {
+        Outcome::Ok(tone) => Ok(Some(tone.rotors)),
+        Outcome::NoRotorTone { .. } => Ok(None),
+    }
+}
+
 /// Labels what the separation makes of the sound; with how many flights had four rotors told apart.
 fn by_sound(flights: usize, thrust_std_share: f64) -> Result<(Count, usize), String> {
     let outcomes = drawn(flights, |seed| {
         let mut flown = Flown::of(heard_hover(seed as u64 + 1, thrust_std_share), true)?;
         let (samples, sample_rate_hz) = flown.sound().ok_or("nobody heard it".to_owned())?;
         let (log, offset_s) = flown.log(Logged::BodyRates)?;
-        let mut tone = ToneConfig::of_order(Order::new(69.0).map_err(|error| error.to_string())?);
-        tone.blades = Some(2);
-        let mut config = Config::for_tone(tone);
-        (config.rotors.count, config.method) = (4, Method::Separated);
-        let mut signal = Signal::new(samples, sample_rate_hz);
-        let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
-        let Outcome::Ok(tone) = &analysis.outcome else { return Ok(None) };
-        let tracks: Vec<&[TrackPoint]> = tone.rotors.iter().map(|rotor| rotor.track.as_slice()).collect();
+        let Some(rotors) = separated(samples, sample_rate_hz)? else { return Ok(None) };
+        let tracks: Vec<&[TrackPoint]> = rotors.iter().map(|rotor| rotor.track.as_slice()).collect();
         let rotors: Vec<usize> = tracks.iter().map(|track| flown.rotor_of(track)).collect();
         Ok(Some((labels_from_log(&tracks, 4, &log, &LabelsConfig::default()), rotors, offset_s)))
     })?;
@@ -163,10 +172,30 @@ fn by_sound(flights: usize, thrust_std_share: f64) -> Result<(Count, usize), Str
 }
 
 pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
+    let given = |name: &str| options.iter().position(|option| *option == name).and_then(|at| options.get(at + 1));
     let option = |name: &str, otherwise: usize| {
-        let given = options.iter().position(|option| *option == name).and_then(|at| options.get(at + 1));
-        given.map_or(Ok(otherwise), |text| text.parse::<usize>().map_err(|error| format!("{name}: {error}")))
+        given(name).map_or(Ok(otherwise), |text| text.parse::<usize>().map_err(|error| format!("{name}: {error}")))
     };
+    let report = root.join(REPORT);
+    let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
+    let section = section_of(&before);
+    let (kept, (logs, microphones)) = (
+        before.strip_suffix(section).unwrap_or(&before),
+        section.split_at(section.find(microphones::TITLE).unwrap_or(section.len())),
+    );
+    let (logs, microphones) = match given("--only").copied() {
+        None => (by_logs(&option)?, microphones::section(&option)?),
+        Some("logs") => (by_logs(&option)?, microphones.to_owned()),
+        Some("microphones") => (logs.to_owned(), microphones::section(&option)?),
+        Some(part) => return Err(format!("--only {part}: there are logs and microphones")),
+    };
+    fs::write(&report, kept.to_owned() + &logs + &microphones).map_err(|error| format!("{REPORT}: {error}"))?;
+    println!("written: {REPORT}");
+    Ok(())
+}
+
+/// The part of the section that is about logs.
+fn by_logs(option: &dyn Fn(&str, usize) -> Result<usize, String>) -> Result<String, String> {
     let (flights, heard) = (option("--count", FLIGHTS)?, option("--heard", HEARD)?);
     let mut text = TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string());
     for kind in kinds() {
@@ -190,12 +219,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         print!("{words}");
         text += &words;
     }
-    let report = root.join(REPORT);
-    let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
-    let kept = before.strip_suffix(section_of(&before)).unwrap_or(&before);
-    fs::write(&report, kept.to_owned() + &text).map_err(|error| format!("{REPORT}: {error}"))?;
-    println!("written: {REPORT}");
-    Ok(())
+    Ok(text)
 }
 
 /// The section of this bench in a report; nothing where there is none.

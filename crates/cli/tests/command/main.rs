@@ -8,6 +8,7 @@ mod codecs;
 mod demo;
 mod identify;
 mod labels;
+mod microphones;
 mod real_recordings;
 mod report;
 mod roundtrip;

@@ -118,7 +118,7 @@ impl LineSums {
 }
 
 /// The inverse of a small matrix by Gauss and Jordan; `None` where there is none.
-fn inverse(mut matrix: Vec<Vec<C>>) -> Option<Vec<Vec<C>>> {
+pub(crate) fn inverse(mut matrix: Vec<Vec<C>>) -> Option<Vec<Vec<C>>> {
     let size = matrix.len();
     for (row, values) in matrix.iter_mut().enumerate() {
         values.extend((0..size).map(|column| C::new(f64::from(u8::from(column == row)), 0.0)));

@@ -8,13 +8,15 @@
 mod lines;
 mod turns;
 
+pub(crate) use lines::inverse;
+pub(crate) use turns::RotorTurns;
+
 use crate::config::ToneConfig;
 use crate::listening::HoverListener;
 use crate::speed::RotorEstimate;
 use crate::tone::BLADES_MAX;
 use lines::{BlockLines, LineSums};
 use serde::Serialize;
-use turns::RotorTurns;
 
 /// Length of a block: tells lines of the shaft apart of rotors that differ by half a turn per second, and a hover of ten seconds has
 /// two of them. What is shorter is left out.

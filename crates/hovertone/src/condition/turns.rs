@@ -7,7 +7,7 @@ use crate::statistics::median;
 const GAP_STEPS: f64 = 2.5;
 
 /// The turns of one rotor, asked for in order of time.
-pub(super) struct RotorTurns {
+pub(crate) struct RotorTurns {
     /// Time, speed and turns of each point; turns begin anew after a gap.
     points: Vec<(f64, f64, f64)>,
     gap_s: f64,
@@ -15,7 +15,7 @@ pub(super) struct RotorTurns {
 }
 
 impl RotorTurns {
-    pub(super) fn of(track: &[TrackPoint]) -> Self {
+    pub(crate) fn of(track: &[TrackPoint]) -> Self {
         let steps: Vec<f64> = track.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
         let gap_s = GAP_STEPS * median(&steps).unwrap_or(0.0);
         let mut points: Vec<(f64, f64, f64)> = Vec::with_capacity(track.len());
@@ -29,7 +29,7 @@ impl RotorTurns {
     }
 
     /// Turns at a time no earlier than the last that was asked for; `None` in a gap, and outside.
-    pub(super) fn at(&mut self, time_s: f64) -> Option<f64> {
+    pub(crate) fn at(&mut self, time_s: f64) -> Option<f64> {
         while self.points.get(self.next).is_some_and(|point| point.0 < time_s) {
             self.next += 1;
         }

@@ -14,6 +14,8 @@ pub enum LabelSource {
     MotorCommands,
     /// Rates at which the body turns, in a log.
     BodyRates,
+    /// Levels and delays at several microphones whose places are known.
+    Microphones,
 }
 
 impl LabelSource {
@@ -23,6 +25,7 @@ impl LabelSource {
             Self::MotorSpeeds => "the speeds of the motors",
             Self::MotorCommands => "the commands of the motors",
             Self::BodyRates => "the body's rates",
+            Self::Microphones => "levels and delays at the microphones",
         }
     }
 }
@@ -47,8 +50,8 @@ pub struct RotorLabels {
     pub offset_s: Option<f64>,
     /// Its standard uncertainty.
     pub offset_std_s: Option<f64>,
-    /// Probability of the most probable assignment of all tracks; the rest is for the others, and for the log having nothing to do
-    /// with the tracks.
+    /// Probability of the most probable assignment of all tracks; the rest is for the others, and for the log, or the positions,
+    /// having nothing to do with the tracks.
     pub probability: Option<f64>,
     /// For each track, in their order; absent where it is not told.
     pub rotors: Vec<Option<RotorLabel>>,
@@ -104,6 +107,35 @@ pub enum NotTold {
         /// Tracks that have no label.
         tracks: usize,
     },
+    /// The recording has another number of channels than there are microphones.
+    OtherChannels {
+        /// Channels.
+        channels: usize,
+        /// Microphones.
+        microphones: usize,
+    },
+    /// No rotors, or more than there are places for.
+    OtherPlaces {
+        /// Rotors that are told apart.
+        tracks: usize,
+        /// Places of rotors.
+        places: usize,
+    },
+    /// A microphone hears no line of any rotor for long enough.
+    NothingHeard {
+        /// Which, counted from 1.
+        microphone: usize,
+    },
+    /// Levels and delays are not those of rotors and microphones at these places.
+    OtherArray {
+        /// Probability that they are.
+        probability: f64,
+    },
+    /// Several assignments fit levels and delays.
+    SeveralPlacesFit {
+        /// Tracks that have no label.
+        tracks: usize,
+    },
 }
 
 impl NotTold {
@@ -124,6 +156,18 @@ impl NotTold {
             Self::SeveralFit { .. } => {
                 "a longer hover, or one with small rolls and pitches in it, tells rotors apart that move alike"
             }
+            Self::OtherChannels { .. } => {
+                "give the position of each channel's microphone, in the order of the channels"
+            }
+            Self::OtherPlaces { .. } => "say where every rotor stands",
+            Self::NothingHeard { .. } => "check that the channel is not silent; a longer hover shows fainter lines",
+            Self::OtherArray { .. } => {
+                "check positions, their order and their axes (x forward, y left, z up), and how well they are known (position_std_m)"
+            }
+            Self::SeveralPlacesFit { .. } => {
+                "microphones nearer to the rotors and off the vehicle's planes of symmetry, more of them, or positions that are better \
+                 known (position_std_m) tell more"
+            }
         }
     }
 }
@@ -136,7 +180,7 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors have too many assignments; up to {} can be told", super::LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{tracks} rotors are told apart by their sound, and the log needs {needed}")
+                write!(f, "{tracks} rotors are told apart by their sound, and {needed} are needed")
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(f, "the log could be anywhere from {low_s:.0} to {high_s:.0} s off the recording")
@@ -149,6 +193,21 @@ impl fmt::Display for NotTold {
                 write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of what was tried")
             }
             Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors several labels fit the log"),
+            Self::OtherChannels { channels, microphones } => {
+                write!(f, "the recording has {channels} channels, and {microphones} microphones have a position")
+            }
+            Self::OtherPlaces { tracks, places } => {
+                write!(f, "{tracks} rotors are told apart by their sound, and {places} have a place")
+            }
+            Self::NothingHeard { microphone } => {
+                write!(f, "microphone {microphone} hears no line of the rotors for long enough")
+            }
+            Self::OtherArray { probability } => {
+                write!(f, "levels and delays do not fit these positions (probability {probability:.2})")
+            }
+            Self::SeveralPlacesFit { tracks } => {
+                write!(f, "for {tracks} of the rotors levels and delays fit several places")
+            }
         }
     }
 }

@@ -7,6 +7,8 @@
 //!                                                                                                                    │
 //! labels, their probability, the offset of the clocks ◀── posterior over all assignments and offsets (assignment) ◀──┘
 //! ```
+//!
+//! Or what several microphones heard, whose places are known (`microphones`).
 
 mod answer;
 mod assignment;
@@ -14,12 +16,16 @@ mod body_rates;
 mod curve;
 mod evidence;
 mod log;
+mod microphones;
 mod motors;
 mod rows;
 mod whitening;
 
 pub use answer::{LabelSource, NotTold, RotorLabel, RotorLabels};
 pub use log::{FlightLog, LogError, LogSignals, MotorSignal};
+pub use microphones::{
+    ArrayError, MicrophoneArray, MicrophoneLines, PlacedRotor, labels_from_microphones, microphone_lines_from_source,
+};
 
 use crate::labels_config::LabelsConfig;
 use crate::span::Span;

@@ -1,0 +1,168 @@
+//! Which rotor is which, by several microphones whose places are known.
+
+use crate::args::LogArguments;
+use crate::failure::Failure;
+use crate::progress::{Progress, Share};
+use crate::recording::{Hearing, Job};
+use crate::toml_file::TomlFile;
+use hovertone::{
+    ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, TrackPoint, labels_from_microphones,
+    microphone_lines_from_source,
+};
+use hovertone_media::{OpenOptions, Recording};
+use hovertone_report::{Notice, SpeedRecord};
+use hovertone_vehicle::Vehicle;
+use serde::Deserialize;
+use std::path::Path;
+
+const SEE_EXAMPLE: &str = "docs/formats.md shows a file of microphones";
+
+/// The file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MicrophonesFile {
+    position_std_m: Option<f64>,
+    gain_std_db: Option<f64>,
+    temperature_c: Option<f64>,
+    #[serde(rename = "microphone", default)]
+    microphones: Vec<MicrophoneSection>,
+    #[serde(rename = "rotor", default)]
+    rotors: Vec<RotorSection>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MicrophoneSection {
+    position_m: [f64; 3],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RotorSection {
+    name: String,
+    position_m: [f64; 3],
+}
+
+/// What the file means.
+pub(crate) struct ArrayPlan {
+    array: MicrophoneArray,
+    config: MicrophonesConfig,
+}
+
+/// Reads the file, where there is one, and counts the channels of the recordings.
+pub(crate) fn resolve(
+    arguments: &LogArguments,
+    vehicle: Option<&Vehicle>,
+    (jobs, hearing): (&[Job], Hearing),
+    rotors: u32,
+) -> Result<Option<ArrayPlan>, Failure> {
+    let Some(path) = &arguments.microphones else { return Ok(None) };
+    let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
+    if rotors < 2 {
+        let what = "microphones tell rotors apart, and only one is heard";
+        return Err(refused(what.to_owned(), "say how many turn, as in --rotors 4"));
+    }
+    let file: MicrophonesFile = TomlFile::read(path, "file of microphones", "recording", SEE_EXAMPLE)?.parse()?;
+    let defaults = MicrophonesConfig::default();
+    let config = MicrophonesConfig {
+        position_std_m: file.position_std_m.unwrap_or(defaults.position_std_m),
+        gain_std_db: file.gain_std_db.unwrap_or(defaults.gain_std_db),
+        temperature_c: file.temperature_c.unwrap_or(defaults.temperature_c),
+        ..defaults
+    };
+    config.check().map_err(|error| refused(error.to_string(), SEE_EXAMPLE))?;
+    let given = file.rotors.into_iter().map(|RotorSection { name, position_m }| PlacedRotor { name, position_m });
+    let given: Vec<PlacedRotor> = given.collect();
+    let Some(places) = Some(given).filter(|given| !given.is_empty()).or_else(|| places_of(vehicle?)) else {
+        return Err(refused(
+            "it is not said where the rotors stand".to_owned(),
+            "add a [[rotor]] with name and position_m for each, or say --vehicle with one whose frame is known (`hovertone vehicles`)",
+        ));
+    };
+    let microphones_m = file.microphones.iter().map(|microphone| microphone.position_m).collect();
+    let array = MicrophoneArray::new(microphones_m, places).map_err(|error| {
+        let hint = match error {
+            ArrayError::TooFewMicrophones { .. } => "add a [[microphone]] with its position_m for each channel",
+            ArrayError::WrongRotorCount { .. } => "add a [[rotor]] with name and position_m for each",
+            _ => "correct its position_m: metres in the vehicle's frame",
+        };
+        refused(error.to_string(), hint)
+    })?;
+    if array.rotor_count() != rotors as usize {
+        let what = format!("{rotors} rotors turn, and {} have a place", array.rotor_count());
+        return Err(refused(what, "say how many turn with --rotors, and give the place of each"));
+    }
+    for job in jobs {
+        check_channels(job, hearing, &array)?;
+    }
+    Ok(Some(ArrayPlan { array, config }))
+}
+
+/// The rotors of a vehicle whose frame is known.
+fn places_of(vehicle: &Vehicle) -> Option<Vec<PlacedRotor>> {
+    let known = vehicle.flight_parameters()?;
+    let placed = known
+        .layout
+        .value
+        .places(known.arm_length_m.value)
+        .map(|place| PlacedRotor { name: place.name.to_owned(), position_m: [place.x_m, place.y_m, 0.0] });
+    Some(placed.to_vec())
+}
+
+/// One microphone for each channel. What cannot be opened is said when it is heard.
+fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Result<(), Failure> {
+    let options = OpenOptions { audio_track: hearing.audio_track, ..OpenOptions::default() };
+    let Ok(recording) = Recording::open(&job.path, &options) else { return Ok(()) };
+    let (channels, microphones) = (recording.info().channel_count, array.microphone_count());
+    if channels == microphones {
+        return Ok(());
+    }
+    Err(Failure::Usage {
+        what: format!("the recording has {channels} channel(s), and {microphones} microphones have a position"),
+        hint: "give one [[microphone]] for each channel, in their order; --audio-track N chooses another track"
+            .to_owned(),
+        path: Some(job.path.clone()),
+    })
+}
+
+/// Labels the rotors of all recordings, whose channels are heard once more; what is not told is said.
+pub(crate) fn label_all(records: &mut [SpeedRecord], jobs: &[Job], plan: &ArrayPlan, wants_progress: bool) {
+    let progress = Progress::new("comparing the microphones of", records.len(), wants_progress);
+    for (record, job) in records.iter_mut().zip(jobs) {
+        label(record, &job.path, plan, &mut progress.recording());
+    }
+    progress.finish();
+}
+
+fn label(record: &mut SpeedRecord, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>) {
+    let Some(facts) = record.recording.as_ref().filter(|_| record.speed().is_some()) else { return };
+    let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+    let channels = plan.array.microphone_count();
+    let end_s = tracks.iter().filter_map(|track| track.last()).map(|point| point.time_s).fold(0.0, f64::max);
+    let mut heard: Vec<MicrophoneLines> = Vec::new();
+    for channel in 1..=channels {
+        let options =
+            OpenOptions { audio_track: Some(facts.audio_track), channel: Some(channel), ..OpenOptions::default() };
+        let mut on_progress = |progress: hovertone::Progress| {
+            share.set(((channel - 1) as f64 + (progress.time_s / end_s).clamp(0.0, 1.0)) / channels as f64);
+        };
+        let lines = Recording::open(path, &options).map_err(|error| error.to_string()).and_then(|mut recording| {
+            microphone_lines_from_source(&mut recording, &tracks, &record.config.tone, &plan.config, &mut on_progress)
+                .map_err(|error| error.to_string())
+        });
+        match lines {
+            Ok(lines) => heard.push(lines),
+            Err(error) => {
+                let text = format!("which rotor is which is not told: channel {channel} could not be heard: {error}");
+                record.notices.push(Notice::new(text, "check the file"));
+                return;
+            }
+        }
+    }
+    let labels = labels_from_microphones(&heard, &plan.array, &plan.config);
+    if let Some(reason) = &labels.not_told {
+        let text = format!("which rotor is which is not told in full: {reason}");
+        record.notices.push(Notice::new(text, reason.hint()));
+    }
+    record.labels = Some(labels);
+}
