@@ -4,6 +4,7 @@ mod column;
 #[cfg(test)]
 mod tests;
 
+use crate::csv_text::{CsvError, CsvText, line_of};
 use column::{LogColumn, column_of};
 use csv::StringRecord;
 
@@ -45,9 +46,9 @@ pub struct LoggedFlight {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlightLogError {
-    /// No CSV.
-    #[error("this is no table with a header: {0}")]
-    NotCsv(#[from] csv::Error),
+    /// No table, or a cell that is no number.
+    #[error(transparent)]
+    Csv(#[from] CsvError),
     /// No times.
     #[error("no column holds the time with its unit; the columns are: {columns}")]
     NoTime {
@@ -68,16 +69,6 @@ pub enum FlightLogError {
         /// The other.
         second: String,
     },
-    /// A cell that is no number.
-    #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
-    NotANumber {
-        /// Line, counted from 1.
-        line: u64,
-        /// Header.
-        column: String,
-        /// What stands there.
-        cell: String,
-    },
     /// Times that go back.
     #[error("line {line}: its time, {time_s} s, is before that of the line above it")]
     NotInOrder {
@@ -92,13 +83,13 @@ impl FlightLogError {
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::Csv(CsvError::NotANumber { .. }) => "correct the cell, or leave it empty: that is a gap",
+            Self::Csv(error) => error.hint(),
             Self::NoTime { .. } => "name the unit, as in time_s or timestamp_us",
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/formats.md)"
             }
             Self::Twice { .. } => "remove one of the columns",
-            Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
             Self::NotInOrder { .. } => "sort the log by its time, and give the log of one flight",
         }
     }
@@ -111,35 +102,27 @@ struct Known {
     kind: LogColumn,
 }
 
-/// Reads a log. Columns are known by the words and units of their headers (`docs/formats.md`); what is not known is left alone. A row
-/// in which something is empty is a gap of what it belongs to; of rows at one time the first counts.
+/// Reads a log, parted by commas, semicolons or tabs. Columns are known by the words and units of their headers (`docs/formats.md`);
+/// what is not known is left alone. A row in which something is empty is a gap of what it belongs to; of rows at one time the first
+/// counts.
 ///
 /// # Errors
 /// No header, no time with a unit, neither motors nor body rates, a cell that is no number, times that go back.
 pub fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, FlightLogError> {
-    let text = text.trim_start_matches('\u{feff}');
-    let first_line = text.lines().next().unwrap_or_default();
-    let delimiter = if first_line.matches(';').count() > first_line.matches(',').count() { b';' } else { b',' };
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let headers = reader.headers()?.clone();
-    let columns: Vec<Known> = headers
+    let csv = CsvText::open(text)?;
+    let columns: Vec<Known> = csv
+        .headers
         .iter()
         .enumerate()
         .filter_map(|(index, header)| Some(Known { index, header: header.to_owned(), kind: column_of(header)? }))
         .collect();
     refuse_twice(&columns)?;
-    let names = || headers.iter().filter(|header| !header.is_empty()).collect::<Vec<_>>().join(", ");
     let factor_of = |column: &Known| match column.kind {
         LogColumn::Time { factor } => Some(factor),
         _ => None,
     };
     let Some((time, factor)) = columns.iter().find_map(|column| Some((column, factor_of(column)?))) else {
-        return Err(FlightLogError::NoTime { columns: names() });
+        return Err(FlightLogError::NoTime { columns: csv.names() });
     };
     let (speeds, commands) = (motors_of(&columns, true), motors_of(&columns, false));
     let rates: Vec<&Known> = (0..3)
@@ -149,20 +132,20 @@ pub fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, FlightLogError> {
         .collect();
     let rates = if rates.len() == 3 { rates } else { Vec::new() };
     if speeds.is_empty() && commands.is_empty() && rates.is_empty() {
-        return Err(FlightLogError::NoSignal { columns: names() });
+        return Err(FlightLogError::NoSignal { columns: csv.names() });
     }
     let mut tables = [&speeds, &commands, &rates].map(|columns| Table::of(columns));
     let mut before_s = f64::NEG_INFINITY;
-    for record in reader.records() {
+    for record in csv.records() {
         let record = record?;
-        let Some(time) = number(time, &record)? else { continue };
+        let Some(time) = number(&csv, time, &record)? else { continue };
         let time_s = time * factor;
         if time_s < before_s {
             return Err(FlightLogError::NotInOrder { line: line_of(&record), time_s });
         }
         before_s = time_s;
         for (table, columns) in tables.iter_mut().zip([&speeds, &commands, &rates]) {
-            table.take(time_s, columns, &record)?;
+            table.take(time_s, columns, &csv, &record)?;
         }
     }
     let [of_speeds, of_commands, of_rates] = tables;
@@ -198,8 +181,15 @@ impl Table {
     }
 
     /// Takes in a row, unless one of its cells is empty or its time is that of the row before.
-    fn take(&mut self, time_s: f64, columns: &[&Known], record: &StringRecord) -> Result<(), FlightLogError> {
-        let cells: Vec<Option<f64>> = columns.iter().map(|column| number(column, record)).collect::<Result<_, _>>()?;
+    fn take(
+        &mut self,
+        time_s: f64,
+        columns: &[&Known],
+        csv: &CsvText,
+        record: &StringRecord,
+    ) -> Result<(), FlightLogError> {
+        let cells: Vec<Option<f64>> =
+            columns.iter().map(|column| number(csv, column, record)).collect::<Result<_, _>>()?;
         let Some(cells) = cells.into_iter().collect::<Option<Vec<f64>>>() else { return Ok(()) };
         if self.time_s.last().is_some_and(|last_s| *last_s >= time_s) {
             return Ok(());
@@ -252,19 +242,7 @@ fn refuse_twice(columns: &[Known]) -> Result<(), FlightLogError> {
 }
 
 /// A finite number, or nothing in an empty cell.
-fn number(column: &Known, record: &StringRecord) -> Result<Option<f64>, FlightLogError> {
-    let cell = record.get(column.index).unwrap_or_default();
-    if cell.is_empty() || cell.eq_ignore_ascii_case("nan") {
-        return Ok(None);
-    }
-    let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-    number.map(Some).ok_or_else(|| FlightLogError::NotANumber {
-        line: line_of(record),
-        column: column.header.clone(),
-        cell: cell.to_owned(),
-    })
-}
-
-fn line_of(record: &StringRecord) -> u64 {
-    record.position().map_or(0, csv::Position::line)
+fn number(csv: &CsvText, column: &Known, record: &StringRecord) -> Result<Option<f64>, CsvError> {
+    let is_gap = record.get(column.index).is_some_and(|cell| cell.eq_ignore_ascii_case("nan"));
+    if is_gap { Ok(None) } else { csv.number_at(column.index, record) }
 }
