@@ -69,6 +69,7 @@ Examples:
   hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
   hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
+  hovertone speed --vehicle iris --log flight.ulg hover.mp4
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 
 /// Rotor speed of recordings: mean, uncertainty and spread
@@ -177,13 +178,13 @@ pub(crate) struct KnownArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LogArguments {
-    /// A log of the same flight, as CSV: speeds, commands or PWM of each motor, or the body's rates
-    #[arg(long, value_name = "FILE.csv")]
+    /// A log of the same flight, CSV or PX4's ULog: speeds, commands or PWM of each motor, or the body's rates
+    #[arg(long, value_name = "FILE")]
     pub(crate) log: Option<PathBuf>,
     /// What is to be added to the log's times to have the recording's, in seconds; found by itself where not given
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
-    /// How the axes of the log's body rates point; z up or down
+    /// How the axes of a CSV's body rates point (a ULog's are frd)
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
     /// Where the four rotors stand [default: the vehicle's]

@@ -1,25 +1,38 @@
-//! Logs of flights: a CSV with a header → motors and body rates over time, in SI.
+//! Logs of flights → motors and body rates over time, in SI.
+//!
+//! ```text
+//! csv_log  a CSV with a header; what its columns are called (column)
+//! ulog     PX4's ULog: messages and what damage leaves of them (file), their layout (format), the topics that tell rotors
+//! ```
 
 mod column;
+mod csv_log;
 #[cfg(test)]
 mod tests;
+mod ulog;
 
-use crate::csv_text::{CsvError, CsvText, line_of};
-use column::{LogColumn, column_of};
-use csv::StringRecord;
+pub use csv_log::flight_log_from_csv;
 
-/// Motors that a log can have.
-const MOTORS_MAX: usize = 16;
+use crate::csv_text::CsvError;
 
 /// A series for each motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedMotors {
     /// On the log's clock, increasing.
     pub time_s: Vec<f64>,
-    /// Names with the numbers of their headers: "motor 1".
+    /// Names with the numbers that the log has for them: "motor 1".
     pub names: Vec<String>,
     /// `values[motor][row]`.
     pub values: Vec<Vec<f64>>,
+}
+
+/// How the axes of body rates point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RateAxes {
+    /// x forward, y left, z up.
+    ForwardLeftUp,
+    /// x forward, y right, z down.
+    ForwardRightDown,
 }
 
 /// Rates at which the body turns, as the log has its axes.
@@ -29,6 +42,8 @@ pub struct LoggedRates {
     pub time_s: Vec<f64>,
     /// About x, y and z.
     pub rates_rad_s: [Vec<f64>; 3],
+    /// How they point, where the format says it.
+    pub axes: Option<RateAxes>,
 }
 
 /// What a log says of its rotors.
@@ -40,6 +55,8 @@ pub struct LoggedFlight {
     pub commands: Option<LoggedMotors>,
     /// Body rates.
     pub rates: Option<LoggedRates>,
+    /// What is wrong with it.
+    pub notes: Vec<String>,
 }
 
 /// A log that cannot be read.
@@ -49,6 +66,18 @@ pub enum FlightLogError {
     /// No table, or a cell that is no number.
     #[error(transparent)]
     Csv(#[from] CsvError),
+    /// Neither text nor a ULog.
+    #[error("this is neither a CSV nor a PX4 ULog")]
+    UnknownFormat,
+    /// A ULog without data.
+    #[error("this ULog ends, or is damaged, before its data begin")]
+    UlogWithoutData,
+    /// A ULog that tells nothing of rotors.
+    #[error("this ULog holds no motor speeds, motor commands or body rates; its topics are: {topics}")]
+    UlogWithoutSignal {
+        /// What it holds.
+        topics: String,
+    },
     /// No times.
     #[error("no column holds the time with its unit; the columns are: {columns}")]
     NoTime {
@@ -85,6 +114,11 @@ impl FlightLogError {
         match self {
             Self::Csv(CsvError::NotANumber { .. }) => "correct the cell, or leave it empty: that is a gap",
             Self::Csv(error) => error.hint(),
+            Self::UnknownFormat => "export the log as CSV with a header, or give PX4's .ulg",
+            Self::UlogWithoutData => "download the log from the vehicle again, or give that of the same flight",
+            Self::UlogWithoutSignal { .. } => {
+                "let PX4 log esc_status, actuator_motors, actuator_outputs or vehicle_angular_velocity (SDLOG_PROFILE)"
+            }
             Self::NoTime { .. } => "name the unit, as in time_s or timestamp_us",
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/formats.md)"
@@ -95,154 +129,20 @@ impl FlightLogError {
     }
 }
 
-/// A column that was understood.
-struct Known {
-    index: usize,
-    header: String,
-    kind: LogColumn,
-}
-
-/// Reads a log, parted by commas, semicolons or tabs. Columns are known by the words and units of their headers (`docs/formats.md`);
-/// what is not known is left alone. A row in which something is empty is a gap of what it belongs to; of rows at one time the first
-/// counts.
+/// Reads a log of either kind, which its first bytes tell: PX4's ULog by its magic, else CSV.
+///
+/// From a ULog come the speeds of `esc_status`, the commands of `actuator_motors` (else of that instance of `actuator_outputs` that
+/// moves most channels), and the rates of `vehicle_angular_velocity` (else of `sensor_combined`), x forward, y right and z down. Each
+/// keeps its own times. A log that breaks off or is damaged is read as far as it can be, with a note.
 ///
 /// # Errors
-/// No header, no time with a unit, neither motors nor body rates, a cell that is no number, times that go back.
-pub fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, FlightLogError> {
-    let csv = CsvText::open(text)?;
-    let columns: Vec<Known> = csv
-        .headers
-        .iter()
-        .enumerate()
-        .filter_map(|(index, header)| Some(Known { index, header: header.to_owned(), kind: column_of(header)? }))
-        .collect();
-    refuse_twice(&columns)?;
-    let factor_of = |column: &Known| match column.kind {
-        LogColumn::Time { factor } => Some(factor),
-        _ => None,
-    };
-    let Some((time, factor)) = columns.iter().find_map(|column| Some((column, factor_of(column)?))) else {
-        return Err(FlightLogError::NoTime { columns: csv.names() });
-    };
-    let (speeds, commands) = (motors_of(&columns, true), motors_of(&columns, false));
-    let rates: Vec<&Known> = (0..3)
-        .filter_map(|wanted| {
-            columns.iter().find(|column| matches!(column.kind, LogColumn::Rate { axis, .. } if axis == wanted))
-        })
-        .collect();
-    let rates = if rates.len() == 3 { rates } else { Vec::new() };
-    if speeds.is_empty() && commands.is_empty() && rates.is_empty() {
-        return Err(FlightLogError::NoSignal { columns: csv.names() });
+/// As [`flight_log_from_csv`]; bytes that are neither; a ULog in which nothing tells of rotors.
+pub fn flight_log_from_bytes(bytes: &[u8]) -> Result<LoggedFlight, FlightLogError> {
+    if ulog::is_ulog(bytes) {
+        return ulog::flight_log_from_ulog(bytes);
     }
-    let mut tables = [&speeds, &commands, &rates].map(|columns| Table::of(columns));
-    let mut before_s = f64::NEG_INFINITY;
-    for record in csv.records() {
-        let record = record?;
-        let Some(time) = number(&csv, time, &record)? else { continue };
-        let time_s = time * factor;
-        if time_s < before_s {
-            return Err(FlightLogError::NotInOrder { line: line_of(&record), time_s });
-        }
-        before_s = time_s;
-        for (table, columns) in tables.iter_mut().zip([&speeds, &commands, &rates]) {
-            table.take(time_s, columns, &csv, &record)?;
-        }
+    if bytes.contains(&0) {
+        return Err(FlightLogError::UnknownFormat);
     }
-    let [of_speeds, of_commands, of_rates] = tables;
-    let motors = |columns: &[&Known], table: Table| {
-        (!columns.is_empty()).then(|| LoggedMotors {
-            time_s: table.time_s,
-            names: columns.iter().filter_map(|column| Some(format!("motor {}", motor_of(column)?))).collect(),
-            values: table.values,
-        })
-    };
-    let has_rates = !rates.is_empty();
-    Ok(LoggedFlight {
-        speeds: motors(&speeds, of_speeds),
-        commands: motors(&commands, of_commands),
-        rates: of_rates
-            .values
-            .try_into()
-            .ok()
-            .filter(|_| has_rates)
-            .map(|rates_rad_s| LoggedRates { time_s: of_rates.time_s, rates_rad_s }),
-    })
-}
-
-/// Rows of some columns, in SI.
-struct Table {
-    time_s: Vec<f64>,
-    values: Vec<Vec<f64>>,
-}
-
-impl Table {
-    fn of(columns: &[&Known]) -> Self {
-        Self { time_s: Vec::new(), values: vec![Vec::new(); columns.len()] }
-    }
-
-    /// Takes in a row, unless one of its cells is empty or its time is that of the row before.
-    fn take(
-        &mut self,
-        time_s: f64,
-        columns: &[&Known],
-        csv: &CsvText,
-        record: &StringRecord,
-    ) -> Result<(), FlightLogError> {
-        let cells: Vec<Option<f64>> =
-            columns.iter().map(|column| number(csv, column, record)).collect::<Result<_, _>>()?;
-        let Some(cells) = cells.into_iter().collect::<Option<Vec<f64>>>() else { return Ok(()) };
-        if self.time_s.last().is_some_and(|last_s| *last_s >= time_s) {
-            return Ok(());
-        }
-        self.time_s.push(time_s);
-        for ((values, cell), column) in self.values.iter_mut().zip(cells).zip(columns) {
-            let factor = match column.kind {
-                LogColumn::Rate { factor, .. } | LogColumn::MotorSpeed { factor, .. } => factor,
-                _ => 1.0,
-            };
-            values.push(cell * factor);
-        }
-        Ok(())
-    }
-}
-
-fn motor_of(column: &Known) -> Option<u32> {
-    match column.kind {
-        LogColumn::MotorSpeed { motor, .. } | LogColumn::MotorCommand { motor } => Some(motor),
-        _ => None,
-    }
-}
-
-/// The columns of the motors, in the order of their numbers.
-fn motors_of(columns: &[Known], are_speeds: bool) -> Vec<&Known> {
-    let is_wanted = |column: &&Known| match column.kind {
-        LogColumn::MotorSpeed { .. } => are_speeds,
-        LogColumn::MotorCommand { .. } => !are_speeds,
-        _ => false,
-    };
-    let mut motors: Vec<&Known> = columns.iter().filter(is_wanted).collect();
-    motors.sort_by_key(|column| motor_of(column));
-    motors.truncate(MOTORS_MAX);
-    motors
-}
-
-fn refuse_twice(columns: &[Known]) -> Result<(), FlightLogError> {
-    let same = |a: &LogColumn, b: &LogColumn| match (a, b) {
-        (LogColumn::Rate { axis: a, .. }, LogColumn::Rate { axis: b, .. }) => a == b,
-        (LogColumn::MotorSpeed { motor: a, .. }, LogColumn::MotorSpeed { motor: b, .. })
-        | (LogColumn::MotorCommand { motor: a }, LogColumn::MotorCommand { motor: b }) => a == b,
-        _ => false,
-    };
-    for (index, column) in columns.iter().enumerate() {
-        if let Some(first) = columns[..index].iter().find(|first| same(&first.kind, &column.kind)) {
-            return Err(FlightLogError::Twice { first: first.header.clone(), second: column.header.clone() });
-        }
-    }
-    Ok(())
-}
-
-/// A finite number, or nothing in an empty cell.
-fn number(csv: &CsvText, column: &Known, record: &StringRecord) -> Result<Option<f64>, CsvError> {
-    let is_gap = record.get(column.index).is_some_and(|cell| cell.eq_ignore_ascii_case("nan"));
-    if is_gap { Ok(None) } else { csv.number_at(column.index, record) }
+    flight_log_from_csv(&String::from_utf8_lossy(bytes))
 }
