@@ -69,7 +69,7 @@ Examples:
   hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
   hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
-  hovertone speed --vehicle iris --log flight.ulg hover.mp4
+  hovertone speed --vehicle ardrone --spin-up front-left,rear-right,rear-left,front-right bench.wav
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 
 /// Rotor speed of recordings: mean, uncertainty and spread
@@ -187,6 +187,9 @@ pub(crate) struct LogArguments {
     /// How the axes of a CSV's body rates point (a ULog's are frd)
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
+    /// Order in which the motors came up to about the hover's speed, one by one, at the beginning: front-left,…; or 1,2,…
+    #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with = "log")]
+    pub(crate) spin_up: Option<Vec<String>>,
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,

@@ -1,8 +1,11 @@
-//! Which rotor is which, by a log of the same flight.
+//! Which rotor is which, by a log of the same flight or by the order in which the motors were started.
 
 use crate::args::{BodyAxes, FrameLayout, LogArguments};
 use crate::failure::Failure;
-use hovertone::{FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, TrackPoint, labels_from_log};
+use crate::spin_up::names_of;
+use hovertone::{
+    FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, TrackPoint, labels_from_log, labels_from_spin_up,
+};
 use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes};
 use hovertone_report::{Notice, SpeedRecord};
 use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
@@ -10,29 +13,42 @@ use std::fs;
 use std::path::Path;
 
 /// What the arguments mean.
-pub(crate) struct LabelPlan {
-    /// What the log holds, the most telling first.
-    logs: Vec<FlightLog>,
-    /// What is wrong with it.
-    notes: Vec<String>,
-    config: LabelsConfig,
+pub(crate) enum LabelPlan {
+    /// A log.
+    Log {
+        /// What it holds, the most telling first.
+        logs: Vec<FlightLog>,
+        /// What is wrong with it.
+        notes: Vec<String>,
+        config: LabelsConfig,
+    },
+    /// Numbers and names in the order of the motors' start.
+    SpinUp(Vec<(usize, String)>),
 }
 
-/// Reads the log, where there is one.
+/// Reads the log, or the order of the starts, where there is one.
 pub(crate) fn resolve(
     arguments: &LogArguments,
     vehicle: Option<&Vehicle>,
     (recordings, rotors): (usize, u32),
 ) -> Result<Option<LabelPlan>, Failure> {
-    let Some(path) = &arguments.log else { return Ok(None) };
-    let refused = |what: &str, hint: &str| Err(Failure::usage(what, hint));
+    let (what, told) = match (&arguments.log, &arguments.spin_up) {
+        (None, None) => return Ok(None),
+        (Some(_), _) => ("a log", "a log tells"),
+        (None, Some(_)) => ("an order of starts", "the order of starts tells"),
+    };
     if recordings != 1 {
-        let what = format!("a log is of one flight, and {recordings} recordings are given");
-        return refused(&what, "give the one recording that was made in the same flight");
+        let what = format!("{what} is of one flight, and {recordings} recordings are given");
+        return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
     }
     if rotors < 2 {
-        return refused("a log tells rotors apart, and only one is heard", "say how many turn, as in --rotors 4");
+        let what = format!("{told} rotors apart, and only one is heard");
+        return Err(Failure::usage(what, "say how many turn, as in --rotors 4"));
     }
+    let Some(path) = &arguments.log else {
+        let typed = arguments.spin_up.as_deref().unwrap_or_default();
+        return Ok(Some(LabelPlan::SpinUp(names_of(typed, vehicle, rotors)?)));
+    };
     let bytes = fs::read(path)
         .map_err(|error| Failure::failed(format!("the log cannot be read: {error}"), "check its name", path))?;
     let mut logged = flight_log_from_bytes(&bytes).map_err(|error| Failure::Usage {
@@ -45,7 +61,7 @@ pub(crate) fn resolve(
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
     let notes = std::mem::take(&mut logged.notes);
     let logs = logs_of(logged, arguments, vehicle, path)?;
-    Ok(Some(LabelPlan { logs, notes, config }))
+    Ok(Some(LabelPlan::Log { logs, notes, config }))
 }
 
 /// Measured speeds say most, then commands, then what the rotors do to the body.
@@ -124,11 +140,19 @@ pub(crate) fn label(record: &mut SpeedRecord, plan: &LabelPlan) {
     if record.speed().is_none() {
         return;
     }
-    let hint = "download the log again; what could be read of it was used";
-    record.notices.extend(plan.notes.iter().map(|note| Notice::new(note, hint)));
-    let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
-    let rotor_count = record.config.rotors.count as usize;
-    let labels = best_of(plan.logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, &plan.config)));
+    let labels = match plan {
+        LabelPlan::Log { logs, notes, config } => {
+            let hint = "download the log again; what could be read of it was used";
+            record.notices.extend(notes.iter().map(|note| Notice::new(note, hint)));
+            let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+            let rotor_count = record.config.rotors.count as usize;
+            best_of(logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, config)))
+        }
+        LabelPlan::SpinUp(names) => {
+            let spin_up = record.tone().and_then(|tone| tone.spin_up.as_ref());
+            spin_up.map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default()))
+        }
+    };
     if let Some(reason) = labels.as_ref().and_then(|labels| labels.not_told.as_ref()) {
         let text = format!("which rotor is which is not told in full: {reason}");
         record.notices.push(Notice::new(text, reason.hint()));

@@ -23,6 +23,7 @@ mod simulate;
 mod spectrogram;
 mod spectrogram_args;
 mod speed;
+mod spin_up;
 mod terminal;
 mod thrust_args;
 mod toml_file;

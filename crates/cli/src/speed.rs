@@ -61,7 +61,8 @@ pub(crate) fn ending_of<'a>(records: impl IntoIterator<Item = &'a SpeedRecord>) 
 }
 
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
-    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    let (mut config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    config.rotors.wants_spin_up = arguments.log.spin_up.is_some();
     let jobs = jobs_of(&arguments.files, &config, discovery);
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,

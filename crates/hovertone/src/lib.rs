@@ -15,12 +15,14 @@ mod hover;
 mod labels;
 mod labels_config;
 mod listening;
+mod matrix;
 mod method;
 mod picture;
 mod picture_config;
 mod pipeline;
 mod regression;
 mod ridge;
+mod rotor_readings;
 mod rotors_config;
 mod sample;
 mod signal;
@@ -46,8 +48,8 @@ pub use experiment::{
 };
 pub use hover::{Cut, CutReason, Hover};
 pub use labels::{
-    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorLabel, RotorLabels,
-    labels_from_log,
+    FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MotorSignal, NotTold, RotorBegin, RotorLabel,
+    RotorLabels, SpinUp, labels_from_log, labels_from_spin_up,
 };
 pub use labels_config::LabelsConfig;
 pub use method::Method;

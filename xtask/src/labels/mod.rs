@@ -2,6 +2,7 @@
 //! people; its tests fly fewer.
 
 mod flight;
+mod spin_up;
 
 use crate::accuracy::drawn;
 use crate::rotors::REPORT;
@@ -12,12 +13,15 @@ use hovertone::{
 };
 use hovertone_sim::scenario::{MicrophoneSection, MotorWanderSection, ScenarioFile, SoundSection, SpreadSection};
 use hovertone_vehicle::Order;
+use spin_up::{Start, by_spin_up};
 use std::fs;
 use std::path::Path;
 
 /// Flights of each kind, and those that are heard, unless the options say otherwise.
 const FLIGHTS: usize = 200;
 const HEARD: usize = 20;
+/// Recordings of each kind that begin with the motors' start.
+const STARTED: usize = 20;
 /// Rotors' constants within ±1 %, so speeds up to 1 % apart.
 const SPREAD_SHARE: f64 = 0.01;
 const DURATION_S: f64 = 5.0;
@@ -27,6 +31,7 @@ const FAR_APART_SHARE: f64 = 0.06;
 const NEAR_SHARE: f64 = 0.015;
 /// Where the section begins.
 const TITLE: &str = "\n## Which rotor is which\n";
+const TITLE_OF_STARTS: &str = "\n### By the motors' start\n";
 
 /// What is flown and logged.
 #[derive(Clone, Copy)]
@@ -167,6 +172,20 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         let given = options.iter().position(|option| *option == name).and_then(|at| options.get(at + 1));
         given.map_or(Ok(otherwise), |text| text.parse::<usize>().map_err(|error| format!("{name}: {error}")))
     };
+    let report = root.join(REPORT);
+    let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
+    let is_asked = |part: &str| options.windows(2).all(|pair| pair[0] != "--only" || pair[1] == part);
+    let logs = if is_asked("logs") { by_logs(&option)? } else { part_of(&before, TITLE, TITLE_OF_STARTS).to_owned() };
+    let starts =
+        if is_asked("starts") { by_starts(&option)? } else { part_of(&before, TITLE_OF_STARTS, "").to_owned() };
+    let kept = before.strip_suffix(section_of(&before)).unwrap_or(&before);
+    fs::write(&report, kept.to_owned() + &logs + &starts).map_err(|error| format!("{REPORT}: {error}"))?;
+    println!("written: {REPORT}");
+    Ok(())
+}
+
+/// By logs: tracks that are the truth with an error, and those of the sound.
+fn by_logs(option: &dyn Fn(&str, usize) -> Result<usize, String>) -> Result<String, String> {
     let (flights, heard) = (option("--count", FLIGHTS)?, option("--heard", HEARD)?);
     let mut text = TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string());
     for kind in kinds() {
@@ -190,12 +209,28 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         print!("{words}");
         text += &words;
     }
-    let report = root.join(REPORT);
-    let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
-    let kept = before.strip_suffix(section_of(&before)).unwrap_or(&before);
-    fs::write(&report, kept.to_owned() + &text).map_err(|error| format!("{REPORT}: {error}"))?;
-    println!("written: {REPORT}");
-    Ok(())
+    Ok(text)
+}
+
+/// By the order in which motors were started.
+fn by_starts(option: &dyn Fn(&str, usize) -> Result<usize, String>) -> Result<String, String> {
+    let started = option("--started", STARTED)?;
+    let mut text = TITLE_OF_STARTS.to_owned() + &HEAD_OF_STARTS.replace("{started}", &started.to_string());
+    for (start, words) in Start::ALL {
+        let count = by_spin_up(start, started)?;
+        let not_told = count.flights - count.right - count.wrong;
+        let row = format!("| {words} | {} | {} | {not_told} |\n", count.right, count.wrong);
+        print!("{row}");
+        text += &row;
+    }
+    Ok(text)
+}
+
+/// From a title to the next one; an empty one stands nowhere.
+fn part_of<'a>(report: &'a str, title: &str, next: &str) -> &'a str {
+    let part = report.find(title).map_or("", |at| &report[at..]);
+    let end = if next.is_empty() { None } else { part.find(next) };
+    &part[..end.unwrap_or(part.len())]
 }
 
 /// The section of this bench in a report; nothing where there is none.
@@ -216,6 +251,16 @@ thousandth of the battery's voltage, which know nothing of the motors' wander.
 
 | log | length, s | wander of the gains, % | error of the tracks, % | right | wrong | offset |
 |---|---|---|---|---|---|---|
+";
+
+const HEAD_OF_STARTS: &str = "
+Made by `cargo xtask bench labels --only starts`. By the order in which the motors were started (`--spin-up`), {started}
+recordings of 16 s each: four rotors of two blades, 1.5 to 4 % apart, that wander by 0.1 % (0.6 s), levels that differ by 3 dB, in
+white noise. Unless the table says otherwise motors start 0.9 to 2 s apart, straight to within 1.3 % of the hover's speed, to which
+all go together (within about half a second) 1.4 to 2.5 s after the last start. right: all four rotors labelled, and rightly.
+
+| start | right | wrong | not told |
+|---|---|---|---|
 ";
 
 fn row_of(kind: &Kind, count: &Count) -> String {
@@ -294,5 +339,9 @@ mod tests {
         let report = format!("# a\n\n| b |\n{TITLE}\nc\n");
         assert_eq!(section_of(&report), format!("{TITLE}\nc\n"));
         assert_eq!(section_of("# a\n"), "");
+        let both = format!("{report}{TITLE_OF_STARTS}\nd\n");
+        assert_eq!(part_of(&both, TITLE, TITLE_OF_STARTS), format!("{TITLE}\nc\n"));
+        assert_eq!(part_of(&both, TITLE_OF_STARTS, ""), format!("{TITLE_OF_STARTS}\nd\n"));
+        assert_eq!(part_of("# a\n", TITLE, TITLE_OF_STARTS), "");
     }
 }

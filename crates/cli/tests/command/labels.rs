@@ -1,4 +1,4 @@
-//! Which rotor is which: `hovertone speed --log`.
+//! Which rotor is which: `hovertone speed --log` and `--spin-up`.
 
 use crate::testkit::{hovertone, text};
 use serde_json::Value;
@@ -133,4 +133,24 @@ fn a_ulog_is_known_by_its_first_bytes_and_says_its_axes_itself() {
     fs::write(&log, &rates).unwrap();
     let run = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)]).ends_with(1);
     assert!(run.stderr.contains("a.wav"), "{}", run.stderr);
+}
+
+#[test]
+fn an_order_of_starts_names_every_rotor_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |more: &[&str], words: &[&str]| {
+        let run = hovertone(&[&["speed", "a.wav", "--vehicle", "ardrone"], more].concat()).ends_with(2);
+        assert!(run.stdout.is_empty(), "{}", run.stderr);
+        words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}:\n{}", run.stderr));
+    };
+    refused(&["--spin-up", "front-left,rear-left,rear-right"], &["each must be there once", "front-right"]);
+    refused(&["--spin-up", "front-left,rear-left,rear-right,nose"], &["\"nose\"", "hint:", "front-left,rear-left"]);
+    refused(&["--spin-up", "1,2,3,4", "--log", "a.csv"], &["cannot be used with"]);
+    refused(&["b.wav", "--spin-up", "1,2,3,4"], &["2 recordings", "the same flight"]);
+    // a hover that is there from the first second on has no starts
+    let (sound, ..) = flown(folder.path());
+    let run = ["speed", "--vehicle", "ardrone", "--json", "--spin-up", "1,2,3,4", text(&sound)];
+    let line = hovertone(&run).ends_with(3).json_lines().remove(0);
+    assert_eq!(line["labels"]["source"], "spin_up");
+    assert!(line["labels"]["reason"].is_string() && line["rotors"][0]["label"].is_null(), "{}", line["labels"]);
 }

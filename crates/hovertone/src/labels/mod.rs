@@ -7,6 +7,8 @@
 //!                                                                                                                    │
 //! labels, their probability, the offset of the clocks ◀── posterior over all assignments and offsets (assignment) ◀──┘
 //! ```
+//!
+//! Without a log: who starts the motors one after the other knows in which order, and their sound begins in it (`spin_up`).
 
 mod answer;
 mod assignment;
@@ -16,10 +18,13 @@ mod evidence;
 mod log;
 mod motors;
 mod rows;
+mod spin_up;
 mod whitening;
 
 pub use answer::{LabelSource, NotTold, RotorLabel, RotorLabels};
 pub use log::{FlightLog, LogError, LogSignals, MotorSignal};
+pub use spin_up::{RotorBegin, SpinUp, labels_from_spin_up};
+pub(crate) use spin_up::{SPIN_UP_S_MAX, SpinUpReader};
 
 use crate::labels_config::LabelsConfig;
 use crate::span::Span;
