@@ -26,8 +26,9 @@ const HELP: &str = "cargo xtask <task>
           [--count N] for fewer, [--spread SHARE] for rotors more alike or less
   bench rotors      four rotors from one microphone against the truth of every instant: docs/rotors.md
           [--seeds N] for fewer, [--only WORDS] to print some of its sounds, clip by clip
-  bench labels      which rotor is which, from logs and microphones of simulated flights: a section of docs/rotors.md
-          [--count N] for fewer flights, [--heard N] for fewer of those that are heard
+  bench labels      which rotor is which, from logs, several microphones and the motors' start: a section of docs/rotors.md
+          [--count N] for fewer flights, [--heard N] of those that are heard, [--started N] of starts;
+          [--only logs|microphones|starts]
   bench accuracy    one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
           [--draws N] [--coverage N] for fewer, [--only PART] to print one part, [--install-peers] to have them here
 ";

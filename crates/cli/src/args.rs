@@ -1,9 +1,10 @@
 //! What was typed. What it means is found out by each command's `resolve`.
 
+use crate::label_args::LabelArguments;
 use crate::spectrogram_args::SpectrogramArguments;
 use crate::thrust_args::{CompareArguments, ExportArguments, FitArguments, IdentifyArguments, WeighArguments};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use hovertone::Method;
 use hovertone_vehicle::Gear;
 use std::path::PathBuf;
@@ -70,6 +71,7 @@ Examples:
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
   hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
   hovertone speed --vehicle ardrone --microphones stands.toml hover.wav          the same, by the channels' microphones
+  hovertone speed --vehicle ardrone --spin-up front-left,rear-right,rear-left,front-right bench.wav
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 
 /// Rotor speed of recordings: mean, uncertainty and spread
@@ -87,7 +89,7 @@ pub(crate) struct SpeedArguments {
     #[command(flatten)]
     pub(crate) known: KnownArguments,
     #[command(flatten)]
-    pub(crate) log: LogArguments,
+    pub(crate) labels: LabelArguments,
     #[command(flatten)]
     pub(crate) analysis: AnalysisArguments,
     #[command(flatten)]
@@ -173,42 +175,6 @@ pub(crate) struct KnownArguments {
     /// Rotors that carry it: with two or more, each is told apart
     #[arg(long, value_name = "N")]
     pub(crate) rotors: Option<u32>,
-}
-
-#[derive(Args, Debug)]
-#[command(next_help_heading = "Which rotor is which")]
-pub(crate) struct LogArguments {
-    /// A log of the same flight, as CSV: speeds, commands or PWM of each motor, or the body's rates
-    #[arg(long, value_name = "FILE.csv")]
-    pub(crate) log: Option<PathBuf>,
-    /// What is to be added to the log's times to have the recording's, in seconds; found by itself where not given
-    #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
-    pub(crate) log_offset_s: Option<(f64, f64)>,
-    /// How the axes of the log's body rates point; z up or down
-    #[arg(long, value_name = "AXES", requires = "log")]
-    pub(crate) log_axes: Option<BodyAxes>,
-    /// Where the four rotors stand [default: the vehicle's]
-    #[arg(long, value_name = "LAYOUT", requires = "log")]
-    pub(crate) layout: Option<FrameLayout>,
-    /// Where the microphone of each channel stands in the vehicle's frame: levels and delays tell which rotor is which
-    #[arg(long, value_name = "FILE.toml", conflicts_with = "log")]
-    pub(crate) microphones: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum BodyAxes {
-    /// x forward, y left, z up
-    Flu,
-    /// x forward, y right, z down: PX4, ArduPilot
-    Frd,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum FrameLayout {
-    /// front left, rear left, rear right, front right
-    X,
-    /// front, left, rear, right
-    Plus,
 }
 
 #[derive(Args, Debug)]
@@ -369,13 +335,7 @@ fn band(text: &str) -> Result<(f64, f64), String> {
     edges.ok_or_else(|| "write the band as LOW:HIGH in Hz, such as 4000:4300".to_owned())
 }
 
-/// "-5:5".
-fn offsets(text: &str) -> Result<(f64, f64), String> {
-    let limits = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
-    limits.ok_or_else(|| "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5".to_owned())
-}
-
-fn finite(text: &str) -> Option<f64> {
+pub(crate) fn finite(text: &str) -> Option<f64> {
     text.trim().parse::<f64>().ok().filter(|number| number.is_finite())
 }
 

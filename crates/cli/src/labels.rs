@@ -1,39 +1,57 @@
-//! Which rotor is which, by a log of the same flight.
+//! Which rotor is which, by a log of the same flight or by the order in which the motors were started.
 
-use crate::args::{BodyAxes, FrameLayout, LogArguments};
 use crate::failure::Failure;
-use hovertone::{FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, TrackPoint, labels_from_log};
-use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, flight_log_from_csv};
+use crate::label_args::{BodyAxes, FrameLayout, LabelArguments};
+use crate::spin_up::names_of;
+use hovertone::{
+    FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, TrackPoint, labels_from_log, labels_from_spin_up,
+};
+use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes};
 use hovertone_report::{Notice, SpeedRecord};
 use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
 use std::fs;
 use std::path::Path;
 
 /// What the arguments mean.
-pub(crate) struct LabelPlan {
-    /// What the log holds, the most telling first.
-    logs: Vec<FlightLog>,
-    config: LabelsConfig,
+pub(crate) enum LabelPlan {
+    /// A log.
+    Log {
+        /// What it holds, the most telling first.
+        logs: Vec<FlightLog>,
+        /// What is wrong with it.
+        notes: Vec<String>,
+        config: LabelsConfig,
+    },
+    /// Numbers and names in the order of the motors' start.
+    SpinUp(Vec<(usize, String)>),
 }
 
-/// Reads the log, where there is one.
+/// Reads the log, or the order of the starts, where there is one.
 pub(crate) fn resolve(
-    arguments: &LogArguments,
+    arguments: &LabelArguments,
     vehicle: Option<&Vehicle>,
     (recordings, rotors): (usize, u32),
 ) -> Result<Option<LabelPlan>, Failure> {
-    let Some(path) = &arguments.log else { return Ok(None) };
-    let refused = |what: &str, hint: &str| Err(Failure::usage(what, hint));
+    let (what, told) = match (&arguments.log, &arguments.spin_up) {
+        (None, None) => return Ok(None),
+        (Some(_), _) => ("a log", "a log tells"),
+        (None, Some(_)) => ("an order of starts", "the order of starts tells"),
+    };
     if recordings != 1 {
-        let what = format!("a log is of one flight, and {recordings} recordings are given");
-        return refused(&what, "give the one recording that was made in the same flight");
+        let what = format!("{what} is of one flight, and {recordings} recordings are given");
+        return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
     }
     if rotors < 2 {
-        return refused("a log tells rotors apart, and only one is heard", "say how many turn, as in --rotors 4");
+        let what = format!("{told} rotors apart, and only one is heard");
+        return Err(Failure::usage(what, "say how many turn, as in --rotors 4"));
     }
+    let Some(path) = &arguments.log else {
+        let typed = arguments.spin_up.as_deref().unwrap_or_default();
+        return Ok(Some(LabelPlan::SpinUp(names_of(typed, vehicle, rotors)?)));
+    };
     let bytes = fs::read(path)
         .map_err(|error| Failure::failed(format!("the log cannot be read: {error}"), "check its name", path))?;
-    let logged = flight_log_from_csv(&String::from_utf8_lossy(&bytes)).map_err(|error| Failure::Usage {
+    let mut logged = flight_log_from_bytes(&bytes).map_err(|error| Failure::Usage {
         what: error.to_string(),
         hint: error.hint().to_owned(),
         path: Some(path.clone()),
@@ -41,14 +59,15 @@ pub(crate) fn resolve(
     let (offset_s_low, offset_s_high) = arguments.log_offset_s.unzip();
     let config = LabelsConfig { offset_s_low, offset_s_high, ..LabelsConfig::default() };
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    let notes = std::mem::take(&mut logged.notes);
     let logs = logs_of(logged, arguments, vehicle, path)?;
-    Ok(Some(LabelPlan { logs, config }))
+    Ok(Some(LabelPlan::Log { logs, notes, config }))
 }
 
 /// Measured speeds say most, then commands, then what the rotors do to the body.
 fn logs_of(
     logged: LoggedFlight,
-    arguments: &LogArguments,
+    arguments: &LabelArguments,
     vehicle: Option<&Vehicle>,
     path: &Path,
 ) -> Result<Vec<FlightLog>, Failure> {
@@ -57,12 +76,12 @@ fn logs_of(
         let LoggedMotors { time_s, names, values } = logged;
         FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(failed)
     };
-    let LoggedFlight { speeds, commands, rates } = logged;
+    let LoggedFlight { speeds, commands, rates, .. } = logged;
     let speeds = speeds.map(|speeds| motors(speeds, MotorSignal::Speed)).transpose()?;
     let commands = commands.map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
     let mut logs: Vec<FlightLog> = speeds.into_iter().chain(commands).collect();
-    if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z] }) = rates {
-        match (arguments.log_axes, places_of(arguments.layout, vehicle)) {
+    if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z], axes }) = rates {
+        match (axes_of(axes, arguments.log_axes)?, places_of(arguments.layout, vehicle)) {
             (Some(axes), Some(places)) => {
                 let turned = |rates: Vec<f64>| match axes {
                     BodyAxes::Flu => rates,
@@ -91,6 +110,21 @@ fn logs_of(
     Ok(logs)
 }
 
+/// Those of the format, where it says them.
+fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option<BodyAxes>, Failure> {
+    let of_format = of_format.map(|axes| match axes {
+        RateAxes::ForwardLeftUp => BodyAxes::Flu,
+        RateAxes::ForwardRightDown => BodyAxes::Frd,
+    });
+    match (of_format, said) {
+        (Some(BodyAxes::Frd), Some(BodyAxes::Flu)) => Err(Failure::usage(
+            "the body rates of a ULog have x forward, y right and z down, and --log-axes flu says otherwise",
+            "leave --log-axes out: it is for logs whose format does not say it",
+        )),
+        (of_format, said) => Ok(of_format.or(said)),
+    }
+}
+
 /// Only the proportions of the arms count.
 fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[RotorPlace; 4]> {
     let known = || Some(vehicle?.flight_parameters()?.layout.value);
@@ -106,9 +140,19 @@ pub(crate) fn label(record: &mut SpeedRecord, plan: &LabelPlan) {
     if record.speed().is_none() {
         return;
     }
-    let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
-    let rotor_count = record.config.rotors.count as usize;
-    let labels = best_of(plan.logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, &plan.config)));
+    let labels = match plan {
+        LabelPlan::Log { logs, notes, config } => {
+            let hint = "download the log again; what could be read of it was used";
+            record.notices.extend(notes.iter().map(|note| Notice::new(note, hint)));
+            let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+            let rotor_count = record.config.rotors.count as usize;
+            best_of(logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, config)))
+        }
+        LabelPlan::SpinUp(names) => {
+            let spin_up = record.tone().and_then(|tone| tone.spin_up.as_ref());
+            spin_up.map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default()))
+        }
+    };
     if let Some(reason) = labels.as_ref().and_then(|labels| labels.not_told.as_ref()) {
         let text = format!("which rotor is which is not told in full: {reason}");
         record.notices.push(Notice::new(text, reason.hint()));

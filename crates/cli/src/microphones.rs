@@ -1,7 +1,7 @@
 //! Which rotor is which, by several microphones whose places are known.
 
-use crate::args::LogArguments;
 use crate::failure::Failure;
+use crate::label_args::LabelArguments;
 use crate::progress::{Progress, Share};
 use crate::recording::{Hearing, Job};
 use crate::toml_file::TomlFile;
@@ -51,7 +51,7 @@ pub(crate) struct ArrayPlan {
 
 /// Reads the file, where there is one, and counts the channels of the recordings.
 pub(crate) fn resolve(
-    arguments: &LogArguments,
+    arguments: &LabelArguments,
     vehicle: Option<&Vehicle>,
     (jobs, hearing): (&[Job], Hearing),
     rotors: u32,

@@ -66,7 +66,8 @@ pub(crate) fn ending_of<'a>(records: impl IntoIterator<Item = &'a SpeedRecord>) 
 }
 
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
-    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    let (mut config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    config.rotors.wants_spin_up = arguments.labels.spin_up.is_some();
     let jobs = jobs_of(&arguments.files, &config, discovery);
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
@@ -75,8 +76,8 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
         wants_samples: false,
     };
     let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
-    let labels = crate::labels::resolve(&arguments.log, vehicle, (jobs.len(), config.rotors.count))?;
-    let microphones = crate::microphones::resolve(&arguments.log, vehicle, (&jobs, hearing), config.rotors.count)?;
+    let labels = crate::labels::resolve(&arguments.labels, vehicle, (jobs.len(), config.rotors.count))?;
+    let microphones = crate::microphones::resolve(&arguments.labels, vehicle, (&jobs, hearing), config.rotors.count)?;
     Ok(Plan { jobs, hearing, track: arguments.track.clone(), labels, microphones })
 }
 

@@ -3,16 +3,20 @@
 //! ```text
 //! units        a thrust constant in the units that others have      simulator     models: written, read back, compared
 //! identified   results.json → what is exported                      thrust_stand  CSV tables → speeds and forces
-//! flight_log   CSV logs → motors and body rates over time
+//! flight_log   CSV and ULog → motors and body rates over time     csv_text      how CSV text is opened, for both
 //! ```
 
+mod csv_text;
 mod flight_log;
 mod identified;
 mod simulator;
 mod thrust_stand;
 mod units;
 
-pub use flight_log::{FlightLogError, LoggedFlight, LoggedMotors, LoggedRates, flight_log_from_csv};
+pub use csv_text::CsvError;
+pub use flight_log::{
+    FlightLogError, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes, flight_log_from_csv,
+};
 pub use identified::{HeardTone, IdentifiedRotor, ResultsError, identified_from_results};
 pub use simulator::{ModelError, SimulatorFormat, SimulatorModel, export_text, model_from_text};
 pub use thrust_stand::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};

@@ -15,6 +15,7 @@ mod hover;
 mod labels;
 mod labels_config;
 mod listening;
+mod matrix;
 mod method;
 mod microphones_config;
 mod picture;
@@ -22,6 +23,7 @@ mod picture_config;
 mod pipeline;
 mod regression;
 mod ridge;
+mod rotor_readings;
 mod rotors_config;
 mod sample;
 mod signal;
@@ -48,8 +50,8 @@ pub use experiment::{
 pub use hover::{Cut, CutReason, Hover};
 pub use labels::{
     ArrayError, FlightLog, LABELLED_ROTORS_MAX, LabelSource, LogError, LogSignals, MicrophoneArray, MicrophoneLines,
-    MotorSignal, NotTold, PlacedRotor, RotorLabel, RotorLabels, labels_from_log, labels_from_microphones,
-    microphone_lines_from_source,
+    MotorSignal, NotTold, PlacedRotor, RotorBegin, RotorLabel, RotorLabels, SpinUp, labels_from_log,
+    labels_from_microphones, labels_from_spin_up, microphone_lines_from_source,
 };
 pub use labels_config::LabelsConfig;
 pub use method::Method;

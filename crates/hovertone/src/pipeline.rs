@@ -1,14 +1,15 @@
 //! The whole flow on one screen: source → survey → hover → bands → ridges → samples → speed. No arithmetic here.
 
 use crate::channel::ChannelBand;
-use crate::condition::{ConditionReader, blades_known};
 use crate::config::Config;
 use crate::error::Error;
-use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorScout, RotorTracer, RotorTracks};
+use crate::harmonic::{HarmonicTracer, HarmonicTrack, RotorTracks};
 use crate::hover::{Hover, RowsBuilder, Survey, SurveyBuilder, hover_from_survey, restless_s};
+use crate::labels::SpinUp;
 use crate::listening::{PASS_COUNT, listen_again};
 use crate::method::Method;
 use crate::ridge::{Ridge, RidgeTracer};
+use crate::rotor_readings::{condition_from_source, hover_after_spin_up, rotors_from_source, spin_up_from_source};
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
 use crate::span::Span;
@@ -16,7 +17,7 @@ use crate::speed::{HarmonicWeights, RotorEstimate, SpeedEstimate, Track, TrackPo
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
 use crate::tone::{
     BLADES_MAX, Band, CombMap, bands_around, bands_worth_following, families_agree, foreign_series, lines_and_between,
-    lines_around, lines_between_speeds, lines_worth_hearing, search_range_rev_s,
+    lines_around, lines_worth_hearing, search_range_rev_s,
 };
 use crate::verdict::{
     NoTone, clearest_ridges, mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum, warning_of_rotors,
@@ -67,6 +68,9 @@ pub struct RotorTone {
     pub track: Vec<TrackPoint>,
     /// The rotors one by one, fastest first; empty where they are not told apart.
     pub rotors: Vec<RotorEstimate>,
+    /// When each rotor began to turn, where that is wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spin_up: Option<SpinUp>,
     /// The paper's samples, each with one speed for each method.
     pub samples: Vec<SampleSpeeds>,
 }
@@ -163,6 +167,7 @@ fn speed_near(
     let sample_rate_hz = source.sample_rate_hz();
     let hover =
         if config.span.is_given() { Hover::whole(heard) } else { hover_from_survey(survey, map, speed_rev_s, config) };
+    let (hover, no_spin_up) = hover_after_spin_up(source, (heard, hover), speed_rev_s, survey, config, on_progress)?;
     let bands = bands_around(speed_rev_s, &config.tone, sample_rate_hz, &mut warnings)?;
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     let bands = match bands_worth_following(bands, survey, &mut warnings) {
@@ -234,8 +239,12 @@ fn speed_near(
     };
     let mut rotors = apart.rotors(order, &config.budget);
     condition_from_source(source, &hover, &mut rotors, config, on_progress)?;
+    let spin_up = match no_spin_up {
+        Some(reason) => Some(SpinUp::not_told(reason)),
+        None => spin_up_from_source(source, (heard, &hover), &rotors, config, on_progress)?,
+    };
     warnings.extend(warning_of_rotors(&rotors, if apart_is_wanted { config.rotors.count } else { 1 }));
-    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges });
+    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, spin_up, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
 
@@ -311,44 +320,4 @@ fn lines_from_source(
     listen_again(source, hover, &mut listeners, on_progress)?;
     let (tracers, harmonic) = listeners;
     Ok((tracers.into_iter().map(RidgeTracer::finish).collect(), harmonic.finish()))
-}
-
-/// Two more readings, where there are several rotors: where they are, in a wide band of speeds, and then each by itself.
-fn rotors_from_source(
-    source: &mut dyn SignalSource,
-    hover: &Hover,
-    speed_rev_s: f64,
-    survey: &Survey,
-    config: &Config,
-    on_progress: &mut dyn FnMut(Progress),
-) -> Result<RotorTracks, Error> {
-    let sample_rate_hz = source.sample_rate_hz();
-    let lines_in = |limits_rev_s: (f64, f64)| {
-        lines_worth_hearing(lines_between_speeds(limits_rev_s, &config.tone, sample_rate_hz), survey)
-    };
-    let order = config.tone.order.lines_per_turn();
-    let mesh_order = (order > BLADES_MAX).then_some(order);
-    let share = config.rotors.band_half_width_share;
-    let wide = lines_in((speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share)));
-    let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
-    listen_again(source, hover, &mut scout, on_progress)?;
-    let rough = scout.finish();
-    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
-    listen_again(source, hover, &mut tracer, on_progress)?;
-    Ok(tracer.finish())
-}
-
-/// Another reading, where it is wanted: the lines of each rotor's shaft.
-fn condition_from_source(
-    source: &mut dyn SignalSource,
-    hover: &Hover,
-    rotors: &mut [RotorEstimate],
-    config: &Config,
-    on_progress: &mut dyn FnMut(Progress),
-) -> Result<(), Error> {
-    let Some(blades) = blades_known(&config.tone).filter(|_| config.rotors.wants_condition) else { return Ok(()) };
-    let mut reader = ConditionReader::new(source.sample_rate_hz(), rotors, blades);
-    listen_again(source, hover, &mut reader, on_progress)?;
-    rotors.iter_mut().zip(reader.finish()).for_each(|(rotor, condition)| rotor.condition = condition);
-    Ok(())
 }

@@ -14,11 +14,13 @@ pub struct RotorsConfig {
     pub band_half_width_share: f64,
     /// Whether the lines of each rotor's shaft are wanted too: what they say of its state costs another reading.
     pub wants_condition: bool,
+    /// Whether it is wanted when each rotor began to turn, which costs another reading: who started them knows in which order.
+    pub wants_spin_up: bool,
 }
 
 impl Default for RotorsConfig {
     fn default() -> Self {
-        Self { count: 1, band_half_width_share: 0.25, wants_condition: false }
+        Self { count: 1, band_half_width_share: 0.25, wants_condition: false, wants_spin_up: false }
     }
 }
 

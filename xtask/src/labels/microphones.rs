@@ -1,7 +1,7 @@
 //! Which rotor is which, from several microphones of simulated flights.
 
 use super::flight::Flown;
-use super::{Count, separated};
+use super::{Count, Counts, separated};
 use crate::accuracy::drawn;
 use hovertone::{
     MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, RotorLabels, Signal, ToneConfig, TrackPoint,
@@ -252,7 +252,7 @@ fn by_sound(setup: &Setup, is_room: bool, flights: usize) -> Result<(Count, usiz
 }
 
 /// Where microphones can stand, in the open and in a room: a table.
-pub(super) fn section(option: &dyn Fn(&str, usize) -> Result<usize, String>) -> Result<String, String> {
+pub(super) fn section(option: Counts<'_>) -> Result<String, String> {
     let (flights, heard) = (option("--flights", FLIGHTS)?, option("--whole-way", WHOLE_WAY)?);
     let mut text =
         TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string()).replace("{heard}", &heard.to_string());

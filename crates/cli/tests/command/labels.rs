@@ -1,4 +1,4 @@
-//! Which rotor is which: `hovertone speed --log`.
+//! Which rotor is which: `hovertone speed --log` and `--spin-up`.
 
 use crate::testkit::{hovertone, text};
 use serde_json::Value;
@@ -109,4 +109,48 @@ fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
     refused("time_s,motor1_pwm\n0,x\n", &["--vehicle", "ardrone"], &["line 2", "\"x\""]);
     let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", "missing.csv"]).ends_with(1);
     assert!(missing.stderr.contains("missing.csv"), "{}", missing.stderr);
+}
+
+#[test]
+fn a_ulog_is_known_by_its_first_bytes_and_says_its_axes_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = folder.path().join("log.csv");
+    let refused = |content: &[u8], more: &[&str], words: &[&str]| {
+        fs::write(&log, content).unwrap();
+        let run = hovertone(&[&["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)], more].concat());
+        let run = run.ends_with(2);
+        assert!(run.stdout.is_empty() && run.stderr.contains("hint:"), "{}", run.stderr);
+        words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}:\n{}", run.stderr));
+    };
+    let message = |kind: u8, content: &[u8]| [&(content.len() as u16).to_le_bytes()[..], &[kind], content].concat();
+    let head = [&b"ULog\x01\x12\x35\x01"[..], &[0; 8]].concat();
+    let format = message(b'F', b"sensor_combined:uint64_t timestamp;float[3] gyro_rad;");
+    let rates = [head.clone(), format, message(b'A', b"\0\0\0sensor_combined"), message(b'D', &[0; 22])].concat();
+    refused(&rates, &["--log-axes", "flu"], &["x forward, y right and z down", "leave --log-axes out"]);
+    refused(&head, &[], &["before its data", "log.csv"]);
+    refused(b"\xa3\x95\x80\0FMT", &[], &["neither a CSV nor a PX4 ULog"]);
+    // without --log-axes it is the recording that is missing
+    fs::write(&log, &rates).unwrap();
+    let run = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)]).ends_with(1);
+    assert!(run.stderr.contains("a.wav"), "{}", run.stderr);
+}
+
+#[test]
+fn an_order_of_starts_names_every_rotor_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |more: &[&str], words: &[&str]| {
+        let run = hovertone(&[&["speed", "a.wav", "--vehicle", "ardrone"], more].concat()).ends_with(2);
+        assert!(run.stdout.is_empty(), "{}", run.stderr);
+        words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}:\n{}", run.stderr));
+    };
+    refused(&["--spin-up", "front-left,rear-left,rear-right"], &["each must be there once", "front-right"]);
+    refused(&["--spin-up", "front-left,rear-left,rear-right,nose"], &["\"nose\"", "hint:", "front-left,rear-left"]);
+    refused(&["--spin-up", "1,2,3,4", "--log", "a.csv"], &["cannot be used with"]);
+    refused(&["b.wav", "--spin-up", "1,2,3,4"], &["2 recordings", "the same flight"]);
+    // a hover that is there from the first second on has no starts
+    let (sound, ..) = flown(folder.path());
+    let run = ["speed", "--vehicle", "ardrone", "--json", "--spin-up", "1,2,3,4", text(&sound)];
+    let line = hovertone(&run).ends_with(3).json_lines().remove(0);
+    assert_eq!(line["labels"]["source"], "spin_up");
+    assert!(line["labels"]["reason"].is_string() && line["rotors"][0]["label"].is_null(), "{}", line["labels"]);
 }

@@ -1,24 +1,38 @@
-//! Logs of flights: a CSV with a header → motors and body rates over time, in SI.
+//! Logs of flights → motors and body rates over time, in SI.
+//!
+//! ```text
+//! csv_log  a CSV with a header; what its columns are called (column)
+//! ulog     PX4's ULog: messages and what damage leaves of them (file), their layout (format), the topics that tell rotors
+//! ```
 
 mod column;
+mod csv_log;
 #[cfg(test)]
 mod tests;
+mod ulog;
 
-use column::{LogColumn, column_of};
-use csv::StringRecord;
+pub use csv_log::flight_log_from_csv;
 
-/// Motors that a log can have.
-const MOTORS_MAX: usize = 16;
+use crate::csv_text::CsvError;
 
 /// A series for each motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedMotors {
     /// On the log's clock, increasing.
     pub time_s: Vec<f64>,
-    /// Names with the numbers of their headers: "motor 1".
+    /// Names with the numbers that the log has for them: "motor 1".
     pub names: Vec<String>,
     /// `values[motor][row]`.
     pub values: Vec<Vec<f64>>,
+}
+
+/// How the axes of body rates point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RateAxes {
+    /// x forward, y left, z up.
+    ForwardLeftUp,
+    /// x forward, y right, z down.
+    ForwardRightDown,
 }
 
 /// Rates at which the body turns, as the log has its axes.
@@ -28,6 +42,8 @@ pub struct LoggedRates {
     pub time_s: Vec<f64>,
     /// About x, y and z.
     pub rates_rad_s: [Vec<f64>; 3],
+    /// How they point, where the format says it.
+    pub axes: Option<RateAxes>,
 }
 
 /// What a log says of its rotors.
@@ -39,15 +55,29 @@ pub struct LoggedFlight {
     pub commands: Option<LoggedMotors>,
     /// Body rates.
     pub rates: Option<LoggedRates>,
+    /// What is wrong with it.
+    pub notes: Vec<String>,
 }
 
 /// A log that cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlightLogError {
-    /// No CSV.
-    #[error("this is no table with a header: {0}")]
-    NotCsv(#[from] csv::Error),
+    /// No table, or a cell that is no number.
+    #[error(transparent)]
+    Csv(#[from] CsvError),
+    /// Neither text nor a ULog.
+    #[error("this is neither a CSV nor a PX4 ULog")]
+    UnknownFormat,
+    /// A ULog without data.
+    #[error("this ULog ends, or is damaged, before its data begin")]
+    UlogWithoutData,
+    /// A ULog that tells nothing of rotors.
+    #[error("this ULog holds no motor speeds, motor commands or body rates; its topics are: {topics}")]
+    UlogWithoutSignal {
+        /// What it holds.
+        topics: String,
+    },
     /// No times.
     #[error("no column holds the time with its unit; the columns are: {columns}")]
     NoTime {
@@ -68,16 +98,6 @@ pub enum FlightLogError {
         /// The other.
         second: String,
     },
-    /// A cell that is no number.
-    #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
-    NotANumber {
-        /// Line, counted from 1.
-        line: u64,
-        /// Header.
-        column: String,
-        /// What stands there.
-        cell: String,
-    },
     /// Times that go back.
     #[error("line {line}: its time, {time_s} s, is before that of the line above it")]
     NotInOrder {
@@ -92,179 +112,37 @@ impl FlightLogError {
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::Csv(CsvError::NotANumber { .. }) => "correct the cell, or leave it empty: that is a gap",
+            Self::Csv(error) => error.hint(),
+            Self::UnknownFormat => "export the log as CSV with a header, or give PX4's .ulg",
+            Self::UlogWithoutData => "download the log from the vehicle again, or give that of the same flight",
+            Self::UlogWithoutSignal { .. } => {
+                "let PX4 log esc_status, actuator_motors, actuator_outputs or vehicle_angular_velocity (SDLOG_PROFILE)"
+            }
             Self::NoTime { .. } => "name the unit, as in time_s or timestamp_us",
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/formats.md)"
             }
             Self::Twice { .. } => "remove one of the columns",
-            Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
             Self::NotInOrder { .. } => "sort the log by its time, and give the log of one flight",
         }
     }
 }
 
-/// A column that was understood.
-struct Known {
-    index: usize,
-    header: String,
-    kind: LogColumn,
-}
-
-/// Reads a log. Columns are known by the words and units of their headers (`docs/formats.md`); what is not known is left alone. A row
-/// in which something is empty is a gap of what it belongs to; of rows at one time the first counts.
+/// Reads a log of either kind, which its first bytes tell: PX4's ULog by its magic, else CSV.
+///
+/// From a ULog come the speeds of `esc_status`, the commands of `actuator_motors` (else of that instance of `actuator_outputs` that
+/// moves most channels), and the rates of `vehicle_angular_velocity` (else of `sensor_combined`), x forward, y right and z down. Each
+/// keeps its own times. A log that breaks off or is damaged is read as far as it can be, with a note.
 ///
 /// # Errors
-/// No header, no time with a unit, neither motors nor body rates, a cell that is no number, times that go back.
-pub fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, FlightLogError> {
-    let text = text.trim_start_matches('\u{feff}');
-    let first_line = text.lines().next().unwrap_or_default();
-    let delimiter = if first_line.matches(';').count() > first_line.matches(',').count() { b';' } else { b',' };
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let headers = reader.headers()?.clone();
-    let columns: Vec<Known> = headers
-        .iter()
-        .enumerate()
-        .filter_map(|(index, header)| Some(Known { index, header: header.to_owned(), kind: column_of(header)? }))
-        .collect();
-    refuse_twice(&columns)?;
-    let names = || headers.iter().filter(|header| !header.is_empty()).collect::<Vec<_>>().join(", ");
-    let factor_of = |column: &Known| match column.kind {
-        LogColumn::Time { factor } => Some(factor),
-        _ => None,
-    };
-    let Some((time, factor)) = columns.iter().find_map(|column| Some((column, factor_of(column)?))) else {
-        return Err(FlightLogError::NoTime { columns: names() });
-    };
-    let (speeds, commands) = (motors_of(&columns, true), motors_of(&columns, false));
-    let rates: Vec<&Known> = (0..3)
-        .filter_map(|wanted| {
-            columns.iter().find(|column| matches!(column.kind, LogColumn::Rate { axis, .. } if axis == wanted))
-        })
-        .collect();
-    let rates = if rates.len() == 3 { rates } else { Vec::new() };
-    if speeds.is_empty() && commands.is_empty() && rates.is_empty() {
-        return Err(FlightLogError::NoSignal { columns: names() });
+/// As [`flight_log_from_csv`]; bytes that are neither; a ULog in which nothing tells of rotors.
+pub fn flight_log_from_bytes(bytes: &[u8]) -> Result<LoggedFlight, FlightLogError> {
+    if ulog::is_ulog(bytes) {
+        return ulog::flight_log_from_ulog(bytes);
     }
-    let mut tables = [&speeds, &commands, &rates].map(|columns| Table::of(columns));
-    let mut before_s = f64::NEG_INFINITY;
-    for record in reader.records() {
-        let record = record?;
-        let Some(time) = number(time, &record)? else { continue };
-        let time_s = time * factor;
-        if time_s < before_s {
-            return Err(FlightLogError::NotInOrder { line: line_of(&record), time_s });
-        }
-        before_s = time_s;
-        for (table, columns) in tables.iter_mut().zip([&speeds, &commands, &rates]) {
-            table.take(time_s, columns, &record)?;
-        }
+    if bytes.contains(&0) {
+        return Err(FlightLogError::UnknownFormat);
     }
-    let [of_speeds, of_commands, of_rates] = tables;
-    let motors = |columns: &[&Known], table: Table| {
-        (!columns.is_empty()).then(|| LoggedMotors {
-            time_s: table.time_s,
-            names: columns.iter().filter_map(|column| Some(format!("motor {}", motor_of(column)?))).collect(),
-            values: table.values,
-        })
-    };
-    let has_rates = !rates.is_empty();
-    Ok(LoggedFlight {
-        speeds: motors(&speeds, of_speeds),
-        commands: motors(&commands, of_commands),
-        rates: of_rates
-            .values
-            .try_into()
-            .ok()
-            .filter(|_| has_rates)
-            .map(|rates_rad_s| LoggedRates { time_s: of_rates.time_s, rates_rad_s }),
-    })
-}
-
-/// Rows of some columns, in SI.
-struct Table {
-    time_s: Vec<f64>,
-    values: Vec<Vec<f64>>,
-}
-
-impl Table {
-    fn of(columns: &[&Known]) -> Self {
-        Self { time_s: Vec::new(), values: vec![Vec::new(); columns.len()] }
-    }
-
-    /// Takes in a row, unless one of its cells is empty or its time is that of the row before.
-    fn take(&mut self, time_s: f64, columns: &[&Known], record: &StringRecord) -> Result<(), FlightLogError> {
-        let cells: Vec<Option<f64>> = columns.iter().map(|column| number(column, record)).collect::<Result<_, _>>()?;
-        let Some(cells) = cells.into_iter().collect::<Option<Vec<f64>>>() else { return Ok(()) };
-        if self.time_s.last().is_some_and(|last_s| *last_s >= time_s) {
-            return Ok(());
-        }
-        self.time_s.push(time_s);
-        for ((values, cell), column) in self.values.iter_mut().zip(cells).zip(columns) {
-            let factor = match column.kind {
-                LogColumn::Rate { factor, .. } | LogColumn::MotorSpeed { factor, .. } => factor,
-                _ => 1.0,
-            };
-            values.push(cell * factor);
-        }
-        Ok(())
-    }
-}
-
-fn motor_of(column: &Known) -> Option<u32> {
-    match column.kind {
-        LogColumn::MotorSpeed { motor, .. } | LogColumn::MotorCommand { motor } => Some(motor),
-        _ => None,
-    }
-}
-
-/// The columns of the motors, in the order of their numbers.
-fn motors_of(columns: &[Known], are_speeds: bool) -> Vec<&Known> {
-    let is_wanted = |column: &&Known| match column.kind {
-        LogColumn::MotorSpeed { .. } => are_speeds,
-        LogColumn::MotorCommand { .. } => !are_speeds,
-        _ => false,
-    };
-    let mut motors: Vec<&Known> = columns.iter().filter(is_wanted).collect();
-    motors.sort_by_key(|column| motor_of(column));
-    motors.truncate(MOTORS_MAX);
-    motors
-}
-
-fn refuse_twice(columns: &[Known]) -> Result<(), FlightLogError> {
-    let same = |a: &LogColumn, b: &LogColumn| match (a, b) {
-        (LogColumn::Rate { axis: a, .. }, LogColumn::Rate { axis: b, .. }) => a == b,
-        (LogColumn::MotorSpeed { motor: a, .. }, LogColumn::MotorSpeed { motor: b, .. })
-        | (LogColumn::MotorCommand { motor: a }, LogColumn::MotorCommand { motor: b }) => a == b,
-        _ => false,
-    };
-    for (index, column) in columns.iter().enumerate() {
-        if let Some(first) = columns[..index].iter().find(|first| same(&first.kind, &column.kind)) {
-            return Err(FlightLogError::Twice { first: first.header.clone(), second: column.header.clone() });
-        }
-    }
-    Ok(())
-}
-
-/// A finite number, or nothing in an empty cell.
-fn number(column: &Known, record: &StringRecord) -> Result<Option<f64>, FlightLogError> {
-    let cell = record.get(column.index).unwrap_or_default();
-    if cell.is_empty() || cell.eq_ignore_ascii_case("nan") {
-        return Ok(None);
-    }
-    let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
-    number.map(Some).ok_or_else(|| FlightLogError::NotANumber {
-        line: line_of(record),
-        column: column.header.clone(),
-        cell: cell.to_owned(),
-    })
-}
-
-fn line_of(record: &StringRecord) -> u64 {
-    record.position().map_or(0, csv::Position::line)
+    flight_log_from_csv(&String::from_utf8_lossy(bytes))
 }

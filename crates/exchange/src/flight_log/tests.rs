@@ -28,6 +28,15 @@ fn speeds_are_in_rad_s_and_in_the_order_of_their_numbers() {
 }
 
 #[test]
+fn tabs_part_cells_and_a_comma_can_be_a_decimal_one() {
+    let comma = flight_log_from_csv("time_s,motor1_pwm\n0,1.5\n0.5,2\n").unwrap();
+    for text in ["time_s\tmotor1_pwm\n0\t1.5\n0.5\t2\n", "time_s;motor1_pwm\n0;1,5\n0,5;2\n"] {
+        assert_eq!(flight_log_from_csv(text).unwrap(), comma, "{text:?}");
+    }
+    assert_eq!(comma.commands.unwrap().values, [[1.5, 2.0]]);
+}
+
+#[test]
 fn what_means_nothing_is_refused_with_what_to_do() {
     for (text, words) in [
         ("time,motor1_pwm\n0,1\n", ["unit", "time, motor1_pwm"]),

@@ -1,5 +1,6 @@
 //! Headers → quantities and units.
 
+use crate::csv_text::CsvText;
 use crate::units::GRAVITY_STANDARD_M_S2;
 use csv::StringRecord;
 use std::f64::consts::TAU;
@@ -35,25 +36,17 @@ pub(super) struct Column {
     /// Whether it would be a thrust or a torque, had it a known unit.
     pub(super) lacks_unit: bool,
     /// SI units in one unit of the column.
-    si_per_unit: f64,
-    has_decimal_commas: bool,
+    pub(super) si_per_unit: f64,
 }
 
 impl Column {
     /// The number in a row, in SI.
-    pub(super) fn number(&self, record: &StringRecord) -> Option<f64> {
-        let cell = record.get(self.index)?;
-        let number: f64 = if self.has_decimal_commas && !cell.contains('.') {
-            cell.replacen(',', ".", 1).parse().ok()?
-        } else {
-            cell.parse().ok()?
-        };
-        Some(number * self.si_per_unit)
+    pub(super) fn number(&self, csv: &CsvText, record: &StringRecord) -> Option<f64> {
+        Some(csv.number(record.get(self.index)?)? * self.si_per_unit)
     }
 }
 
 pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Vec<Column> {
-    let has_decimal_commas = records.iter().flatten().any(is_decimal_comma);
     let column = |(index, header): (usize, &str)| {
         let meaning = meaning_of(header);
         let known = match meaning {
@@ -69,17 +62,9 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
             is_words: known.is_none() && !records.is_empty() && cells().all(is_word),
             lacks_unit: matches!(meaning, Meaning::UnknownUnit),
             si_per_unit: known.map_or(1.0, |(_, si_per_unit)| si_per_unit),
-            has_decimal_commas,
         }
     };
     headers.iter().enumerate().map(column).collect()
-}
-
-/// Whether a cell has a comma that cannot part thousands: "3,5", not "3,610".
-fn is_decimal_comma(cell: &str) -> bool {
-    let Some((whole, part)) = cell.split_once(',') else { return false };
-    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    are_digits(whole.trim_start_matches(['-', '+'])) && are_digits(part) && (part.len() != 3 || whole.len() > 3)
 }
 
 /// What a header means.
@@ -271,15 +256,6 @@ mod tests {
     fn units_that_are_not_known_are_not_guessed() {
         for header in ["thrust", "Thrust (%)", "torque", "Torque (foo)", "lift_stone"] {
             assert_eq!(meaning_of(header), Meaning::UnknownUnit, "{header}");
-        }
-    }
-
-    #[test]
-    fn a_comma_is_a_decimal_one_only_where_it_cannot_part_thousands() {
-        for (cell, expected) in
-            [("3,5", true), ("3610,343", true), ("-0,25", true), ("3,610", false), ("3610", false), ("a,b", false)]
-        {
-            assert_eq!(is_decimal_comma(cell), expected, "{cell}");
         }
     }
 }

@@ -4,6 +4,7 @@ mod column;
 #[cfg(test)]
 mod tests;
 
+use crate::csv_text::{CsvError, CsvText, line_of};
 use column::{Column, Quantity, columns_of};
 use csv::StringRecord;
 use std::f64::consts::TAU;
@@ -73,9 +74,9 @@ pub struct StandTable {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// No CSV.
-    #[error("this is no table with a header: {0}")]
-    NotCsv(#[from] csv::Error),
+    /// No table, or a cell that is no number.
+    #[error(transparent)]
+    Csv(#[from] CsvError),
     /// A column is missing.
     #[error("no column holds {what}; the columns are: {columns}")]
     NoColumn {
@@ -83,16 +84,6 @@ pub enum TableError {
         what: &'static str,
         /// The headers.
         columns: String,
-    },
-    /// A cell that is no number.
-    #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
-    NotANumber {
-        /// Line, counted from 1.
-        line: u64,
-        /// Header.
-        column: String,
-        /// What stands there.
-        cell: String,
     },
     /// A number that means nothing.
     #[error("line {line}, column \"{column}\": {value}, {must_be}")]
@@ -120,29 +111,16 @@ pub enum TableError {
 /// # Errors
 /// No header, no speed, no force, a cell that is no number, masses that are zero or negative, no usable row.
 pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
-    let text = text.trim_start_matches('\u{feff}');
-    let first_line = text.lines().next().unwrap_or_default();
-    // of equals the last
-    let delimiter = [b'\t', b';', b',']
-        .into_iter()
-        .max_by_key(|delimiter| first_line.bytes().filter(|byte| byte == delimiter).count())
-        .unwrap_or(b',');
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let headers = reader.headers()?.clone();
-    let records: Vec<StringRecord> = reader.records().collect::<Result<_, _>>()?;
-    let columns = columns_of(&headers, &records);
-    let names = || headers.iter().filter(|header| !header.is_empty()).collect::<Vec<_>>().join(", ");
-    let missing = |what| TableError::NoColumn { what, columns: names() };
-    let speed = best(&columns, &records, Quantity::Speed).ok_or_else(|| missing("a speed (rpm, rad/s or rev/s)"))?;
-    let force = best(&columns, &records, Quantity::Thrust)
-        .or_else(|| best(&columns, &records, Quantity::Mass))
+    let csv = CsvText::open(text)?;
+    let records: Vec<StringRecord> = csv.records().collect::<Result<_, _>>()?;
+    let columns = columns_of(&csv.headers, &records);
+    let missing = |what| TableError::NoColumn { what, columns: csv.names() };
+    let speed =
+        best(&csv, &columns, &records, Quantity::Speed).ok_or_else(|| missing("a speed (rpm, rad/s or rev/s)"))?;
+    let force = best(&csv, &columns, &records, Quantity::Thrust)
+        .or_else(|| best(&csv, &columns, &records, Quantity::Mass))
         .ok_or_else(|| missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"))?;
-    let reader = RowReader { columns: &columns, speed, force };
+    let reader = RowReader { csv: &csv, columns: &columns, speed, force };
     let mut rows: Vec<(String, StandRow)> = Vec::new();
     for record in &records {
         if let Some(row) = reader.row(record)? {
@@ -169,9 +147,9 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
 }
 
 /// The column of a quantity that says most: an optical tachometer that was not connected has a column of zeros.
-fn best<'a>(columns: &'a [Column], records: &[StringRecord], quantity: Quantity) -> Option<&'a Column> {
+fn best<'a>(csv: &CsvText, columns: &'a [Column], records: &[StringRecord], quantity: Quantity) -> Option<&'a Column> {
     let told = |column: &&Column| {
-        let tells = |record: &&StringRecord| column.number(record).is_some_and(|number| number.abs() > 0.0);
+        let tells = |record: &&StringRecord| column.number(csv, record).is_some_and(|number| number.abs() > 0.0);
         records.iter().filter(tells).count()
     };
     let candidates: Vec<&Column> = columns.iter().filter(|column| column.quantity == Some(quantity)).collect();
@@ -180,6 +158,7 @@ fn best<'a>(columns: &'a [Column], records: &[StringRecord], quantity: Quantity)
 }
 
 struct RowReader<'a> {
+    csv: &'a CsvText<'a>,
     columns: &'a [Column],
     speed: &'a Column,
     force: &'a Column,
@@ -188,7 +167,8 @@ struct RowReader<'a> {
 impl RowReader<'_> {
     /// A row with speed and force; none where either is empty.
     fn row(&self, record: &StringRecord) -> Result<Option<StandRow>, TableError> {
-        let (Some(speed_rad_s), Some(force)) = (checked(self.speed, record)?, checked(self.force, record)?) else {
+        let (Some(speed_rad_s), Some(force)) = (self.checked(self.speed, record)?, self.checked(self.force, record)?)
+        else {
             return Ok(None);
         };
         let is_mass = self.force.quantity == Some(Quantity::Mass);
@@ -204,7 +184,7 @@ impl RowReader<'_> {
             let Some(column) = self.columns.iter().find(|column| column.quantity == Some(quantity)) else {
                 return Ok(None);
             };
-            match checked(column, record)? {
+            match self.checked(column, record)? {
                 Some(value) if value < 0.0 => Err(TableError::OutOfRange {
                     line: line_of(record),
                     column: column.header.clone(),
@@ -216,7 +196,7 @@ impl RowReader<'_> {
         };
         let other = |quantity: Quantity| {
             let column = self.columns.iter().find(|column| column.quantity == Some(quantity))?;
-            column.number(record)
+            column.number(self.csv, record)
         };
         let torque_n_m = other(Quantity::Torque);
         let shaft_w = other(Quantity::ShaftPower).or(torque_n_m.map(|torque| (torque * speed_rad_s).abs()));
@@ -235,28 +215,15 @@ impl RowReader<'_> {
         }))
     }
 
+    /// A number in SI; none in an empty cell.
+    fn checked(&self, column: &Column, record: &StringRecord) -> Result<Option<f64>, CsvError> {
+        Ok(self.csv.number_at(column.index, record)?.map(|number| number * column.si_per_unit))
+    }
+
     fn group(&self, record: &StringRecord) -> String {
         let words = self.columns.iter().filter(|column| column.is_words);
         words.filter_map(|column| record.get(column.index)).collect::<Vec<_>>().join(", ")
     }
-}
-
-/// A number in SI; none in an empty cell.
-fn checked(column: &Column, record: &StringRecord) -> Result<Option<f64>, TableError> {
-    let cell = record.get(column.index).unwrap_or_default();
-    if cell.is_empty() {
-        return Ok(None);
-    }
-    let number = column.number(record).filter(|number| number.is_finite());
-    number.map(Some).ok_or_else(|| TableError::NotANumber {
-        line: line_of(record),
-        column: column.header.clone(),
-        cell: cell.to_owned(),
-    })
-}
-
-fn line_of(record: &StringRecord) -> u64 {
-    record.position().map_or(0, csv::Position::line)
 }
 
 /// A stand that pulls shows negative thrust; a row against the sign of most is left out.

@@ -8,7 +8,6 @@
 mod lines;
 mod turns;
 
-pub(crate) use lines::inverse;
 pub(crate) use turns::RotorTurns;
 
 use crate::config::ToneConfig;

@@ -88,6 +88,39 @@ impl Hover {
         Self { segments: vec![span], cuts: Vec::new() }
     }
 
+    /// The later half of what is used, of its first so many seconds at most.
+    pub(crate) fn later_half(&self, length_s_max: f64) -> Self {
+        let length_s = self.length_s().min(length_s_max);
+        let (mut segments, mut passed_s) = (Vec::new(), 0.0);
+        for segment in &self.segments {
+            let at_s = |share: f64| segment.from_s + (share * length_s - passed_s).clamp(0.0, segment.length_s());
+            let later = Span { from_s: at_s(0.5), to_s: at_s(1.0) };
+            passed_s += segment.length_s();
+            if later.length_s() > 0.0 {
+                segments.push(later);
+            }
+        }
+        Self { segments, cuts: Vec::new() }
+    }
+
+    /// What is used from a time on; before it the rotors run up.
+    pub(crate) fn after_take_off(self, time_s: f64) -> Self {
+        let Self { segments, mut cuts } = self;
+        let mut kept = Vec::new();
+        for segment in segments {
+            let before = Span { to_s: segment.to_s.min(time_s), ..segment };
+            if before.length_s() > 0.0 {
+                cuts.push(Cut { span: before, reason: CutReason::TakeOff });
+            }
+            let after = Span { from_s: segment.from_s.max(time_s), ..segment };
+            if after.length_s() > 0.0 {
+                kept.push(after);
+            }
+        }
+        cuts.sort_by(|a, b| a.span.from_s.total_cmp(&b.span.from_s));
+        Self { segments: kept, cuts }
+    }
+
     /// How much is used.
     pub fn length_s(&self) -> f64 {
         self.segments.iter().map(Span::length_s).sum()
@@ -218,5 +251,24 @@ fn bridge_single_rows(verdicts: &mut [Verdict]) {
         if is_faded && verdicts[middle - 1] == Verdict::Hover && verdicts[middle + 1] == Verdict::Hover {
             verdicts[middle] = Verdict::Hover;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hover_is_halved_and_cut_across_its_segments() {
+        let span = |from_s, to_s| Span { from_s, to_s };
+        let hover = Hover { segments: vec![span(1.0, 3.0), span(5.0, 11.0)], cuts: Vec::new() };
+        // 8 s in all: the later 4; and of the first 4 the later 2
+        assert_eq!(hover.later_half(60.0).segments, [span(7.0, 11.0)]);
+        assert_eq!(hover.later_half(4.0).segments, [span(5.0, 7.0)]);
+        let cut = hover.clone().after_take_off(6.0);
+        assert_eq!(cut.segments, [span(6.0, 11.0)]);
+        let gone = |from_s, to_s| Cut { span: span(from_s, to_s), reason: CutReason::TakeOff };
+        assert_eq!(cut.cuts, [gone(1.0, 3.0), gone(5.0, 6.0)]);
+        assert_eq!(hover.clone().after_take_off(0.0), hover);
     }
 }

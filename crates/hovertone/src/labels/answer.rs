@@ -16,6 +16,8 @@ pub enum LabelSource {
     BodyRates,
     /// Levels and delays at several microphones whose places are known.
     Microphones,
+    /// The order in which the motors were started.
+    SpinUp,
 }
 
 impl LabelSource {
@@ -26,6 +28,7 @@ impl LabelSource {
             Self::MotorCommands => "the commands of the motors",
             Self::BodyRates => "the body's rates",
             Self::Microphones => "levels and delays at the microphones",
+            Self::SpinUp => "the order in which the motors were started",
         }
     }
 }
@@ -102,6 +105,31 @@ pub enum NotTold {
         /// Where.
         offset_s: f64,
     },
+    /// Rotors begin at one time, or nearly.
+    StartedTogether {
+        /// The shortest time between two.
+        apart_s: f64,
+    },
+    /// From the hover back to where they begin some rotors are not heard all the time, or at speeds that jump.
+    NotFollowed {
+        /// How many.
+        tracks: usize,
+    },
+    /// Before it turns as in the hover, a rotor turns at another speed.
+    OtherSpeedBefore {
+        /// Which.
+        speed_rev_s: f64,
+    },
+    /// Rotors whose speeds are too close to each other for short frames.
+    RotorsTooClose {
+        /// How close.
+        apart_rev_s: f64,
+    },
+    /// The hover begins too late.
+    SpinUpTooLong {
+        /// How long after the recording.
+        before_hover_s: f64,
+    },
     /// Several assignments fit.
     SeveralFit {
         /// Tracks that have no label.
@@ -153,6 +181,15 @@ impl NotTold {
                 "check that the log is of the same flight, that --log-offset-s holds its offset, and how its axes point"
             }
             Self::OffsetAtLimit { .. } => "widen --log-offset-s LOW:HIGH",
+            Self::StartedTogether { .. } => "start one motor after the other, a second or more apart",
+            Self::NotFollowed { .. } => {
+                "bring each motor straight to the speed of the hover, wait a second before the next, and record from before the first"
+            }
+            Self::OtherSpeedBefore { .. } => {
+                "bring each motor straight to the speed of the hover: idling is not followed"
+            }
+            Self::RotorsTooClose { .. } => "give a log of the flight with --log",
+            Self::SpinUpTooLong { .. } => "cut the recording to the start of the motors and the hover, with --from",
             Self::SeveralFit { .. } => {
                 "a longer hover, or one with small rolls and pitches in it, tells rotors apart that move alike"
             }
@@ -191,6 +228,21 @@ impl fmt::Display for NotTold {
             }
             Self::OffsetAtLimit { offset_s } => {
                 write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of what was tried")
+            }
+            Self::StartedTogether { apart_s } => {
+                write!(f, "two rotors begin within {:.1} s of each other", apart_s.max(0.1))
+            }
+            Self::NotFollowed { tracks } => {
+                write!(f, "{tracks} of the rotors cannot be followed from the hover back to where they begin")
+            }
+            Self::OtherSpeedBefore { speed_rev_s } => {
+                write!(f, "before a rotor is heard as in the hover something turns at {speed_rev_s:.1} rev/s")
+            }
+            Self::RotorsTooClose { apart_rev_s } => {
+                write!(f, "two rotors turn within {apart_rev_s:.2} rev/s of each other, too close to hear each begin")
+            }
+            Self::SpinUpTooLong { before_hover_s } => {
+                write!(f, "the hover begins {before_hover_s:.0} s after the recording, too long to be followed")
             }
             Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors several labels fit the log"),
             Self::OtherChannels { channels, microphones } => {

@@ -9,6 +9,7 @@
 //! ```
 //!
 //! Or what several microphones heard, whose places are known (`microphones`).
+//! Without a log: who starts the motors one after the other knows in which order, and their sound begins in it (`spin_up`).
 
 mod answer;
 mod assignment;
@@ -19,6 +20,7 @@ mod log;
 mod microphones;
 mod motors;
 mod rows;
+mod spin_up;
 mod whitening;
 
 pub use answer::{LabelSource, NotTold, RotorLabel, RotorLabels};
@@ -26,6 +28,8 @@ pub use log::{FlightLog, LogError, LogSignals, MotorSignal};
 pub use microphones::{
     ArrayError, MicrophoneArray, MicrophoneLines, PlacedRotor, labels_from_microphones, microphone_lines_from_source,
 };
+pub use spin_up::{RotorBegin, SpinUp, labels_from_spin_up};
+pub(crate) use spin_up::{SPIN_UP_S_MAX, SpinUpReader};
 
 use crate::labels_config::LabelsConfig;
 use crate::span::Span;

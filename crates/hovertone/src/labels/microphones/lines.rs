@@ -1,8 +1,9 @@
 //! What one microphone hears of every rotor's lines: complex amplitudes in blocks, those of all rotors solved for together.
 
-use crate::condition::{RotorTurns, inverse};
+use crate::condition::RotorTurns;
 use crate::config::ToneConfig;
 use crate::error::Error;
+use crate::matrix::inverse;
 use crate::microphones_config::MicrophonesConfig;
 use crate::signal::SignalSource;
 use crate::span::Span;

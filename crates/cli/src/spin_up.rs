@@ -1,0 +1,92 @@
+//! `--spin-up`: in which order the motors were started, by the names of the rotors or the numbers of the motors.
+
+use crate::failure::Failure;
+use hovertone_vehicle::{Layout, Vehicle};
+
+/// Numbers, from 1, and names of all rotors in the order of their start.
+pub(crate) fn names_of(
+    typed: &[String],
+    vehicle: Option<&Vehicle>,
+    rotors: u32,
+) -> Result<Vec<(usize, String)>, Failure> {
+    let refused = |what: String| {
+        let known = vehicle.and_then(Vehicle::flight_parameters).map(|parameters| places(parameters.layout.value));
+        let places = known.unwrap_or_else(|| places(Layout::X));
+        Failure::usage(
+            what,
+            format!("name each once, as in --spin-up {} or, by motors, --spin-up 1,2,3,4", places.join(",")),
+        )
+    };
+    let numbers: Option<Vec<usize>> = typed.iter().map(|name| name.trim().parse().ok()).collect();
+    let (all, order) = match numbers {
+        Some(numbers) => ((1..=rotors).map(|number| format!("motor {number}")).collect(), numbers),
+        None => {
+            let layout = vehicle.and_then(Vehicle::flight_parameters).map(|parameters| parameters.layout.value);
+            let layouts = layout.map_or(vec![Layout::X, Layout::Plus], |layout| vec![layout]);
+            let number_in = |layout: &Layout, name: &str| {
+                places(*layout).iter().position(|place| *place == name.trim().to_lowercase()).map(|place| place + 1)
+            };
+            let numbers_in =
+                |layout: &Layout| -> Option<Vec<usize>> { typed.iter().map(|name| number_in(layout, name)).collect() };
+            let known = layouts.iter().find_map(|layout| Some((*layout, numbers_in(layout)?)));
+            let Some((layout, numbers)) = known else {
+                let is_unknown = |name: &&String| layouts.iter().all(|layout| number_in(layout, name).is_none());
+                let unknown = typed.iter().find(is_unknown).map_or_else(|| typed.join(","), String::clone);
+                return Err(refused(format!("--spin-up: \"{unknown}\" is no rotor of one frame with the others")));
+            };
+            (places(layout).iter().map(|place| place.replace('-', " ")).collect::<Vec<String>>(), numbers)
+        }
+    };
+    let mut sorted = order.clone();
+    sorted.sort_unstable();
+    if sorted != (1..=all.len()).collect::<Vec<usize>>() || all.len() != rotors as usize {
+        return Err(refused(format!(
+            "--spin-up names {} of {rotors} rotors, and each must be there once",
+            typed.join(", ")
+        )));
+    }
+    Ok(order.into_iter().map(|number| (number, all[number - 1].clone())).collect())
+}
+
+/// Names of a frame's rotors, as they are typed.
+fn places(layout: Layout) -> [String; 4] {
+    layout.places(1.0).map(|place| place.name.replace(' ', "-"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn typed(text: &str) -> Vec<String> {
+        text.split(',').map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn rotors_are_named_by_their_places_or_their_numbers() {
+        let names = |text: &str, rotors| names_of(&typed(text), None, rotors).unwrap();
+        let order = names("front-right,rear-left, Front-Left,rear-right", 4);
+        assert_eq!(order.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [4, 2, 1, 3]);
+        assert_eq!((order[0].1.as_str(), order[2].1.as_str()), ("front right", "front left"));
+        assert_eq!(names("left,front,right,rear", 4)[0], (2, "left".to_owned()));
+        assert_eq!(
+            names("3,1,2", 3),
+            [(3, "motor 3".to_owned()), (1, "motor 1".to_owned()), (2, "motor 2".to_owned())]
+        );
+    }
+
+    #[test]
+    fn what_is_not_each_once_is_refused() {
+        for (text, rotors) in [
+            ("front-right,rear-left,front-left", 4),
+            ("front-right,rear-left,front-left,front-left", 4),
+            ("front,rear-left,left,right", 4),
+            ("front-right,rear-left,front-left,nose", 4),
+            ("front-right,rear-left,front-left,rear-right", 6),
+            ("1,2,3", 4),
+            ("0,1,2,3", 4),
+            ("", 4),
+        ] {
+            assert!(matches!(names_of(&typed(text), None, rotors), Err(Failure::Usage { .. })), "{text}");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! CSV as programs write it: a header, then rows; parted by commas, semicolons or tabs.
+
+use csv::StringRecord;
+
+/// Text that is no table, or a cell that is no number.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CsvError {
+    /// No CSV.
+    #[error("this is no table with a header: {0}")]
+    NotCsv(#[from] csv::Error),
+    /// A cell that is no number.
+    #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
+    NotANumber {
+        /// Line, counted from 1.
+        line: u64,
+        /// Header.
+        column: String,
+        /// What stands there.
+        cell: String,
+    },
+}
+
+impl CsvError {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::NotANumber { .. } => "correct the cell, or remove the row",
+        }
+    }
+}
+
+/// A CSV, opened. Rows may be read as often as wanted, so that a long log need not be held.
+pub(crate) struct CsvText<'a> {
+    text: &'a str,
+    delimiter: u8,
+    pub(crate) headers: StringRecord,
+    /// Whether "3,5" is a number.
+    has_decimal_commas: bool,
+}
+
+impl<'a> CsvText<'a> {
+    /// What parts the cells is what the first line has most of. A comma is a decimal one where a cell shows that it can be nothing
+    /// else ("3,5"). Lines that begin with # are left out.
+    pub(crate) fn open(text: &'a str) -> Result<Self, CsvError> {
+        let text = text.trim_start_matches('\u{feff}');
+        let first_line = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+        // of equals the last
+        let delimiter = [b'\t', b';', b',']
+            .into_iter()
+            .max_by_key(|delimiter| first_line.bytes().filter(|byte| byte == delimiter).count())
+            .unwrap_or(b',');
+        let headers = reader(text, delimiter).headers()?.clone();
+        let mut csv = Self { text, delimiter, headers, has_decimal_commas: false };
+        // between commas a cell with one stands in quotes
+        if delimiter != b',' || text.contains('"') {
+            for record in csv.records() {
+                csv.has_decimal_commas |= record?.iter().any(is_decimal_comma);
+            }
+        }
+        Ok(csv)
+    }
+
+    /// The rows.
+    pub(crate) fn records(&self) -> impl Iterator<Item = Result<StringRecord, CsvError>> + use<'a> {
+        reader(self.text, self.delimiter).into_records().map(|record| Ok(record?))
+    }
+
+    /// The headers, for messages.
+    pub(crate) fn names(&self) -> String {
+        self.headers.iter().filter(|header| !header.is_empty()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The finite number in a cell.
+    pub(crate) fn number(&self, cell: &str) -> Option<f64> {
+        let number: Option<f64> = if self.has_decimal_commas && !cell.contains('.') {
+            cell.replacen(',', ".", 1).parse().ok()
+        } else {
+            cell.parse().ok()
+        };
+        number.filter(|number| number.is_finite())
+    }
+
+    /// The number in a column of a row; none where the cell is empty or missing.
+    pub(crate) fn number_at(&self, column: usize, record: &StringRecord) -> Result<Option<f64>, CsvError> {
+        let cell = record.get(column).unwrap_or_default();
+        if cell.is_empty() {
+            return Ok(None);
+        }
+        self.number(cell).map(Some).ok_or_else(|| CsvError::NotANumber {
+            line: line_of(record),
+            column: self.headers.get(column).unwrap_or_default().to_owned(),
+            cell: cell.to_owned(),
+        })
+    }
+}
+
+/// Line of a row, counted from 1.
+pub(crate) fn line_of(record: &StringRecord) -> u64 {
+    record.position().map_or(0, csv::Position::line)
+}
+
+fn reader(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
+    csv::ReaderBuilder::new()
+        .delimiter(delimiter)
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes())
+}
+
+/// Whether a cell has a comma that cannot part thousands: "3,5", not "3,610".
+fn is_decimal_comma(cell: &str) -> bool {
+    let Some((whole, part)) = cell.split_once(',') else { return false };
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    are_digits(whole.trim_start_matches(['-', '+'])) && are_digits(part) && (part.len() != 3 || whole.len() > 3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_comma_is_a_decimal_one_only_where_it_cannot_part_thousands() {
+        for (cell, expected) in
+            [("3,5", true), ("3610,343", true), ("-0,25", true), ("3,610", false), ("3610", false), ("a,b", false)]
+        {
+            assert_eq!(is_decimal_comma(cell), expected, "{cell}");
+        }
+    }
+
+    #[test]
+    fn cells_are_parted_by_what_the_header_has_most_of() {
+        for text in ["a,b\n1,2.5\n", "a;b\n1;2,5\n", "\u{feff}a\tb\n1\t2.5\n", "# x,y;z;w\na,b\n1,\"2,5\"\n"] {
+            let csv = CsvText::open(text).unwrap();
+            assert_eq!(csv.names(), "a, b", "{text:?}");
+            let record = csv.records().next().unwrap().unwrap();
+            let numbers = [0, 1, 2].map(|column| csv.number_at(column, &record).unwrap());
+            assert_eq!(numbers, [Some(1.0), Some(2.5), None], "{text:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_is_named_with_its_place() {
+        for cell in ["fast", "inf", "NaN", "1,000"] {
+            let text = format!("a;b\n1;{cell}\n");
+            let csv = CsvText::open(&text).unwrap();
+            let record = csv.records().next().unwrap().unwrap();
+            let message = csv.number_at(1, &record).unwrap_err().to_string();
+            assert_eq!(message, format!("line 2, column \"b\": \"{cell}\" is no number"));
+        }
+    }
+}
