@@ -89,10 +89,13 @@ impl HarmonicTrack {
     /// counting for how near its own middle is.
     pub(crate) fn points_in(&self, span: Option<&Span>, order: Order) -> Vec<TrackPoint> {
         let step_s = self.step_s;
-        let disagreement_rev_s = self.disagreement_rev_s();
-        self.blocks
+        let is_wanted = |block: &&HarmonicBlock| {
+            block.is_heard && span.is_none_or(|span| block.span.overlap(*span).length_s() > 0.0)
+        };
+        let blocks: Vec<&HarmonicBlock> = self.blocks.iter().filter(is_wanted).collect();
+        let disagreement_rev_s = self.disagreement_rev_s(&blocks);
+        blocks
             .iter()
-            .filter(|block| block.is_heard)
             .flat_map(|block| {
                 let count = (block.span.length_s() / step_s).round().max(1.0);
                 (0..count as usize).map(move |index| {
@@ -112,15 +115,13 @@ impl HarmonicTrack {
             .collect()
     }
 
-    /// By how much blocks and those between them differ where each counts for half: by noise, by a speed that bends, and by lines that
-    /// do not keep their phase, of which no block knows. Root mean square.
-    fn disagreement_rev_s(&self) -> f64 {
+    /// By how much some blocks and those between them differ where each counts for half: by noise, by a speed that bends, and by lines
+    /// that do not keep their phase, of which no block knows. Root mean square.
+    fn disagreement_rev_s(&self, blocks: &[&HarmonicBlock]) -> f64 {
         let quarters =
             |block: &HarmonicBlock| [0.25, 0.75].map(|share| block.span.from_s + share * block.span.length_s());
-        let differences: Vec<f64> = self
-            .blocks
+        let differences: Vec<f64> = blocks
             .iter()
-            .filter(|block| block.is_heard)
             .flat_map(|block| quarters(block).map(|time_s| (block, time_s)))
             .filter_map(|(block, time_s)| Some(self.between_at(time_s)?.speed_at(time_s) - block.speed_at(time_s)))
             .collect();
