@@ -13,7 +13,7 @@ use crate::rotor_readings::{condition_from_source, hover_after_spin_up, rotors_f
 use crate::sample::samples_from_hover;
 use crate::signal::SignalSource;
 use crate::span::Span;
-use crate::speed::{HarmonicWeights, RotorEstimate, SpeedEstimate, Track, TrackPoint};
+use crate::speed::{HarmonicWeights, RotorEstimate, SpeedEstimate, Track, TrackPoint, mean_track};
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
 use crate::tone::{
     BLADES_MAX, Band, CombMap, bands_around, bands_worth_following, families_agree, foreign_series, lines_and_between,
@@ -64,7 +64,7 @@ pub struct RotorTone {
     pub ridges: Vec<Ridge>,
     /// Mean over all of the hover, one for each method in the order of [`Method::ALL`].
     pub speeds: Vec<SpeedEstimate>,
-    /// Speed of each frame, by the configured method.
+    /// Speed of each frame, by the configured method: of several rotors their mean, where all are told apart.
     pub track: Vec<TrackPoint>,
     /// The rotors one by one, fastest first; empty where they are not told apart.
     pub rotors: Vec<RotorEstimate>,
@@ -233,11 +233,13 @@ fn speed_near(
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&ridges, &speeds));
     warnings.extend(warning_of_samples(&samples));
+    let mut rotors = apart.rotors(order, &config.budget);
+    let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;
     let track = match tracks.into_iter().find(|track| track.method == config.method) {
         Some(track) => track.points,
-        None => harmonic.points_in(None, config.tone.order),
+        None if are_all_apart => mean_track(&rotors),
+        None => harmonic.points_in(None, order),
     };
-    let mut rotors = apart.rotors(order, &config.budget);
     condition_from_source(source, &hover, &mut rotors, config, on_progress)?;
     let spin_up = match no_spin_up {
         Some(reason) => Some(SpinUp::not_told(reason)),

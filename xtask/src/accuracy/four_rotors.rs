@@ -7,7 +7,7 @@ use super::peers::{PEERS, make_band_passed};
 use super::single_rotor::shown;
 use super::track::{Score, TrackFrame, TrueTrack, median, score_of_track};
 use super::workbench::{Workbench, output_of};
-use hovertone::{Method, Outcome, RotorEstimate, RotorTone, ToneConfig};
+use hovertone::{Method, Outcome, RotorTone, ToneConfig, TrackPoint};
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_vehicle::Gear;
 use std::fs;
@@ -17,8 +17,8 @@ use std::path::PathBuf;
 const TRUTH_TO_CSV: &str = "import sys, numpy as np; d = np.load(sys.argv[1]); \
     np.savetxt(sys.argv[2], np.column_stack([d['t'], d['rev'].T]), delimiter=',', fmt='%.17g')";
 
-/// Points of two tracks no further apart than this are of one time.
-const SAME_TIME_S: f64 = 1e-3;
+/// Points of a track further apart than this have a gap between them.
+const GAP_S: f64 = 0.1;
 
 /// A signal and how the peers' script is told to make it.
 struct Case {
@@ -185,9 +185,12 @@ fn hovertone_rows(files: &Files) -> Result<Vec<Row>, String> {
         };
         let note =
             tone.speed(method).zip(files.truth.mean_over(&analysis.hover.segments)).map(|(speed, truth_rev_s)| {
-                let u = speed.std_uncertainty_rev_s.map_or("–".to_owned(), |std| format!("{std:.1e}"));
+                let u = speed.combined_std_uncertainty_rev_s().map_or("–".to_owned(), |std| format!("{std:.1e}"));
                 let error_rev_s = speed.speed.rev_s() - truth_rev_s;
-                format!("mean {:.4} rev/s, stated u {u}, off by {error_rev_s:+.1e}", speed.speed.rev_s())
+                format!(
+                    "mean {:.4} rev/s, stated u with that of the clock {u}, off by {error_rev_s:+.1e}",
+                    speed.speed.rev_s()
+                )
             });
         let frames = frames_of(tone);
         let steps = frames.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect();
@@ -200,18 +203,18 @@ fn hovertone_rows(files: &Files) -> Result<Vec<Row>, String> {
 fn frames_of(tone: &RotorTone) -> Vec<TrackFrame> {
     let mut frames: Vec<TrackFrame> = tone.track.iter().map(TrackFrame::from).collect();
     for frame in &mut frames {
-        let at_frame = |rotor: &RotorEstimate| {
-            let after = rotor.track.partition_point(|point| point.time_s < frame.time_s - SAME_TIME_S);
-            rotor
-                .track
-                .get(after)
-                .filter(|point| point.time_s < frame.time_s + SAME_TIME_S)
-                .map(|point| point.speed_rev_s)
-        };
-        frame.rotors_rev_s = tone.rotors.iter().filter_map(at_frame).collect();
+        frame.rotors_rev_s = tone.rotors.iter().filter_map(|rotor| speed_at(&rotor.track, frame.time_s)).collect();
         frame.rotors_rev_s.sort_by(f64::total_cmp);
     }
     frames
+}
+
+/// Speed at a time between two neighbouring points; none in a gap.
+fn speed_at(track: &[TrackPoint], time_s: f64) -> Option<f64> {
+    let after = track.partition_point(|point| point.time_s < time_s);
+    let (a, b) = (track.get(after.checked_sub(1)?)?, track.get(after)?);
+    let share = (time_s - a.time_s) / (b.time_s - a.time_s);
+    (b.time_s - a.time_s < GAP_S).then_some(a.speed_rev_s + share * (b.speed_rev_s - a.speed_rev_s))
 }
 
 fn came_of(frames: &[TrackFrame], truth: &TrueTrack, frame_count: Option<f64>) -> Came {

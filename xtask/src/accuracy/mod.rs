@@ -60,7 +60,7 @@ struct Options {
     coverage_draws: usize,
     minutes: u32,
     install_peers: bool,
-    /// One part, printed and not written to the report.
+    /// One part: printed, and written in its place in the report.
     only: Option<Part>,
 }
 
@@ -85,29 +85,48 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
             Part::LongFile => long_file::add_long_file(&mut document, root, options.minutes)?,
         }
     }
-    let text = document.into_text();
+    let mut text = document.into_text();
     if options.only.is_some() {
         println!("{text}");
-        return Ok(());
+        let before = fs::read_to_string(root.join(REPORT)).map_err(|error| format!("{REPORT}: {error}"))?;
+        text = with_section(&before, &text, &made_by(root, words));
     }
     fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
     println!("{REPORT} is written");
     Ok(())
 }
 
-fn add_head(document: &mut Document, root: &Path, words: &[&str]) {
+/// A report with one section in the place of the old one, and what it was made by.
+fn with_section(report: &str, section: &str, made_by: &str) -> String {
+    let (heading, body) = section.trim_start().split_once('\n').unwrap_or((section, ""));
+    let from = report.find(heading).unwrap_or(report.len());
+    let end = report[from..].match_indices("\n## ").map(|(at, _)| from + at + 1).next().unwrap_or(report.len());
+    let section = format!("{heading}\n\nThis section: {made_by}.\n\n{}\n", body.trim());
+    let rest = &report[end..];
+    format!("{}{section}{}{rest}", &report[..from], if rest.is_empty() { "" } else { "\n" })
+}
+
+/// The command and the commit.
+fn made_by(root: &Path, words: &[&str]) -> String {
     let git = |arguments: &[&str]| output_of(std::process::Command::new("git").args(arguments).current_dir(root));
     let commit = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_default();
     let is_changed = !git(&["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default().is_empty();
-    document.paragraph("# How accurate");
-    document.paragraph(&format!(
-        "Made by `{}`, hovertone {} at commit {}{}; not edited by hand. Recommended settings throughout: nothing is told but \
-         what the flags named here say. Every sound is drawn from fixed seeds, whatever the number of cores, so that another \
-         run repeats all numbers but those of the long file (and the other programs', as long as their versions stay). Errors of the speed count double in the thrust constant.",
+    format!(
+        "made by `{}`, hovertone {} at commit {}{}",
         ["cargo xtask bench accuracy"].iter().chain(words).copied().collect::<Vec<_>>().join(" "),
         env!("CARGO_PKG_VERSION"),
         commit.trim(),
         if is_changed { " with changes" } else { "" },
+    )
+}
+
+fn add_head(document: &mut Document, root: &Path, words: &[&str]) {
+    document.paragraph("# How accurate");
+    document.paragraph(&format!(
+        "All but the sections that say otherwise were {}; not edited by hand. Recommended settings throughout: nothing is told but \
+         what the flags named here say. Every sound is drawn from fixed seeds, whatever the number of cores, so that another \
+         run repeats all numbers but those of the long file (and the other programs', as long as their versions stay). Errors of the speed count double in the thrust constant.",
+        made_by(root, words),
     ));
 }
 
@@ -151,6 +170,16 @@ fn usage() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_section_takes_the_place_of_the_old_one() {
+        let report = "# A\n\nhead\n\n## B\n\nold\n\n## C\n\nlast\n";
+        let made = with_section(report, "## B\n\nnew\n\n", "me");
+        assert_eq!(made, "# A\n\nhead\n\n## B\n\nThis section: me.\n\nnew\n\n## C\n\nlast\n");
+        assert_eq!(with_section(&made, "## C\n\nnewer\n", "you").matches("## C").count(), 1);
+        let last = with_section(report, "## C\n\nnewer", "me");
+        assert!(last.ends_with("old\n\n## C\n\nThis section: me.\n\nnewer\n"), "{last}");
+    }
 
     #[test]
     fn options_are_read() {

@@ -4,6 +4,8 @@ mod budget;
 mod harmonic;
 mod separated;
 
+pub(crate) use separated::mean_track;
+
 pub use budget::{UncertaintySource, UncertaintyTerm};
 
 use crate::condition::RotorCondition;

@@ -1,6 +1,6 @@
 //! Rotors told apart → the speed of each, their mean and their mean square.
 
-use super::{RotorEstimate, SpeedEstimate};
+use super::{RotorEstimate, SpeedEstimate, TrackPoint};
 use crate::budget_config::BudgetConfig;
 use crate::harmonic::{HarmonicTrack, RotorTrack, RotorTracks};
 use crate::method::Method;
@@ -17,6 +17,9 @@ const FAINT_SHARE_MIN: f64 = 0.5;
 /// How far another one may turn from the mean of those that are told apart, as a standard deviation: rotors of real quadrotors
 /// spread over 13 to 22 % from slowest to fastest (PHYSICS section 4).
 const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
+
+/// Points of a track further apart than this have a gap between them.
+const GAP_S_MAX: f64 = 0.1;
 
 /// The mean by power of all rotors lies between the slowest and the fastest, or no further beyond than this share.
 const BEYOND_SHARE_MAX: f64 = 0.02;
@@ -134,6 +137,49 @@ impl RotorTracks {
             let merged_s: f64 = rotor.merged.iter().map(within_s).sum();
             heard_s >= RESOLVED_SHARE_MIN * length_s && merged_s <= (1.0 - RESOLVED_SHARE_MIN) * length_s
         })
+    }
+}
+
+/// The mean of rotors over time, where each of them has a speed.
+pub(crate) fn mean_track(rotors: &[RotorEstimate]) -> Vec<TrackPoint> {
+    let Some((first, others)) = rotors.split_first() else { return Vec::new() };
+    let count = rotors.len() as f64;
+    let mean_at = |own: &TrackPoint| {
+        let mut mean = *own;
+        let mut variance = own.std_uncertainty_rev_s.powi(2);
+        for other in others {
+            let point = point_at(&other.track, own.time_s)?;
+            mean.speed_rev_s += point.speed_rev_s;
+            mean.tone_hz += point.tone_hz;
+            mean.level_db = mean.level_db.max(point.level_db);
+            variance += point.std_uncertainty_rev_s.powi(2);
+        }
+        mean.speed_rev_s /= count;
+        mean.tone_hz /= count;
+        mean.std_uncertainty_rev_s = variance.sqrt() / count;
+        Some(mean)
+    };
+    first.track.iter().filter_map(mean_at).collect()
+}
+
+/// A track at a time between two of its points, or near one.
+fn point_at(track: &[TrackPoint], time_s: f64) -> Option<TrackPoint> {
+    let after = track.partition_point(|point| point.time_s < time_s);
+    let (before, after) = (after.checked_sub(1).and_then(|index| track.get(index)), track.get(after));
+    let is_near = |point: &&TrackPoint| (point.time_s - time_s).abs() <= GAP_S_MAX / 2.0;
+    match (before.filter(is_near), after.filter(is_near)) {
+        (Some(a), Some(b)) => {
+            let share = (time_s - a.time_s) / (b.time_s - a.time_s).max(f64::MIN_POSITIVE);
+            let between = |a: f64, b: f64| a + share * (b - a);
+            Some(TrackPoint {
+                time_s,
+                tone_hz: between(a.tone_hz, b.tone_hz),
+                speed_rev_s: between(a.speed_rev_s, b.speed_rev_s),
+                std_uncertainty_rev_s: a.std_uncertainty_rev_s.max(b.std_uncertainty_rev_s),
+                level_db: a.level_db.max(b.level_db),
+            })
+        }
+        (near, other) => near.or(other).copied(),
     }
 }
 
