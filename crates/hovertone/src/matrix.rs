@@ -4,6 +4,9 @@ use realfft::num_complex::Complex;
 
 type C = Complex<f64>;
 
+/// A line whose variance those of other rotors, solved for together with it, widen by more than this factor is not apart from them.
+pub(crate) const INFLATION_MAX: f64 = 10.0;
+
 /// The inverse of a small matrix by Gauss and Jordan; `None` where there is none.
 pub(crate) fn inverse(mut matrix: Vec<Vec<C>>) -> Option<Vec<Vec<C>>> {
     let size = matrix.len();

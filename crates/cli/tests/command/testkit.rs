@@ -86,6 +86,13 @@ fn write_wav(path: &Path, samples: &[f32], sample_rate: u32) {
     writer.finalize().unwrap();
 }
 
+/// Usage that is refused: exit code 2, nothing on standard output, a message with a hint and with these words.
+pub(crate) fn refused_with(arguments: &[&str], words: &[&str]) {
+    let run = hovertone(arguments).ends_with(2);
+    assert!(run.stdout.is_empty() && run.stderr.contains("hint:"), "{}", run.stderr);
+    words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}:\n{}", run.stderr));
+}
+
 /// The root of the repository.
 pub(crate) fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()

@@ -1,12 +1,10 @@
 //! The amplitudes of all rotors' lines in one block of sound, those of one order solved for together.
 
-use crate::matrix::inverse;
+use crate::matrix::{INFLATION_MAX, inverse};
 use realfft::num_complex::Complex;
 use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
 
-/// A line whose uncertainty the other rotors' widen by more than this factor in power is not apart from them.
-const INFLATION_MAX: f64 = 10.0;
 /// Lines of real rotors swell and fade by this share within a block; so much of one that is near leaks into another.
 const SWELL_SHARE: f64 = 0.1;
 

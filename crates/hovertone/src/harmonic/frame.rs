@@ -1,14 +1,9 @@
 //! The spectrum of a frame of one channel, under a Hann window.
 
+use crate::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
-use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// Weights of a Hann window that is symmetric about the middle of its samples.
-pub(super) fn hann_weights(length: usize) -> impl Iterator<Item = f64> {
-    (0..length).map(move |n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos())
-}
 
 /// Transforms frames of one length.
 pub(super) struct FrameTransform {

@@ -15,6 +15,7 @@ pub(crate) use band_limit::band_limit_hz;
 pub(crate) use decimator::Decimator;
 pub(crate) use whitening::whitened_db;
 pub use window::Window;
+pub(crate) use window::hann_weights;
 
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};

@@ -3,6 +3,11 @@
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
+/// Weights of a Hann window that is symmetric about the middle of its samples.
+pub(crate) fn hann_weights(length: usize) -> impl Iterator<Item = f64> {
+    (0..length).map(move |n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos())
+}
+
 /// Shape of the window `w[n]` in eq 5, periodic form (as spectral analysis wants it).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

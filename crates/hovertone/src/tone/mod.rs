@@ -27,3 +27,5 @@ pub use reading::{Meaning, Reading};
 
 /// An order up to this is a number of blades; above, a number of teeth.
 pub(crate) const BLADES_MAX: f64 = 12.0;
+/// Lines beside a gear mesh and its multiples, in turns of the shaft: one and two to either side.
+pub(crate) const MESH_SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];

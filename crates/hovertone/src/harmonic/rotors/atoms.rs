@@ -1,10 +1,9 @@
 //! What one rotor puts into a channel: its own line there, and those of its other lines and sidebands that fall into the band.
 
 use crate::channel::Channel;
+use crate::tone::MESH_SIDEBANDS;
 use std::f64::consts::PI;
 
-/// Sidebands of a gear mesh that are taken away with it: one and two turns of the shaft to either side.
-const SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 /// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there.
 pub(super) const REACH_CELLS: f64 = 6.0;
 /// Below this the quotient of the lobe loses its digits.
@@ -24,7 +23,7 @@ pub(super) fn atoms_of(channels: &[Channel], mesh_order: Option<f64>) -> Vec<Cha
     for channel in channels {
         orders.push(channel.order);
         if mesh_order.is_some_and(|mesh| (channel.order / mesh).fract() == 0.0) {
-            orders.extend(SIDEBANDS.iter().map(|sideband| channel.order + sideband));
+            orders.extend(MESH_SIDEBANDS.iter().map(|sideband| channel.order + sideband));
         }
     }
     channels

@@ -1,11 +1,11 @@
 //! A rotor's path once more, near where it is known to be: in its own lines, from which the other rotors have been taken away and
 //! which have been turned back by the path itself, so that frames can be longer and finer than along a path that all share.
 
-use super::super::frame::hann_weights;
 use super::super::line::Line;
 use super::super::map::best_path;
 use super::super::path::SpeedPath;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
+use crate::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,6 @@
 //! Channels → lines of one rotor each: the amplitudes of all rotors' lines in a channel are solved for together, frame by frame,
 //! and what belongs to the others is taken away.
 
-use super::super::frame::hann_weights;
 use super::super::line::Line;
 use super::super::map::STRONG_POWER_MIN;
 use super::super::path::SpeedPath;
@@ -11,6 +10,7 @@ use super::mixture::Mixture;
 use super::search::worth;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks, phasors};
 use crate::channel::TICKS_PER_HOP;
+use crate::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 
 /// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).

@@ -3,13 +3,14 @@
 use crate::condition::RotorTurns;
 use crate::config::ToneConfig;
 use crate::error::Error;
-use crate::matrix::inverse;
+use crate::matrix::{INFLATION_MAX, inverse};
 use crate::microphones_config::MicrophonesConfig;
 use crate::signal::SignalSource;
 use crate::span::Span;
+use crate::spectrogram::hann_weights;
 use crate::speed::TrackPoint;
 use crate::stream::{Piece, Progress, checked_rate_hz, for_each_piece};
-use crate::tone::{BLADES_MAX, lines_between_speeds};
+use crate::tone::{BLADES_MAX, MESH_SIDEBANDS, lines_between_speeds};
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
@@ -19,12 +20,8 @@ const CHUNK: usize = 64;
 /// change by [`WANDER_SHARE`] within a block besides.
 const REACH_CELLS: f64 = 6.0;
 const WANDER_SHARE: f64 = 0.005;
-/// A line whose uncertainty the others' widen by more than this factor in power is not apart from them.
-const INFLATION_MAX: f64 = 10.0;
 /// Noise is that beside each line, half a turn of the shaft above it, where no rotor sounds.
 const BESIDE: f64 = 0.5;
-/// Sidebands of a gear mesh, which may fall on another rotor's.
-const SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
 pub(super) type C = Complex<f64>;
 
@@ -148,7 +145,7 @@ impl LineReader {
         let mesh_order = Some(tone.order.lines_per_turn()).filter(|order| *order > BLADES_MAX);
         let is_mesh = |order: f64| mesh_order.is_some_and(|mesh| (order / mesh).fract() == 0.0);
         let sidebands =
-            orders.iter().filter(|order| is_mesh(**order)).flat_map(|order| SIDEBANDS.map(|away| order + away));
+            orders.iter().filter(|order| is_mesh(**order)).flat_map(|order| MESH_SIDEBANDS.map(|away| order + away));
         let sounding: Vec<f64> = orders.iter().copied().chain(sidebands).collect();
         // the length of a block in halvings of the longest
         let halvings = |order: f64| (config.block_s * order / config.block_order_s).log2().ceil().max(0.0) as u32;
@@ -209,7 +206,7 @@ impl LineBank {
             block_s,
             rotors,
             atoms: atoms.collect(),
-            window: (0..length).map(|n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()).collect(),
+            window: hann_weights(length).collect(),
             block: None,
             lines: own.into_iter().map(|order| LineBlocks { order, blocks: Vec::new() }).collect(),
         }

@@ -1,9 +1,10 @@
 //! Sound → spectra of short frames, read at any frequency, with the noise between the lines.
 
+use crate::spectrogram::hann_weights;
 use crate::statistics::median;
 use realfft::num_complex::Complex;
 use realfft::{RealFftPlanner, RealToComplex};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Length of a frame: parts lines that are 5 Hz from each other, and a motor runs up in as much.
@@ -47,8 +48,7 @@ impl Frames {
     /// Of frequencies up to a limit; the first sample is at `start_s`.
     pub(super) fn new(sample_rate_hz: f64, start_s: f64, high_hz: f64) -> Self {
         let length = (FRAME_S * sample_rate_hz).round() as usize;
-        let window: Vec<f64> =
-            (0..length).map(|n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos()).collect();
+        let window: Vec<f64> = hann_weights(length).collect();
         let padded = (FINER * length).next_power_of_two();
         let bin_hz = sample_rate_hz / padded as f64;
         Self {
@@ -144,6 +144,7 @@ pub(super) fn leakage(off_hz: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     /// A sine of amplitude 2 has exponentials of amplitude 1, at its own frequency and as the leakage says beside it.
     #[test]
