@@ -134,6 +134,24 @@ fn rotors_far_apart_are_found_wherever_the_loudest_is() {
 }
 
 #[test]
+fn a_weak_rotor_is_found_beside_loud_ones() {
+    // 14 dB below the others, by its gear mesh alone: what these leave behind when they are taken away is as loud
+    let lines = [(69.0, 1.0), (68.0, 0.3), (70.0, 0.3), (138.0, 0.5), (207.0, 0.25)];
+    for (weak, seed) in [0, 1, 3].into_iter().zip(60..) {
+        let swing = |mean_rev_s| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean_rev_s) };
+        let mut rotors = [61.1, 60.5, 59.9, 59.3].map(swing);
+        rotors[weak].level = 0.2;
+        let analysis = heard_by(&rotors, &lines, QUIET, ToneConfig::of_order(Order::new(69.0).unwrap()), seed);
+        let tone = tone_of(&analysis);
+        assert_eq!(tone.rotors.len(), 4, "weak {weak}");
+        for (heard, rotor) in tone.rotors.iter().zip(&rotors) {
+            let error = heard.speed.speed.rev_s() - rotor.turns(LENGTH_S) / LENGTH_S;
+            assert!(error.abs() < 2e-3, "weak {weak}: {error}");
+        }
+    }
+}
+
+#[test]
 fn many_lines_of_four_rotors_are_no_other_sound() {
     // forty lines, few of them explained by the loudest rotor alone, make chance series; and now one rotor leads, now another
     let lines: Vec<(f64, f64)> = (1..=20).map(|k| (2.0 * f64::from(k), f64::from(k).powf(-0.5))).collect();
@@ -182,7 +200,7 @@ fn rotors_in_loud_noise_say_how_little_is_known_of_them() {
         within += u32::from(error.abs() < 2.0 * std);
     }
     // half in the louder noise are refused; of the rest nine tenths within k = 2
-    assert!(answered >= 6 && apart >= 2 && 10 * within >= 9 * answered, "{within} of {answered}, {apart} apart");
+    assert!(answered >= 6 && apart >= 6 && 10 * within >= 9 * answered, "{within} of {answered}, {apart} apart");
 }
 
 #[test]

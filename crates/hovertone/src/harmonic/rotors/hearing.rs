@@ -4,9 +4,10 @@
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
+use super::line_weights::line_weights;
 use super::paths::{around, continuous_paths, offsets_from, path_through, paths_along, smoothed_mean, tracks_of};
 use super::retrace::retraced;
-use super::search::{GridScores, OffsetGrid, found_tracks, reclaimed_tracks};
+use super::search::{GridScores, OffsetGrid, Trust, found_tracks, reclaimed_tracks};
 use super::separation::{SeparatedRotor, separated};
 use super::spectra::{FRAME_TICKS, Spectra};
 use realfft::num_complex::Complex;
@@ -21,10 +22,12 @@ pub(super) const MARGIN_SHARE: f64 = 0.03;
 /// Rotors of a hovering multirotor leave their common speed by less than 1 % in a second, which smears a line over less than two
 /// resolution cells of these frames.
 pub(super) const COMMON_SEARCH: Search =
-    Search { frame_hz_s2: 180.0, margin_share: MARGIN_SHARE, sweeps: 2, is_afresh: false };
-/// The same for rotors that are close together.
+    Search { frame_hz_s2: 180.0, margin_share: MARGIN_SHARE, sweeps: 2, is_afresh: false, residue_share: 0.03 };
+/// The same for rotors that are close together: each stands in what another leaves behind.
+pub(super) const COMMON_SEARCH_OF_CLOSE: Search = Search { residue_share: 0.0, ..COMMON_SEARCH };
+/// And along what these have found.
 pub(super) const CLOSE_SEARCH: Search =
-    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 4, is_afresh: false };
+    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 4, is_afresh: false, residue_share: 0.0 };
 pub(super) const CLOSE_SEARCH_AFRESH: Search = Search { is_afresh: true, ..CLOSE_SEARCH };
 
 /// How the rotors are looked for beside each other.
@@ -38,6 +41,8 @@ pub(super) struct Search {
     sweeps: usize,
     /// Whether what is known of the rotors is forgotten but for what they share.
     is_afresh: bool,
+    /// See [`Trust`].
+    residue_share: f32,
 }
 
 /// Rotors taken apart along their paths.
@@ -73,19 +78,28 @@ pub(super) struct Hearing<'a, 'p> {
     quantum: &'a Quantum<'a>,
     atoms: &'a [ChannelAtoms],
     middle_rev_s: f64,
+    line_weights: Vec<f64>,
     planner: &'p mut FftPlanner<f32>,
 }
 
 impl<'a, 'p> Hearing<'a, 'p> {
+    /// Where rotors are roughly; and the frames of a first search along what they share.
     pub(super) fn new(
         quantum: &'a Quantum<'a>,
         atoms: &'a [ChannelAtoms],
         rough: &[Vec<f64>],
         planner: &'p mut FftPlanner<f32>,
-    ) -> Option<Self> {
+    ) -> Option<(Self, Spectra)> {
         let speeds = || rough.iter().flatten();
         let middle_rev_s = speeds().sum::<f64>() / speeds().count().max(1) as f64;
-        (middle_rev_s > 0.0).then_some(Self { quantum, atoms, middle_rev_s, planner })
+        if middle_rev_s <= 0.0 {
+            return None;
+        }
+        let mut hearing = Self { quantum, atoms, middle_rev_s, line_weights: Vec::new(), planner };
+        let spectra = hearing.spectra(&quantum.series, rough, COMMON_SEARCH.frame_hz_s2)?;
+        let grid = hearing.grid(&offsets_from(rough, &spectra.common_rev_s), COMMON_SEARCH.margin_share, &spectra);
+        hearing.line_weights = line_weights(&spectra, &grid, rough.len());
+        Some((hearing, spectra))
     }
 
     /// Resolution of the line that resolves most finely.
@@ -96,11 +110,16 @@ impl<'a, 'p> Hearing<'a, 'p> {
 
     fn apart(&self, paths: Vec<SpeedPath>) -> Apart {
         let frame_s = frame_s_of_order(OWN_FRAME_HZ_S2, self.middle_rev_s);
-        let (rotors, rests) = separated(self.quantum, self.atoms, &paths, frame_s);
+        let (rotors, rests) = separated(self.quantum, self.atoms, &paths, frame_s, &self.line_weights);
         let energy = |rest: &Vec<Complex<f32>>| rest.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>();
         let rest_energy =
             rests.iter().zip(&self.quantum.noise_variances).map(|(rest, noise)| energy(rest) / noise).sum();
         Apart { paths, rotors, rests, rest_energy, frames: self.quantum.ticks / FRAME_TICKS }
+    }
+
+    /// Offsets around those of tracks, and a share of the speed beyond.
+    fn grid(&self, offsets_rev_s: &[Vec<f64>], margin_share: f64, spectra: &Spectra) -> OffsetGrid {
+        OffsetGrid::new(around(offsets_rev_s, margin_share * self.middle_rev_s), spectra)
     }
 
     /// Frames along what tracks share.
@@ -112,13 +131,19 @@ impl<'a, 'p> Hearing<'a, 'p> {
 
     /// The rotors, looked for along what their tracks share.
     pub(super) fn searched(&mut self, tracks: &[Vec<f64>], search: Search) -> Apart {
-        let Some(spectra) = self.spectra(&self.quantum.series, tracks, search.frame_hz_s2) else {
-            return self.apart(Vec::new());
-        };
+        match self.spectra(&self.quantum.series, tracks, search.frame_hz_s2) {
+            Some(spectra) => self.searched_in(&spectra, tracks, search),
+            None => self.apart(Vec::new()),
+        }
+    }
+
+    /// The same in frames that are there.
+    pub(super) fn searched_in(&self, spectra: &Spectra, tracks: &[Vec<f64>], search: Search) -> Apart {
         let start = offsets_from(tracks, &spectra.common_rev_s);
-        let grid = OffsetGrid::new(around(&start, search.margin_share * self.middle_rev_s), &spectra);
+        let grid = self.grid(&start, search.margin_share, spectra);
         let known: &[Vec<f64>] = if search.is_afresh { &[] } else { &start };
-        let found = found_tracks(&spectra, self.atoms, &grid, known, (start.len(), search.sweeps));
+        let trust = Trust { line_weights: &self.line_weights, residue_share: search.residue_share };
+        let found = found_tracks(spectra, self.atoms, &grid, known, (start.len(), search.sweeps), trust);
         self.apart(paths_along(&found, &spectra.common_rev_s, self.quantum))
     }
 
@@ -137,8 +162,9 @@ impl<'a, 'p> Hearing<'a, 'p> {
             return LeftOver { scores: Vec::new(), grid: OffsetGrid::default(), common_rev_s: Vec::new() };
         };
         let offsets = offsets_from(&tracks, &spectra.common_rev_s);
-        let grid = OffsetGrid::new(around(&offsets, MARGIN_SHARE * self.middle_rev_s), &spectra);
-        let grid_scores = GridScores::new(&spectra, self.atoms, &grid);
+        let grid = self.grid(&offsets, MARGIN_SHARE, &spectra);
+        let trust = Trust { line_weights: &self.line_weights, residue_share: 0.0 };
+        let grid_scores = GridScores::new(&spectra, self.atoms, &grid, trust);
         let scores = (0..spectra.frames()).map(|frame| grid_scores.of_frame(frame, &[])).collect();
         LeftOver { scores, grid, common_rev_s: spectra.common_rev_s }
     }

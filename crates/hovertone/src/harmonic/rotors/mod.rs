@@ -9,6 +9,7 @@
 mod atoms;
 mod hearing;
 mod identity;
+mod line_weights;
 mod mixture;
 mod paths;
 mod quantum;

@@ -7,11 +7,13 @@ use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
 use super::hearing::{
-    Apart, CLOSE_SEARCH, CLOSE_SEARCH_AFRESH, COMMON_SEARCH, Hearing, MARGIN_SHARE, OWN_FRAME_HZ_S2, frame_s_of_order,
+    Apart, CLOSE_SEARCH, CLOSE_SEARCH_AFRESH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, Hearing, MARGIN_SHARE,
+    OWN_FRAME_HZ_S2, frame_s_of_order,
 };
 use super::identity::TrackFrame;
+use super::line_weights::line_weights;
 use super::paths::{around, path_through, share_close, tracks_of};
-use super::search::{OffsetGrid, found_tracks};
+use super::search::{OffsetGrid, Trust, found_tracks};
 use super::separation::{RESOLVED_CELLS, SeparatedRotor};
 use super::spectra::{FRAME_TICKS, Spectra, frame_middle_ticks};
 use crate::channel::ChannelBand;
@@ -23,6 +25,8 @@ const FIRST_FRAME_HZ_S2: f64 = 100.0;
 const FIRST_FRAMES_APART: usize = 3;
 /// Times that each rotor is then looked for again beside all others.
 const FIRST_SWEEPS: usize = 1;
+/// What a rotor leaves behind that is taken away along no path at all.
+const FIRST_RESIDUE_SHARE: f32 = 0.1;
 /// Where two rotors are closer than so many of those cells in such a share of the frames, longer ones tell them apart better.
 const CLOSE_CELLS: f64 = 2.0;
 const CLOSE_SHARE: f64 = 0.3;
@@ -94,7 +98,9 @@ pub(super) fn rough_tracks(
     let frame_s = frame_s_of_order(FIRST_FRAME_HZ_S2, middle_rev_s);
     let spectra = Spectra::along(quantum, &quantum.series, &constant, (frame_s, FIRST_FRAMES_APART), planner);
     let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
-    let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS));
+    let line_weights = line_weights(&spectra, &grid, count);
+    let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE };
+    let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS), trust);
     let frames = quantum.ticks / FRAME_TICKS;
     let paths: Vec<SpeedPath> = tracks
         .into_iter()
@@ -122,11 +128,14 @@ pub(super) fn rotors_of_quantum(
     planner: &mut FftPlanner<f32>,
 ) -> Vec<HeardRotor> {
     let (tick_s, ticks) = (quantum.tick_s, quantum.ticks);
-    let Some(mut hearing) = Hearing::new(quantum, atoms, rough, planner) else { return Vec::new() };
-    let mut apart = hearing.searched(rough, COMMON_SEARCH);
+    let Some((mut hearing, spectra)) = Hearing::new(quantum, atoms, rough, planner) else { return Vec::new() };
     let mut frame_hz_s2 = COMMON_SEARCH.frame_hz_s2;
     let close_rev_s = CLOSE_CELLS * hearing.cell_rev_s(frame_hz_s2);
-    if share_close(&apart.tracks(), close_rev_s) > CLOSE_SHARE {
+    let are_close = |tracks: &[Vec<f64>]| share_close(tracks, close_rev_s) > CLOSE_SHARE;
+    let search = if are_close(rough) { COMMON_SEARCH_OF_CLOSE } else { COMMON_SEARCH };
+    let mut apart = hearing.searched_in(&spectra, rough, search);
+    drop(spectra);
+    if are_close(&apart.tracks()) {
         frame_hz_s2 = CLOSE_SEARCH.frame_hz_s2;
         for search in [CLOSE_SEARCH, CLOSE_SEARCH_AFRESH] {
             let finer = hearing.searched(&apart.tracks(), search);

@@ -12,7 +12,12 @@ use std::ops::Range;
 /// Share of a line's energy that must be left to it by the others.
 const ENERGY_LEFT_MIN: f32 = 0.1;
 /// How much a rotor's speed changes from one frame to the next, as a share.
-const STEP_STD_SHARE: f64 = 0.002;
+const STEP_STD_SHARE: f64 = 0.001;
+/// Up to here a line counts for its likelihood, and beyond for the logarithm.
+const LINEAR_UP_TO: f64 = 8.0;
+/// What a rotor leaves behind when it is taken away lies within so many cells of its lines, and counts for nothing below this.
+const RESIDUE_CELLS: f32 = 4.0;
+const RESIDUE_MIN: f32 = 0.03;
 /// Likelihoods are cut here, so that the product of so many is still a number.
 const LIKELIHOOD_MAX: f32 = 1e9;
 const LINES_PER_LOGARITHM: usize = 32;
@@ -24,6 +29,16 @@ const CLAIMED_POINTS: usize = 5;
 const NOTHING_DEVIATIONS: f64 = 5.0;
 /// Points of the grid in a resolution cell of the line that resolves most finely.
 const GRID_PER_CELL: f64 = 2.0;
+
+/// What the spectra are taken for.
+#[derive(Clone, Copy)]
+pub(super) struct Trust<'a> {
+    /// What each line counts.
+    pub(super) line_weights: &'a [f64],
+    /// Power that a rotor leaves around its lines when it is taken away, as a share of its own: neither its path nor its level is
+    /// quite what is assumed.
+    pub(super) residue_share: f32,
+}
 
 /// Speeds that are looked for, as offsets from the common speed.
 #[derive(Default)]
@@ -42,6 +57,13 @@ impl OffsetGrid {
 
     fn offset_rev_s(&self, place: usize) -> f64 {
         self.first_rev_s + place as f64 * self.step_rev_s
+    }
+
+    /// The bins of a line's frames into which it can fall.
+    pub(super) fn bins_of(&self, line: &LineSpectra) -> Range<usize> {
+        let bin_of = |place: usize| line.bin_of(line.order * self.offset_rev_s(place) * line.frame_s);
+        let from = (bin_of(0).max(0.0) as usize).min(line.frame_bins() - 2);
+        from..(bin_of(self.points - 1) as usize + 2).clamp(from + 2, line.frame_bins())
     }
 
     /// The points around an offset, so many to either side.
@@ -65,12 +87,13 @@ pub(super) fn found_tracks(
     grid: &OffsetGrid,
     start: &[Vec<f64>],
     (count, sweeps): (usize, usize),
+    trust: Trust<'_>,
 ) -> Vec<Vec<f64>> {
     let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;
     let step_std = grid.step_std(middle) * (spectra.frames_apart() as f64).sqrt();
     let mut searches: Vec<SearchBeside> = (0..count).map(|_| SearchBeside::new(spectra.frames())).collect();
     let mut tracks: Vec<Vec<f64>> = start.to_vec();
-    let grid_scores = GridScores::new(spectra, atoms, grid);
+    let grid_scores = GridScores::new(spectra, atoms, grid, trust);
     let mut find = |rotor: usize, tracks: &[Vec<f64>]| -> Vec<f64> {
         let others: Vec<&Vec<f64>> =
             tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
@@ -164,18 +187,26 @@ fn worth_of_nothing(scores: &[f64]) -> f64 {
     middle + NOTHING_DEVIATIONS * median(&deviations).unwrap_or_default()
 }
 
-/// What a line's likelihood counts for. Its logarithm: what is left of a strong line after it was taken away must not outvote the
-/// lines of a weak rotor.
+/// What a line's likelihood counts for: itself where it is weak, which is what tells most in noise; its logarithm where it is strong:
+/// what is left of a strong line after it was taken away must not outvote the lines of a weak rotor.
 pub(super) fn worth(likelihood: f64) -> f64 {
-    likelihood.ln_1p()
+    LINEAR_UP_TO * (likelihood / LINEAR_UP_TO).ln_1p()
 }
 
 /// Scores of the points of a grid, frame by frame.
 pub(super) struct GridScores<'a> {
-    spectra: &'a Spectra,
-    atoms: &'a [ChannelAtoms],
-    places: Vec<LinePlaces>,
+    lines: Vec<CountingLine<'a>>,
+    common_rev_s: &'a [f64],
+    residue_share: f32,
     points: usize,
+}
+
+/// A line that counts.
+struct CountingLine<'a> {
+    spectra: &'a LineSpectra,
+    atoms: &'a ChannelAtoms,
+    places: LinePlaces,
+    weight: f64,
 }
 
 /// Where a line is at each point of a grid.
@@ -187,38 +218,39 @@ struct LinePlaces {
 }
 
 impl<'a> GridScores<'a> {
-    pub(super) fn new(spectra: &'a Spectra, atoms: &'a [ChannelAtoms], grid: &OffsetGrid) -> Self {
-        let places_of = |line: &LineSpectra| {
-            let bin_of = |point: usize| line.bin_of(line.order * grid.offset_rev_s(point) * line.frame_s);
-            let from = (bin_of(0).max(0.0) as usize).min(line.frame_bins() - 2);
-            let to = (bin_of(grid.points - 1) as usize + 2).clamp(from + 2, line.frame_bins());
-            let at_points = (0..grid.points).map(|point| {
-                let place = (bin_of(point) - from as f64).max(0.0);
-                let bin = place.floor().min((to - from - 2) as f64);
-                (bin as u32, (place - bin).min(1.0) as f32)
-            });
-            LinePlaces { bins: from..to, at_points: at_points.collect() }
-        };
-        Self { places: spectra.lines.iter().map(places_of).collect(), spectra, atoms, points: grid.points }
+    pub(super) fn new(spectra: &'a Spectra, atoms: &'a [ChannelAtoms], grid: &OffsetGrid, trust: Trust<'_>) -> Self {
+        let lines = spectra.lines.iter().zip(atoms).zip(trust.line_weights);
+        let lines = lines.filter(|(_, weight)| **weight > 0.0).map(|((spectra, atoms), &weight)| CountingLine {
+            spectra,
+            atoms,
+            places: LinePlaces::of(spectra, grid),
+            weight,
+        });
+        Self {
+            lines: lines.collect(),
+            common_rev_s: &spectra.common_rev_s,
+            residue_share: trust.residue_share,
+            points: grid.points,
+        }
     }
 
     /// What speaks for one more rotor at each point, beside others at known offsets.
     pub(super) fn of_frame(&self, frame: usize, others_rev_s: &[f64]) -> Vec<f64> {
         let mut scores = vec![0.0; self.points];
         let mut products = vec![1.0f64; self.points];
-        let mut left = LeftBeside::default();
-        let lines = &self.spectra.lines;
-        for (index, ((line, atoms), places)) in lines.iter().zip(self.atoms).zip(&self.places).enumerate() {
-            left.take_away(line, atoms, (frame, places.bins.clone()), self.spectra.common_rev_s[frame], others_rev_s);
-            for (&(bin, share), product) in places.at_points.iter().zip(&mut products) {
+        let mut left = LeftBeside { residue_share: self.residue_share, ..LeftBeside::default() };
+        for (index, line) in self.lines.iter().enumerate() {
+            left.take_away(line, frame, self.common_rev_s[frame], others_rev_s);
+            let scale = line.weight / LINEAR_UP_TO;
+            for (&(bin, share), product) in line.places.at_points.iter().zip(&mut products) {
                 let pair = &left.likelihoods[bin as usize..][..2];
                 let likelihood = pair[0] + share * (pair[1] - pair[0]);
-                *product *= 1.0 + f64::from(likelihood.min(LIKELIHOOD_MAX));
+                *product *= 1.0 + scale * f64::from(likelihood.min(LIKELIHOOD_MAX));
             }
             // one logarithm for many lines
-            if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == lines.len() {
+            if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == self.lines.len() {
                 for (score, product) in scores.iter_mut().zip(&mut products) {
-                    *score += std::mem::replace(product, 1.0).ln();
+                    *score += LINEAR_UP_TO * std::mem::replace(product, 1.0).ln();
                 }
             }
         }
@@ -226,26 +258,36 @@ impl<'a> GridScores<'a> {
     }
 }
 
+impl LinePlaces {
+    fn of(line: &LineSpectra, grid: &OffsetGrid) -> Self {
+        let bins = grid.bins_of(line);
+        let at_points = (0..grid.points).map(|point| {
+            let place =
+                (line.bin_of(line.order * grid.offset_rev_s(point) * line.frame_s) - bins.start as f64).max(0.0);
+            let bin = place.floor().min((bins.len() - 2) as f64);
+            (bin as u32, (place - bin).min(1.0) as f32)
+        });
+        Self { at_points: at_points.collect(), bins }
+    }
+}
+
 /// A line's likelihood in some bins of a frame, once other rotors have been taken away.
 #[derive(Default)]
 struct LeftBeside {
+    residue_share: f32,
     likelihoods: Vec<f32>,
     left: Vec<Complex<f32>>,
     energy_left: Vec<f32>,
+    /// Noise and what the others leave behind.
+    floor: Vec<f32>,
     places: Vec<f64>,
     seen: Vec<Complex<f64>>,
 }
 
 impl LeftBeside {
-    fn take_away(
-        &mut self,
-        line: &LineSpectra,
-        atoms: &ChannelAtoms,
-        (frame, bins): (usize, Range<usize>),
-        common_rev_s: f64,
-        others_rev_s: &[f64],
-    ) {
-        let Self { likelihoods, left, energy_left, places, seen } = self;
+    fn take_away(&mut self, line: &CountingLine<'_>, frame: usize, common_rev_s: f64, others_rev_s: &[f64]) {
+        let Self { residue_share, likelihoods, left, energy_left, floor, places, seen } = self;
+        let CountingLine { spectra: line, atoms, places: LinePlaces { bins, .. }, .. } = line;
         likelihoods.clear();
         left.clear();
         left.extend_from_slice(&line.frame(frame)[bins.clone()]);
@@ -267,6 +309,9 @@ impl LeftBeside {
         }
         energy_left.clear();
         energy_left.resize(left.len(), 1.0);
+        floor.clear();
+        floor.resize(left.len(), 1.0);
+        let step_cells = line.cells_of(1) - line.cells_of(0);
         for (cells, amplitude) in places.iter().zip(Mixture::of_steady(places).amplitudes(seen)) {
             let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
             let bin_of = |cells: f64| line.bin_of(cells) - bins.start as f64;
@@ -275,12 +320,22 @@ impl LeftBeside {
             if from >= to {
                 continue;
             }
-            let lobes = HannLobes::from(line.cells_of(bins.start + from) - cells, line.cells_of(1) - line.cells_of(0));
+            let first_cells = line.cells_of(bins.start + from) - cells;
+            let lobes = HannLobes::from(first_cells, step_cells);
             for ((left, energy), lobe) in left[from..to].iter_mut().zip(&mut energy_left[from..to]).zip(lobes) {
                 *left -= amplitude * lobe;
                 *energy *= 1.0 - lobe * lobe;
             }
+            let residue = *residue_share * amplitude.norm_sqr();
+            if residue > RESIDUE_MIN {
+                let (first, step) = (first_cells as f32 / RESIDUE_CELLS, step_cells as f32 / RESIDUE_CELLS);
+                for (floor, index) in floor[from..to].iter_mut().zip(0i16..) {
+                    let away = first + f32::from(index) * step;
+                    *floor += residue * (1.0 - away * away).max(0.0).powi(2);
+                }
+            }
         }
-        likelihoods.extend(left.iter().zip(energy_left).map(|(z, energy)| z.norm_sqr() / energy.max(ENERGY_LEFT_MIN)));
+        let left = left.iter().zip(energy_left).zip(floor);
+        likelihoods.extend(left.map(|((z, energy), floor)| z.norm_sqr() / (*floor * energy.max(ENERGY_LEFT_MIN))));
     }
 }

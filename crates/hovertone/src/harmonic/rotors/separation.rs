@@ -46,12 +46,13 @@ struct Atom {
     shares: Vec<f64>,
 }
 
-/// Takes the rotors apart whose speeds are `paths`; and what is left of each channel.
+/// Takes the rotors apart whose speeds are `paths`, each line being worth its weight; and what is left of each channel.
 pub(super) fn separated(
     quantum: &Quantum<'_>,
     atoms: &[ChannelAtoms],
     paths: &[SpeedPath],
     frame_s_of_order: impl Fn(f64) -> f64,
+    line_weights: &[f64],
 ) -> (Vec<SeparatedRotor>, Vec<Vec<Complex<f32>>>) {
     let frames = quantum.ticks / FRAME_TICKS;
     let nothing = || SeparatedRotor {
@@ -99,8 +100,8 @@ pub(super) fn separated(
             }
             separated.levels.push(levels);
             if let Some(own) = own {
-                let likelihoods =
-                    own.amplitudes.iter().zip(&own.shares).map(|(amplitude, share)| power(amplitude) * share);
+                let of_line = own.amplitudes.iter().zip(&own.shares).map(|(amplitude, share)| power(amplitude) * share);
+                let likelihoods = of_line.map(|likelihood| line_weights[index] * likelihood);
                 for (frame, likelihood) in likelihoods.enumerate() {
                     separated.worths[frame] += worth(likelihood);
                     separated.faint_worths[frame] += worth(FAINT_SHARE * likelihood);

@@ -32,6 +32,7 @@ pub(super) struct Spectra {
     /// Speed that all rotors share, in the middle of each frame.
     pub(super) common_rev_s: Vec<f64>,
     frames_apart: usize,
+    length_s: f64,
 }
 
 /// Middle of a frame, in ticks.
@@ -95,7 +96,7 @@ impl Spectra {
             .collect();
         let middles = (0..frames).map(|frame| frame_middle_ticks(frame * frames_apart));
         let common_rev_s = middles.map(|tick| common.speed_rev_s(tick)).collect();
-        Self { lines, common_rev_s, frames_apart }
+        Self { lines, common_rev_s, frames_apart, length_s: quantum.ticks as f64 * quantum.tick_s }
     }
 
     /// The middle of each frame.
@@ -110,6 +111,23 @@ impl Spectra {
 
     pub(super) fn frames(&self) -> usize {
         self.common_rev_s.len()
+    }
+
+    /// How long all frames last together.
+    pub(super) fn length_s(&self) -> f64 {
+        self.length_s
+    }
+}
+
+#[cfg(test)]
+impl Spectra {
+    /// One line of order 1 along a speed of 0, in frames of 0.2 s that do not overlap.
+    pub(super) fn of_line(frames: &[Vec<Complex<f32>>]) -> Self {
+        let half_bins = frames.first().map_or(0, |frame| frame.len() / 2);
+        let frame_s = 0.2;
+        let length_s = frame_s * frames.len() as f64;
+        let line = LineSpectra { order: 1.0, frame_s, half_bins, bins: frames.concat() };
+        Self { lines: vec![line], common_rev_s: vec![0.0; frames.len()], frames_apart: 1, length_s }
     }
 }
 
