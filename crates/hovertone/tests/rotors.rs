@@ -28,6 +28,16 @@ const LINES: [(f64, f64); 9] = [
     (36.0, 0.26),
 ];
 
+/// What is heard of each rotor, and beside it: lines by order and amplitude, noise beside lines of amplitude 1, and how long a line keeps
+/// its phase.
+struct Sound<'a> {
+    lines: &'a [(f64, f64)],
+    noise_std: f64,
+    coherence_s: f64,
+}
+
+const SOUND: Sound = Sound { lines: &LINES, noise_std: QUIET, coherence_s: f64::INFINITY };
+
 /// A rotor: mean speed, loudness, and how far and how often in a second it swings around its mean.
 struct Rotor {
     mean_rev_s: f64,
@@ -54,25 +64,29 @@ impl Rotor {
 fn heard(rotors: &[Rotor], seed: u64) -> SpeedAnalysis {
     let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
     tone.blades = Some(2);
-    heard_by(rotors, &LINES, QUIET, tone, seed)
+    heard_by(rotors, &SOUND, tone, seed)
 }
 
-fn heard_by(rotors: &[Rotor], lines: &[(f64, f64)], noise_std: f64, tone: ToneConfig, seed: u64) -> SpeedAnalysis {
+fn heard_by(rotors: &[Rotor], sound: &Sound, tone: ToneConfig, seed: u64) -> SpeedAnalysis {
     let mut rng = rand_pcg::Pcg64::seed_from_u64(seed);
     let mut samples = vec![0.0; (LENGTH_S * RATE_HZ) as usize];
     for rotor in rotors {
         let turns: Vec<f64> = (0..samples.len()).map(|n| rotor.turns(n as f64 / RATE_HZ)).collect();
-        for &(order, level) in lines {
-            let phase: f64 = rng.random_range(0.0..TAU);
+        for &(order, level) in sound.lines {
+            let mut phase: f64 = rng.random_range(0.0..TAU);
             let level = level * rotor.level * rng.random_range(0.8..1.25);
+            let phase_step = (2.0 / (RATE_HZ * sound.coherence_s)).sqrt();
             for (sample, turns) in samples.iter_mut().zip(&turns) {
+                if phase_step > 0.0 {
+                    phase += phase_step * rng.sample::<f64, _>(StandardNormal);
+                }
                 *sample += level * (TAU * (order * turns).fract() + phase).cos();
             }
         }
     }
     let samples = samples.into_iter().map(|sample| {
         let noise: f64 = StandardNormal.sample(&mut rng);
-        (0.003 * (sample + noise_std * noise)) as f32
+        (0.003 * (sample + sound.noise_std * noise)) as f32
     });
     let mut config = Config::for_tone(tone);
     config.rotors.count = 4;
@@ -141,7 +155,8 @@ fn a_weak_rotor_is_found_beside_loud_ones() {
         let swing = |mean_rev_s| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean_rev_s) };
         let mut rotors = [61.1, 60.5, 59.9, 59.3].map(swing);
         rotors[weak].level = 0.2;
-        let analysis = heard_by(&rotors, &lines, QUIET, ToneConfig::of_order(Order::new(69.0).unwrap()), seed);
+        let analysis =
+            heard_by(&rotors, &Sound { lines: &lines, ..SOUND }, ToneConfig::of_order(Order::new(69.0).unwrap()), seed);
         let tone = tone_of(&analysis);
         assert_eq!(tone.rotors.len(), 4, "weak {weak}");
         for (heard, rotor) in tone.rotors.iter().zip(&rotors) {
@@ -162,7 +177,7 @@ fn many_lines_of_four_rotors_are_no_other_sound() {
             .map(|(rotor, mean)| Rotor { swing_share: 0.002, swing_hz: 0.2 + 0.1 * rotor as f64, ..Rotor::at(mean) })
             .collect();
         let tone = ToneConfig::of_order(Order::new(2.0).unwrap());
-        let analysis = heard_by(&rotors, &lines, QUIET, tone, 20 + seed);
+        let analysis = heard_by(&rotors, &Sound { lines: &lines, ..SOUND }, tone, 20 + seed);
         let tone = tone_of(&analysis);
         assert_eq!(tone.rotors.len(), 4);
         let unused_s = LENGTH_S - analysis.hover.length_s();
@@ -185,7 +200,7 @@ fn rotors_in_loud_noise_say_how_little_is_known_of_them() {
         let rotors = [59.4, 59.9, 60.3, 60.8].map(swing);
         let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
         tone.blades = Some(2);
-        let analysis = heard_by(&rotors, &LINES, noise_std, tone, 40 + seed);
+        let analysis = heard_by(&rotors, &Sound { noise_std, ..SOUND }, tone, 40 + seed);
         let Outcome::Ok(tone) = &analysis.outcome else { continue };
         let speed = tone.speed(Method::Separated).unwrap();
         let std = speed.combined_std_uncertainty_rev_s().unwrap();
@@ -213,4 +228,29 @@ fn rotors_that_turn_alike_are_not_invented() {
     let speed = tone.speed(Method::Separated).unwrap();
     assert_eq!(speed.method, Method::Harmonic);
     assert!((speed.speed.rev_s() - 60.0).abs() < 1e-3);
+}
+
+#[test]
+fn one_rotor_whose_lines_lose_their_phase_is_not_four() {
+    // lines that are wider than the frames resolve have room for many paths
+    let wide = Sound { coherence_s: 0.2, ..SOUND };
+    let swing = |mean_rev_s| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean_rev_s) };
+    let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
+    tone.blades = Some(2);
+    for seed in 70..73 {
+        let analysis = heard_by(&[swing(60.0)], &wide, tone.clone(), seed);
+        let heard = tone_of(&analysis);
+        assert!(heard.rotors.is_empty(), "{} rotors", heard.rotors.len());
+        let error = heard.speed(Method::Separated).unwrap().speed.rev_s() - swing(60.0).turns(LENGTH_S) / LENGTH_S;
+        assert!(error.abs() < 0.02, "{error}");
+    }
+    // four of them are told apart where they are far enough apart
+    let rotors = [61.4, 60.4, 59.4, 58.4].map(swing);
+    let analysis = heard_by(&rotors, &wide, tone, 73);
+    let heard = tone_of(&analysis);
+    assert_eq!(heard.rotors.len(), 4);
+    for (heard, rotor) in heard.rotors.iter().zip(&rotors) {
+        let error = heard.speed.speed.rev_s() - rotor.turns(LENGTH_S) / LENGTH_S;
+        assert!(error.abs() < 0.02, "{error}");
+    }
 }

@@ -12,6 +12,7 @@ mod identity;
 mod line_weights;
 mod mixture;
 mod paths;
+mod phase_kept;
 mod quantum;
 mod retrace;
 mod search;
@@ -23,11 +24,19 @@ use super::quanta::{InQuanta, Quantum, QuantumCutter, QuantumListener, limits_re
 use super::track::{HarmonicBlock, HarmonicTrack};
 use crate::channel::ChannelBand;
 use crate::span::Span;
+use crate::statistics::median;
 use atoms::{ChannelAtoms, atoms_of};
 use identity::{Identity, TrackFrame};
 use quantum::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_quantum, rough_tracks};
 use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
+
+/// Lines that keep less of their phase than this are wider than frames resolve.
+const PHASE_KEPT_MIN: f64 = 0.6;
+/// By how much two rotors must then be further apart than else, and for how much of the time: any path through a wide line is a
+/// resolution or two from any other.
+const WIDE_LINE_FACTOR: f64 = 4.0;
+const WIDE_LINE_SHARE_MAX: f64 = 0.2;
 
 /// Looks where the rotors are, in a wide band of speeds.
 pub(crate) struct RotorScout {
@@ -215,16 +224,22 @@ impl QuantumListener for RotorTracer {
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;
         self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * length_s;
         let resolution_rev_s = self.tracks.resolution_rev_s;
+        let phases_kept: Vec<f64> = heard.iter().filter_map(|rotor| rotor.phase_kept).collect();
+        let are_wide = median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);
+        let apart_rev_s = if are_wide { WIDE_LINE_FACTOR * resolution_rev_s } else { resolution_rev_s };
         let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
         let is_close = |rotor: usize, other: usize, frame: usize| {
-            (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < resolution_rev_s
+            (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < apart_rev_s
         };
         for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
+            // of two in one place the first stands for both
+            let is_hidden_in = |frame: usize| (0..rotor).any(|other| is_close(rotor, other, frame));
+            let hidden = (0..labelling.len()).filter(|&frame| is_hidden_in(frame)).count();
+            let is_part_of_another = are_wide && hidden as f64 > WIDE_LINE_SHARE_MAX * labelling.len() as f64;
             for (frame, labels) in labelling.iter().enumerate() {
                 let span =
                     Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s };
-                // of two in one place the first stands for both
-                let is_hidden = (0..rotor).any(|other| is_close(rotor, other, frame));
+                let is_hidden = is_part_of_another || is_hidden_in(frame);
                 let hides = (rotor + 1..labels.len()).any(|other| is_close(rotor, other, frame));
                 let is_lost = !is_hidden && !hides && !of(rotor, frame).is_heard;
                 if is_hidden || is_lost {

@@ -13,6 +13,7 @@ use super::hearing::{
 use super::identity::TrackFrame;
 use super::line_weights::line_weights;
 use super::paths::{around, path_through, share_close, tracks_of};
+use super::phase_kept::phase_kept;
 use super::search::{OffsetGrid, Trust, found_tracks};
 use super::separation::{RESOLVED_CELLS, SeparatedRotor};
 use super::spectra::{FRAME_TICKS, Spectra, frame_middle_ticks};
@@ -52,6 +53,8 @@ pub(super) struct HeardRotor {
     pub(super) faint_share: f64,
     /// Share of the frames in which two rotors are close to each other, where that is often so.
     pub(super) close_share: f64,
+    /// How much of their phase its lines keep from frame to frame.
+    pub(super) phase_kept: Option<f64>,
 }
 
 impl HeardRotor {
@@ -175,6 +178,7 @@ pub(super) fn rotors_of_quantum(
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let traced = path;
             let path = SpeedPath::through(&points, tick_s, ticks).unwrap_or_else(|| traced.clone());
+            let phase_kept = phase_kept(&lines, &traced, &path);
             let are_heard = worths.iter().zip(&nulls).map(|(worth, null)| worth > null).collect();
             let faint = faint_worths.iter().zip(&nulls).filter(|(worth, null)| worth > null).count();
             let faint_share = faint as f64 / nulls.len().max(1) as f64;
@@ -188,6 +192,7 @@ pub(super) fn rotors_of_quantum(
                 are_heard,
                 faint_share,
                 close_share,
+                phase_kept,
             }
         })
         .collect()
