@@ -27,7 +27,7 @@ pub(super) const COMMON_SEARCH: Search =
 pub(super) const COMMON_SEARCH_OF_CLOSE: Search = Search { residue_share: 0.0, ..COMMON_SEARCH };
 /// And along what these have found.
 pub(super) const CLOSE_SEARCH: Search =
-    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 4, is_afresh: false, residue_share: 0.0 };
+    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 2, is_afresh: false, residue_share: 0.0 };
 pub(super) const CLOSE_SEARCH_AFRESH: Search = Search { is_afresh: true, ..CLOSE_SEARCH };
 
 /// How the rotors are looked for beside each other.

@@ -31,8 +31,6 @@ const FIRST_RESIDUE_SHARE: f32 = 0.1;
 /// Where two rotors are closer than so many of those cells in such a share of the frames, longer ones tell them apart better.
 const CLOSE_CELLS: f64 = 2.0;
 const CLOSE_SHARE: f64 = 0.3;
-/// Times that tracks may go to what they have left over.
-const RECLAIMS: usize = 2;
 /// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
 /// noise alone follows its maxima.
 const HEARD_MARGIN: f64 = 3.0;
@@ -148,11 +146,7 @@ pub(super) fn rotors_of_quantum(
     apart = hearing.retraced(apart);
     // two tracks may share a rotor for a while, and another is left over
     let mut left = hearing.left_over(&apart, frame_hz_s2);
-    for _ in 0..RECLAIMS {
-        let Some(reclaimed) = hearing.reclaimed(&apart, &left) else { break };
-        if reclaimed.rest_energy >= apart.rest_energy {
-            break;
-        }
+    if let Some(reclaimed) = hearing.reclaimed(&apart, &left).filter(|other| other.rest_energy < apart.rest_energy) {
         apart = reclaimed;
         left = hearing.left_over(&apart, frame_hz_s2);
     }
