@@ -27,7 +27,7 @@ const FIRST_FRAMES_APART: usize = 3;
 /// Times that each rotor is then looked for again beside all others.
 const FIRST_SWEEPS: usize = 1;
 /// What a rotor leaves behind that is taken away along no path at all.
-const FIRST_RESIDUE_SHARE: f32 = 0.1;
+const FIRST_RESIDUE_SHARE: f32 = 0.06;
 /// Where two rotors are closer than so many of those cells in such a share of the frames, longer ones tell them apart better.
 const CLOSE_CELLS: f64 = 2.0;
 const CLOSE_SHARE: f64 = 0.3;
