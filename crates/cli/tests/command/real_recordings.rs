@@ -35,6 +35,14 @@ fn a_chosen_span_of_the_motor_step_has_its_speed() {
 }
 
 #[test]
+fn one_motor_is_not_four() {
+    let Some(folder) = recordings("motor-step") else { return };
+    let line = &speed(&files_in(&folder, ".wav"), &["--rotors", "4"]).ends_with(0).json_lines()[0];
+    assert!(line["rotors"].is_null(), "{}", line["rotors"]);
+    assert!((line["speed_rev_s"].as_f64().unwrap() - 91.8).abs() < 0.25, "{}", line["speed_rev_s"]);
+}
+
+#[test]
 fn where_no_tone_is_there_is_no_number() {
     let Some(folder) = recordings("small-multirotors") else { return };
     for file in ["DRONE_006.wav", "BACKGROUND_001.wav"] {
