@@ -51,6 +51,10 @@ impl Rotor {
         Self { mean_rev_s, level: 1.0, swing_share: 0.0, swing_hz: 0.1 }
     }
 
+    fn swinging(mean_rev_s: f64) -> Self {
+        Self { swing_share: 0.002, swing_hz: 0.3, ..Self::at(mean_rev_s) }
+    }
+
     fn speed_rev_s(&self, time_s: f64) -> f64 {
         self.mean_rev_s * (1.0 + self.swing_share * (TAU * self.swing_hz * time_s).sin())
     }
@@ -152,8 +156,7 @@ fn a_weak_rotor_is_found_beside_loud_ones() {
     // 14 dB below the others, by its gear mesh alone: what these leave behind when they are taken away is as loud
     let lines = [(69.0, 1.0), (68.0, 0.3), (70.0, 0.3), (138.0, 0.5), (207.0, 0.25)];
     for (weak, seed) in [0, 1, 3].into_iter().zip(60..) {
-        let swing = |mean_rev_s| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean_rev_s) };
-        let mut rotors = [61.1, 60.5, 59.9, 59.3].map(swing);
+        let mut rotors = [61.1, 60.5, 59.9, 59.3].map(Rotor::swinging);
         rotors[weak].level = 0.2;
         let analysis =
             heard_by(&rotors, &Sound { lines: &lines, ..SOUND }, ToneConfig::of_order(Order::new(69.0).unwrap()), seed);
@@ -196,8 +199,7 @@ fn rotors_in_loud_noise_say_how_little_is_known_of_them() {
     let (mut answered, mut apart, mut within) = (0, 0, 0);
     for (noise_std, seed) in [6.0, 9.0, 12.0, 20.0].into_iter().flat_map(|noise| (0..3).map(move |seed| (noise, seed)))
     {
-        let swing = |mean| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean) };
-        let rotors = [59.4, 59.9, 60.3, 60.8].map(swing);
+        let rotors = [59.4, 59.9, 60.3, 60.8].map(Rotor::swinging);
         let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
         tone.blades = Some(2);
         let analysis = heard_by(&rotors, &Sound { noise_std, ..SOUND }, tone, 40 + seed);
@@ -234,18 +236,18 @@ fn rotors_that_turn_alike_are_not_invented() {
 fn one_rotor_whose_lines_lose_their_phase_is_not_four() {
     // lines that are wider than the frames resolve have room for many paths
     let wide = Sound { coherence_s: 0.2, ..SOUND };
-    let swing = |mean_rev_s| Rotor { swing_share: 0.002, swing_hz: 0.3, ..Rotor::at(mean_rev_s) };
     let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
     tone.blades = Some(2);
     for seed in 70..73 {
-        let analysis = heard_by(&[swing(60.0)], &wide, tone.clone(), seed);
+        let analysis = heard_by(&[Rotor::swinging(60.0)], &wide, tone.clone(), seed);
         let heard = tone_of(&analysis);
         assert!(heard.rotors.is_empty(), "{} rotors", heard.rotors.len());
-        let error = heard.speed(Method::Separated).unwrap().speed.rev_s() - swing(60.0).turns(LENGTH_S) / LENGTH_S;
+        let error =
+            heard.speed(Method::Separated).unwrap().speed.rev_s() - Rotor::swinging(60.0).turns(LENGTH_S) / LENGTH_S;
         assert!(error.abs() < 0.02, "{error}");
     }
     // four of them are told apart where they are far enough apart
-    let rotors = [61.4, 60.4, 59.4, 58.4].map(swing);
+    let rotors = [61.4, 60.4, 59.4, 58.4].map(Rotor::swinging);
     let analysis = heard_by(&rotors, &wide, tone, 73);
     let heard = tone_of(&analysis);
     assert_eq!(heard.rotors.len(), 4);

@@ -233,13 +233,14 @@ impl QuantumListener for RotorTracer {
         };
         for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
             // of two in one place the first stands for both
-            let is_hidden_in = |frame: usize| (0..rotor).any(|other| is_close(rotor, other, frame));
-            let hidden = (0..labelling.len()).filter(|&frame| is_hidden_in(frame)).count();
-            let is_part_of_another = are_wide && hidden as f64 > WIDE_LINE_SHARE_MAX * labelling.len() as f64;
+            let hidden: Vec<bool> =
+                (0..labelling.len()).map(|frame| (0..rotor).any(|other| is_close(rotor, other, frame))).collect();
+            let hidden_frames = hidden.iter().filter(|&&is_hidden| is_hidden).count();
+            let is_part_of_another = are_wide && hidden_frames as f64 > WIDE_LINE_SHARE_MAX * hidden.len() as f64;
             for (frame, labels) in labelling.iter().enumerate() {
                 let span =
                     Span { from_s: start_s + frame as f64 * frame_s, to_s: start_s + (frame + 1) as f64 * frame_s };
-                let is_hidden = is_part_of_another || is_hidden_in(frame);
+                let is_hidden = is_part_of_another || hidden[frame];
                 let hides = (rotor + 1..labels.len()).any(|other| is_close(rotor, other, frame));
                 let is_lost = !is_hidden && !hides && !of(rotor, frame).is_heard;
                 if is_hidden || is_lost {

@@ -13,13 +13,7 @@ const LAG_FRAMES: usize = 5;
 /// How much of its phase a line keeps over 0.2 s, from 1 for all to 0 for nothing: `|Σ z(t + T) z*(t)| / Σ |z(t)|²`, noise taken off
 /// and turned by `path` in place of `traced`; the median of the strong lines. `None` where there is none.
 pub(super) fn phase_kept(lines: &[Line], traced: &SpeedPath, path: &SpeedPath) -> Option<f64> {
-    let mut turns = 0.0;
-    let turns: Vec<f64> = (0..path.ticks())
-        .map(|tick| {
-            turns += (path.speed_rev_s(tick) - traced.speed_rev_s(tick)) * path.tick_s;
-            turns
-        })
-        .collect();
+    let turns: Vec<f64> = (0..path.ticks()).map(|tick| path.tick(tick).0 - traced.tick(tick).0).collect();
     let kept_by = |line: &Line| {
         let cells: Vec<Complex<f64>> = line
             .ticks
