@@ -28,6 +28,7 @@ mod mpeg_audio;
 mod native;
 mod ogg;
 mod opus;
+mod pcm_layout;
 mod plan;
 mod quicktime;
 mod recording;

@@ -21,12 +21,10 @@ impl Mix {
                 (sum / count as f64) as f32
             })),
         }
-        let mut replaced = 0;
-        for sample in &mut mono[first..] {
-            if !sample.is_finite() {
-                *sample = 0.0;
-                replaced += 1;
-            }
+        // almost never any, and counted without a branch for each sample
+        let replaced = mono[first..].iter().map(|sample| u64::from(!sample.is_finite())).sum();
+        if replaced > 0 {
+            mono[first..].iter_mut().filter(|sample| !sample.is_finite()).for_each(|sample| *sample = 0.0);
         }
         replaced
     }

@@ -116,7 +116,7 @@ impl NativeFrames {
         Self { gap_s_min, ..self }
     }
 
-    /// The samples of a WAVE file.
+    /// The samples of a WAVE file that come in blocks.
     pub(crate) fn from_wave(path: &Path, layout: &WaveLayout, codec: AudioCodecId) -> Result<Self, SymphoniaError> {
         let parameters = layout.codec_parameters(codec);
         let (decoder, sample_rate_hz, channel_count) = decoder_for(&parameters, false)?;

@@ -11,10 +11,11 @@ use crate::ffmpeg::{FfmpegError, FfmpegFrames};
 use crate::frames::{Frames, Trim};
 use crate::iso::PcmFrames;
 use crate::native::{self, NativeFrames};
+use crate::pcm_layout::PcmLayout;
 use crate::quicktime::AudioTrack;
 use crate::source::Patch;
 use crate::warning::MediaWarning;
-use crate::wave::WaveLayout;
+use crate::wave::{WaveLayout, WavePcmFrames};
 
 /// Packets at the beginning that may fail to decode before a track counts as damaged.
 const BAD_PACKETS_AT_START_MAX: u32 = 200;
@@ -46,7 +47,8 @@ pub(crate) struct Plan {
 /// The way through the decoders.
 #[derive(Clone, Debug)]
 pub(crate) enum Route {
-    Wave { layout: WaveLayout, codec: AudioCodecId },
+    WavePcm { layout: WaveLayout, pcm: PcmLayout },
+    WaveBlocks { layout: WaveLayout, codec: AudioCodecId },
     IsoPcm(Box<AudioTrack>),
     IsoTable(Box<AudioTrack>),
     Demuxer { base: u64, patches: Vec<Patch>, track_id: u32, has_gapless_packets: bool },
@@ -75,6 +77,9 @@ impl Plan {
     /// Opens the track at its beginning.
     pub(crate) fn open(&self, path: &Path) -> Result<Box<dyn Frames>, MediaError> {
         Ok(match &self.route {
+            Route::WavePcm { layout, pcm } => {
+                Box::new(WavePcmFrames::open(path, layout, *pcm).map_err(MediaError::Read)?)
+            }
             Route::IsoPcm(track) => Box::new(PcmFrames::open(path, track).map_err(MediaError::Read)?),
             Route::Ffmpeg { program, audio_index } => {
                 Box::new(FfmpegFrames::spawn(program, path, *audio_index).map_err(|error| self.ffmpeg_error(error))?)
@@ -103,14 +108,16 @@ impl Plan {
 
 fn native_frames(path: &Path, container: Container, route: &Route) -> Result<NativeFrames, SymphoniaError> {
     match route {
-        Route::Wave { layout, codec } => NativeFrames::from_wave(path, layout, *codec),
+        Route::WaveBlocks { layout, codec } => NativeFrames::from_wave(path, layout, *codec),
         Route::IsoTable(track) => NativeFrames::from_iso_table(path, track),
         Route::Demuxer { base, patches, track_id, has_gapless_packets } => {
             let reader = native::open_demuxer(path, container, *base, patches)?;
             let frames = NativeFrames::from_demuxer(reader, *track_id, *has_gapless_packets)?;
             Ok(frames.with_gap_s_min(gap_s_min(container)))
         }
-        Route::IsoPcm(_) | Route::Ffmpeg { .. } => Err(SymphoniaError::Unsupported("not a route of packets")),
+        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } => {
+            Err(SymphoniaError::Unsupported("not a route of packets"))
+        }
     }
 }
 

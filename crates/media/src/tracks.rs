@@ -4,8 +4,6 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use symphonia::core::codecs::audio::AudioCodecId;
-
 use crate::clipped::{Clipped, clipped_from_sizes};
 use crate::codec;
 use crate::container::{Container, Sniffed};
@@ -115,7 +113,12 @@ impl<'a> Tracks<'a> {
         let no_such = || MediaError::NoSuchTrack { asked: index + 1, count: self.count() };
         let (native, codec) = match &self.list {
             List::Wave(layout) => match layout.codec {
-                WaveCodec::Native(codec, name) => return Ok(self.wave_plan(layout, codec, name)),
+                WaveCodec::Pcm(pcm) => {
+                    return Ok(self.wave_plan(layout, Route::WavePcm { layout: (**layout).clone(), pcm }));
+                }
+                WaveCodec::Blocks(codec, _) => {
+                    return Ok(self.wave_plan(layout, Route::WaveBlocks { layout: (**layout).clone(), codec }));
+                }
                 WaveCodec::Foreign(_) => (NotNative::Unsupported, layout.codec.name()),
             },
             List::Iso(movie) => {
@@ -147,8 +150,8 @@ impl<'a> Tracks<'a> {
         self.ffmpeg_plan(index, codec, native)
     }
 
-    fn wave_plan(&self, layout: &wave::WaveLayout, codec: AudioCodecId, name: &str) -> Plan {
-        let mut plan = Plan::new(self.container, name, Route::Wave { layout: layout.clone(), codec });
+    fn wave_plan(&self, layout: &wave::WaveLayout, route: Route) -> Plan {
+        let mut plan = Plan::new(self.container, layout.codec.name(), route);
         plan.declared_s = Some(layout.declared_duration_s());
         plan.is_cut_off = self.is_cut_off();
         if let Some((declared_bytes, actual_bytes)) = layout.wrong_size {

@@ -117,11 +117,10 @@ impl ChannelBank {
     /// `series`, one for each channel.
     pub(crate) fn push(&mut self, samples: &[f32], series: &mut [Vec<Complex<f32>>]) {
         let fade_samples = self.fade_samples();
-        let from = self.taken_samples;
-        self.pending.extend(samples.iter().enumerate().map(|(index, sample)| {
-            let n = from + index as u64;
-            if n < fade_samples as u64 { sample * fade(n as usize, fade_samples) } else { *sample }
-        }));
+        let faded = usize::try_from(self.taken_samples).map_or(fade_samples, |taken| taken.min(fade_samples));
+        let (fading, whole) = samples.split_at(samples.len().min(fade_samples - faded));
+        self.pending.extend(fading.iter().zip(faded..).map(|(sample, n)| sample * fade(n, fade_samples)));
+        self.pending.extend_from_slice(whole);
         self.taken_samples += samples.len() as u64;
         // the last samples stay behind: they fade out if nothing follows
         self.take_blocks(fade_samples, series);
@@ -200,11 +199,10 @@ impl Channel {
         // twice the positive frequencies; the sign turns the phase from the block's start to the stretch's
         let sign = if (self.centre_bin * block_index).rem_euclid(2) == 1 { -1.0 } else { 1.0 };
         let scale = sign * 2.0 / block_samples as f32;
-        for index in 0..width {
-            let bin = self.first_bin + index as i64;
-            let into = (index + width / 2) % width;
+        let (rising, negative) = self.block.split_at_mut(width / 2);
+        for (into, bin) in negative.iter_mut().chain(rising).zip(self.first_bin..) {
             // bin 0 holds the offset of the sound card
-            self.block[into] = match usize::try_from(bin) {
+            *into = match usize::try_from(bin) {
                 Ok(bin) if bin > 0 => spectrum.get(bin).copied().unwrap_or_default() * scale,
                 _ => Complex::default(),
             };

@@ -81,15 +81,30 @@ impl<'a> LinePhasors<'a> {
     /// The sum of all samples of the next tick, turned back.
     fn tick_turned_back(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
         self.begin_tick();
-        let (mut turn, mut step) = (self.turn, self.step);
-        let mut sum = Complex::default();
-        for z in samples {
-            sum += turn.conj() * Complex::new(f64::from(z.re), f64::from(z.im));
-            turn *= step;
-            step *= self.step_of_step;
+        let wide = |z: &Complex<f32>| Complex::new(f64::from(z.re), f64::from(z.im));
+        // two samples at a time, so that the products of one need not wait for those of the other
+        let (mut even, mut odd) = (self.turn, self.turn * self.step);
+        let bend = self.step_of_step;
+        let mut even_step = self.step * self.step * bend;
+        let mut odd_step = even_step * bend * bend;
+        let bend_of_two = bend * bend * bend * bend;
+        let (mut even_sum, mut odd_sum) = (Complex::<f64>::default(), Complex::<f64>::default());
+        let (pairs, last) = samples.as_chunks::<2>();
+        for [first, second] in pairs {
+            even_sum += even.conj() * wide(first);
+            odd_sum += odd.conj() * wide(second);
+            even *= even_step;
+            odd *= odd_step;
+            even_step *= bend_of_two;
+            odd_step *= bend_of_two;
         }
-        (self.turn, self.step, self.samples_left) = (turn, step, 0);
-        sum
+        if let [last] = last {
+            even_sum += even.conj() * wide(last);
+            (even, odd) = (odd, even * even_step);
+        }
+        // their ratio, not the product with the conjugate: that would square what rounding adds to the magnitude at every tick
+        (self.turn, self.step, self.samples_left) = (even, odd / even, 0);
+        even_sum + odd_sum
     }
 }
 
@@ -141,6 +156,16 @@ mod tests {
             let cycles = order * turned - centre_hz * (tick as f64 * tick_s + within);
             let error = (phasor - Complex::from_polar(1.0, TAU * cycles.fract())).norm();
             assert!(error < 1e-8, "sample {sample}: {error}");
+        }
+        for odd_or_even in [samples_per_tick, samples_per_tick - 1] {
+            let place = (order, centre_hz, odd_or_even as f64 / tick_s);
+            let phasors: Vec<_> = LinePhasors::new(place, &path, odd_or_even).collect();
+            let narrow = |z: &Complex<f64>| Complex::new(z.re as f32, z.im as f32);
+            let series: Vec<Complex<f32>> = phasors.iter().map(narrow).collect();
+            for (tick, sum) in demodulated(&series, place, odd_or_even, &path).into_iter().enumerate() {
+                let error = (sum / odd_or_even as f64 - 1.0).norm();
+                assert!(error < 1e-6, "tick {tick} of {odd_or_even} samples: {error}");
+            }
         }
     }
 }

@@ -44,7 +44,8 @@ struct Line {
     /// Whether no other line of the rotor reaches into its band.
     is_alone: bool,
     frames: FrameTransform,
-    amplitude: Vec<f32>,
+    /// Amplitude of each bin of the spectrum, lowest frequency first, and how far it is to that of the next.
+    amplitudes: Vec<[f32; 2]>,
     /// Where the line lies in the spectrum at each speed: the bin below, and how far on it is to the next.
     places: Vec<(u32, f32)>,
 }
@@ -53,6 +54,11 @@ struct Line {
 pub(super) struct SpeedMap {
     lines: Vec<Line>,
     speeds_rev_s: Vec<f64>,
+    /// Amplitude of every line at every speed, frame by frame; of the quantum last heard, as are the scores. They are kept, since
+    /// asking for fresh memory costs as much as filling it.
+    amplitudes: Vec<f32>,
+    /// What all lines say together of every speed, frame by frame.
+    scores: Vec<f64>,
 }
 
 impl SpeedMap {
@@ -79,13 +85,13 @@ impl SpeedMap {
                 Line {
                     order: channel.order,
                     is_alone: channel.order * (high - low) / 2.0 <= apart * low / 2.0,
-                    amplitude: vec![0.0; 2 * length + 1],
+                    amplitudes: vec![[0.0; 2]; 2 * length],
                     places: places_of(channel, length, &speeds_rev_s),
                     frames: FrameTransform::new(length, 2, planner),
                 }
             })
             .collect();
-        Self { lines, speeds_rev_s }
+        Self { lines, speeds_rev_s, amplitudes: Vec::new(), scores: Vec::new() }
     }
 
     /// The slowest and fastest speed that is looked for.
@@ -94,17 +100,23 @@ impl SpeedMap {
         (self.speeds_rev_s[0], self.speeds_rev_s[last])
     }
 
+    /// Amplitudes of one frame.
+    fn frame_len(&self) -> usize {
+        (self.speeds_rev_s.len() * self.lines.len()).max(1)
+    }
+
     /// The path of a quantum as speeds in the middle of each frame, and how present each line is on it.
     pub(super) fn path_through(&mut self, series: &[&[Complex<f32>]], noise_variances: &[f64], hop_s: f64) -> MapPath {
         let frames =
             self.lines.iter().zip(series).map(|(line, series)| series.len() / line.frames.length()).min().unwrap_or(0);
-        let mut scores: Vec<Vec<f64>> = Vec::with_capacity(frames);
-        let mut amplitudes: Vec<Vec<f32>> = Vec::with_capacity(frames);
-        let mut presences = vec![LinePresence::default(); self.lines.len()];
         let points = self.speeds_rev_s.len();
+        let mut presences = vec![LinePresence::default(); self.lines.len()];
         let mut power = vec![0.0f32; points];
-        for frame in 0..frames {
-            let mut on_grid = vec![0.0f32; points * self.lines.len()];
+        let mut score = vec![0.0f32; points];
+        let frame_len = self.frame_len();
+        self.amplitudes.resize(frames * frame_len, 0.0);
+        self.scores.clear();
+        for (frame, on_grid) in self.amplitudes.chunks_exact_mut(frame_len).enumerate() {
             for (((line, series), &noise), row) in
                 self.lines.iter_mut().zip(series).zip(noise_variances).zip(on_grid.chunks_exact_mut(points))
             {
@@ -113,7 +125,7 @@ impl SpeedMap {
             }
             let peaks: Vec<f32> = on_grid.chunks_exact(points).map(highest).collect();
             let cap = second_largest(&peaks);
-            let mut score = vec![0.0f32; points];
+            score.fill(0.0);
             for ((row, &peak), presence) in on_grid.chunks_exact(points).zip(&peaks).zip(&mut presences) {
                 // a whistle in one band must not outvote lines that agree
                 let scale = if peak > cap { cap / peak } else { 1.0 };
@@ -124,14 +136,14 @@ impl SpeedMap {
                 }
                 presence.in_band += f64::from(peak * peak) / frames as f64;
             }
-            scores.push(score.into_iter().map(f64::from).collect());
-            amplitudes.push(on_grid);
+            self.scores.extend(score.iter().copied().map(f64::from));
         }
         let steady = (0..points).max_by(|&a, &b| power[a].total_cmp(&power[b])).unwrap_or(0);
         let step = self.speeds_rev_s[1] - self.speeds_rev_s[0];
         let middle = (self.speeds_rev_s[0] + self.speeds_rev_s[points - 1]) / 2.0;
+        let scores: Vec<&[f64]> = self.scores.chunks_exact(points).collect();
         let path = best_path(&scores, STEP_STD_SHARE * middle / step);
-        for (&place, on_grid) in path.iter().zip(&amplitudes) {
+        for (&place, on_grid) in path.iter().zip(self.amplitudes.chunks_exact(frame_len)) {
             for ((presence, row), line) in presences.iter_mut().zip(on_grid.chunks_exact(points)).zip(&self.lines) {
                 let lobe_points = LOBE_CELLS / (line.order * FRAME_HOPS as f64 * hop_s) / step;
                 presence.on_path += f64::from(row[place].powi(2)) / frames as f64;
@@ -160,12 +172,15 @@ impl SpeedMap {
             .map(|(frame, &place)| ((frame as f64 + 0.5) * frame_s, self.speeds_rev_s[place]))
             .collect();
         let steady_rev_s = self.speeds_rev_s[steady];
-        MapPath { points, presences, steady_rev_s, beside_share, amplitudes }
+        MapPath { points, presences, steady_rev_s, beside_share }
     }
 
-    /// Where the energy of each frame of a path lies.
-    pub(super) fn centroids(&self, path: &MapPath, noise_variances: &[f64]) -> Vec<Centroid> {
-        path.amplitudes.iter().map(|on_grid| self.centroid(on_grid, &path.presences, noise_variances)).collect()
+    /// Where the energy of each frame of the quantum last heard lies.
+    pub(super) fn centroids(&self, presences: &[LinePresence], noise_variances: &[f64]) -> Vec<Centroid> {
+        self.amplitudes
+            .chunks_exact(self.frame_len())
+            .map(|on_grid| self.centroid(on_grid, presences, noise_variances))
+            .collect()
     }
 
     /// Where the energy of a frame lies, each line weighed by A² / (Φ o): of all strong lines whose band holds no other line of the
@@ -221,7 +236,13 @@ fn power_beside(row: &[f32], place: usize, lobe_points: f64) -> f64 {
 
 /// The largest of values that are not negative; written so that it runs in vectors.
 fn highest(values: &[f32]) -> f32 {
-    values.iter().fold(0.0, |highest, &value| if value > highest { value } else { highest })
+    let larger = |a: f32, b: f32| if b > a { b } else { a };
+    let (eights, rest) = values.as_chunks::<8>();
+    let mut lanes = [0.0; 8];
+    for eight in eights {
+        lanes.iter_mut().zip(eight).for_each(|(lane, &value)| *lane = larger(*lane, value));
+    }
+    lanes.iter().chain(rest).fold(0.0, |highest, &value| larger(highest, value))
 }
 
 /// What the map shows of a quantum.
@@ -235,8 +256,6 @@ pub(super) struct MapPath {
     /// How strong something else in the bands of the strong lines is, as a share of the strongest; mean of these lines, 0 where
     /// it is in few of them.
     pub(super) beside_share: f64,
-    /// Amplitude of every line at every speed, frame by frame.
-    amplitudes: Vec<Vec<f32>>,
 }
 
 impl Line {
@@ -246,16 +265,22 @@ impl Line {
         let scale = 1.0 / (self.frames.energy * noise_variance).sqrt() as f32;
         let spectrum = self.frames.spectrum(series);
         // from the lowest frequency to the highest
-        for (index, into) in self.amplitude.iter_mut().take(2 * length).enumerate() {
-            *into = spectrum[(index + length) % (2 * length)].norm_sqr().sqrt() * scale;
+        let (rising, negative) = spectrum.split_at(length);
+        for (into, bin) in self.amplitudes.iter_mut().zip(negative.iter().chain(rising)) {
+            into[0] = bin.norm_sqr().sqrt() * scale;
+        }
+        let mut above = 0.0;
+        for [amplitude, step] in self.amplitudes.iter_mut().rev() {
+            *step = above - *amplitude;
+            above = *amplitude;
         }
     }
 
     /// The spectrum at the line's place for each speed.
     fn interpolate(&self, row: &mut [f32]) {
         for (into, &(bin, share)) in row.iter_mut().zip(&self.places) {
-            let pair = &self.amplitude[bin as usize..][..2];
-            *into = pair[0] + share * (pair[1] - pair[0]);
+            let [amplitude, step] = self.amplitudes[bin as usize];
+            *into = amplitude + share * step;
         }
     }
 }
@@ -289,14 +314,15 @@ fn second_largest(values: &[f32]) -> f32 {
 /// The path of grid points with the highest sum of scores less (step / σ)² / 2 for each step (Viterbi). The best predecessor
 /// of every point is found in one sweep, by the lower envelope of parabolas (Felzenszwalb and Huttenlocher, Theory of
 /// Computing 8, 2012).
-pub(super) fn best_path(scores: &[Vec<f64>], step_std: f64) -> Vec<usize> {
-    let Some(first) = scores.first() else { return Vec::new() };
-    let points = first.len();
+pub(super) fn best_path(scores: &[impl AsRef<[f64]>], step_std: f64) -> Vec<usize> {
+    let Some((first, rest)) = scores.split_first() else { return Vec::new() };
+    let mut total = first.as_ref().to_vec();
+    let points = total.len();
+    let mut next = vec![0.0; points];
     let curvature = 1.0 / (2.0 * step_std * step_std);
-    let mut total = first.clone();
-    let mut from: Vec<Vec<u32>> = Vec::with_capacity(scores.len());
+    let mut from = vec![0u32; points * rest.len()];
     let (mut places, mut borders) = (vec![0usize; points], vec![0.0f64; points + 1]);
-    for score in &scores[1..] {
+    for (score, origin) in rest.iter().zip(from.chunks_exact_mut(points.max(1))) {
         let mut last = 0;
         places[0] = 0;
         (borders[0], borders[1]) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -314,23 +340,20 @@ pub(super) fn best_path(scores: &[Vec<f64>], step_std: f64) -> Vec<usize> {
             places[last] = q;
             (borders[last], borders[last + 1]) = (s, f64::INFINITY);
         }
-        let mut origin = vec![0u32; points];
-        let mut next = vec![0.0; points];
         let mut envelope = 0;
-        for (q, (origin, into)) in origin.iter_mut().zip(&mut next).enumerate() {
+        for (q, ((origin, into), score)) in origin.iter_mut().zip(&mut next).zip(score.as_ref()).enumerate() {
             while borders[envelope + 1] < q as f64 {
                 envelope += 1;
             }
             let p = places[envelope];
             *origin = p as u32;
-            *into = total[p] - curvature * (q as f64 - p as f64).powi(2) + score[q];
+            *into = total[p] - curvature * (q as f64 - p as f64).powi(2) + score;
         }
-        from.push(origin);
-        total = next;
+        std::mem::swap(&mut total, &mut next);
     }
     let mut place = (0..points).max_by(|&a, &b| total[a].total_cmp(&total[b])).unwrap_or(0);
     let mut path = vec![place];
-    for origin in from.iter().rev() {
+    for origin in from.chunks_exact(points.max(1)).rev() {
         place = origin[place] as usize;
         path.push(place);
     }
@@ -358,6 +381,6 @@ mod tests {
                 .fold(f64::MIN, f64::max);
             assert!((value(&best_path(&scores, 1.3)) - best).abs() < 1e-9);
         }
-        assert!(best_path(&[], 1.0).is_empty());
+        assert!(best_path(&[] as &[Vec<f64>], 1.0).is_empty());
     }
 }

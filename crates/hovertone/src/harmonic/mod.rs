@@ -128,7 +128,7 @@ fn level_of_quantum(quantum: &Quantum<'_>, map: &mut SpeedMap, records: &mut [Li
         record.quanta_left_out += u32::from(!used.contains(&index));
     }
     if seen.beside_share > SEVERAL_SHARE {
-        return Some(Heard::Several(map.centroids(&seen, noise_variances)));
+        return Some(Heard::Several(map.centroids(presences, noise_variances)));
     }
     let lines_along = |path: &SpeedPath| -> Vec<Line> {
         used.iter()

@@ -43,7 +43,7 @@ impl<'a> OrderPhasors<'a> {
         if step != self.step {
             self.step = step;
             for (phasor, turns) in self.of_step.iter_mut().zip(self.turns) {
-                *phasor = Complex::from_polar(1.0, -TAU * step * turns);
+                *phasor = small_turn(-TAU * step * turns);
             }
         }
         self.order = order;

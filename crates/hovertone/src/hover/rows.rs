@@ -5,6 +5,8 @@ use crate::spectrogram::{Stft, Window, power_db};
 
 /// Sound below this is handling, wind and traffic; it does not count for how loud a row is.
 const LEVEL_HZ_MIN: f64 = 60.0;
+/// Rows of more frames than this know their mean well enough without frames that overlap.
+const OVERLAPPING_FRAMES_MAX: u32 = 20;
 
 /// One row: the mean power spectrum of a stretch of sound.
 #[derive(Clone, Debug)]
@@ -47,9 +49,11 @@ pub(super) fn mean_power<'a>(rows: impl Iterator<Item = &'a Row> + Clone) -> Opt
 }
 
 /// Builds rows from a stream of samples. When there are too many, neighbours are merged and rows become twice as long, so
-/// that memory stays the same for a minute and for a day.
+/// that memory stays the same for a minute and for a day; and once they hold many frames, these stand side by side.
 pub(crate) struct RowsBuilder {
-    stft: Stft,
+    stft: Stft<f32>,
+    start_s: f64,
+    window_s: f64,
     hop_s: f64,
     frames_per_row: u32,
     rows_max: usize,
@@ -73,13 +77,13 @@ impl RowsBuilder {
         let mut stft = Stft::new(sample_rate_hz, Window::Hann, window_s, hop_s, 1);
         stft.restart(start_s);
         let frames_per_row = (row_s / hop_s).round().max(1.0) as u32;
-        Self { stft, hop_s, frames_per_row, rows_max, rows: Vec::new() }
+        Self { stft, start_s, window_s, hop_s, frames_per_row, rows_max, rows: Vec::new() }
     }
 
     pub(crate) fn push(&mut self, samples: &[f32]) {
-        let Self { stft, hop_s, frames_per_row, rows_max, rows } = self;
+        let Self { stft, start_s, hop_s, frames_per_row, rows_max, rows, .. } = self;
         stft.push(samples, |frame| {
-            let (from_s, to_s) = (frame.centre_s - *hop_s / 2.0, frame.centre_s + *hop_s / 2.0);
+            let to_s = frame.centre_s + *hop_s / 2.0;
             match rows.last_mut().filter(|row| row.frame_count < *frames_per_row) {
                 Some(row) => {
                     row.power.iter_mut().zip(frame.power).for_each(|(sum, power)| *sum += power);
@@ -91,10 +95,16 @@ impl RowsBuilder {
                         merge_pairs(rows);
                         *frames_per_row *= 2;
                     }
+                    let from_s = rows.last().map_or(*start_s, |row| row.span.to_s);
                     rows.push(Row { span: Span { from_s, to_s }, power: frame.power.to_vec(), frame_count: 1 });
                 }
             }
         });
+        if self.frames_per_row > OVERLAPPING_FRAMES_MAX && self.hop_s < self.window_s {
+            self.hop_s = (2.0 * self.hop_s).min(self.window_s);
+            self.frames_per_row /= 2;
+            self.stft.set_hop(self.hop_s);
+        }
     }
 
     /// The rows of a recording that ends at `end_s`.
@@ -104,10 +114,7 @@ impl RowsBuilder {
         for row in &mut rows {
             row.power.iter_mut().for_each(|sum| *sum /= f64::from(row.frame_count));
         }
-        // the first and last half window belong to the first and last row
-        if let Some(first) = rows.first_mut() {
-            first.span.from_s -= self.hop_s / 2.0;
-        }
+        // the last half window belongs to the last row
         if let Some(last) = rows.last_mut() {
             last.span.to_s = end_s;
         }

@@ -99,7 +99,7 @@ mod tests {
         for second in 0..seconds {
             let level = if second == 3 { 0.5 } else { 0.0 };
             let block: Vec<f32> = (0..1000).map(|n| level * ((n as f32) * 1.3).sin()).collect();
-            builder.push(&block);
+            block.chunks(100).for_each(|samples| builder.push(samples));
         }
         builder.finish(2.0 + seconds as f64)
     }
@@ -124,5 +124,15 @@ mod tests {
         for pair in survey.rows.windows(2) {
             assert!((pair[0].span.to_s - pair[1].span.from_s).abs() < 1e-9);
         }
+        let lengths = || survey.rows.iter().map(|row| row.span.length_s());
+        assert!((lengths().sum::<f64>() - 100.0).abs() < 1e-9);
+        assert!(
+            lengths().rev().skip(1).all(|length_s| (7.5..8.5).contains(&length_s)),
+            "{:?}",
+            lengths().collect::<Vec<_>>()
+        );
+        // one second of a sine of half of full scale, under windows that spread it over 1.5 bins
+        let energy: f64 = survey.rows.iter().map(|row| row.power.iter().sum::<f64>() * row.span.length_s()).sum();
+        assert!((energy / (1.5 * 0.25) - 1.0).abs() < 0.05, "{energy}");
     }
 }

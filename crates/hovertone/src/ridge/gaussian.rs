@@ -86,7 +86,7 @@ mod tests {
             for step in 0..100 {
                 let hz = 1000.0 + 10.0 * f64::from(step) / 100.0;
                 let signal: Vec<f32> = (0..800).map(|n| (TAU * hz * f64::from(n) / rate).cos() as f32).collect();
-                let mut stft = Stft::new(rate, Window::Hann, window_s, window_s, 2);
+                let mut stft = Stft::<f64>::new(rate, Window::Hann, window_s, window_s, 2);
                 stft.push(&signal, |frame| {
                     let bin = loudest_bin(frame.power, 0, frame.power.len()).unwrap();
                     let got = gaussian_peak(frame.power, 190, 215, frame.power[bin], threshold_share, frame.bin_hz);

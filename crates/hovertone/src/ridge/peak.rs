@@ -88,7 +88,7 @@ mod tests {
             .map(|step| {
                 let hz = 1000.0 + 10.0 * f64::from(step) / 200.0;
                 let signal: Vec<f32> = (0..800).map(|n| (TAU * hz * f64::from(n) / rate).cos() as f32).collect();
-                let mut stft = Stft::new(rate, Window::Hann, window_s, window_s, zero_pad_factor);
+                let mut stft = Stft::<f64>::new(rate, Window::Hann, window_s, window_s, zero_pad_factor);
                 let mut error = f64::NAN;
                 stft.push(&signal, |frame| {
                     let bin = loudest_bin(frame.power, 0, frame.power.len()).unwrap();
@@ -118,7 +118,7 @@ mod tests {
         for (hz, band_hz, window_s) in
             [(4000.0, 640.0, 0.05), (4000.0, 640.0, 0.2), (180.0, 28.0, 0.2), (180.0, 28.0, 0.4)]
         {
-            let mut stft = Stft::new(16000.0, Window::Hann, window_s, window_s, 2);
+            let mut stft = Stft::<f64>::new(16000.0, Window::Hann, window_s, window_s, 2);
             let (cell_hz, chance) = (stft.resolution_hz(), 0.02);
             let ratio = ratio_for_chance(band_hz / cell_hz, chance);
             let (mut frames, mut points, mut scratch) = (0, 0, Vec::new());

@@ -18,7 +18,7 @@ pub use window::Window;
 pub(crate) use window::hann_weights;
 
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
+use realfft::{FftNum, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
 /// Power of a bin that holds nothing, in dB re a full-scale sine: what 24-bit silence would not reach.
@@ -41,34 +41,35 @@ pub struct Frame<'a> {
 }
 
 /// Cuts a stream of samples into frames and transforms each. State of one stretch of sound without gaps.
-pub struct Stft {
-    plan: Arc<dyn RealToComplex<f64>>,
-    window: Vec<f64>,
+///
+/// It calculates in `T`: `f64`, or `f32` in half the time, where what is 130 dB weaker than the loudest drowns in rounding.
+pub struct Stft<T = f64> {
+    plan: Arc<dyn RealToComplex<T>>,
+    window: Vec<T>,
     power_scale: f64,
     hop_samples: usize,
     sample_rate_hz: f64,
-    pending: Vec<f64>,
+    pending: Vec<f32>,
     pending_start_s: f64,
     /// Samples still to pass over, where the hop is longer than the window.
     skip_samples: usize,
-    input: Vec<f64>,
-    output: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
+    input: Vec<T>,
+    output: Vec<Complex<T>>,
+    scratch: Vec<Complex<T>>,
     power: Vec<f64>,
 }
 
-impl Stft {
+impl<T: FftNum + From<f32> + Into<f64>> Stft<T> {
     /// Frames of `window_s`, `hop_s` apart; the transform is at least `zero_pad_factor` windows long.
     pub fn new(sample_rate_hz: f64, window: Window, window_s: f64, hop_s: f64, zero_pad_factor: u32) -> Self {
         let window_samples = ((window_s * sample_rate_hz).round() as usize).max(8);
-        let hop_samples = ((hop_s * sample_rate_hz).round() as usize).max(1);
         let transform_samples = smooth_at_least(window_samples * zero_pad_factor.max(1) as usize, 2);
         let plan = RealFftPlanner::new().plan_fft_forward(transform_samples);
-        let window = window.values(window_samples);
-        let window_sum: f64 = window.iter().sum();
+        let weights = window.values(window_samples);
+        let window_sum: f64 = weights.iter().sum();
         Self {
             power_scale: (2.0 / window_sum).powi(2),
-            hop_samples,
+            hop_samples: hop_samples(hop_s, sample_rate_hz),
             sample_rate_hz,
             pending: Vec::new(),
             pending_start_s: 0.0,
@@ -77,7 +78,7 @@ impl Stft {
             output: plan.make_output_vec(),
             scratch: plan.make_scratch_vec(),
             power: vec![0.0; transform_samples / 2 + 1],
-            window,
+            window: weights.into_iter().filter_map(T::from_f64).collect(),
             plan,
         }
     }
@@ -92,6 +93,11 @@ impl Stft {
         self.sample_rate_hz / self.window.len() as f64
     }
 
+    /// From the next frame on, frames are `hop_s` apart.
+    pub(crate) fn set_hop(&mut self, hop_s: f64) {
+        self.hop_samples = hop_samples(hop_s, self.sample_rate_hz);
+    }
+
     /// Forgets what came before; the next pushed sample is at `start_s`.
     pub fn restart(&mut self, start_s: f64) {
         self.pending.clear();
@@ -104,7 +110,7 @@ impl Stft {
         let skipped = self.skip_samples.min(samples.len());
         self.skip_samples -= skipped;
         self.pending_start_s += skipped as f64 / self.sample_rate_hz;
-        self.pending.extend(samples[skipped..].iter().map(|&sample| f64::from(sample)));
+        self.pending.extend_from_slice(&samples[skipped..]);
         let window_samples = self.window.len();
         let mut start = 0;
         while start + window_samples <= self.pending.len() {
@@ -122,16 +128,20 @@ impl Stft {
     fn transform(&mut self, start: usize) {
         let frame = &self.pending[start..start + self.window.len()];
         for ((into, sample), weight) in self.input.iter_mut().zip(frame).zip(&self.window) {
-            *into = sample * weight;
+            *into = T::from(*sample) * *weight;
         }
-        self.input[self.window.len()..].fill(0.0);
+        self.input[self.window.len()..].fill(T::zero());
         // the three buffers are the plan's own, so that their lengths cannot be wrong
         let is_done = self.plan.process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
         debug_assert!(is_done.is_ok());
         for (into, bin) in self.power.iter_mut().zip(&self.output) {
-            *into = bin.norm_sqr() * self.power_scale;
+            *into = bin.norm_sqr().into() * self.power_scale;
         }
     }
+}
+
+fn hop_samples(hop_s: f64, sample_rate_hz: f64) -> usize {
+    ((hop_s * sample_rate_hz).round() as usize).max(1)
 }
 
 /// The next multiple of `step` whose only prime factors are 2, 3 and 5: those transform fast.
@@ -175,7 +185,7 @@ mod tests {
     #[test]
     fn a_frame_is_the_definition_of_its_spectrum() {
         let signal = noise(1500);
-        let mut stft = Stft::new(1000.0, Window::Hann, 0.2, 0.07, 2);
+        let mut stft = Stft::<f64>::new(1000.0, Window::Hann, 0.2, 0.07, 2);
         let got = frames(&signal, &mut stft, 1500);
         assert_eq!(got.len(), (1500 - 200) / 70 + 1);
         let window = Window::Hann.values(200);
@@ -194,7 +204,7 @@ mod tests {
     #[test]
     fn blocks_of_any_size_give_the_same_frames() {
         let signal = noise(5000);
-        let mut stft = Stft::new(1000.0, Window::Hann, 0.2, 0.3, 1);
+        let mut stft = Stft::<f64>::new(1000.0, Window::Hann, 0.2, 0.3, 1);
         let whole = frames(&signal, &mut stft, 5000);
         for block in [1, 7, 199, 200, 201, 1024] {
             let got = frames(&signal, &mut stft, block);
@@ -210,7 +220,7 @@ mod tests {
     fn a_sine_of_full_scale_peaks_at_one() {
         let signal: Vec<f32> = (0..2000).map(|n| (TAU * 100.0 * n as f64 / 1000.0).sin() as f32).collect();
         for window in [Window::Hann, Window::Hamming, Window::Blackman, Window::Rectangular] {
-            let mut stft = Stft::new(1000.0, window, 0.5, 0.5, 1);
+            let mut stft = Stft::<f64>::new(1000.0, window, 0.5, 0.5, 1);
             let bin = (100.0 / stft.bin_hz()).round() as usize;
             for (_, power) in frames(&signal, &mut stft, 256) {
                 assert!((power[bin] - 1.0).abs() < 1e-6, "{window:?}: {}", power[bin]);

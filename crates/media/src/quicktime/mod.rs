@@ -6,7 +6,7 @@
 //! the speed) and takes big-endian `in24` for little-endian.
 //!
 //! [`read_movie`] finds the index (`boxes`), reads each sound track of it (`track`, `sound_description`, `aac_config`,
-//! `pcm_layout`, `edits`, `sample_table`), and `pcm` reads the frames.
+//! `edits`, `sample_table`), and `pcm` reads the frames.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -14,7 +14,6 @@ mod aac_config;
 mod boxes;
 mod edits;
 mod pcm;
-mod pcm_layout;
 mod sample_table;
 mod sound_description;
 mod track;

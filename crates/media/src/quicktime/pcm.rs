@@ -6,9 +6,9 @@
 use std::io::{self, Read, Seek, SeekFrom};
 use std::sync::Arc;
 
-use super::pcm_layout::PcmLayout;
 use super::sample_table::{Chunk, ChunkCursor, SampleTable};
 use super::{AudioTrack, QuicktimeError};
+use crate::pcm_layout::PcmLayout;
 
 /// Frames of one block.
 const BLOCK_FRAMES: u64 = 8192;

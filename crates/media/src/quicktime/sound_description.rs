@@ -9,7 +9,7 @@
 use super::QuicktimeError;
 use super::aac_config::{AudioSpecificConfig, Esds, audio_specific_config, esds_from_payload};
 use super::boxes::{Boxes, FourCc, be_u16, be_u32, be_u64};
-use super::pcm_layout::{PcmKind, PcmLayout};
+use crate::pcm_layout::{PcmKind, PcmLayout};
 
 /// Fields in front of the extensions in version 0 and in an ISO entry.
 const FIXED_LEN: usize = 28;

@@ -6,9 +6,9 @@ use super::QuicktimeError;
 use super::aac_config::{HalfRateAac, opus_pre_skip_frames};
 use super::boxes::{Boxes, FourCc, be_u16, be_u32, be_u64, find, require};
 use super::edits::{Edits, edits_from_elst};
-use super::pcm_layout::{PCM_CHANNELS_MAX, PcmLayout};
 use super::sample_table::{Packets, SampleTable};
 use super::sound_description::{SoundDescription, description_from_stsd};
+use crate::pcm_layout::{PCM_CHANNELS_MAX, PcmLayout};
 
 /// A sound track of a movie.
 #[derive(Debug, Clone, PartialEq)]

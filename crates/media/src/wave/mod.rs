@@ -4,23 +4,21 @@
 //! Symphonia's own reader trusts the sizes in the header; recorders that were stopped hard, pipes and copies that broke
 //! off leave them wrong.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
+mod packets;
+
+pub(crate) use packets::{WavePackets, WavePcmFrames};
+
+use std::io::{self, Read, Seek, SeekFrom};
 
 use symphonia::core::audio::Channels;
-use symphonia::core::codecs::audio::well_known::{
-    CODEC_ID_ADPCM_IMA_WAV, CODEC_ID_ADPCM_MS, CODEC_ID_PCM_ALAW, CODEC_ID_PCM_F32LE, CODEC_ID_PCM_F64LE,
-    CODEC_ID_PCM_MULAW, CODEC_ID_PCM_S16LE, CODEC_ID_PCM_S24LE, CODEC_ID_PCM_S32LE, CODEC_ID_PCM_U8,
-};
+use symphonia::core::codecs::audio::well_known::{CODEC_ID_ADPCM_IMA_WAV, CODEC_ID_ADPCM_MS};
 use symphonia::core::codecs::audio::{AudioCodecId, AudioCodecParameters};
-use symphonia::core::packet::Packet;
-use symphonia::core::units::{Duration, Timestamp};
 
 use crate::container::Container;
 use crate::error::MediaError;
+use crate::pcm_layout::{PcmKind, PcmLayout};
 
-/// Sample frames of one packet, about.
+/// Sample frames that are read at a time, about.
 const PACKET_FRAMES: u64 = 4096;
 
 /// Sizes from here on are what programs write when they do not know the length: ffmpeg `0xffffffff`, sox and arecord a
@@ -50,7 +48,10 @@ pub(crate) struct WaveLayout {
 /// How samples are coded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WaveCodec {
-    Native(AudioCodecId, &'static str),
+    /// Every sample by itself.
+    Pcm(PcmLayout),
+    /// Blocks that Symphonia decodes.
+    Blocks(AudioCodecId, &'static str),
     /// A code that only ffmpeg may know.
     Foreign(u16),
 }
@@ -58,7 +59,8 @@ pub(crate) enum WaveCodec {
 impl WaveCodec {
     pub(crate) fn name(self) -> String {
         match self {
-            Self::Native(_, name) => name.to_owned(),
+            Self::Pcm(layout) => layout.name().to_owned(),
+            Self::Blocks(_, name) => name.to_owned(),
             Self::Foreign(code) => codec_name_from_code(code),
         }
     }
@@ -113,41 +115,6 @@ impl WaveLayout {
 
     fn packet_blocks(&self) -> u64 {
         (PACKET_FRAMES / self.block_frames).max(1)
-    }
-}
-
-/// Blocks of samples, cut from the data chunk.
-pub(crate) struct WavePackets {
-    reader: BufReader<File>,
-    layout: WaveLayout,
-    left_bytes: u64,
-    next_frame: u64,
-}
-
-impl WavePackets {
-    pub(crate) fn open(path: &Path, layout: WaveLayout) -> io::Result<Self> {
-        let mut reader = BufReader::with_capacity(128 * 1024, File::open(path)?);
-        reader.seek(SeekFrom::Start(layout.data_at))?;
-        Ok(Self { reader, left_bytes: layout.data_bytes, next_frame: 0, layout })
-    }
-
-    /// The next whole blocks; `None` after the last.
-    pub(crate) fn next_packet(&mut self) -> io::Result<Option<Packet>> {
-        let blocks = (self.left_bytes / self.layout.block_bytes).min(self.layout.packet_blocks());
-        let wanted = blocks * self.layout.block_bytes;
-        let mut data = Vec::with_capacity(wanted as usize);
-        self.reader.by_ref().take(wanted).read_to_end(&mut data)?;
-        // Shorter where the file shrinks while it is read.
-        let blocks = data.len() as u64 / self.layout.block_bytes;
-        data.truncate((blocks * self.layout.block_bytes) as usize);
-        if blocks == 0 {
-            return Ok(None);
-        }
-        self.left_bytes -= data.len() as u64;
-        let frames = blocks * self.layout.block_frames;
-        let at = Timestamp::new(i64::try_from(self.next_frame).unwrap_or(i64::MAX));
-        self.next_frame += frames;
-        Ok(Some(Packet::new(0, at, Duration::new(frames), data)))
     }
 }
 
@@ -288,21 +255,27 @@ impl Format {
             0 => u64::from(bits.div_ceil(8)),
             bytes => bytes,
         };
-        let native = |id, name| WaveCodec::Native(id, name);
-        let pcm = |codec, sample_bytes| {
-            Ok(Self { codec, sample_rate_hz, channel_count, block_bytes: sample_bytes * channels, block_frames: 1 })
+        let pcm = match (tag, u8::try_from(sample_bytes).unwrap_or(u8::MAX)) {
+            (1, 1) => Some(PcmLayout::unsigned_8()),
+            (1, bytes) => PcmLayout::signed(bytes, true),
+            (3, bytes) => PcmLayout::float(bytes, true),
+            (6, _) => Some(PcmLayout::companded(PcmKind::ALaw)),
+            (7, _) => Some(PcmLayout::companded(PcmKind::MuLaw)),
+            _ => None,
         };
-        match (tag, sample_bytes) {
-            (1, 1) => pcm(native(CODEC_ID_PCM_U8, "8-bit PCM"), 1),
-            (1, 2) => pcm(native(CODEC_ID_PCM_S16LE, "16-bit PCM"), 2),
-            (1, 3) => pcm(native(CODEC_ID_PCM_S24LE, "24-bit PCM"), 3),
-            (1, 4) => pcm(native(CODEC_ID_PCM_S32LE, "32-bit PCM"), 4),
-            (3, 4) => pcm(native(CODEC_ID_PCM_F32LE, "32-bit float PCM"), 4),
-            (3, 8) => pcm(native(CODEC_ID_PCM_F64LE, "64-bit float PCM"), 8),
-            (1 | 3, bytes) => bad("the size of a sample", bytes, "1 to 4 bytes, or 4 or 8 of floating point"),
-            (6, _) => pcm(native(CODEC_ID_PCM_ALAW, "A-law"), 1),
-            (7, _) => pcm(native(CODEC_ID_PCM_MULAW, "mu-law"), 1),
-            (2 | 0x11, _) if channel_count <= 2 && bits == 4 => {
+        if let Some(pcm) = pcm {
+            let block_bytes = u64::from(pcm.sample_bytes) * channels;
+            return Ok(Self {
+                codec: WaveCodec::Pcm(pcm),
+                sample_rate_hz,
+                channel_count,
+                block_bytes,
+                block_frames: 1,
+            });
+        }
+        match tag {
+            1 | 3 => bad("the size of a sample", sample_bytes, "1 to 4 bytes, or 4 or 8 of floating point"),
+            2 | 0x11 if channel_count <= 2 && bits == 4 => {
                 let (id, name, head, head_frames) = if tag == 2 {
                     (CODEC_ID_ADPCM_MS, "MS ADPCM", 7, 2)
                 } else {
@@ -312,7 +285,13 @@ impl Format {
                     return bad("the size of a block", block_bytes, "long enough for its own header");
                 };
                 let block_frames = coded * 2 / channels + head_frames;
-                Ok(Self { codec: native(id, name), sample_rate_hz, channel_count, block_bytes, block_frames })
+                Ok(Self {
+                    codec: WaveCodec::Blocks(id, name),
+                    sample_rate_hz,
+                    channel_count,
+                    block_bytes,
+                    block_frames,
+                })
             }
             _ => Ok(Self {
                 codec: WaveCodec::Foreign(tag),

@@ -1,10 +1,10 @@
-//! How the frames of an uncompressed track are stored, and their conversion to `f32`.
+//! How uncompressed frames are stored, and their conversion to `f32`.
 //!
 //! QuickTime File Format, "Sound sample descriptions"; for `lpcm` the flags of Core Audio's AudioStreamBasicDescription;
 //! for `ipcm` and `fpcm` ISO/IEC 23003-5. Companding: ITU-T G.711.
 
 /// Most channels a track of PCM is read with.
-pub(super) const PCM_CHANNELS_MAX: u16 = 256;
+pub(crate) const PCM_CHANNELS_MAX: u16 = 256;
 
 /// What the bytes of one sample mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub(crate) struct PcmLayout {
 
 impl PcmLayout {
     /// Signed integers that fill their bytes. `None` for a width no file uses.
-    pub(super) fn signed(sample_bytes: u8, is_little_endian: bool) -> Option<Self> {
+    pub(crate) fn signed(sample_bytes: u8, is_little_endian: bool) -> Option<Self> {
         (1..=4).contains(&sample_bytes).then_some(Self {
             kind: PcmKind::Signed,
             is_little_endian,
@@ -44,12 +44,12 @@ impl PcmLayout {
     }
 
     /// Offset binary of one byte.
-    pub(super) fn unsigned_8() -> Self {
+    pub(crate) fn unsigned_8() -> Self {
         Self { kind: PcmKind::Unsigned, is_little_endian: false, sample_bytes: 1, empty_high_bits: 0 }
     }
 
     /// IEEE floats of 4 or 8 bytes.
-    pub(super) fn float(sample_bytes: u8, is_little_endian: bool) -> Option<Self> {
+    pub(crate) fn float(sample_bytes: u8, is_little_endian: bool) -> Option<Self> {
         matches!(sample_bytes, 4 | 8).then_some(Self {
             kind: PcmKind::Float,
             is_little_endian,
@@ -59,15 +59,29 @@ impl PcmLayout {
     }
 
     /// A G.711 code, one byte per sample.
-    pub(super) fn companded(kind: PcmKind) -> Self {
+    pub(crate) fn companded(kind: PcmKind) -> Self {
         Self { kind, is_little_endian: false, sample_bytes: 1, empty_high_bits: 0 }
+    }
+
+    /// What people call it.
+    pub(crate) fn name(&self) -> &'static str {
+        match (self.kind, self.sample_bytes) {
+            (PcmKind::MuLaw, _) => "mu-law",
+            (PcmKind::ALaw, _) => "A-law",
+            (PcmKind::Float, 8) => "64-bit float PCM",
+            (PcmKind::Float, _) => "32-bit float PCM",
+            (_, 1) => "8-bit PCM",
+            (_, 2) => "16-bit PCM",
+            (_, 3) => "24-bit PCM",
+            _ => "32-bit PCM",
+        }
     }
 
     /// Appends the samples in `bytes` to `out`, full scale at 1. A part of a sample at the end is left out.
     ///
     /// Integers are divided by 2^(bits - 1), so -1 is reached and +1 is not. 32-bit integers and 64-bit floats are
     /// rounded to the nearest `f32`.
-    pub(super) fn decode(&self, bytes: &[u8], out: &mut Vec<f32>) {
+    pub(crate) fn decode(&self, bytes: &[u8], out: &mut Vec<f32>) {
         match (self.kind, self.sample_bytes, self.is_little_endian) {
             (PcmKind::Unsigned, ..) => out.extend(bytes.iter().map(|b| (f32::from(*b) - 128.0) / 128.0)),
             (PcmKind::MuLaw, ..) => out.extend(bytes.iter().map(|b| f32::from(linear_from_mu_law(*b)) / 32_768.0)),

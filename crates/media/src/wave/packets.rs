@@ -1,0 +1,83 @@
+//! The samples of a WAVE file, block by block.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use symphonia::core::packet::Packet;
+use symphonia::core::units::{Duration, Timestamp};
+
+use super::WaveLayout;
+use crate::frames::{Frames, Incidents};
+use crate::pcm_layout::PcmLayout;
+
+/// Blocks of samples, cut from the data chunk.
+pub(crate) struct WavePackets {
+    reader: BufReader<File>,
+    layout: WaveLayout,
+    left_bytes: u64,
+    next_frame: u64,
+}
+
+impl WavePackets {
+    pub(crate) fn open(path: &Path, layout: WaveLayout) -> io::Result<Self> {
+        let mut reader = BufReader::with_capacity(128 * 1024, File::open(path)?);
+        reader.seek(SeekFrom::Start(layout.data_at))?;
+        Ok(Self { reader, left_bytes: layout.data_bytes, next_frame: 0, layout })
+    }
+
+    /// Replaces `data` by the next whole blocks and returns their number, 0 after the last.
+    fn read_blocks(&mut self, data: &mut Vec<u8>) -> io::Result<u64> {
+        let blocks = (self.left_bytes / self.layout.block_bytes).min(self.layout.packet_blocks());
+        data.clear();
+        self.reader.by_ref().take(blocks * self.layout.block_bytes).read_to_end(data)?;
+        // Shorter where the file shrinks while it is read.
+        let blocks = data.len() as u64 / self.layout.block_bytes;
+        data.truncate((blocks * self.layout.block_bytes) as usize);
+        self.left_bytes -= data.len() as u64;
+        Ok(blocks)
+    }
+
+    /// The next whole blocks; `None` after the last.
+    pub(crate) fn next_packet(&mut self) -> io::Result<Option<Packet>> {
+        let mut data = Vec::new();
+        let blocks = self.read_blocks(&mut data)?;
+        if blocks == 0 {
+            return Ok(None);
+        }
+        let frames = blocks * self.layout.block_frames;
+        let at = Timestamp::new(i64::try_from(self.next_frame).unwrap_or(i64::MAX));
+        self.next_frame += frames;
+        Ok(Some(Packet::new(0, at, Duration::new(frames), data)))
+    }
+}
+
+/// The frames of a WAVE file whose samples stand by themselves.
+pub(crate) struct WavePcmFrames {
+    packets: WavePackets,
+    pcm: PcmLayout,
+    bytes: Vec<u8>,
+}
+
+impl WavePcmFrames {
+    pub(crate) fn open(path: &Path, layout: &WaveLayout, pcm: PcmLayout) -> io::Result<Self> {
+        Ok(Self { packets: WavePackets::open(path, layout.clone())?, pcm, bytes: Vec::new() })
+    }
+}
+
+impl Frames for WavePcmFrames {
+    fn sample_rate_hz(&self) -> f64 {
+        f64::from(self.packets.layout.sample_rate_hz)
+    }
+
+    fn channel_count(&self) -> usize {
+        usize::from(self.packets.layout.channel_count)
+    }
+
+    fn next_frames(&mut self, out: &mut Vec<f32>, _: &mut Incidents) -> io::Result<bool> {
+        let blocks = self.packets.read_blocks(&mut self.bytes)?;
+        out.clear();
+        self.pcm.decode(&self.bytes, out);
+        Ok(blocks > 0)
+    }
+}
