@@ -90,10 +90,7 @@ fn tables(heard: &[Heard]) -> Vec<ThrustTable> {
                 trials: heard
                     .iter()
                     .filter(|one| one.load == load)
-                    .map(|one| match &one.analysis.outcome {
-                        Outcome::Ok(tone) => TrialSpeeds::from_tone(&one.name, tone, method),
-                        Outcome::NoRotorTone { .. } => panic!("no tone"),
-                    })
+                    .map(|one| TrialSpeeds::from_analysis(&one.name, &one.analysis, method).expect("a tone"))
                     .collect(),
             })
             .to_vec()

@@ -9,10 +9,12 @@ pub(crate) struct Mix {
 }
 
 impl Mix {
-    /// Appends one sample for each frame of `interleaved`; returns how many were not finite and became 0.
-    pub(crate) fn append(&self, interleaved: &[f32], mono: &mut Vec<f32>) -> u64 {
+    /// Appends one sample for each frame of `interleaved`; returns how many were not finite and became 0. What is left in `interleaved`
+    /// is of no use.
+    pub(crate) fn append(&self, interleaved: &mut Vec<f32>, mono: &mut Vec<f32>) -> u64 {
         let first = mono.len();
         match (self.channel, self.channel_count) {
+            (_, 0 | 1) if mono.is_empty() => std::mem::swap(mono, interleaved),
             (_, 0 | 1) => mono.extend_from_slice(interleaved),
             (Some(channel), count) => mono.extend(interleaved.iter().skip(channel).step_by(count)),
             (None, 2) => mono.extend(interleaved.as_chunks::<2>().0.iter().map(|[a, b]| 0.5 * a + 0.5 * b)),
@@ -22,10 +24,10 @@ impl Mix {
             })),
         }
         // almost never any, and counted without a branch for each sample
-        let replaced = mono[first..].iter().map(|sample| u64::from(!sample.is_finite())).sum();
+        let replaced: u32 = mono[first..].iter().map(|sample| u32::from(!sample.is_finite())).sum();
         if replaced > 0 {
             mono[first..].iter_mut().filter(|sample| !sample.is_finite()).for_each(|sample| *sample = 0.0);
         }
-        replaced
+        u64::from(replaced)
     }
 }

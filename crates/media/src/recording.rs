@@ -205,7 +205,7 @@ impl Recording {
         while !pass.has_ended && self.block.len() < BLOCK_FRAMES_MIN {
             let has_more = pass.frames.next_frames(&mut pass.interleaved, &mut pass.incidents)?;
             let wants_more = pass.trim.apply(&mut pass.interleaved, self.mix.channel_count);
-            pass.non_finite_samples += self.mix.append(&pass.interleaved, &mut self.block);
+            pass.non_finite_samples += self.mix.append(&mut pass.interleaved, &mut self.block);
             pass.has_ended = !(has_more && wants_more);
         }
         pass.heard_frames += self.block.len() as u64;

@@ -121,8 +121,7 @@ fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> 
             trials: inputs
                 .iter()
                 .filter(|input| input.load == load.name)
-                .filter_map(|input| Some((input, input.record.tone()?)))
-                .map(|(input, tone)| TrialSpeeds::from_tone(&input.record.file, tone, method))
+                .filter_map(|input| TrialSpeeds::from_analysis(&input.record.file, input.record.analysis()?, method))
                 .collect(),
         })
         .collect()

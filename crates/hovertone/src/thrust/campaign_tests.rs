@@ -38,6 +38,7 @@ pub(super) fn weight(added_mass_kg: f64) -> Force {
 pub(super) fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds {
     let trial = |(index, rad_s): (usize, &f64)| TrialSpeeds {
         recording: format!("{name}/{index}.wav"),
+        hover: None,
         samples: vec![sample(*rad_s, 1e-5)],
     };
     LoadSpeeds {

@@ -124,8 +124,8 @@ fn row_of_load(
     let factor = whole_vehicle_factor(load.rotors_running, rotor_count);
     let constant = |speed: RotorSpeed| factor * thrust_constant_n_s2(force_n, speed);
     let trials: Vec<TrialThrust> = load.trials.iter().map(|trial| row_of_trial(trial, &constant)).collect();
-    let samples = || load.trials.iter().flat_map(|trial| &trial.samples);
-    let speeds: Vec<f64> = samples().map(|sample| sample.speed.rad_s()).collect();
+    let counted = load.trials.iter().flat_map(TrialSpeeds::counted);
+    let speeds: Vec<f64> = counted.map(|sample| sample.speed.rad_s()).collect();
     let speed = mean(&speeds).map(RotorSpeed::from_rad_s);
     let speed_std_share = heard.map(|heard| heard.speed_std_share).filter(|share| *share > 0.0);
     let total = speed.map(|speed| {
@@ -168,7 +168,7 @@ fn figure_of_merit_of(load: &LoadSpeeds, settings: &ThrustSettings) -> Option<f6
 }
 
 fn row_of_trial(trial: &TrialSpeeds, constant: &dyn Fn(RotorSpeed) -> f64) -> TrialThrust {
-    let speeds: Vec<f64> = trial.samples.iter().map(|sample| sample.speed.rad_s()).collect();
+    let speeds: Vec<f64> = trial.counted().iter().map(|sample| sample.speed.rad_s()).collect();
     let speed = mean(&speeds).map(RotorSpeed::from_rad_s);
     TrialThrust {
         recording: trial.recording.clone(),
@@ -187,7 +187,7 @@ fn spread_rad_s(load: &LoadSpeeds, speeds: &[f64]) -> Option<f64> {
     let squares: Vec<f64> = load
         .trials
         .iter()
-        .flat_map(|trial| &trial.samples)
+        .flat_map(TrialSpeeds::counted)
         .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.spread_rev_s?).rad_s().powi(2)))
         .collect();
     Some((mean(&squares)? + std(speeds).unwrap_or_default().powi(2)).sqrt())

@@ -106,8 +106,8 @@ impl HeardLoad<'_> {
     /// Mean length of what was used of a trial.
     pub(super) fn trial_s(&self) -> Option<f64> {
         let length = |trial: &TrialSpeeds| {
-            let from_s = trial.samples.iter().map(|sample| sample.span.from_s).reduce(f64::min)?;
-            let to_s = trial.samples.iter().map(|sample| sample.span.to_s).reduce(f64::max)?;
+            let from_s = trial.counted().iter().map(|sample| sample.span.from_s).reduce(f64::min)?;
+            let to_s = trial.counted().iter().map(|sample| sample.span.to_s).reduce(f64::max)?;
             Some(to_s - from_s)
         };
         mean(&self.load.trials.iter().filter_map(length).collect::<Vec<_>>())
@@ -120,7 +120,7 @@ pub(super) fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64
 }
 
 fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
-    mean(&trial.samples.iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
+    mean(&trial.counted().iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
 }
 
 /// For each load, which of its trials are off by a factor. A load all of whose trials are is judged as a load; where half of
@@ -153,7 +153,7 @@ fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &
     let trials_rad_s: Vec<f64> = kept().filter_map(trial_rad_s).collect();
     let speed_rad_s = mean(&trials_rad_s)?;
     let within: Vec<f64> = kept()
-        .flat_map(|trial| &trial.samples)
+        .flat_map(TrialSpeeds::counted)
         .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.std_uncertainty_rev_s?).rad_s()))
         .collect();
     let estimator = mean(&within).map_or(0.0, |std| std / (trials_rad_s.len() as f64).sqrt());

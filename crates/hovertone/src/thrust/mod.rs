@@ -45,8 +45,9 @@ pub use weighing::{AcousticScale, HeardHover, WeighedHover};
 
 use crate::budget_config::BudgetConfig;
 use crate::method::Method;
-use crate::pipeline::{RotorTone, SampleSpeeds};
+use crate::pipeline::{Outcome, SpeedAnalysis};
 use crate::span::Span;
+use crate::speed::SpeedEstimate;
 use crate::warning::Warning;
 use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::Serialize;
@@ -162,23 +163,43 @@ pub struct LoadSpeeds {
 pub struct TrialSpeeds {
     /// Name of the recording.
     pub recording: String,
+    /// Over all of its hover, where that is what counts; else the mean of the samples does, as in the paper.
+    ///
+    /// A force balance holds over a stretch of time but for the climb that begins or ends in it, which is the less the longer the
+    /// stretch; samples leave out the end of a hover and hear its middle twice.
+    pub hover: Option<SampleSpeed>,
     /// Its samples.
     pub samples: Vec<SampleSpeed>,
 }
 
 impl TrialSpeeds {
-    /// The samples of a rotor's tone by one method.
-    pub fn from_tone(recording: impl Into<String>, tone: &RotorTone, method: Method) -> Self {
-        let sample = |sample: &SampleSpeeds| {
-            sample.speed(method).map(|estimate| SampleSpeed {
-                span: sample.span,
-                speed: estimate.speed_of_thrust(),
-                std_uncertainty_rev_s: estimate.std_uncertainty_rev_s,
-                spread_rev_s: estimate.spread_rev_s,
-                frame_count: estimate.frame_count,
-            })
+    /// What is heard in a recording by one method: over all of its hover by ours, in samples by the paper's. `None` without a rotor tone.
+    pub fn from_analysis(recording: impl Into<String>, analysis: &SpeedAnalysis, method: Method) -> Option<Self> {
+        let Outcome::Ok(tone) = &analysis.outcome else { return None };
+        let speed_in = |span: Span, estimate: &SpeedEstimate| SampleSpeed {
+            span,
+            speed: estimate.speed_of_thrust(),
+            std_uncertainty_rev_s: estimate.std_uncertainty_rev_s,
+            spread_rev_s: estimate.spread_rev_s,
+            frame_count: estimate.frame_count,
         };
-        Self { recording: recording.into(), samples: tone.samples.iter().filter_map(sample).collect() }
+        let segments = &analysis.hover.segments;
+        let (from_s, to_s) = (segments.first()?.from_s, segments.last()?.to_s);
+        let hover = tone.speed(method).filter(|_| !method.reads_ridges());
+        Some(Self {
+            recording: recording.into(),
+            hover: hover.map(|estimate| speed_in(Span { from_s, to_s }, estimate)),
+            samples: tone
+                .samples
+                .iter()
+                .filter_map(|sample| Some(speed_in(sample.span, sample.speed(method)?)))
+                .collect(),
+        })
+    }
+
+    /// What counts of it.
+    pub(crate) fn counted(&self) -> &[SampleSpeed] {
+        if self.hover.is_some() { self.hover.as_slice() } else { &self.samples }
     }
 }
 
@@ -239,7 +260,7 @@ pub struct LoadThrust {
     pub force_n: f64,
     /// How many rotors balance it.
     pub rotors_running: u32,
-    /// Mean shaft speed over all samples of all trials; absent where nothing was heard.
+    /// Mean shaft speed over all trials, or over all their samples by the methods of the paper; absent where nothing was heard.
     #[serde(rename = "speed_rad_s")]
     pub speed: Option<RotorSpeed>,
     /// Its standard uncertainty, from the scatter of the trials.
@@ -269,7 +290,7 @@ pub struct LoadThrust {
 pub struct TrialThrust {
     /// Name of the recording.
     pub recording: String,
-    /// Mean shaft speed over its samples.
+    /// Mean shaft speed over its hover, or over its samples by the methods of the paper.
     #[serde(rename = "speed_rad_s")]
     pub speed: Option<RotorSpeed>,
     /// Constant of the whole vehicle from this trial alone.

@@ -21,6 +21,7 @@ fn load(name: &str, mass_g: f64, rpm: f64, std_rpm: f64) -> LoadSpeeds {
     let trial_std_rpm = std_rpm / 5f64.sqrt();
     let trials = offsets.map(|offset| TrialSpeeds {
         recording: String::new(),
+        hover: None,
         samples: vec![SampleSpeed {
             span: Span { from_s: 0.0, to_s: 5.0 },
             speed: RotorSpeed::from_rpm(rpm + trial_std_rpm * offset),
@@ -109,6 +110,30 @@ fn a_bench_run_tells_of_one_rotor() {
     assert!((table.thrust_constant_total_n_s2.unwrap().value / (4.0 * expected) - 1.0).abs() < 1e-12);
     assert_eq!(table.loads[0].fits, None);
     assert!(!table.warnings.contains(&Warning::LoudestRotor));
+}
+
+#[test]
+fn what_is_heard_over_all_of_a_hover_counts_instead_of_its_samples() {
+    let mut hover = load("hover", 413.0, 3610.0, 40.0);
+    for trial in &mut hover.trials {
+        trial.hover = Some(SampleSpeed {
+            span: Span { from_s: 0.0, to_s: 10.0 },
+            speed: RotorSpeed::from_rpm(3700.0),
+            std_uncertainty_rev_s: Some(0.01),
+            ..trial.samples[0].clone()
+        });
+    }
+    let force_n = hover.force.newtons();
+    let table = thrust_from_loads(&[hover], Method::Separated, &ThrustSettings::for_rotors(4));
+    let expected = force_n / RotorSpeed::from_rpm(3700.0).rad_s().powi(2);
+    let row = &table.loads[0];
+    let trials = row.trials.iter().filter_map(|trial| trial.thrust_constant_total_n_s2);
+    for value in
+        trials.chain([row.thrust_constant_total_n_s2.unwrap().value, table.thrust_constant_total_n_s2.unwrap().value])
+    {
+        assert!((value / expected - 1.0).abs() < 1e-12, "{value}");
+    }
+    assert!((row.trials[0].samples[0].speed.speed.rpm() - 3700.0).abs() > 50.0);
 }
 
 #[test]
