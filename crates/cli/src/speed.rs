@@ -119,6 +119,7 @@ pub(crate) fn config_of(
     config.rotors.wants_condition = analysis.condition;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
+    config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);
     config.span.from_s = analysis.from;
     config.span.to_s = analysis.to;
     config.spectrogram.window_s = analysis.window_s;

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 /// How far rotors scatter about their mean: those within ±1 % of it, evenly spread, have 0.58 %.
 pub(crate) const ROTOR_SPREAD_SHARE: f64 = 0.0058;
 
+/// How much nearer to the microphone, or farther from it, a hover may end than it began.
+pub(crate) const DRIFT_M_MAX: f64 = 0.5;
+
 /// How far one of so many rotors turns from their mean, as a standard deviation: `σ √(1 − 1/N)`.
 pub(crate) fn loudest_rotor_share(rotor_spread_share: f64, count: u32) -> f64 {
     rotor_spread_share * (1.0 - 1.0 / f64::from(count.max(1))).sqrt()
@@ -18,15 +21,23 @@ pub(crate) fn loudest_rotor_share(rotor_spread_share: f64, count: u32) -> f64 {
 pub struct BudgetConfig {
     /// The recorder's clock may be off by this much to either side, in millionths. Phones and cameras keep within 50.
     pub clock_ppm: f64,
-    /// The vehicle may move towards or away from the microphone this fast; 0 in a hover, whose drift averages out.
+    /// The vehicle may move towards or away from the microphone this fast all the time; 0 in a hover …
     pub radial_speed_m_s_max: f64,
+    /// … which ends this much nearer to the microphone, or farther, than it began: over its length that is a speed too. 0 on a
+    /// bench. Half a metre is what held hovers drift, of simulated pilots as of real ones.
+    pub drift_m_max: f64,
     /// Standard deviation of the speeds of several rotors about their mean, as a share; counts where one line stands for all.
     pub rotor_spread_share: f64,
 }
 
 impl Default for BudgetConfig {
     fn default() -> Self {
-        Self { clock_ppm: 50.0, radial_speed_m_s_max: 0.0, rotor_spread_share: ROTOR_SPREAD_SHARE }
+        Self {
+            clock_ppm: 50.0,
+            radial_speed_m_s_max: 0.0,
+            drift_m_max: DRIFT_M_MAX,
+            rotor_spread_share: ROTOR_SPREAD_SHARE,
+        }
     }
 }
 
@@ -34,6 +45,7 @@ impl BudgetConfig {
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("clock_ppm", self.clock_ppm, 0.0, 1e5)?;
         check_range("radial_speed_m_s_max", self.radial_speed_m_s_max, 0.0, 100.0)?;
+        check_range("drift_m_max", self.drift_m_max, 0.0, 100.0)?;
         check_range("rotor_spread_share", self.rotor_spread_share, 0.0, 0.3)
     }
 }

@@ -209,6 +209,7 @@ fn speed_near(
     };
     let apart = apart.unless_doubtful_beside(&harmonic, order);
     let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
+        let length_s = span.map_or(hover.length_s(), Span::length_s);
         config
             .methods()
             .filter_map(|method| match tracks.iter().find(|track| track.method == method) {
@@ -216,7 +217,7 @@ fn speed_near(
                 None if method == Method::Separated => apart.speed_in(span, order),
                 None => harmonic.speed_in(span, order),
             })
-            .map(|speed| speed.with_budget(&config.budget, &config.rotors))
+            .map(|speed| speed.with_budget(&config.budget, &config.rotors, length_s))
             .collect()
     };
     let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);

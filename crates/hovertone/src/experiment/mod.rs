@@ -8,6 +8,7 @@ mod vehicle_model;
 
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 
+use crate::budget_config::BudgetConfig;
 use crate::config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig};
 use crate::error::ConfigError;
 use crate::rotors_config::RotorsConfig;
@@ -201,7 +202,12 @@ impl ExperimentLoad {
     /// The settings for a recording of this load.
     pub fn config(&self, experiment: &Experiment) -> Config {
         let rotors = RotorsConfig { count: self.rotors_running, ..experiment.config.rotors };
-        Config { span: self.span, rotors, ..experiment.config.clone() }
+        let drift_m_max = match self.force {
+            Force::Weight { .. } => experiment.uncertainty.drift_m_max,
+            Force::Thrust { .. } => 0.0,
+        };
+        let budget = BudgetConfig { drift_m_max, ..experiment.config.budget };
+        Config { span: self.span, rotors, budget, ..experiment.config.clone() }
     }
 }
 

@@ -18,7 +18,7 @@ pub enum UncertaintySource {
     Sound,
     /// The sampling clock of the recorder: `n Δ / √3` for a clock that is off by up to ±Δ.
     Clock,
-    /// A vehicle that moves along the line to the microphone by up to ±v: `n v / (c √3)`. A hover's own drift averages out.
+    /// A vehicle that moves along the line to the microphone by up to ±v: `n v / (c √3)`; a hover, by what it drifts over its length.
     Doppler,
     /// One ridge, or one line of several rotors that were not told apart, stands for all of them: their mean lies about it as
     /// their speeds scatter.
@@ -35,11 +35,12 @@ pub struct UncertaintyTerm {
 }
 
 impl SpeedEstimate {
-    /// The terms of its uncertainty; none where the sound itself leaves it unknown.
-    pub(crate) fn with_budget(mut self, config: &BudgetConfig, rotors: &RotorsConfig) -> Self {
+    /// The terms of its uncertainty over a stretch of `length_s`; none where the sound itself leaves it unknown.
+    pub(crate) fn with_budget(mut self, config: &BudgetConfig, rotors: &RotorsConfig, length_s: f64) -> Self {
+        let drift_m_s_max = if length_s > 0.0 { config.drift_m_max / length_s } else { 0.0 };
         let limits = [
             (UncertaintySource::Clock, config.clock_ppm / 1e6),
-            (UncertaintySource::Doppler, config.radial_speed_m_s_max / SOUND_M_S),
+            (UncertaintySource::Doppler, (config.radial_speed_m_s_max + drift_m_s_max) / SOUND_M_S),
         ];
         if let Some(std_uncertainty_rev_s) = self.std_uncertainty_rev_s {
             let of_limit = |(source, share): (UncertaintySource, f64)| UncertaintyTerm {
@@ -57,6 +58,15 @@ impl SpeedEstimate {
             }
         }
         self
+    }
+
+    /// What another recording of the same hover would scatter by: noise, and how the vehicle drifts. `None` where the sound leaves it
+    /// unknown.
+    pub(crate) fn random_std_uncertainty_rev_s(&self) -> Option<f64> {
+        let is_random =
+            |term: &&UncertaintyTerm| matches!(term.source, UncertaintySource::Sound | UncertaintySource::Doppler);
+        let sum: f64 = self.budget.iter().filter(is_random).map(|term| term.std_uncertainty_rev_s.powi(2)).sum();
+        (!self.budget.is_empty()).then(|| sum.sqrt())
     }
 
     /// All terms together, at k = 1. `None` where the sound leaves it unknown.
@@ -84,20 +94,30 @@ mod tests {
             harmonics: Vec::new(),
             budget: Vec::new(),
         };
-        let config = BudgetConfig { clock_ppm: 3f64.sqrt() * 40.0, ..BudgetConfig::default() };
+        let config = BudgetConfig { clock_ppm: 3f64.sqrt() * 40.0, drift_m_max: 0.0, ..BudgetConfig::default() };
         let one = RotorsConfig::default();
-        let got = estimate.clone().with_budget(&config, &one);
+        let got = estimate.clone().with_budget(&config, &one, 10.0);
         assert!((got.combined_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
-        let config = BudgetConfig { clock_ppm: 0.0, radial_speed_m_s_max: SOUND_M_S * 1e-3, rotor_spread_share: 0.004 };
-        let got = estimate.clone().with_budget(&config, &one);
+        assert_eq!(got.random_std_uncertainty_rev_s(), Some(0.003));
+        // 5 cm in 10 s, of a sound of 343.2 m/s
+        let drifting = BudgetConfig { drift_m_max: SOUND_M_S * 3f64.sqrt() * 4e-4, ..config };
+        let got = estimate.clone().with_budget(&drifting, &one, 10.0);
+        assert!((got.random_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
+        let config = BudgetConfig {
+            clock_ppm: 0.0,
+            radial_speed_m_s_max: SOUND_M_S * 1e-3,
+            drift_m_max: 0.0,
+            rotor_spread_share: 0.004,
+        };
+        let got = estimate.clone().with_budget(&config, &one, 10.0);
         assert_eq!(got.budget.len(), 2);
         assert!((got.budget[1].std_uncertainty_rev_s - 0.1 / 3f64.sqrt()).abs() < 1e-12);
         // of four rotors, one line stands for all, unless they were told apart
         let four = RotorsConfig { count: 4, ..one };
-        let got = estimate.clone().with_budget(&config, &four);
+        let got = estimate.clone().with_budget(&config, &four, 10.0);
         assert_eq!(got.budget[2].source, UncertaintySource::Rotors);
         assert!((got.budget[2].std_uncertainty_rev_s - 0.4 * 0.75f64.sqrt()).abs() < 1e-12);
         let apart = SpeedEstimate { method: Method::Separated, ..estimate };
-        assert_eq!(apart.with_budget(&config, &four).budget.len(), 2);
+        assert_eq!(apart.with_budget(&config, &four, 10.0).budget.len(), 2);
     }
 }

@@ -63,7 +63,7 @@ impl RotorTracks {
                 let mean_square_rad2_s2 = rotor.track.mean_square_rad2_s2(None);
                 let speed = SpeedEstimate { method: Method::Separated, mean_square_rad2_s2, ..speed };
                 Some(RotorEstimate {
-                    speed: speed.with_budget(budget, &RotorsConfig::default()),
+                    speed: speed.with_budget(budget, &RotorsConfig::default(), self.length_s),
                     merged: rotor.merged.clone(),
                     track,
                     condition: None,

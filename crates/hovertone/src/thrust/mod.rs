@@ -179,7 +179,7 @@ impl TrialSpeeds {
         let speed_in = |span: Span, estimate: &SpeedEstimate| SampleSpeed {
             span,
             speed: estimate.speed_of_thrust(),
-            std_uncertainty_rev_s: estimate.std_uncertainty_rev_s,
+            std_uncertainty_rev_s: estimate.random_std_uncertainty_rev_s(),
             spread_rev_s: estimate.spread_rev_s,
             frame_count: estimate.frame_count,
         };
@@ -212,7 +212,7 @@ pub struct SampleSpeed {
     /// Shaft speed: the mean, or where rotors are told apart the root of the mean square over them.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
-    /// Standard uncertainty of the mean.
+    /// Standard uncertainty of the mean, by the sound and by the drift of the vehicle.
     pub std_uncertainty_rev_s: Option<f64>,
     /// Standard deviation over the frames.
     pub spread_rev_s: Option<f64>,

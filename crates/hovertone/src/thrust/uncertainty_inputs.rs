@@ -1,6 +1,6 @@
 //! What can make a thrust constant wrong that no recording shows: how large each effect may be, with its reason.
 
-use crate::budget_config::{ROTOR_SPREAD_SHARE, loudest_rotor_share};
+use crate::budget_config::{DRIFT_M_MAX, ROTOR_SPREAD_SHARE, loudest_rotor_share};
 use crate::config::check_range;
 use crate::error::ConfigError;
 use serde::{Deserialize, Serialize};
@@ -18,6 +18,9 @@ pub struct UncertaintyInputs {
     /// How fast a hover may climb or sink at its start or end: a steady acceleration over its length goes unseen. Indoors a
     /// height hold by ultrasound keeps within 5 cm/s.
     pub climb_rate_m_s_max: f64,
+    /// How much nearer to the microphone, or farther from it, a hover may end than it began: the Doppler effect of that is part of its
+    /// speed's uncertainty. On a bench nothing drifts.
+    pub drift_m_max: f64,
     /// How far the vehicle may lean in a steady hover: 2° is what a trimmed one needs against a draught.
     pub tilt_deg_max: f64,
     /// Height of the rotors over the floor.
@@ -35,6 +38,7 @@ impl Default for UncertaintyInputs {
             scale_share_max: 0.001,
             rotor_spread_share: ROTOR_SPREAD_SHARE,
             climb_rate_m_s_max: 0.05,
+            drift_m_max: DRIFT_M_MAX,
             tilt_deg_max: 2.0,
             hover_height_m: 1.0,
             rotor_radius_m: 0.1,
@@ -54,6 +58,7 @@ impl UncertaintyInputs {
         check_range("scale_share_max", self.scale_share_max, 0.0, 0.1)?;
         check_range("rotor_spread_share", self.rotor_spread_share, 0.0, 0.2)?;
         check_range("climb_rate_m_s_max", self.climb_rate_m_s_max, 0.0, 5.0)?;
+        check_range("drift_m_max", self.drift_m_max, 0.0, 100.0)?;
         check_range("tilt_deg_max", self.tilt_deg_max, 0.0, 30.0)?;
         check_range("hover_height_m", self.hover_height_m, 0.05, 1000.0)?;
         check_range("rotor_radius_m", self.rotor_radius_m, 0.005, 5.0)?;
