@@ -4,6 +4,7 @@ use super::path::SpeedPath;
 use super::phasors::small_turn;
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
+use std::ops::Range;
 
 /// One line of a quantum, turned back by a path: one sum for each tick.
 pub(super) struct Line {
@@ -13,6 +14,8 @@ pub(super) struct Line {
     /// Whether it stands out of the noise in every half hop.
     pub(super) is_strong: bool,
     pub(super) noise_variance: f64,
+    /// Where other lines of the same rotor are heard with it; an empty range where they were taken away.
+    pub(super) company_hz: Range<f64>,
     pub(super) samples_per_tick: f64,
     pub(super) ticks: Vec<Complex<f64>>,
 }

@@ -141,6 +141,7 @@ fn level_of_quantum(quantum: &Quantum<'_>, map: &mut SpeedMap, records: &mut [Li
                     is_first: channel.is_first,
                     is_strong: presences[index].on_path > STRONG_POWER_MIN,
                     noise_variance: noise_variances[index],
+                    company_hz: channel.centre_hz - channel.rate_hz / 2.0..channel.centre_hz + channel.rate_hz / 2.0,
                     samples_per_tick: samples_per_tick as f64,
                     ticks: demodulated(series[index], place, samples_per_tick, path),
                 }

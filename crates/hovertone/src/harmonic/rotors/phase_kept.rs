@@ -64,6 +64,7 @@ mod tests {
                 is_first: true,
                 is_strong: true,
                 noise_variance: 0.2,
+                company_hz: 0.0..0.0,
                 samples_per_tick: 10.0,
                 ticks: turned.collect(),
             };

@@ -94,6 +94,7 @@ pub(super) fn separated(
                     is_first: channel.is_first,
                     is_strong: mean_power > STRONG_POWER_MIN,
                     noise_variance: quantum.noise_variances[index],
+                    company_hz: 0.0..0.0,
                     samples_per_tick: samples_per_tick as f64,
                     ticks: mixed.ticks_of(own, quantum.ticks),
                 });

@@ -8,12 +8,15 @@
 //! and the lines add: J = Σ_o J_o (Whittle; harmonic maximum likelihood with coloured noise). The standard uncertainty is that
 //! of the Cramér-Rao bound, 1/σ² = Σ_o 2 (2π o)² N_o |A_o|² ⟨τ²⟩ / V_o; an unknown γ does not widen it, because n is the speed in the middle.
 
+mod seen;
+
 use super::line::Line;
 use super::path::SpeedPath;
 use super::phasors::{OrderPhasors, small_turn};
 use crate::channel::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// What the likelihood says of one block.
 #[derive(Clone, Copy, Debug)]
@@ -58,6 +61,8 @@ pub(super) struct Cells {
     orders: Vec<f64>,
     are_strong: Vec<bool>,
     are_first: Vec<bool>,
+    /// Where other lines of the same rotor are heard with each.
+    company_hz: Vec<Range<f64>>,
     /// 1 / (N V) of each line, and N.
     scales: Vec<(f64, f64)>,
     /// Middle of each cell from the middle of the block.
@@ -127,6 +132,7 @@ impl Cells {
             orders: lines.iter().map(|line| line.order).collect(),
             are_strong: lines.iter().map(|line| line.is_strong).collect(),
             are_first: lines.iter().map(|line| line.is_first).collect(),
+            company_hz: lines.iter().map(|line| line.company_hz.clone()).collect(),
             scales: lines
                 .iter()
                 .map(|line| {
@@ -270,67 +276,6 @@ impl Cells {
             step_to_next_turns: None,
         }
     }
-
-    /// What is to be said of the block once its speed is known.
-    fn seen_at(&self, offset: f64, bend: f64) -> Seen {
-        let mean_square_s2 = self.span_s * self.span_s / 12.0;
-        let halves = self.half_hop_times_s.len();
-        let mut seen = Seen {
-            information: 0.0,
-            in_phase: 0.0,
-            scatter: 1.0,
-            strongest_power: 0.0,
-            lines_heard: 0,
-            is_first_heard: false,
-        };
-        let mut turned = vec![Complex::<f64>::default(); halves];
-        let turns: Vec<f64> = self.half_hop_times_s.iter().map(|t| t * (offset + bend * t / 2.0)).collect();
-        let mut phasors = OrderPhasors::new(&turns);
-        // phases are compared in so many pieces that what rotates quickly, such as another line nearby, has averaged out
-        let piece = halves.div_ceil(PHASE_PIECES);
-        let pieces = halves.div_ceil(piece);
-        let (mut squares, mut freedom) = (0.0, 0.0);
-        for (index, half_hops) in self.half_hops.chunks_exact(halves).enumerate() {
-            let (order, scale) = (self.orders[index], self.scales[index].0);
-            let mut sum = Complex::<f64>::default();
-            for ((into, z), phasor) in turned.iter_mut().zip(half_hops).zip(phasors.of(order)) {
-                *into = z * phasor;
-                sum += *into;
-            }
-            seen.strongest_power = seen.strongest_power.max(sum.norm_sqr() / self.scales[index].1.powi(2));
-            let is_heard = scale * sum.norm_sqr() > LINE_LIKELIHOOD_MIN;
-            seen.lines_heard += u32::from(is_heard);
-            seen.is_first_heard |= is_heard && self.are_first[index];
-            // noise itself adds N V to |Σ z|²
-            seen.information += 2.0 * (TAU * order).powi(2) * (scale * sum.norm_sqr() - 1.0) * mean_square_s2;
-            if !self.are_strong[index] {
-                seen.in_phase += scale * sum.norm_sqr();
-                continue;
-            }
-            let phase = (sum / sum.norm().max(f64::MIN_POSITIVE)).conj();
-            // of N samples in all, each half hop has its share
-            seen.in_phase += scale
-                * turned
-                    .iter()
-                    .zip(&self.half_hop_shares)
-                    .map(|(z, share)| (z * phase).re.powi(2) / share)
-                    .sum::<f64>();
-            for (turned, shares) in turned.chunks(piece).zip(self.half_hop_shares.chunks(piece)) {
-                let across = (turned.iter().sum::<Complex<f64>>() * phase).im;
-                squares += 2.0 * scale * across * across / shares.iter().sum::<f64>();
-            }
-            freedom += pieces as f64 - 1.0;
-        }
-        seen.information = seen.information.max(f64::MIN_POSITIVE);
-        freedom -= 2.0;
-        if pieces >= 4 && freedom > 0.0 {
-            // only scatter that noise gives less than once in a few hundred blocks says something
-            let excess = squares / freedom;
-            let limit = 1.0 + SCATTER_STDS * (2.0 / freedom).sqrt();
-            seen.scatter = if excess > limit { excess } else { 1.0 };
-        }
-        seen
-    }
 }
 
 /// Sums of so many values each.
@@ -356,22 +301,6 @@ pub(super) fn step_to_summit(g: [f64; 2], h: [f64; 3]) -> Option<(f64, f64)> {
     (h[0] < 0.0 && determinant > 0.0)
         .then(|| ((-h[2] * g[0] + h[1] * g[1]) / determinant, (h[1] * g[0] - h[0] * g[1]) / determinant))
 }
-
-/// What a block shows at its maximum.
-struct Seen {
-    lines_heard: u32,
-    is_first_heard: bool,
-    strongest_power: f64,
-    information: f64,
-    in_phase: f64,
-    scatter: f64,
-}
-
-/// Noise alone gives a line this likelihood once in 160 000 times.
-const LINE_LIKELIHOOD_MIN: f64 = 12.0;
-/// Pieces of a block whose phases are compared.
-const PHASE_PIECES: usize = 8;
-const SCATTER_STDS: f64 = 3.0;
 
 /// Points of the search grid in a resolution cell of the highest line.
 const GRID_PER_CELL: f64 = 3.0;
