@@ -105,8 +105,9 @@ impl<'a> LinePhasors<'a> {
             even_sum += even.conj() * wide(last);
             (even, odd) = (odd, even * even_step);
         }
-        // their ratio, not the product with the conjugate: that would square what rounding adds to the magnitude at every tick
-        (self.turn, self.step, self.samples_left) = (even, odd / even, 0);
+        // odd / even, whose magnitudes are 1 but for what rounding adds; without the second factor that would double at every tick
+        self.step = odd * even.conj() * (2.0 - even.norm_sqr());
+        (self.turn, self.samples_left) = (even, 0);
         even_sum + odd_sum
     }
 }
