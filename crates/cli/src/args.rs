@@ -192,7 +192,7 @@ pub(crate) struct AnalysisArguments {
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
     #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
     pub(crate) radial_speed_m_s_max: Option<f64>,
-    /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m [default: 0.5; 0 on a bench]
+    /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m; say 0 for a bench [default: 0.5]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) drift_m_max: Option<f64>,
     /// Use the recording from here, and cut nothing away

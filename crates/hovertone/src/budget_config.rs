@@ -21,10 +21,10 @@ pub(crate) fn loudest_rotor_share(rotor_spread_share: f64, count: u32) -> f64 {
 pub struct BudgetConfig {
     /// The recorder's clock may be off by this much to either side, in millionths. Phones and cameras keep within 50.
     pub clock_ppm: f64,
-    /// The vehicle may move towards or away from the microphone this fast all the time; 0 in a hover …
+    /// The vehicle may move towards or away from the microphone this fast all the time. A hover does not: 0.
     pub radial_speed_m_s_max: f64,
-    /// … which ends this much nearer to the microphone, or farther, than it began: over its length that is a speed too. 0 on a
-    /// bench. Half a metre is what held hovers drift, of simulated pilots as of real ones.
+    /// A hover may be this much nearer to the microphone, or farther from it, at the end of a stretch than at its beginning: over its
+    /// length that is a speed too. Half a metre is what simulated pilots let it drift; say 0 of a bench.
     pub drift_m_max: f64,
     /// Standard deviation of the speeds of several rotors about their mean, as a share; counts where one line stands for all.
     pub rotor_spread_share: f64,

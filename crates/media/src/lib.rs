@@ -7,7 +7,7 @@
 //! ```text
 //! container   what the content is                  wave, matroska, ogg, iso, mpeg_audio: what their headers promise
 //! tracks      the audio tracks, a plan for each    choose: the first that is not silent
-//! plan        how one track is decoded             native, opus, quicktime, ffmpeg: packets to frames
+//! plan        how one track is decoded             native, opus, wave, quicktime, ffmpeg: packets or samples to frames
 //! recording   trim, mix, count what went wrong     frames, mix, warning
 //! ```
 //!

@@ -23,7 +23,7 @@ use crate::iso::{self, TablePackets};
 use crate::opus::{OPUS_RATE_HZ, packet_frames};
 use crate::quicktime::AudioTrack;
 use crate::source::{FileView, Patch};
-use crate::wave::{WaveLayout, WavePackets};
+use crate::wave::{WaveBlocks, WaveLayout};
 
 /// Demuxers resynchronise after an error; one that fails this often in a row has no more to give.
 const DEMUXER_ERRORS_IN_A_ROW_MAX: u32 = 64;
@@ -81,7 +81,7 @@ pub(crate) struct NativeFrames {
 
 enum Packets {
     Demuxer { reader: Box<dyn FormatReader>, track_id: u32 },
-    Wave(WavePackets),
+    Wave(WaveBlocks),
     IsoTable(TablePackets),
 }
 
@@ -125,7 +125,7 @@ impl NativeFrames {
             time_base: TimeBase::try_from_recip(sample_rate_hz),
             sample_rate_hz,
             channel_count,
-            packets: Packets::Wave(WavePackets::open(path, layout.clone())?),
+            packets: Packets::Wave(WaveBlocks::open(path, layout.clone())?),
             demuxer_errors: 0,
             decoded: Vec::new(),
             gap_s_min: None,

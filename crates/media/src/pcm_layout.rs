@@ -1,10 +1,8 @@
 //! How uncompressed frames are stored, and their conversion to `f32`.
 //!
+//! RIFF: 8 bits are unsigned, more are signed, the low byte first.
 //! QuickTime File Format, "Sound sample descriptions"; for `lpcm` the flags of Core Audio's AudioStreamBasicDescription;
 //! for `ipcm` and `fpcm` ISO/IEC 23003-5. Companding: ITU-T G.711.
-
-/// Most channels a track of PCM is read with.
-pub(crate) const PCM_CHANNELS_MAX: u16 = 256;
 
 /// What the bytes of one sample mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

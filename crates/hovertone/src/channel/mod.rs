@@ -117,9 +117,9 @@ impl ChannelBank {
     /// `series`, one for each channel.
     pub(crate) fn push(&mut self, samples: &[f32], series: &mut [Vec<Complex<f32>>]) {
         let fade_samples = self.fade_samples();
-        let faded = usize::try_from(self.taken_samples).map_or(fade_samples, |taken| taken.min(fade_samples));
-        let (fading, whole) = samples.split_at(samples.len().min(fade_samples - faded));
-        self.pending.extend(fading.iter().zip(faded..).map(|(sample, n)| sample * fade(n, fade_samples)));
+        let faded_samples = usize::try_from(self.taken_samples).map_or(fade_samples, |taken| taken.min(fade_samples));
+        let (fading, whole) = samples.split_at(samples.len().min(fade_samples - faded_samples));
+        self.pending.extend(fading.iter().zip(faded_samples..).map(|(sample, n)| sample * fade(n, fade_samples)));
         self.pending.extend_from_slice(whole);
         self.taken_samples += samples.len() as u64;
         // the last samples stay behind: they fade out if nothing follows

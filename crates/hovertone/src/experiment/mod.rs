@@ -8,7 +8,6 @@ mod vehicle_model;
 
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 
-use crate::budget_config::BudgetConfig;
 use crate::config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig};
 use crate::error::ConfigError;
 use crate::rotors_config::RotorsConfig;
@@ -202,11 +201,10 @@ impl ExperimentLoad {
     /// The settings for a recording of this load.
     pub fn config(&self, experiment: &Experiment) -> Config {
         let rotors = RotorsConfig { count: self.rotors_running, ..experiment.config.rotors };
-        let drift_m_max = match self.force {
-            Force::Weight { .. } => experiment.uncertainty.drift_m_max,
-            Force::Thrust { .. } => 0.0,
-        };
-        let budget = BudgetConfig { drift_m_max, ..experiment.config.budget };
+        let mut budget = experiment.config.budget;
+        if matches!(self.force, Force::Thrust { .. }) {
+            budget.drift_m_max = 0.0; // a bench stands still
+        }
         Config { span: self.span, rotors, budget, ..experiment.config.clone() }
     }
 }

@@ -1,6 +1,7 @@
 //! The experiment file, settled: preset and own numbers, gravity, the tone's order, each load's force.
 
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, VehicleModel};
+use crate::budget_config::BudgetConfig;
 use crate::config::{Config, SpanConfig, ToneConfig};
 use crate::method::Method;
 use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, Gravity, PROPELLER_DIAMETER_M};
@@ -73,6 +74,7 @@ impl ExperimentFile {
             spectrogram: self.spectrogram,
             ridge: self.ridge,
             hover: self.hover,
+            budget: BudgetConfig { drift_m_max: self.uncertainty.drift_m_max, ..BudgetConfig::default() },
             method: Method::for_rotors(rotor_count),
             wants_all_methods: true,
             ..Config::for_tone(self.resolve_tone(preset)?)

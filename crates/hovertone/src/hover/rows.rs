@@ -100,9 +100,10 @@ impl RowsBuilder {
                 }
             }
         });
+        // from the next block on: where that begins makes rows differ by less than a frame or two
         if self.frames_per_row > OVERLAPPING_FRAMES_MAX && self.hop_s < self.window_s {
-            self.hop_s = (2.0 * self.hop_s).min(self.window_s);
-            self.frames_per_row /= 2;
+            self.frames_per_row = (f64::from(self.frames_per_row) * self.hop_s / self.window_s).round().max(1.0) as u32;
+            self.hop_s = self.window_s;
             self.stft.set_hop(self.hop_s);
         }
     }

@@ -7,8 +7,8 @@ use crate::spectrogram::Decimator;
 use crate::tone::{MainsHum, mains_hum};
 use crate::verdict::NoTone;
 
-/// Sound quieter than this is silence: below the last bit of 24.
-const SILENCE_DB: f64 = -150.0;
+/// Sound quieter than this is silence: the last bit of 24, and what rounding makes of an offset of full scale.
+const SILENCE_DB: f64 = -138.0;
 
 /// The recording in rows of equal length.
 #[derive(Clone, Debug, Default)]

@@ -78,7 +78,7 @@ impl<T: FftNum + From<f32> + Into<f64>> Stft<T> {
             output: plan.make_output_vec(),
             scratch: plan.make_scratch_vec(),
             power: vec![0.0; transform_samples / 2 + 1],
-            window: weights.into_iter().filter_map(T::from_f64).collect(),
+            window: weights.into_iter().map(|weight| T::from_f64(weight).unwrap_or_else(T::zero)).collect(),
             plan,
         }
     }

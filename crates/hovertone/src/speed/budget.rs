@@ -7,7 +7,7 @@ use crate::rotors_config::RotorsConfig;
 use serde::Serialize;
 
 /// Speed of sound in dry air of 20 °C. It changes by 0.17 % for each kelvin, which does not matter here.
-const SOUND_M_S: f64 = 343.2;
+pub(crate) const SOUND_M_S: f64 = 343.2;
 
 /// Where an uncertainty comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -18,8 +18,10 @@ pub enum UncertaintySource {
     Sound,
     /// The sampling clock of the recorder: `n Δ / √3` for a clock that is off by up to ±Δ.
     Clock,
-    /// A vehicle that moves along the line to the microphone by up to ±v: `n v / (c √3)`; a hover, by what it drifts over its length.
+    /// A vehicle that moves along the line to the microphone by up to ±v all the time: `n v / (c √3)`.
     Doppler,
+    /// A hover that is up to ±d nearer to the microphone at the end of a stretch T than at its beginning: `n d / (c T √3)`.
+    Drift,
     /// One ridge, or one line of several rotors that were not told apart, stands for all of them: their mean lies about it as
     /// their speeds scatter.
     Rotors,
@@ -40,7 +42,8 @@ impl SpeedEstimate {
         let drift_m_s_max = if length_s > 0.0 { config.drift_m_max / length_s } else { 0.0 };
         let limits = [
             (UncertaintySource::Clock, config.clock_ppm / 1e6),
-            (UncertaintySource::Doppler, (config.radial_speed_m_s_max + drift_m_s_max) / SOUND_M_S),
+            (UncertaintySource::Doppler, config.radial_speed_m_s_max / SOUND_M_S),
+            (UncertaintySource::Drift, drift_m_s_max / SOUND_M_S),
         ];
         if let Some(std_uncertainty_rev_s) = self.std_uncertainty_rev_s {
             let of_limit = |(source, share): (UncertaintySource, f64)| UncertaintyTerm {
@@ -58,15 +61,6 @@ impl SpeedEstimate {
             }
         }
         self
-    }
-
-    /// What another recording of the same hover would scatter by: noise, and how the vehicle drifts. `None` where the sound leaves it
-    /// unknown.
-    pub(crate) fn random_std_uncertainty_rev_s(&self) -> Option<f64> {
-        let is_random =
-            |term: &&UncertaintyTerm| matches!(term.source, UncertaintySource::Sound | UncertaintySource::Doppler);
-        let sum: f64 = self.budget.iter().filter(is_random).map(|term| term.std_uncertainty_rev_s.powi(2)).sum();
-        (!self.budget.is_empty()).then(|| sum.sqrt())
     }
 
     /// All terms together, at k = 1. `None` where the sound leaves it unknown.
@@ -98,11 +92,10 @@ mod tests {
         let one = RotorsConfig::default();
         let got = estimate.clone().with_budget(&config, &one, 10.0);
         assert!((got.combined_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
-        assert_eq!(got.random_std_uncertainty_rev_s(), Some(0.003));
-        // 5 cm in 10 s, of a sound of 343.2 m/s
-        let drifting = BudgetConfig { drift_m_max: SOUND_M_S * 3f64.sqrt() * 4e-4, ..config };
+        // 24 cm in 10 s, and no clock
+        let drifting = BudgetConfig { clock_ppm: 0.0, drift_m_max: SOUND_M_S * 3f64.sqrt() * 4e-4, ..config };
         let got = estimate.clone().with_budget(&drifting, &one, 10.0);
-        assert!((got.random_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
+        assert!((got.combined_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
         let config = BudgetConfig {
             clock_ppm: 0.0,
             radial_speed_m_s_max: SOUND_M_S * 1e-3,

@@ -6,6 +6,7 @@ mod separated;
 
 pub(crate) use separated::mean_track;
 
+pub(crate) use budget::SOUND_M_S;
 pub use budget::{UncertaintySource, UncertaintyTerm};
 
 use crate::condition::RotorCondition;

@@ -6,6 +6,7 @@ use super::square_law::{LawAgreement, SquareLawFit, scatter_factor};
 use super::uncertainty_inputs::UncertaintyInputs;
 use super::{Force, ThrustSettings};
 use crate::regression::Agreement;
+use crate::speed::SOUND_M_S;
 use crate::statistics::mean;
 use serde::Serialize;
 
@@ -32,7 +33,7 @@ pub enum BudgetInput {
     Gravity,
     /// Mean shaft speed, from the scatter of the trials.
     SpeedStatistics,
-    /// Mean shaft speed, from what the method says of each sample.
+    /// Mean shaft speed, from what the method says of each trial.
     SpeedEstimator,
     /// The recorder's clock.
     RecorderClock,
@@ -40,6 +41,8 @@ pub enum BudgetInput {
     LoudestRotor,
     /// A steady climb or sink that changes over the hover.
     VerticalAcceleration,
+    /// How much nearer to the microphone, or farther, hovers end than they began.
+    Drift,
     /// Leaning against a draught.
     Tilt,
     /// The floor below.
@@ -64,6 +67,7 @@ impl BudgetInput {
             Self::RecorderClock => "clock of the recorder",
             Self::LoudestRotor => "loudest rotor for the mean",
             Self::VerticalAcceleration => "vertical acceleration",
+            Self::Drift => "drift of the hovers",
             Self::Tilt => "tilt",
             Self::GroundEffect => "ground effect",
             Self::Downwash => "downwash",
@@ -318,6 +322,10 @@ fn of_flight(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     let of_hover = sensitivity.hover_n_s2;
     let trial_s = mean(&hovers.iter().filter_map(|load| load.trial_s()).collect::<Vec<_>>());
     let acceleration = trial_s.filter(|s| *s > 0.0).map_or(0.0, |s| inputs.climb_rate_m_s_max / s / 3f64.sqrt());
+    // every trial drifts for itself
+    let trials = hovers.iter().map(|load| load.trials_rad_s.len()).sum::<usize>() as f64;
+    let drift =
+        trial_s.filter(|s| *s > 0.0).map_or(0.0, |s| inputs.drift_m_max / (s * SOUND_M_S) / (3.0 * trials).sqrt());
     let tilt = (inputs.tilt_deg_max.to_radians().cos().recip() - 1.0) / 3f64.sqrt();
     let radius_m = settings.propeller_diameter_m.map_or(inputs.rotor_radius_m, |diameter_m| diameter_m / 2.0);
     // Cheeseman and Bennett's whole effect as one standard uncertainty: that of several rotors is larger
@@ -325,6 +333,7 @@ fn of_flight(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     vec![
         line(BudgetInput::Scale, "1", 0.0, inputs.scale_share_max / 3f64.sqrt(), of_hover),
         line(BudgetInput::VerticalAcceleration, "m/s²", 0.0, acceleration, of_hover / gravity_m_s2),
+        line(BudgetInput::Drift, "1", 0.0, drift, -2.0 * of_hover),
         line(BudgetInput::Tilt, "1", 0.0, tilt, of_hover),
         line(BudgetInput::GroundEffect, "1", 0.0, ground, -of_hover),
         line(BudgetInput::Downwash, "1", 0.0, inputs.downwash_share_max / 3f64.sqrt(), of_hover),

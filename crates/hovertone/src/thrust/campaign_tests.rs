@@ -38,6 +38,7 @@ pub(super) fn weight(added_mass_kg: f64) -> Force {
 pub(super) fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds {
     let trial = |(index, rad_s): (usize, &f64)| TrialSpeeds {
         recording: format!("{name}/{index}.wav"),
+        hover_s: 10.0,
         hover: None,
         samples: vec![sample(*rad_s, 1e-5)],
     };
@@ -84,6 +85,7 @@ fn campaign(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usiz
     let clock = within(settings.clock_ppm * 1e-6);
     let tilt = within(inputs.tilt_deg_max.to_radians().cos().recip() - 1.0).abs();
     let downwash = within(inputs.downwash_share_max);
+    let drifts: Vec<f64> = noise.iter().map(|_| within(inputs.drift_m_max / 10.0 / 343.2)).collect();
     let loads: Vec<LoadSpeeds> = added_kg
         .iter()
         .enumerate()
@@ -91,8 +93,9 @@ fn campaign(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usiz
             let mass_kg = (VEHICLE_KG + vehicle_error_kg + added + added_errors_kg[index]) * (1.0 + scale);
             let needed_n = mass_kg * (GRAVITY_M_S2 + gravity_error + acceleration) * (1.0 + tilt) * (1.0 + downwash);
             let true_rad_s = (needed_n / (TRUTH_N_S2 * (1.0 + ground))).sqrt();
+            let errors = noise.iter().zip(&drifts).skip(index * trials).take(trials);
             let heard: Vec<f64> =
-                (0..trials).map(|trial| true_rad_s * (1.0 + loudest + clock + noise[index * trials + trial])).collect();
+                errors.map(|(noise, drift)| true_rad_s * (1.0 + loudest + clock + noise + drift)).collect();
             load(&format!("load {index}"), weight(*added), &heard)
         })
         .collect();
@@ -224,6 +227,7 @@ fn the_budget_of_the_papers_flight() {
         (BudgetInput::RecorderClock, 0.006),
         (BudgetInput::LoudestRotor, 1.00),
         (BudgetInput::VerticalAcceleration, 0.03),
+        (BudgetInput::Drift, 0.0075),
         (BudgetInput::Tilt, 0.035),
         (BudgetInput::GroundEffect, 0.06),
     ] {

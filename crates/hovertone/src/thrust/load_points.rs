@@ -103,14 +103,9 @@ impl HeardLoad<'_> {
         matches!(self.load.force, Force::Weight { .. })
     }
 
-    /// Mean length of what was used of a trial.
+    /// Mean length of a trial's hover.
     pub(super) fn trial_s(&self) -> Option<f64> {
-        let length = |trial: &TrialSpeeds| {
-            let from_s = trial.counted().iter().map(|sample| sample.span.from_s).reduce(f64::min)?;
-            let to_s = trial.counted().iter().map(|sample| sample.span.to_s).reduce(f64::max)?;
-            Some(to_s - from_s)
-        };
-        mean(&self.load.trials.iter().filter_map(length).collect::<Vec<_>>())
+        mean(&self.load.trials.iter().map(|trial| trial.hover_s).collect::<Vec<_>>())
     }
 }
 

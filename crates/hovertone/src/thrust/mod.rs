@@ -158,11 +158,13 @@ pub struct LoadSpeeds {
     pub trials: Vec<TrialSpeeds>,
 }
 
-/// One trial: a recording and the speeds of its samples.
+/// One trial: a recording, the speed of its hover and those of its samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrialSpeeds {
     /// Name of the recording.
     pub recording: String,
+    /// How long it hovers, without what was cut.
+    pub hover_s: f64,
     /// Over all of its hover, where that is what counts; else the mean of the samples does, as in the paper.
     ///
     /// A force balance holds over a stretch of time but for the climb that begins or ends in it, which is the less the longer the
@@ -179,7 +181,7 @@ impl TrialSpeeds {
         let speed_in = |span: Span, estimate: &SpeedEstimate| SampleSpeed {
             span,
             speed: estimate.speed_of_thrust(),
-            std_uncertainty_rev_s: estimate.random_std_uncertainty_rev_s(),
+            std_uncertainty_rev_s: estimate.std_uncertainty_rev_s,
             spread_rev_s: estimate.spread_rev_s,
             frame_count: estimate.frame_count,
         };
@@ -188,6 +190,7 @@ impl TrialSpeeds {
         let hover = tone.speed(method).filter(|_| !method.reads_ridges());
         Some(Self {
             recording: recording.into(),
+            hover_s: analysis.hover.length_s(),
             hover: hover.map(|estimate| speed_in(Span { from_s, to_s }, estimate)),
             samples: tone
                 .samples
@@ -203,7 +206,7 @@ impl TrialSpeeds {
     }
 }
 
-/// Speed in one sample.
+/// Speed in one sample, or in all of a hover.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SampleSpeed {
     /// When.
@@ -212,7 +215,7 @@ pub struct SampleSpeed {
     /// Shaft speed: the mean, or where rotors are told apart the root of the mean square over them.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
-    /// Standard uncertainty of the mean, by the sound and by the drift of the vehicle.
+    /// Standard uncertainty of the mean, from the sound alone.
     pub std_uncertainty_rev_s: Option<f64>,
     /// Standard deviation over the frames.
     pub spread_rev_s: Option<f64>,

@@ -157,6 +157,7 @@ fn expected(wish: &PlanWish, load_count: usize, trials_per_load: usize, trial_s:
             let rad_s = SPEED_RAD_S * (mass_kg / wish.vehicle_mass_kg).sqrt();
             let trial = |trial: usize| TrialSpeeds {
                 recording: String::new(),
+                hover_s: trial_s,
                 hover: None,
                 samples: vec![SampleSpeed {
                     span: Span { from_s: 0.0, to_s: trial_s },

@@ -21,6 +21,7 @@ fn load(name: &str, mass_g: f64, rpm: f64, std_rpm: f64) -> LoadSpeeds {
     let trial_std_rpm = std_rpm / 5f64.sqrt();
     let trials = offsets.map(|offset| TrialSpeeds {
         recording: String::new(),
+        hover_s: 5.0,
         hover: None,
         samples: vec![SampleSpeed {
             span: Span { from_s: 0.0, to_s: 5.0 },

@@ -8,7 +8,10 @@ use super::boxes::{Boxes, FourCc, be_u16, be_u32, be_u64, find, require};
 use super::edits::{Edits, edits_from_elst};
 use super::sample_table::{Packets, SampleTable};
 use super::sound_description::{SoundDescription, description_from_stsd};
-use crate::pcm_layout::{PCM_CHANNELS_MAX, PcmLayout};
+use crate::pcm_layout::PcmLayout;
+
+/// Most channels a track of PCM is read with.
+const PCM_CHANNELS_MAX: u16 = 256;
 
 /// A sound track of a movie.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,7 +6,7 @@
 
 mod packets;
 
-pub(crate) use packets::{WavePackets, WavePcmFrames};
+pub(crate) use packets::{WaveBlocks, WavePcmFrames};
 
 use std::io::{self, Read, Seek, SeekFrom};
 

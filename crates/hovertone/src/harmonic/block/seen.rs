@@ -10,8 +10,8 @@ const LINE_LIKELIHOOD_MIN: f64 = 12.0;
 /// Pieces of a block whose phases are compared.
 const PHASE_PIECES: usize = 8;
 const SCATTER_STDS: f64 = 3.0;
-/// A line in whose pieces others leave this share of the noise's power tells nothing of how phases scatter.
-const COMPANY_MAX: f64 = 0.1;
+/// Speed and slope are fitted to the phases.
+const FITTED: f64 = 2.0;
 
 /// What a block shows at its maximum.
 pub(super) struct Seen {
@@ -80,13 +80,15 @@ impl Cells {
         seen.information = seen.information.max(f64::MIN_POSITIVE);
         if pieces >= 4 {
             let share = piece as f64 / halves as f64;
-            let alone = across_of_lines
-                .iter()
-                .filter(|(index, _)| self.company(*index, self.guess.0 + offset, &amplitudes, share) < COMPANY_MAX);
-            let (squares, freedom) =
-                alone.fold((0.0, -2.0), |(sum, freedom), (_, across)| (sum + across, freedom + pieces as f64 - 1.0));
+            let (mut squares, mut explained) = (0.0, 0.0);
+            for (index, across) in &across_of_lines {
+                let company = self.company(*index, self.guess.0 + offset, &amplitudes, share);
+                squares += across;
+                explained += (pieces - 1) as f64 * (1.0 + company);
+            }
+            let freedom = (across_of_lines.len() * (pieces - 1)) as f64 - FITTED;
+            let excess = squares / (explained - FITTED);
             // only scatter that noise gives less than once in a few hundred blocks says something
-            let excess = squares / freedom;
             if freedom > 0.0 && excess > 1.0 + SCATTER_STDS * (2.0 / freedom).sqrt() {
                 seen.scatter = excess;
             }
@@ -94,8 +96,8 @@ impl Cells {
         seen
     }
 
-    /// What other lines in its channel leave of a line's sum over a share of the block, as power over that of the noise there: a line Δf
-    /// away turns, and leaves no more than A / (π Δf) of its amplitude, half of that power across the line's own phase.
+    /// What other lines in its channel leave in a line's sum over a share of the block at most, as power over that of the noise there: a
+    /// line Δf away turns, and leaves up to A / (π Δf) where the line itself leaves A times that time.
     fn company(&self, index: usize, speed_rev_s: f64, amplitudes: &[f64], share: f64) -> f64 {
         let (scale, samples) = self.scales[index];
         let share_s = share * self.span_s;
@@ -107,7 +109,7 @@ impl Cells {
             })
             .map(|(order, amplitude)| {
                 let apart_hz = (order - self.orders[index]) * speed_rev_s;
-                (amplitude / (PI * apart_hz * share_s)).powi(2) * samples * share * samples * scale / 2.0
+                (amplitude / (PI * apart_hz * share_s)).powi(2) * samples * share * samples * scale
             })
             .sum()
     }
@@ -121,8 +123,8 @@ mod tests {
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
 
-    /// Three lines of a blade pass, each of whose channels holds the other two.
-    fn scatter_in_company(is_known: bool) -> f64 {
+    /// Three lines of a blade pass, each of whose channels holds the other two, with a phase that sways by so much every second.
+    fn scatter_in_company(is_known: bool, sway_rad: f64) -> f64 {
         let (tick_s, ticks, samples_per_tick, speed_rev_s) = (0.0106, 470, 12, 60.3);
         let orders = [36.0, 38.0, 40.0];
         let noise_variance: f64 = 1e-3;
@@ -135,7 +137,8 @@ mod tests {
                     let of_line = |order: &f64| Complex::from_polar(1.0, TAU * (order - own) * speed_rev_s * t);
                     let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
                     let noise = Complex::new(normal(), normal()) * (noise_variance / 2.0).sqrt();
-                    orders.iter().map(of_line).sum::<Complex<f64>>() + noise
+                    let sway = Complex::from_polar(1.0, sway_rad * (TAU * t).sin());
+                    orders.iter().map(of_line).sum::<Complex<f64>>() * sway + noise
                 });
                 let samples: Vec<Complex<f64>> = samples.collect();
                 Line {
@@ -155,7 +158,8 @@ mod tests {
 
     #[test]
     fn lines_of_one_channel_do_not_pass_for_phases_that_scatter() {
-        assert!(scatter_in_company(false) > 1.5, "{}", scatter_in_company(false));
-        assert_eq!(scatter_in_company(true), 1.0);
+        assert!(scatter_in_company(false, 0.0) > 1.5, "{}", scatter_in_company(false, 0.0));
+        assert_eq!(scatter_in_company(true, 0.0), 1.0);
+        assert!(scatter_in_company(true, 0.1) > 1.5, "{}", scatter_in_company(true, 0.1));
     }
 }
