@@ -2,7 +2,7 @@
 //! which have been turned back by the path itself, so that frames can be longer and finer than along a path that all share.
 
 use super::super::line::Line;
-use super::super::map::best_path;
+use super::super::map::{StepCost, best_path};
 use super::super::path::SpeedPath;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
 use crate::spectrogram::hann_weights;
@@ -50,7 +50,7 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
         }
     }
     let step_std = STEP_STD_SHARE * path.mean_rev_s() / step_rev_s;
-    best_path(&scores, step_std)
+    best_path(&scores, StepCost::normal(step_std))
         .into_iter()
         .enumerate()
         .map(|(frame, place)| {
