@@ -93,14 +93,23 @@ impl Terminal {
         }
     }
 
-    /// What is to be said of recordings beside their speeds: what was cut away, warnings, why there is no speed.
+    /// What is to be said of recordings beside their speeds: what was cut away, warnings, why there is no speed. What holds of all of
+    /// several is said once.
     pub(crate) fn notes(&mut self, records: &[&SpeedRecord]) {
+        let of_all: Vec<&Notice> = match records {
+            [first, _, _, ..] => {
+                let is_of_all = |notice: &&Notice| records.iter().all(|record| record.notices.contains(notice));
+                first.notices.iter().filter(is_of_all).collect()
+            }
+            _ => Vec::new(),
+        };
         let mut is_first = true;
         for record in records {
+            let notices: Vec<&Notice> = record.notices.iter().filter(|notice| !of_all.contains(notice)).collect();
             let reason = record.reason();
             let cuts = record.analysis().and_then(|analysis| cuts_in_words(&analysis.hover.cuts));
             let cuts = cuts.filter(|_| reason.is_none());
-            if reason.is_none() && cuts.is_none() && record.notices.is_empty() {
+            if reason.is_none() && cuts.is_none() && notices.is_empty() {
                 continue;
             }
             if std::mem::take(&mut is_first) && self.err_width.is_some() {
@@ -121,9 +130,13 @@ impl Terminal {
             if let Some(cuts) = cuts {
                 self.labelled("  ", "cut", PLAIN, &cuts);
             }
-            for notice in &record.notices {
+            for notice in notices {
                 self.warning(notice, "  ");
             }
+        }
+        for notice in of_all {
+            let text = format!("{} (in all {} recordings)", notice.text, records.len());
+            self.warning(&Notice::new(text, notice.hint.as_str()), "");
         }
     }
 }

@@ -90,7 +90,7 @@ fn tables(heard: &[Heard]) -> Vec<ThrustTable> {
                 trials: heard
                     .iter()
                     .filter(|one| one.load == load)
-                    .map(|one| TrialSpeeds::from_analysis(&one.name, &one.analysis, method).expect("a tone"))
+                    .filter_map(|one| TrialSpeeds::from_analysis(&one.name, &one.analysis, method))
                     .collect(),
             })
             .to_vec()

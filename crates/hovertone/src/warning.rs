@@ -167,6 +167,10 @@ impl Warning {
             Self::HoverShorterThanSample { .. } => "record a longer hover, or shorten the samples (length_s)",
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
+            Self::RotorsNotApart { resolved: 0, .. } => {
+                "one speed stands for all of them, and the budget counts that; rotors that turn alike cannot be told apart, \
+                 others by a nearer microphone and higher harmonics"
+            }
             Self::RotorsNotApart { .. } => {
                 "their mean and mean square stand all the same, with a wider uncertainty; a nearer microphone and higher \
                  harmonics tell more apart"

@@ -28,9 +28,10 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         with_uncertainty(mass.value, mass.std_uncertainty) + " g"
     };
     let mut text = format!(
-        "hovers at {} rpm ({} recordings)\nmass: {}\n",
+        "hovers at {} rpm ({} {})\nmass: {}\n",
         rounded(weighed.speed.rpm(), Some(0.1)),
         weighed.recording_count,
+        if weighed.recording_count == 1 { "recording" } else { "recordings" },
         grams(weighed.mass_kg)
     );
     if let Some(payload_kg) = weighed.payload_kg {

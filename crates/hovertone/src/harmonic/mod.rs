@@ -5,6 +5,7 @@
 //! give speed, slope and the uncertainty that the noise leaves. Where one block ends and the next begins the track leans on a
 //! third one, from middle to middle.
 
+mod best_path;
 mod block;
 mod coherence;
 mod floor;

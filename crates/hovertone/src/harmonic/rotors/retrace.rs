@@ -1,8 +1,8 @@
 //! A rotor's path once more, near where it is known to be: in its own lines, from which the other rotors have been taken away and
 //! which have been turned back by the path itself, so that frames can be longer and finer than along a path that all share.
 
+use super::super::best_path::{StepCost, best_path};
 use super::super::line::Line;
-use super::super::map::{StepCost, best_path};
 use super::super::path::SpeedPath;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
 use crate::spectrogram::hann_weights;

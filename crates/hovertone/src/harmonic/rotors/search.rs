@@ -1,7 +1,7 @@
 //! Where the rotors are, roughly: a path for each through a map of all lines from which the others have been taken away, each in
 //! turn (RELAX), with the best path by Viterbi's algorithm.
 
-use super::super::map::{StepCost, best_path};
+use super::super::best_path::{StepCost, best_path};
 use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
