@@ -324,7 +324,7 @@ impl fmt::Display for Warning {
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the vehicle's mass, {:.1} g, is that of a preset or a model: nobody weighed this one", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("one ridge stands for all rotors: it follows whichever is loudest"),
+            Self::LoudestRotor => f.write_str("one speed stands for all rotors: that of the loudest, or their mean by loudness"),
         }
     }
 }

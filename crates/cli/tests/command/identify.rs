@@ -68,7 +68,7 @@ fn the_constant_of_a_hover_is_found_by_both_methods() {
     ] {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
-    assert!(run.stderr.contains("one ridge stands for all rotors") && run.stderr.contains("hint:"), "{}", run.stderr);
+    assert!(run.stderr.contains("one speed stands for all rotors") && run.stderr.contains("hint:"), "{}", run.stderr);
     let results = results_in(&out);
     let tolerance = tolerance_share(&results, hover_speed(VEHICLE_KG), 69.0);
     for method in ["harmonic", "maximum_trace", "gaussian"] {
