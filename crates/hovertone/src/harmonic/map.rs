@@ -1,6 +1,6 @@
 //! Where the speed is, roughly: all lines scored together on a grid of speeds in each frame, and the best path through them.
 
-use super::best_path::{StepCost, best_path};
+use super::best_path::best_path;
 use super::frame::FrameTransform;
 use crate::channel::Channel;
 use crate::statistics::{mean, median};
@@ -143,7 +143,7 @@ impl SpeedMap {
         let step = self.speeds_rev_s[1] - self.speeds_rev_s[0];
         let middle = (self.speeds_rev_s[0] + self.speeds_rev_s[points - 1]) / 2.0;
         let scores: Vec<&[f64]> = self.scores.chunks_exact(points).collect();
-        let path = best_path(&scores, StepCost::normal(STEP_STD_SHARE * middle / step));
+        let path = best_path(&scores, STEP_STD_SHARE * middle / step);
         for (&place, on_grid) in path.iter().zip(self.amplitudes.chunks_exact(frame_len)) {
             for ((presence, row), line) in presences.iter_mut().zip(on_grid.chunks_exact(points)).zip(&self.lines) {
                 let lobe_points = LOBE_CELLS / (line.order * FRAME_HOPS as f64 * hop_s) / step;

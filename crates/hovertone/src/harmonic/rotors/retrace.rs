@@ -1,7 +1,7 @@
 //! A rotor's path once more, near where it is known to be: in its own lines, from which the other rotors have been taken away and
 //! which have been turned back by the path itself, so that frames can be longer and finer than along a path that all share.
 
-use super::super::best_path::{StepCost, best_path};
+use super::super::best_path::best_path;
 use super::super::line::Line;
 use super::super::path::SpeedPath;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
@@ -50,7 +50,7 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
         }
     }
     let step_std = STEP_STD_SHARE * path.mean_rev_s() / step_rev_s;
-    best_path(&scores, StepCost::normal(step_std))
+    best_path(&scores, step_std)
         .into_iter()
         .enumerate()
         .map(|(frame, place)| {

@@ -1,7 +1,7 @@
 //! Where the rotors are, roughly: a path for each through a map of all lines from which the others have been taken away, each in
 //! turn (RELAX), with the best path by Viterbi's algorithm.
 
-use super::super::best_path::{StepCost, best_path};
+use super::super::best_path::best_path;
 use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
@@ -13,9 +13,6 @@ use std::ops::Range;
 const ENERGY_LEFT_MIN: f32 = 0.1;
 /// How much a rotor's speed changes from one frame to the next, as a share.
 const STEP_STD_SHARE: f64 = 0.001;
-/// Beyond so many of these, a step further costs no more than it did there: rotors of a vehicle that bobs turn faster or slower together,
-/// by some percent in a tenth of a second, and one that is left behind takes its neighbour's line.
-const LINEAR_FROM_STDS: f64 = 3.0;
 /// Up to here a line counts for its likelihood, and beyond for the logarithm.
 const LINEAR_UP_TO: f64 = 8.0;
 /// What a rotor leaves behind when it is taken away lies within so many cells of its lines, and counts for nothing below this.
@@ -76,10 +73,9 @@ impl OffsetGrid {
         place.saturating_sub(reach)..(place + reach + 1).min(self.points)
     }
 
-    /// What steps cost between frames that are so many apart.
-    fn step_cost(&self, middle_rev_s: f64, frames_apart: usize) -> StepCost {
-        let std = STEP_STD_SHARE * middle_rev_s / self.step_rev_s * (frames_apart as f64).sqrt();
-        StepCost { std, linear_from_stds: LINEAR_FROM_STDS }
+    /// Standard deviation of the step from frame to frame, in points.
+    fn step_std(&self, middle_rev_s: f64) -> f64 {
+        STEP_STD_SHARE * middle_rev_s / self.step_rev_s
     }
 }
 
@@ -94,7 +90,7 @@ pub(super) fn found_tracks(
     trust: Trust<'_>,
 ) -> Vec<Vec<f64>> {
     let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;
-    let step = grid.step_cost(middle, spectra.frames_apart());
+    let step_std = grid.step_std(middle) * (spectra.frames_apart() as f64).sqrt();
     let mut searches: Vec<SearchBeside> = (0..count).map(|_| SearchBeside::new(spectra.frames())).collect();
     let mut tracks: Vec<Vec<f64>> = start.to_vec();
     let grid_scores = GridScores::new(spectra, atoms, grid, trust);
@@ -102,7 +98,7 @@ pub(super) fn found_tracks(
         let others: Vec<&Vec<f64>> =
             tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
         let scores = searches[rotor].scores(&others, |frame, others| grid_scores.of_frame(frame, others));
-        best_path(scores, step).into_iter().map(|place| grid.offset_rev_s(place)).collect()
+        best_path(scores, step_std).into_iter().map(|place| grid.offset_rev_s(place)).collect()
     };
     while tracks.len() < count {
         let track = find(tracks.len(), &tracks);
@@ -171,7 +167,7 @@ pub(super) fn reclaimed_tracks(
                 scores
             })
             .collect();
-        for (frame, place) in best_path(&scores, grid.step_cost(middle_rev_s, 1)).into_iter().enumerate() {
+        for (frame, place) in best_path(&scores, grid.step_std(middle_rev_s)).into_iter().enumerate() {
             if !grid.points_around(tracks[rotor][frame], OWN_POINTS + 1).contains(&place) {
                 let offset = grid.offset_rev_s(place);
                 tracks[rotor][frame] = offset;
