@@ -90,7 +90,10 @@ fn tables(heard: &[Heard]) -> Vec<ThrustTable> {
                 trials: heard
                     .iter()
                     .filter(|one| one.load == load)
-                    .filter_map(|one| TrialSpeeds::from_analysis(&one.name, &one.analysis, method))
+                    .map(|one| match TrialSpeeds::from_analysis(&one.name, &one.analysis, method) {
+                        Some(trial) => trial,
+                        None => panic!("no tone"),
+                    })
                     .collect(),
             })
             .to_vec()

@@ -4,9 +4,9 @@
 //! Symphonia's own reader trusts the sizes in the header; recorders that were stopped hard, pipes and copies that broke
 //! off leave them wrong.
 
-mod packets;
+mod blocks;
 
-pub(crate) use packets::{WaveBlocks, WavePcmFrames};
+pub(crate) use blocks::{WaveBlocks, WavePcmFrames};
 
 use std::io::{self, Read, Seek, SeekFrom};
 
