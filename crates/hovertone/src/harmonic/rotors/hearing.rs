@@ -3,8 +3,10 @@
 
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
+use super::RoughQuantum;
 use super::atoms::ChannelAtoms;
 use super::line_weights::line_weights;
+use super::pace::Pace;
 use super::paths::{around, continuous_paths, offsets_from, path_through, paths_along, smoothed_mean, tracks_of};
 use super::retrace::retraced;
 use super::search::{GridScores, OffsetGrid, Trust, found_tracks, reclaimed_tracks};
@@ -15,8 +17,6 @@ use rustfft::FftPlanner;
 
 /// A line at f has frames of `√(this / f)` along a rotor's own path.
 pub(super) const OWN_FRAME_HZ_S2: f64 = 480.0;
-/// A frame is no longer than this: sound in a room loses its phase.
-const FRAME_S_MAX: f64 = 0.4;
 /// Rotors are looked for so far beyond what the first search found, as a share of the speed.
 pub(super) const MARGIN_SHARE: f64 = 0.03;
 /// Rotors of a hovering multirotor leave their common speed by less than 1 % in a second, which smears a line over less than two
@@ -77,6 +77,7 @@ impl Apart {
 pub(super) struct Hearing<'a, 'p> {
     quantum: &'a Quantum<'a>,
     atoms: &'a [ChannelAtoms],
+    pace: Pace,
     middle_rev_s: f64,
     line_weights: Vec<f64>,
     planner: &'p mut FftPlanner<f32>,
@@ -87,7 +88,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
     pub(super) fn new(
         quantum: &'a Quantum<'a>,
         atoms: &'a [ChannelAtoms],
-        rough: &[Vec<f64>],
+        RoughQuantum { tracks: rough, pace, .. }: &RoughQuantum,
         planner: &'p mut FftPlanner<f32>,
     ) -> Option<(Self, Spectra)> {
         let speeds = || rough.iter().flatten();
@@ -95,7 +96,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
         if middle_rev_s <= 0.0 {
             return None;
         }
-        let mut hearing = Self { quantum, atoms, middle_rev_s, line_weights: Vec::new(), planner };
+        let mut hearing = Self { quantum, atoms, pace: *pace, middle_rev_s, line_weights: Vec::new(), planner };
         let spectra = hearing.spectra(&quantum.series, rough, COMMON_SEARCH.frame_hz_s2)?;
         let grid = hearing.grid(&offsets_from(rough, &spectra.common_rev_s), COMMON_SEARCH.margin_share, &spectra);
         hearing.line_weights = line_weights(&spectra, &grid, rough.len());
@@ -104,12 +105,17 @@ impl<'a, 'p> Hearing<'a, 'p> {
 
     /// Resolution of the line that resolves most finely.
     pub(super) fn cell_rev_s(&self, frame_hz_s2: f64) -> f64 {
-        let frame_s = frame_s_of_order(frame_hz_s2, self.middle_rev_s);
+        let frame_s = self.frame_s(frame_hz_s2);
         1.0 / self.quantum.channels.iter().map(|line| line.order * frame_s(line.order)).fold(1.0, f64::max)
     }
 
+    /// Length of the frames of a line of some order.
+    fn frame_s(&self, frame_hz_s2: f64) -> impl Fn(f64) -> f64 + use<> {
+        self.pace.frame_s_of_order(frame_hz_s2, self.middle_rev_s)
+    }
+
     fn apart(&self, paths: Vec<SpeedPath>) -> Apart {
-        let frame_s = frame_s_of_order(OWN_FRAME_HZ_S2, self.middle_rev_s);
+        let frame_s = self.frame_s(OWN_FRAME_HZ_S2);
         let (rotors, rests) = separated(self.quantum, self.atoms, &paths, frame_s, &self.line_weights);
         let energy = |rest: &Vec<Complex<f32>>| rest.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>();
         let rest_energy =
@@ -124,8 +130,8 @@ impl<'a, 'p> Hearing<'a, 'p> {
 
     /// Frames along what tracks share.
     fn spectra(&mut self, series: &[&[Complex<f32>]], tracks: &[Vec<f64>], frame_hz_s2: f64) -> Option<Spectra> {
-        let common = path_through(smoothed_mean(tracks), self.quantum)?;
-        let frame_s = frame_s_of_order(frame_hz_s2, self.middle_rev_s);
+        let common = path_through(smoothed_mean(tracks, self.pace.common_frames()), self.quantum)?;
+        let frame_s = self.frame_s(frame_hz_s2);
         Some(Spectra::along(self.quantum, series, &common, (frame_s, 1), self.planner))
     }
 
@@ -149,8 +155,8 @@ impl<'a, 'p> Hearing<'a, 'p> {
 
     /// Each rotor's path drawn again in its own lines.
     pub(super) fn retraced(&self, apart: Apart) -> Apart {
-        let frame_s = || frame_s_of_order(OWN_FRAME_HZ_S2, self.middle_rev_s);
-        let speeds = apart.paths.iter().zip(&apart.rotors).map(|(path, rotor)| retraced(&rotor.lines, path, frame_s()));
+        let frame_s = self.frame_s(OWN_FRAME_HZ_S2);
+        let speeds = apart.paths.iter().zip(&apart.rotors).map(|(path, rotor)| retraced(&rotor.lines, path, &frame_s));
         let paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), self.quantum);
         apart.or_better(self.apart(paths))
     }
@@ -176,9 +182,4 @@ impl<'a, 'p> Hearing<'a, 'p> {
         let tracks = reclaimed_tracks(&left.scores, &offsets, &worths, &left.grid, self.middle_rev_s);
         (tracks != offsets).then(|| self.retraced(self.apart(paths_along(&tracks, &left.common_rev_s, self.quantum))))
     }
-}
-
-/// Length of the frames of a line of some order, around some speed.
-pub(super) fn frame_s_of_order(frame_hz_s2: f64, speed_rev_s: f64) -> impl Fn(f64) -> f64 {
-    move |order| (frame_hz_s2 / (order * speed_rev_s)).sqrt().min(FRAME_S_MAX)
 }

@@ -11,6 +11,8 @@ mod hearing;
 mod identity;
 mod line_weights;
 mod mixture;
+mod motion;
+mod pace;
 mod paths;
 mod phase_kept;
 mod quantum;
@@ -27,6 +29,7 @@ use crate::span::Span;
 use crate::statistics::median;
 use atoms::{ChannelAtoms, atoms_of};
 use identity::{Identity, TrackFrame};
+use pace::Pace;
 use quantum::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_quantum, rough_tracks};
 use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
@@ -60,6 +63,7 @@ pub(crate) struct RoughRotors {
 struct RoughQuantum {
     /// The speed of each rotor in each frame.
     tracks: Vec<Vec<f64>>,
+    pace: Pace,
     /// Order and noise power per Hz of each line: in a wide band the lines themselves take up less.
     floors: Vec<(f64, f64)>,
 }
@@ -68,6 +72,8 @@ struct RoughQuantum {
 pub(crate) struct RotorTracer {
     atoms: Vec<ChannelAtoms>,
     limits_rev_s: (f64, f64),
+    /// How far two rotors must be apart to be told so, if they do not bob.
+    steady_resolution_rev_s: f64,
     planner: FftPlanner<f32>,
     identity: Identity,
     rough: std::vec::IntoIter<RoughQuantum>,
@@ -124,8 +130,8 @@ impl QuantumListener for RotorScout {
     type Heard = RoughRotors;
 
     fn hear(&mut self, quantum: &Quantum<'_>) {
-        let tracks = rough_tracks(quantum, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
-        self.rough.quanta.push(RoughQuantum { tracks, floors: quantum.floors() });
+        let (tracks, pace) = rough_tracks(quantum, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
+        self.rough.quanta.push(RoughQuantum { tracks, pace, floors: quantum.floors() });
     }
 
     fn finish(self) -> RoughRotors {
@@ -151,14 +157,16 @@ impl RotorTracer {
         let cutter = QuantumCutter::new(sample_rate_hz, bands);
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
         let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, ..RotorTrack::default() };
+        let steady_resolution_rev_s = resolution_rev_s(bands);
         let tracer = Self {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s: limits_rev_s(bands),
+            steady_resolution_rev_s,
             planner: FftPlanner::new(),
             identity: Identity::default(),
             tracks: RotorTracks {
                 rotors: vec![rotor; rough.count],
-                resolution_rev_s: resolution_rev_s(bands),
+                resolution_rev_s: steady_resolution_rev_s,
                 ..RotorTracks::default()
             },
             rough: rough.quanta.into_iter(),
@@ -174,7 +182,7 @@ impl RotorTracer {
 
     /// The blocks of a rotor. Where its lines do not keep their phase, or are too weak for that, it goes along the line that the
     /// search followed, known as well as the search resolves.
-    fn blocks_of(&self, rotor: &HeardRotor, place: (f64, f64)) -> Vec<HarmonicBlock> {
+    fn blocks_of(&self, rotor: &HeardRotor, place: (f64, f64), resolution_rev_s: f64) -> Vec<HarmonicBlock> {
         let mut blocks = Vec::new();
         for fit in &rotor.level.blocks {
             let block = block_at(fit, true, place, (rotor.line_count, self.limits_rev_s));
@@ -191,7 +199,7 @@ impl RotorTracer {
                     span,
                     speed_rev_s: (from + to) / 2.0,
                     slope_rev_s2: (to - from) / span.length_s(),
-                    std_uncertainty_rev_s: self.tracks.resolution_rev_s,
+                    std_uncertainty_rev_s: resolution_rev_s,
                     step_to_next_turns: None,
                     is_heard: true,
                     is_steady: false,
@@ -213,17 +221,19 @@ impl QuantumListener for RotorTracer {
     fn hear(&mut self, quantum: &Quantum<'_>) {
         let rough = self.rough.next().unwrap_or_default();
         let (start_s, tick_s, length_s) = (quantum.start_s, quantum.tick_s, quantum.ticks as f64 * quantum.tick_s);
-        let heard = rotors_of_quantum(quantum, &self.atoms, &rough.tracks, &mut self.planner);
+        let heard = rotors_of_quantum(quantum, &self.atoms, &rough, &mut self.planner);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
         let labelling = self.identity.labelled(&frames, frame_s);
         let place = (start_s, tick_s);
-        let blocks: Vec<Vec<HarmonicBlock>> = heard.iter().map(|rotor| self.blocks_of(rotor, place)).collect();
+        let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
+        self.tracks.resolution_rev_s = self.tracks.resolution_rev_s.max(resolution_rev_s);
+        let blocks: Vec<Vec<HarmonicBlock>> =
+            heard.iter().map(|rotor| self.blocks_of(rotor, place, resolution_rev_s)).collect();
         let between: Vec<Vec<HarmonicBlock>> = heard.iter().map(|rotor| self.blocks_between(rotor, place)).collect();
         self.tracks.length_s += length_s;
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;
         self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * length_s;
-        let resolution_rev_s = self.tracks.resolution_rev_s;
         let phases_kept: Vec<f64> = heard.iter().filter_map(|rotor| rotor.phase_kept).collect();
         let are_wide = median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);
         let apart_rev_s = if are_wide { WIDE_LINE_FACTOR * resolution_rev_s } else { resolution_rev_s };

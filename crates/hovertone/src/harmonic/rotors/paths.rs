@@ -5,9 +5,6 @@ use super::super::quanta::Quantum;
 use super::identity::{Identity, TrackFrame};
 use super::spectra::{FRAME_TICKS, frame_middle_ticks};
 
-/// Frames to either side over which the common speed is averaged.
-const COMMON_FRAMES: usize = 2;
-
 /// Lowest and highest of all tracks, and a margin beyond.
 pub(super) fn around<'a>(tracks: impl IntoIterator<Item = &'a Vec<f64>>, margin: f64) -> (f64, f64) {
     let (low, high) = tracks
@@ -61,14 +58,14 @@ pub(super) fn offsets_from(tracks: &[Vec<f64>], common_rev_s: &[f64]) -> Vec<Vec
     tracks.iter().map(of).collect()
 }
 
-/// The mean of all tracks in each frame, smoothed.
-pub(super) fn smoothed_mean(tracks: &[Vec<f64>]) -> Vec<f64> {
+/// The mean of all tracks in each frame, averaged over so many frames to either side.
+pub(super) fn smoothed_mean(tracks: &[Vec<f64>], reach: usize) -> Vec<f64> {
     let frames = tracks.first().map_or(0, Vec::len);
     let means: Vec<f64> =
         (0..frames).map(|frame| tracks.iter().map(|track| track[frame]).sum::<f64>() / tracks.len() as f64).collect();
     (0..frames)
         .map(|frame| {
-            let near = &means[frame.saturating_sub(COMMON_FRAMES)..(frame + COMMON_FRAMES + 1).min(frames)];
+            let near = &means[frame.saturating_sub(reach)..(frame + reach + 1).min(frames)];
             near.iter().sum::<f64>() / near.len() as f64
         })
         .collect()

@@ -5,13 +5,16 @@ use super::super::coherence::{Level, blocks_between, doubled_level, likelihood_m
 use super::super::join::joined;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
+use super::RoughQuantum;
 use super::atoms::ChannelAtoms;
 use super::hearing::{
     Apart, CLOSE_SEARCH, CLOSE_SEARCH_AFRESH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, Hearing, MARGIN_SHARE,
-    OWN_FRAME_HZ_S2, frame_s_of_order,
+    OWN_FRAME_HZ_S2,
 };
 use super::identity::TrackFrame;
 use super::line_weights::line_weights;
+use super::motion::common_motion;
+use super::pace::Pace;
 use super::paths::{around, path_through, share_close, tracks_of};
 use super::phase_kept::phase_kept;
 use super::search::{OffsetGrid, Trust, found_tracks};
@@ -79,25 +82,27 @@ impl HeardRotor {
 pub(super) fn resolution_rev_s(bands: &[ChannelBand]) -> f64 {
     let length_s = |band: &ChannelBand| {
         let speed_rev_s = (band.band_hz_low + band.band_hz_high) / 2.0 / band.order;
-        frame_s_of_order(OWN_FRAME_HZ_S2, speed_rev_s)(band.order)
+        Pace::Steady.frame_s_of_order(OWN_FRAME_HZ_S2, speed_rev_s)(band.order)
     };
     let finest = bands.iter().map(|band| band.order * length_s(band)).fold(0.0, f64::max);
     RESOLVED_CELLS / finest
 }
 
-/// Where the rotors of a quantum are, roughly: speeds in each frame, in no order. A search along no path at all, so wide that it
-/// misses none.
+/// Where the rotors of a quantum are, roughly: speeds in each frame, in no order; and how these change. A search along what they share,
+/// if they bob, and else along no path at all, so wide that it misses none.
 pub(super) fn rough_tracks(
     quantum: &Quantum<'_>,
     atoms: &[ChannelAtoms],
     limits_rev_s: (f64, f64),
     count: usize,
     planner: &mut FftPlanner<f32>,
-) -> Vec<Vec<f64>> {
+) -> (Vec<Vec<f64>>, Pace) {
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
-    let Some(constant) = path_through([middle_rev_s], quantum) else { return Vec::new() };
-    let frame_s = frame_s_of_order(FIRST_FRAME_HZ_S2, middle_rev_s);
-    let spectra = Spectra::along(quantum, &quantum.series, &constant, (frame_s, FIRST_FRAMES_APART), planner);
+    let motion = common_motion(quantum, atoms, limits_rev_s, count, planner);
+    let pace = if motion.is_some() { Pace::Bobbing } else { Pace::Steady };
+    let Some(common) = motion.or_else(|| path_through([middle_rev_s], quantum)) else { return (Vec::new(), pace) };
+    let frame_s = Pace::Steady.frame_s_of_order(FIRST_FRAME_HZ_S2, middle_rev_s);
+    let spectra = Spectra::along(quantum, &quantum.series, &common, (frame_s, FIRST_FRAMES_APART), planner);
     let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
     let line_weights = line_weights(&spectra, &grid, count);
     let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE };
@@ -107,11 +112,12 @@ pub(super) fn rough_tracks(
         .into_iter()
         .filter_map(|track| {
             let times_s = spectra.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
-            let points: Vec<(f64, f64)> = times_s.zip(track.iter().map(|offset| middle_rev_s + offset)).collect();
+            let speeds = track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| common + offset);
+            let points: Vec<(f64, f64)> = times_s.zip(speeds).collect();
             SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
         })
         .collect();
-    tracks_of(&paths, frames)
+    (tracks_of(&paths, frames), pace)
 }
 
 /// The band of speeds in which all rotors are, as far as rough tracks tell.
@@ -125,7 +131,7 @@ pub(super) fn band_of_tracks<'a>(tracks: impl Iterator<Item = &'a Vec<f64>>, lim
 pub(super) fn rotors_of_quantum(
     quantum: &Quantum<'_>,
     atoms: &[ChannelAtoms],
-    rough: &[Vec<f64>],
+    rough: &RoughQuantum,
     planner: &mut FftPlanner<f32>,
 ) -> Vec<HeardRotor> {
     let (tick_s, ticks) = (quantum.tick_s, quantum.ticks);
@@ -133,8 +139,8 @@ pub(super) fn rotors_of_quantum(
     let mut frame_hz_s2 = COMMON_SEARCH.frame_hz_s2;
     let close_rev_s = CLOSE_CELLS * hearing.cell_rev_s(frame_hz_s2);
     let are_close = |tracks: &[Vec<f64>]| share_close(tracks, close_rev_s) > CLOSE_SHARE;
-    let search = if are_close(rough) { COMMON_SEARCH_OF_CLOSE } else { COMMON_SEARCH };
-    let mut apart = hearing.searched_in(&spectra, rough, search);
+    let search = if are_close(&rough.tracks) { COMMON_SEARCH_OF_CLOSE } else { COMMON_SEARCH };
+    let mut apart = hearing.searched_in(&spectra, &rough.tracks, search);
     drop(spectra);
     if are_close(&apart.tracks()) {
         frame_hz_s2 = CLOSE_SEARCH.frame_hz_s2;

@@ -44,7 +44,7 @@ pub(super) struct Trust<'a> {
 #[derive(Default)]
 pub(super) struct OffsetGrid {
     first_rev_s: f64,
-    step_rev_s: f64,
+    pub(super) step_rev_s: f64,
     points: usize,
 }
 
