@@ -58,13 +58,12 @@ fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
 }
 
 impl Plan {
-    /// The loudest rotor cancels only where constant and hover were heard alike: both with all rotors told apart, or both by
+    /// The loudest rotor cancels only where constant and hover were heard alike: both by the mean of all rotors, or both by
     /// the same single ridge.
     fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
         let rotor_count = self.config.rotors.count;
-        let are_apart =
-            records.iter().filter_map(SpeedRecord::tone).all(|tone| tone.rotors.len() == rotor_count as usize);
-        let is_apart = rotor_count == 1 || are_apart;
+        let mut speeds = records.iter().filter_map(|record| record.tone()?.speed(Method::Separated));
+        let is_apart = rotor_count == 1 || speeds.all(|speed| speed.method == Method::Separated);
         let is_alike = match self.method_of_constant {
             Some(Method::Separated) => is_apart,
             Some(method) => method == self.config.method,

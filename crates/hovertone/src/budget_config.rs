@@ -42,6 +42,11 @@ impl Default for BudgetConfig {
 }
 
 impl BudgetConfig {
+    /// How far the loudest of so many rotors is from their mean, as a share: any of them can be it.
+    pub(crate) fn loudest_rotor_share(&self, rotor_count: u32) -> f64 {
+        loudest_rotor_share(self.rotor_spread_share, rotor_count)
+    }
+
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("clock_ppm", self.clock_ppm, 0.0, 1e5)?;
         check_range("radial_speed_m_s_max", self.radial_speed_m_s_max, 0.0, 100.0)?;

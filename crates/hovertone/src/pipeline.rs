@@ -210,14 +210,15 @@ fn speed_near(
     let apart = apart.unless_doubtful_beside(&harmonic, order);
     let speeds_in = |span: Option<&Span>| -> Vec<SpeedEstimate> {
         let length_s = span.map_or(hover.length_s(), Span::length_s);
+        let loudest_share = config.budget.loudest_rotor_share(config.rotors.count);
         config
             .methods()
             .filter_map(|method| match tracks.iter().find(|track| track.method == method) {
-                Some(track) => weights.speed_in(span, track),
+                Some(track) => Some((weights.speed_in(span, track)?, loudest_share)),
                 None if method == Method::Separated => apart.speed_in(span, order),
-                None => harmonic.speed_in(span, order),
+                None => Some((harmonic.speed_in(span, order)?, loudest_share)),
             })
-            .map(|speed| speed.with_budget(&config.budget, &config.rotors, length_s))
+            .map(|(speed, rotors_std_share)| speed.with_budget(&config.budget, rotors_std_share, length_s))
             .collect()
     };
     let window_s = ridges.first().map_or(0.0, |ridge| ridge.window_s);
@@ -246,7 +247,7 @@ fn speed_near(
         Some(reason) => Some(SpinUp::not_told(reason)),
         None => spin_up_from_source(source, (heard, &hover), &rotors, config, on_progress)?,
     };
-    warnings.extend(warning_of_rotors(&rotors, if apart_is_wanted { config.rotors.count } else { 1 }));
+    warnings.extend(warning_of_rotors(&rotors, &speeds, if apart_is_wanted { config.rotors.count } else { 1 }));
     let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, spin_up, samples, ridges });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }

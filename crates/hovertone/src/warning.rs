@@ -70,6 +70,8 @@ pub enum Warning {
         resolved: usize,
         /// Rotors that there are.
         of: u32,
+        /// Whether the mean of all of them is known all the same.
+        has_mean: bool,
     },
     /// The ridge jumps between lines.
     SeveralLines {
@@ -167,7 +169,7 @@ impl Warning {
             Self::HoverShorterThanSample { .. } => "record a longer hover, or shorten the samples (length_s)",
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
-            Self::RotorsNotApart { resolved: 0, .. } => {
+            Self::RotorsNotApart { has_mean: false, .. } => {
                 "one speed stands for all of them, and the budget counts that; rotors that turn alike cannot be told apart, \
                  others by a nearer microphone and higher harmonics"
             }
@@ -255,7 +257,7 @@ impl fmt::Display for Warning {
             }
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
             Self::FewFrames { frame_count } => write!(f, "a sample rests on {frame_count} frames only"),
-            Self::RotorsNotApart { resolved, of } => write!(f, "{resolved} of {of} rotors are told apart"),
+            Self::RotorsNotApart { resolved, of, .. } => write!(f, "{resolved} of {of} rotors are told apart"),
             Self::SeveralLines { spread_share } => {
                 write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
             }

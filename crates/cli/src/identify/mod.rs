@@ -14,7 +14,9 @@ use crate::speed::ending_of;
 use crate::terminal::Terminal;
 use crate::thrust_args::IdentifyArguments;
 use crate::typed::typed_command;
-use hovertone::{Experiment, LoadSpeeds, Method, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
+use hovertone::{
+    Experiment, LoadSpeeds, Method, SpeedEstimate, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads,
+};
 use hovertone_report::{
     Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary, thrust_table,
     vehicle_model_text,
@@ -80,14 +82,15 @@ pub(crate) fn identify(
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
     let experiment = &source.experiment;
-    let has_rotors = inputs.iter().filter_map(|input| input.record.tone()).any(|tone| !tone.rotors.is_empty());
+    let has_rotors = inputs.iter().filter_map(|input| input.record.tone()?.speed(Method::Separated)).any(is_separated);
     let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
     let tables = Method::ALL
         .into_iter()
         .filter(|&method| method != Method::Separated || has_rotors)
         .map(|method| {
             let settings = ThrustSettings {
-                follows_loudest: method != Method::Separated || !are_apart(experiment, &inputs),
+                follows_loudest: method != Method::Separated,
+                unresolved_std_share: unresolved_std_share(experiment, &inputs),
                 ..experiment.thrust_settings()
             };
             thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings)
@@ -96,16 +99,23 @@ pub(crate) fn identify(
     Ok(Identified { source, method, inputs, tables, jobs, hearing })
 }
 
-/// Whether all rotors were told apart in every recording.
-fn are_apart(experiment: &Experiment, inputs: &[InputRecord]) -> bool {
+/// How far the mean of all rotors may be from that of those which were told apart, as a share: the mean over all recordings, since the rotors
+/// are the same in each of them.
+fn unresolved_std_share(experiment: &Experiment, inputs: &[InputRecord]) -> f64 {
     let running = |input: &InputRecord| {
         let load = experiment.loads.iter().find(|load| load.name == input.load);
-        load.map_or(1, |load| load.rotors_running as usize)
+        load.map_or(1, |load| load.rotors_running)
     };
-    inputs
+    let speeds = inputs
         .iter()
-        .filter_map(|input| Some((running(input), input.record.tone()?)))
-        .all(|(running, tone)| running == 1 || tone.rotors.len() == running)
+        .filter(|input| running(input) > 1)
+        .filter_map(|input| input.record.tone()?.speed(Method::Separated));
+    let shares: Vec<f64> = speeds.map(SpeedEstimate::rotors_std_share).collect();
+    shares.iter().sum::<f64>() / shares.len().max(1) as f64
+}
+
+fn is_separated(speed: &SpeedEstimate) -> bool {
+    speed.method == Method::Separated
 }
 
 /// The speeds of all loads by one method. A recording without a rotor tone is no trial.

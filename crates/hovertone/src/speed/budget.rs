@@ -1,9 +1,7 @@
 //! What makes a speed uncertain: what the sound leaves open, the recorder's clock, and the motion of the vehicle.
 
 use super::SpeedEstimate;
-use crate::budget_config::{BudgetConfig, loudest_rotor_share};
-use crate::method::Method;
-use crate::rotors_config::RotorsConfig;
+use crate::budget_config::BudgetConfig;
 use serde::Serialize;
 
 /// Speed of sound in dry air of 20 °C. It changes by 0.17 % for each kelvin, which does not matter here.
@@ -22,8 +20,8 @@ pub enum UncertaintySource {
     Doppler,
     /// A hover that is up to ±d nearer to the microphone at the end of a stretch T than at its beginning: `n d / (c T √3)`.
     Drift,
-    /// One ridge, or one line of several rotors that were not told apart, stands for all of them: their mean lies about it as
-    /// their speeds scatter.
+    /// The mean of all rotors is not that of those that were heard apart: one ridge stands for all of them, and their mean lies about it as
+    /// their speeds scatter; or some of them were not told from others.
     Rotors,
 }
 
@@ -37,8 +35,9 @@ pub struct UncertaintyTerm {
 }
 
 impl SpeedEstimate {
-    /// The terms of its uncertainty over a stretch of `length_s`; none where the sound itself leaves it unknown.
-    pub(crate) fn with_budget(mut self, config: &BudgetConfig, rotors: &RotorsConfig, length_s: f64) -> Self {
+    /// The terms of its uncertainty over a stretch of `length_s`; none where the sound itself leaves it unknown. The mean of all rotors
+    /// may be so far from it, as a share.
+    pub(crate) fn with_budget(mut self, config: &BudgetConfig, rotors_std_share: f64, length_s: f64) -> Self {
         let drift_m_s_max = if length_s > 0.0 { config.drift_m_max / length_s } else { 0.0 };
         let limits = [
             (UncertaintySource::Clock, config.clock_ppm / 1e6),
@@ -52,15 +51,18 @@ impl SpeedEstimate {
             };
             self.budget = vec![UncertaintyTerm { source: UncertaintySource::Sound, std_uncertainty_rev_s }];
             self.budget.extend(limits.into_iter().filter(|(_, share)| *share > 0.0).map(of_limit));
-            if rotors.are_several() && self.method != Method::Separated && config.rotor_spread_share > 0.0 {
-                self.budget.push(UncertaintyTerm {
-                    source: UncertaintySource::Rotors,
-                    std_uncertainty_rev_s: self.speed.rev_s()
-                        * loudest_rotor_share(config.rotor_spread_share, rotors.count),
-                });
+            if rotors_std_share > 0.0 {
+                let std_uncertainty_rev_s = self.speed.rev_s() * rotors_std_share;
+                self.budget.push(UncertaintyTerm { source: UncertaintySource::Rotors, std_uncertainty_rev_s });
             }
         }
         self
+    }
+
+    /// How far the mean of all rotors may be from this speed, as a share.
+    pub fn rotors_std_share(&self) -> f64 {
+        let term = self.budget.iter().find(|term| term.source == UncertaintySource::Rotors);
+        term.map_or(0.0, |term| term.std_uncertainty_rev_s / self.speed.rev_s())
     }
 
     /// All terms together, at k = 1. `None` where the sound leaves it unknown.
@@ -73,6 +75,7 @@ impl SpeedEstimate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::method::Method;
     use hovertone_vehicle::{Order, RotorSpeed};
 
     #[test]
@@ -89,28 +92,24 @@ mod tests {
             budget: Vec::new(),
         };
         let config = BudgetConfig { clock_ppm: 3f64.sqrt() * 40.0, drift_m_max: 0.0, ..BudgetConfig::default() };
-        let one = RotorsConfig::default();
-        let got = estimate.clone().with_budget(&config, &one, 10.0);
+        let got = estimate.clone().with_budget(&config, 0.0, 10.0);
         assert!((got.combined_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
         // 24 cm in 10 s, and no clock
         let drifting = BudgetConfig { clock_ppm: 0.0, drift_m_max: SOUND_M_S * 3f64.sqrt() * 4e-4, ..config };
-        let got = estimate.clone().with_budget(&drifting, &one, 10.0);
+        let got = estimate.clone().with_budget(&drifting, 0.0, 10.0);
         assert!((got.combined_std_uncertainty_rev_s().unwrap() - 0.005).abs() < 1e-12, "{:?}", got.budget);
         let config = BudgetConfig {
             clock_ppm: 0.0,
             radial_speed_m_s_max: SOUND_M_S * 1e-3,
             drift_m_max: 0.0,
-            rotor_spread_share: 0.004,
+            ..BudgetConfig::default()
         };
-        let got = estimate.clone().with_budget(&config, &one, 10.0);
+        let got = estimate.clone().with_budget(&config, 0.0, 10.0);
         assert_eq!(got.budget.len(), 2);
         assert!((got.budget[1].std_uncertainty_rev_s - 0.1 / 3f64.sqrt()).abs() < 1e-12);
-        // of four rotors, one line stands for all, unless they were told apart
-        let four = RotorsConfig { count: 4, ..one };
-        let got = estimate.clone().with_budget(&config, &four, 10.0);
+        // rotors that were not told apart
+        let got = estimate.with_budget(&config, 0.004, 10.0);
         assert_eq!(got.budget[2].source, UncertaintySource::Rotors);
-        assert!((got.budget[2].std_uncertainty_rev_s - 0.4 * 0.75f64.sqrt()).abs() < 1e-12);
-        let apart = SpeedEstimate { method: Method::Separated, ..estimate };
-        assert_eq!(apart.with_budget(&config, &four, 10.0).budget.len(), 2);
+        assert!((got.budget[2].std_uncertainty_rev_s - 0.4).abs() < 1e-12);
     }
 }

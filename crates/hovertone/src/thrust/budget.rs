@@ -37,7 +37,7 @@ pub enum BudgetInput {
     SpeedEstimator,
     /// The recorder's clock.
     RecorderClock,
-    /// That one ridge follows the loudest rotor.
+    /// That one ridge follows the loudest rotor, or that not all rotors are told apart.
     LoudestRotor,
     /// A steady climb or sink that changes over the hover.
     VerticalAcceleration,
@@ -294,7 +294,11 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
         ..line(input, "rad/s", rad_s, contribution / per_rad_s.abs(), per_rad_s)
     };
     let clock_std_rad_s = rad_s * settings.clock_ppm / 1e6 / 3f64.sqrt();
-    let loudest = if settings.follows_loudest { loudest_std_share(campaign, &settings.uncertainty) } else { 0.0 };
+    let loudest = if settings.follows_loudest {
+        loudest_std_share(campaign, &settings.uncertainty)
+    } else {
+        settings.unresolved_std_share
+    };
     let several = |load: &HeardLoad<'_>| if load.load.rotors_running > 1 { 1.0 } else { 0.0 };
     vec![
         speed(BudgetInput::SpeedStatistics, statistics),

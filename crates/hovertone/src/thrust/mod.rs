@@ -122,6 +122,8 @@ pub struct ThrustSettings {
     pub clock_ppm: f64,
     /// Whether the speeds are those of a single ridge, which follows the loudest rotor.
     pub follows_loudest: bool,
+    /// Where they are not: how far, as a share, their mean may be from that of all rotors, since not all were told apart.
+    pub unresolved_std_share: f64,
     /// Whether somebody weighed the vehicle: a preset's or a model's mass is that of another specimen.
     pub is_weighed: bool,
     /// How large the effects may be that nobody measured.
@@ -137,6 +139,7 @@ impl ThrustSettings {
             air_density_kg_m3: None,
             clock_ppm: BudgetConfig::default().clock_ppm,
             follows_loudest: true,
+            unresolved_std_share: 0.0,
             is_weighed: true,
             uncertainty: UncertaintyInputs::default(),
         }

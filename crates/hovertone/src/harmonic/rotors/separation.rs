@@ -16,7 +16,7 @@ use realfft::num_complex::Complex;
 /// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
 /// A rotor ten times weaker than another is a faint one.
-const FAINT_SHARE: f64 = 0.1;
+const FAINT_SHARE: f64 = 0.25;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them.
 const GHOST_SHARE: f64 = 1.0 / 100.0;
 /// A line that is apart from all others in less than this share of a quantum is not heard for its speed.
