@@ -88,7 +88,7 @@ pub(crate) struct RotorTracks {
     pub(crate) resolution_rev_s: f64,
     /// How long was listened to.
     pub(crate) length_s: f64,
-    /// For how long of that a rotor of a tenth of the loudest one's power would have been heard.
+    /// For how long of that a rotor of a quarter of the loudest one's power would have been heard.
     pub(crate) faint_s: f64,
     /// For how long rotors were close to each other, where they often were: then some of them may be the beats of others.
     pub(crate) close_s: f64,

@@ -13,21 +13,30 @@ use super::spectra::{FRAME_TICKS, Spectra};
 use crate::statistics::{mean, median};
 use rustfft::FftPlanner;
 
-/// A line at f has frames of `√(this / f)`: a speed that changes by 3 % in a second smears it over one resolution cell.
-const FRAME_HZ_S2: f64 = 30.0;
-/// Of the frames of tracks, every so many'th is enough.
-const FRAMES_APART: usize = 2;
-/// How much the shared speed changes from one of these frames to the next, as a share.
-const STEP_STD_SHARE: f64 = 0.007;
-/// It is looked for so far from its mean, as a share.
-const REACH_SHARE: f64 = 0.06;
 /// Times that the motion is found by the pattern, and the pattern along the motion.
 const ROUNDS: usize = 4;
-/// Over so many of these frames rates are taken: 0.4 s.
+/// Over so many frames of the first look rates are taken: 0.4 s.
 const RATE_FRAMES: usize = 5;
 /// Slower motion, in shares of the speed per second, smears the frames of the searches over little more than a resolution cell, and four
 /// rotors that each wander for themselves have as much in common by chance.
 const RATE_MIN_PER_S: f64 = 0.015;
+
+/// How closely the motion is looked at.
+struct Look {
+    /// A line at f has frames of `√(this / f)`.
+    frame_hz_s2: f64,
+    /// Of the frames of tracks, every so many'th.
+    frames_apart: usize,
+    /// How much the shared speed changes from one of these frames to the next, as a share.
+    step_std_share: f64,
+    /// How far it is looked for from where it is known to be, as a share.
+    reach_share: f64,
+}
+
+/// A speed that changes by 3 % in a second smears a line over one resolution cell.
+const FIRST_LOOK: Look = Look { frame_hz_s2: 30.0, frames_apart: 2, step_std_share: 0.007, reach_share: 0.06 };
+/// Along what the first has found, which leaves less to smear.
+const SECOND_LOOK: Look = Look { frame_hz_s2: 100.0, frames_apart: 1, step_std_share: 0.002, reach_share: 0.015 };
 
 /// The path of a rotor in the middle of `limits_rev_s` that only moves with all others, where these move fast; else `None`.
 ///
@@ -41,22 +50,28 @@ pub(super) fn common_motion(
     planner: &mut FftPlanner<f32>,
 ) -> Option<SpeedPath> {
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
-    let constant = path_through([middle_rev_s], quantum)?;
-    let frame_s = Pace::Steady.frame_s_of_order(FRAME_HZ_S2, middle_rev_s);
-    let spectra = Spectra::along(quantum, &quantum.series, &constant, (frame_s, FRAMES_APART), planner);
-    let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
-    let line_weights = line_weights(&spectra, &grid, count);
-    let scores = GridScores::new(&spectra, atoms, &grid, Trust { line_weights: &line_weights, residue_share: 0.0 });
-    let rows: Vec<Vec<f32>> = (0..spectra.frames()).map(|frame| above_median(&scores.of_frame(frame, &[]))).collect();
-    let points_of = |share: f64| share * middle_rev_s / grid.step_rev_s;
-    let shifts = common_shifts(&rows, points_of(REACH_SHARE).round() as usize, points_of(STEP_STD_SHARE));
-    let shares: Vec<f64> = shifts.iter().map(|shift| shift * grid.step_rev_s / middle_rev_s).collect();
-    if rate_per_s(&shares, (RATE_FRAMES * FRAMES_APART * FRAME_TICKS) as f64 * quantum.tick_s) < RATE_MIN_PER_S {
+    let mut look_along = |path: &SpeedPath, look: &Look| {
+        let frame_s = Pace::Steady.frame_s_of_order(look.frame_hz_s2, middle_rev_s);
+        let spectra = Spectra::along(quantum, &quantum.series, path, (frame_s, look.frames_apart), planner);
+        let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
+        let line_weights = line_weights(&spectra, &grid, count);
+        let scores = GridScores::new(&spectra, atoms, &grid, Trust { line_weights: &line_weights, residue_share: 0.0 });
+        let rows: Vec<Vec<f32>> =
+            (0..spectra.frames()).map(|frame| above_median(&scores.of_frame(frame, &[]))).collect();
+        let points_of = |share: f64| share * middle_rev_s / grid.step_rev_s;
+        let shifts = common_shifts(&rows, points_of(look.reach_share).round() as usize, points_of(look.step_std_share));
+        let offsets: Vec<f64> = shifts.into_iter().map(|shift| shift * grid.step_rev_s).collect();
+        let rate_rev_s2 = rate_per_s(&offsets, (RATE_FRAMES * look.frames_apart * FRAME_TICKS) as f64 * quantum.tick_s);
+        let times_s = spectra.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
+        let speeds = spectra.common_rev_s.iter().zip(&offsets).map(|(common, offset)| common + offset);
+        let path = SpeedPath::through(&times_s.zip(speeds).collect::<Vec<_>>(), quantum.tick_s, quantum.ticks);
+        path.map(|path| (path, rate_rev_s2 / middle_rev_s))
+    };
+    let (path, rate_per_s) = look_along(&path_through([middle_rev_s], quantum)?, &FIRST_LOOK)?;
+    if rate_per_s < RATE_MIN_PER_S {
         return None;
     }
-    let times_s = spectra.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
-    let points: Vec<(f64, f64)> = times_s.zip(shares.iter().map(|share| middle_rev_s * (1.0 + share))).collect();
-    SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+    look_along(&path, &SECOND_LOOK).map(|(path, _)| path)
 }
 
 /// The rms rate at which values change over `RATE_FRAMES`, which last so long.

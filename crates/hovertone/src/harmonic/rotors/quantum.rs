@@ -50,7 +50,7 @@ pub(super) struct HeardRotor {
     levels: Vec<Vec<f64>>,
     /// In each frame, whether its lines are worth more than anything that is left.
     are_heard: Vec<bool>,
-    /// Share of the frames in which that would be so for a rotor of a tenth of its power.
+    /// Share of the frames in which that would be so for a rotor of a quarter of its power.
     pub(super) faint_share: f64,
     /// Share of the frames in which two rotors are close to each other, where that is often so.
     pub(super) close_share: f64,

@@ -15,7 +15,7 @@ use realfft::num_complex::Complex;
 
 /// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
-/// A rotor ten times weaker than another is a faint one.
+/// A rotor of a quarter of another one's power is a faint one.
 const FAINT_SHARE: f64 = 0.25;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them.
 const GHOST_SHARE: f64 = 1.0 / 100.0;
@@ -29,7 +29,7 @@ pub(super) struct SeparatedRotor {
     pub(super) levels: Vec<Vec<f64>>,
     /// What the rotor's lines are worth in each frame beside those of the others.
     pub(super) worths: Vec<f64>,
-    /// The same for a rotor of a tenth of its power.
+    /// The same for a rotor of a quarter of its power.
     pub(super) faint_worths: Vec<f64>,
     /// What is left of its lines where they are not quite taken away may be worth this.
     pub(super) ghost_worths: Vec<f64>,
