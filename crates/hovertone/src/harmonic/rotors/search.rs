@@ -239,13 +239,18 @@ impl<'a> GridScores<'a> {
         let mut scores = vec![0.0; self.points];
         let mut products = vec![1.0f64; self.points];
         let mut left = LeftBeside { residue_share: self.residue_share, ..LeftBeside::default() };
+        let mut factors: Vec<(f32, f32)> = Vec::new();
         for (index, line) in self.lines.iter().enumerate() {
             left.take_away(line, frame, self.common_rev_s[frame], others_rev_s);
-            let scale = line.weight / LINEAR_UP_TO;
+            let scale = (line.weight / LINEAR_UP_TO) as f32;
+            let factor = |likelihood: f32| 1.0 + scale * likelihood.min(LIKELIHOOD_MAX);
+            factors.clear();
+            // of each bin, and how much the next one has more
+            let pairs = left.likelihoods.iter().zip(left.likelihoods.iter().skip(1));
+            factors.extend(pairs.map(|(&own, &next)| (factor(own), factor(next) - factor(own))));
             for (&(bin, share), product) in line.places.at_points.iter().zip(&mut products) {
-                let pair = &left.likelihoods[bin as usize..][..2];
-                let likelihood = pair[0] + share * (pair[1] - pair[0]);
-                *product *= 1.0 + scale * f64::from(likelihood.min(LIKELIHOOD_MAX));
+                let (own, more) = factors[bin as usize];
+                *product *= f64::from(own + share * more);
             }
             // one logarithm for many lines
             if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == self.lines.len() {
