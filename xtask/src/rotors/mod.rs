@@ -1,6 +1,7 @@
 //! `cargo xtask bench rotors`: four rotors from one microphone, against the truth of every instant. Writes `docs/rotors.md`. Run by
 //! people, never in a test.
 
+mod bobbing;
 mod score;
 mod sound;
 
@@ -96,10 +97,11 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         }
         rows += &row;
     }
+    let bobbing = if only.is_none_or(|only| only == "bobbing") { bobbing::section(seeds)? } else { String::new() };
     if only.is_none() {
         // another bench's section stays
         let before = std::fs::read_to_string(root.join(REPORT)).unwrap_or_default();
-        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + section_of(&before);
+        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + &bobbing + section_of(&before);
         std::fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
         println!("written: {REPORT}");
     }

@@ -12,9 +12,9 @@ use std::f64::consts::TAU;
 /// A rotor is told apart if it is heard, and apart from the others, for this share of the time.
 const RESOLVED_SHARE_MIN: f64 = 0.5;
 /// A track that goes through noise for no more than this share of the time is that of a rotor, even if it is never apart from others.
-const LOST_SHARE_MAX: f64 = 0.1;
+const LOST_SHARE_MAX: f64 = 0.2;
 /// Where a faint rotor would have been heard for this share of the time, one that is not told apart turns like one that is.
-const FAINT_SHARE_MIN: f64 = 0.25;
+const FAINT_SHARE_MIN: f64 = 0.2;
 /// What bobbing may add to the mean of a rotor, in resolutions.
 const BOBBING_CELLS: f64 = 0.5;
 /// How far another one may turn from the mean of those that are told apart, as a standard deviation: rotors of real quadrotors
