@@ -9,7 +9,7 @@ use crate::speed::{ending_of, jobs_of, tone_of};
 use crate::terminal::Terminal;
 use crate::thrust_args::WeighArguments;
 use crate::vehicles::preset;
-use hovertone::{AcousticScale, Config, Gravity, HeardHover, Method, ToneConfig, UncertaintyInputs};
+use hovertone::{AcousticScale, Config, Gravity, HeardHover, Method, SpeedEstimate, ToneConfig, UncertaintyInputs};
 use hovertone_exchange::IdentifiedRotor;
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
@@ -22,6 +22,8 @@ struct Plan {
     config: Config,
     /// The method by which the speeds of the constant were read, where the results tell.
     method_of_constant: Option<Method>,
+    /// How far the mean of all rotors may be from the speeds of the constant, as a share.
+    rotors_std_share: f64,
 }
 
 /// Hears all recordings and weighs.
@@ -52,7 +54,11 @@ fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
     let segments = record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments);
     Some(HeardHover {
         speed: estimate.speed_of_thrust(),
-        std_uncertainty_rev_s: estimate.combined_std_uncertainty_rev_s(),
+        // the same rotors each time: what is not known of them is no matter of one recording
+        std_uncertainty_rev_s: estimate.combined_std_uncertainty_rev_s().map(|std| {
+            let of_rotors = estimate.rotors_std_share() * estimate.speed.rev_s();
+            (std * std - of_rotors * of_rotors).max(0.0).sqrt()
+        }),
         hover_s: segments.iter().map(|span| span.to_s - span.from_s).sum(),
     })
 }
@@ -62,15 +68,20 @@ impl Plan {
     /// the same single ridge.
     fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
         let rotor_count = self.config.rotors.count;
-        let mut speeds = records.iter().filter_map(|record| record.tone()?.speed(Method::Separated));
-        let is_apart = rotor_count == 1 || speeds.all(|speed| speed.method == Method::Separated);
+        let speeds: Vec<&SpeedEstimate> =
+            records.iter().filter_map(|record| record.tone()?.speed(Method::Separated)).collect();
+        let is_apart = rotor_count == 1 || speeds.iter().all(|speed| speed.method == Method::Separated);
         let is_alike = match self.method_of_constant {
             Some(Method::Separated) => is_apart,
             Some(method) => method == self.config.method,
             None => is_apart,
         };
         let loudest = UncertaintyInputs::default().loudest_std_share(rotor_count);
-        AcousticScale { loudest_std_share: if is_alike { 0.0 } else { loudest }, ..self.scale }
+        // of rotors heard apart, what is not known of some of them
+        let is_by_ridge = self.method_of_constant.is_some_and(|method| method != Method::Separated);
+        let unknown = speeds.iter().map(|speed| speed.rotors_std_share()).sum::<f64>() / speeds.len().max(1) as f64;
+        let unknown = if is_by_ridge || rotor_count == 1 { 0.0 } else { unknown.hypot(self.rotors_std_share) };
+        AcousticScale { loudest_std_share: if is_alike { unknown } else { loudest }, ..self.scale }
     }
 }
 
@@ -111,7 +122,8 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         vehicle_mass_kg: mass_kg.map(|mass_kg| estimate(mass_kg, Some(arguments.mass_std_kg))),
         loudest_std_share: 0.0,
     };
-    Ok(Plan { scale, config, method_of_constant })
+    let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
+    Ok(Plan { scale, config, method_of_constant, rotors_std_share })
 }
 
 /// Rotors that carry what is weighed. The constant of a single rotor on a stand does not tell how many there are.

@@ -15,6 +15,8 @@ pub struct IdentifiedRotor {
     pub expanded_uncertainty_n_s2: Option<f64>,
     /// Constant of the whole vehicle by weighing and speeds alone: its standard uncertainty.
     pub measured_std_total_n_s2: Option<f64>,
+    /// How far the mean of all rotors may be from the speeds that were heard, as a share.
+    pub rotors_std_share: f64,
     /// Rotors of the vehicle.
     pub rotor_count: u32,
     /// Mass of the vehicle without added load; absent where only bench runs were heard.
@@ -103,6 +105,13 @@ struct Constant {
     std_uncertainty: Option<f64>,
 }
 
+/// What the budget says of rotors that were not all told apart.
+fn rotors_std_share(results: &Value) -> f64 {
+    let lines = results.pointer("/uncertainty_budget/lines").and_then(Value::as_array);
+    let line = lines.into_iter().flatten().find(|line| line["input"] == "loudest_rotor");
+    line.and_then(|line| line["std_uncertainty"].as_f64()).filter(|share| share.is_finite()).unwrap_or(0.0)
+}
+
 /// Reads `results.json`.
 ///
 /// # Errors
@@ -136,6 +145,7 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
             .map(|total| total / f64::from(rotor_count))
             .or(constant.std_uncertainty.map(|std| 2.0 * std)),
         measured_std_total_n_s2: constant.std_uncertainty.map(|std| std * f64::from(rotor_count)),
+        rotors_std_share: rotors_std_share(&results),
         rotor_count,
         mass_kg: hover.map(|hover| hover.mass_kg),
         hover_speed_rad_s: hover.and_then(|hover| hover.speed_rad_s),

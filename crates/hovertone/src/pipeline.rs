@@ -85,7 +85,7 @@ pub struct SampleSpeeds {
 }
 
 impl SampleSpeeds {
-    /// The sample's speed by one method; by that of a single rotor where several were to be told apart and were not.
+    /// The sample's speed by one method; by that of a single rotor where several were to be told apart and not even their mean is known.
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
         speed_by(&self.speeds, method)
     }
@@ -97,7 +97,7 @@ fn speed_by(speeds: &[SpeedEstimate], method: Method) -> Option<&SpeedEstimate> 
 }
 
 impl RotorTone {
-    /// The mean over the hover by one method; by that of a single rotor where several were to be told apart and were not.
+    /// The mean over the hover by one method; by that of a single rotor where several were to be told apart and not even their mean is known.
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
         speed_by(&self.speeds, method)
     }

@@ -66,7 +66,7 @@ pub enum Warning {
     },
     /// Some rotors could not be told apart.
     RotorsNotApart {
-        /// Rotors that are.
+        /// Rotors that are, each by itself; 0 where no more than half are.
         resolved: usize,
         /// Rotors that there are.
         of: u32,

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 /// Speeds from rotor to rotor, as shares of their mean.
 const SPACINGS: [f64; 3] = [0.0, 0.01, 0.02];
-/// Of rotors that turn the same way round opposite places, so that the drone need not turn speeds against its yaw.
+/// Rotors across from each other turn the same way, and both pairs have one mean, or the drone would trim its yaw with their speeds.
 const PLACES: [f64; 4] = [-1.5, -0.5, 1.5, 0.5];
 
 /// What was found of one flight by one method: the error of C_f, and its U by the budget of the speed.
@@ -35,7 +35,7 @@ pub(super) fn section(flights: usize) -> Result<String, String> {
         print!("{row}");
         rows += &row;
     }
-    Ok(HEAD.replace("{flights}", &flights.to_string()) + &rows + "\n")
+    Ok(HEAD.replace("{flights}", &flights.to_string()) + &rows)
 }
 
 const HEAD: &str = "
@@ -46,7 +46,7 @@ rotors that turn so far apart: their constants differ, in an order that changes 
 down together, 5 % in a second (rms).
 
 - apart: flights with four rotors told apart, of those in which a tone was heard. group: flights in which too few were, and their mean is
-  given.
+  given. The rest: three of four, or one ridge that stands for all.
 - C_f: error of one flight's constant by hover balance, rms over flights, and the worst, by the mean square of the rotors and by the paper's
   maximum trace. within U: flights within twice the standard uncertainty of the budget of their speed.
 
@@ -105,7 +105,7 @@ fn row_of(spacing_share: f64, flights: &[Flight]) -> String {
         let rms = (found.iter().map(|found| found.error_share.powi(2)).sum::<f64>() / count).sqrt();
         let worst = found.iter().map(|found| found.error_share.abs()).fold(0.0, f64::max);
         let within = found.iter().filter(|found| found.error_share.abs() <= found.expanded_share).count();
-        format!("{:.3} | {:.3} | {within}", 100.0 * rms, 100.0 * worst)
+        format!("{:.3} | {:.3} | {within} of {}", 100.0 * rms, 100.0 * worst, found.len())
     };
     let heard = flights.iter().filter(|flight| flight.separated.is_some()).count();
     let apart = flights.iter().filter(|flight| flight.rotor_count == PLACES.len()).count();

@@ -101,7 +101,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     if only.is_none() {
         // another bench's section stays
         let before = std::fs::read_to_string(root.join(REPORT)).unwrap_or_default();
-        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + &bobbing + section_of(&before);
+        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + &bobbing + "\n" + section_of(&before);
         std::fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
         println!("written: {REPORT}");
     }

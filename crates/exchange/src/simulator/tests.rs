@@ -9,6 +9,7 @@ fn rotor() -> IdentifiedRotor {
         thrust_constant_n_s2: 7.07753e-6,
         expanded_uncertainty_n_s2: Some(1.4e-7),
         measured_std_total_n_s2: None,
+        rotors_std_share: 0.0,
         tone: None,
         method: None,
         trial_std_share: None,

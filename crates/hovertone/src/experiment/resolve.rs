@@ -74,7 +74,11 @@ impl ExperimentFile {
             spectrogram: self.spectrogram,
             ridge: self.ridge,
             hover: self.hover,
-            budget: BudgetConfig { drift_m_max: self.uncertainty.drift_m_max, ..BudgetConfig::default() },
+            budget: BudgetConfig {
+                drift_m_max: self.uncertainty.drift_m_max,
+                rotor_spread_share: self.uncertainty.rotor_spread_share,
+                ..BudgetConfig::default()
+            },
             method: Method::for_rotors(rotor_count),
             wants_all_methods: true,
             ..Config::for_tone(self.resolve_tone(preset)?)

@@ -18,8 +18,8 @@ pub struct AcousticScale {
     pub gravity_std_m_s2: f64,
     /// Mass of the vehicle without payload.
     pub vehicle_mass_kg: Option<Estimate>,
-    /// How far the speed that is heard may be from that of the constant because one ridge follows the loudest rotor: a standard
-    /// deviation, as a share. 0 where rotors were told apart both times, or one ridge was followed both times.
+    /// How far the speed that is heard may be from that of the constant because one ridge follows the loudest rotor, or because not all
+    /// rotors were told apart: a standard deviation, as a share. 0 where all were both times, or one ridge was followed both times.
     pub loudest_std_share: f64,
 }
 
@@ -28,7 +28,7 @@ pub struct AcousticScale {
 pub struct HeardHover {
     /// Shaft speed whose square carries the weight.
     pub speed: RotorSpeed,
-    /// Its standard uncertainty, where the method tells.
+    /// Its standard uncertainty, where the method tells, but for what is not known of its rotors.
     pub std_uncertainty_rev_s: Option<f64>,
     /// How long it hovers.
     pub hover_s: f64,

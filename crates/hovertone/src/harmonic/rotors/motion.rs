@@ -7,7 +7,7 @@ use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
 use super::line_weights::line_weights;
 use super::pace::Pace;
-use super::paths::path_through;
+use super::paths::{offsets_within, path_through};
 use super::search::{GridScores, OffsetGrid, Trust};
 use super::spectra::{FRAME_TICKS, Spectra};
 use crate::statistics::{mean, median};
@@ -15,10 +15,10 @@ use rustfft::FftPlanner;
 
 /// Times that the motion is found by the pattern, and the pattern along the motion.
 const ROUNDS: usize = 4;
-/// Over so many frames of the first look rates are taken: 0.4 s.
-const RATE_FRAMES: usize = 5;
-/// Slower motion, in shares of the speed per second, smears the frames of the searches over little more than a resolution cell, and four
-/// rotors that each wander for themselves have as much in common by chance.
+/// Over this time rates are taken.
+const RATE_S: f64 = 0.4;
+/// Slower motion, in shares of the speed per second, smears the frames of the first search over less than two resolution cells; four rotors
+/// that wander for themselves have half as much in common by chance.
 const RATE_MIN_PER_S: f64 = 0.015;
 
 /// How closely the motion is looked at.
@@ -33,7 +33,8 @@ struct Look {
     reach_share: f64,
 }
 
-/// A speed that changes by 3 % in a second smears a line over one resolution cell.
+/// A speed that changes by 3 % in a second smears a line over one resolution cell. Small drones in flight, and the demo's, change by 5 to 7 % in a
+/// second (rms), and by a few per cent in all.
 const FIRST_LOOK: Look = Look { frame_hz_s2: 30.0, frames_apart: 2, step_std_share: 0.007, reach_share: 0.06 };
 /// Along what the first has found, which leaves less to smear.
 const SECOND_LOOK: Look = Look { frame_hz_s2: 100.0, frames_apart: 1, step_std_share: 0.002, reach_share: 0.015 };
@@ -53,30 +54,33 @@ pub(super) fn common_motion(
     let mut look_along = |path: &SpeedPath, look: &Look| {
         let frame_s = Pace::Steady.frame_s_of_order(look.frame_hz_s2, middle_rev_s);
         let spectra = Spectra::along(quantum, &quantum.series, path, (frame_s, look.frames_apart), planner);
-        let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
+        let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
         let line_weights = line_weights(&spectra, &grid, count);
         let scores = GridScores::new(&spectra, atoms, &grid, Trust { line_weights: &line_weights, residue_share: 0.0 });
         let rows: Vec<Vec<f32>> =
             (0..spectra.frames()).map(|frame| above_median(&scores.of_frame(frame, &[]))).collect();
         let points_of = |share: f64| share * middle_rev_s / grid.step_rev_s;
-        let shifts = common_shifts(&rows, points_of(look.reach_share).round() as usize, points_of(look.step_std_share));
+        let reach = (points_of(look.reach_share).round() as usize).min(grid.points() / 2);
+        let shifts = common_shifts(&rows, reach, points_of(look.step_std_share));
         let offsets: Vec<f64> = shifts.into_iter().map(|shift| shift * grid.step_rev_s).collect();
-        let rate_rev_s2 = rate_per_s(&offsets, (RATE_FRAMES * look.frames_apart * FRAME_TICKS) as f64 * quantum.tick_s);
+        let rate_rev_s2 = rms_rate(&offsets, (look.frames_apart * FRAME_TICKS) as f64 * quantum.tick_s);
         let times_s = spectra.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
         let speeds = spectra.common_rev_s.iter().zip(&offsets).map(|(common, offset)| common + offset);
         let path = SpeedPath::through(&times_s.zip(speeds).collect::<Vec<_>>(), quantum.tick_s, quantum.ticks);
         path.map(|path| (path, rate_rev_s2 / middle_rev_s))
     };
-    let (path, rate_per_s) = look_along(&path_through([middle_rev_s], quantum)?, &FIRST_LOOK)?;
-    if rate_per_s < RATE_MIN_PER_S {
+    let (path, rate_share_per_s) = look_along(&path_through([middle_rev_s], quantum)?, &FIRST_LOOK)?;
+    if rate_share_per_s < RATE_MIN_PER_S {
         return None;
     }
     look_along(&path, &SECOND_LOOK).map(|(path, _)| path)
 }
 
-/// The rms rate at which values change over `RATE_FRAMES`, which last so long.
-fn rate_per_s(values: &[f64], length_s: f64) -> f64 {
-    let later = values.get(RATE_FRAMES..).unwrap_or_default();
+/// The rms rate at which values that are `step_s` apart change, in their unit per second.
+fn rms_rate(values: &[f64], step_s: f64) -> f64 {
+    let steps = (RATE_S / step_s).round().max(1.0) as usize;
+    let later = values.get(steps..).unwrap_or_default();
+    let length_s = steps as f64 * step_s;
     let squares: Vec<f64> =
         values.iter().zip(later).map(|(before, after)| ((after - before) / length_s).powi(2)).collect();
     mean(&squares).unwrap_or_default().sqrt()
@@ -90,14 +94,14 @@ fn above_median(scores: &[f64]) -> Vec<f32> {
 
 /// By how many points the pattern that all rows have in common is shifted in each of them; 0 on average.
 fn common_shifts(rows: &[Vec<f32>], reach: usize, step_std: f64) -> Vec<f64> {
-    let variance = variance(rows).max(f64::MIN_POSITIVE);
+    let noise = variance(rows).max(f64::MIN_POSITIVE);
     let centroids: Vec<f64> = rows.iter().map(|row| centroid(row)).collect();
     let mut shifts = about_their_mean(centroids);
     for _ in 0..ROUNDS {
         let pattern = pattern_along(rows, &shifts);
         let scores: Vec<Vec<f64>> = rows
             .iter()
-            .map(|row| correlation(&pattern, row, reach).into_iter().map(|sum| f64::from(sum) / variance).collect())
+            .map(|row| correlation(&pattern, row, reach).into_iter().map(|sum| f64::from(sum) / noise).collect())
             .collect();
         let path = best_path(&scores, step_std);
         shifts = about_their_mean(path.into_iter().map(|place| place as f64).collect());
@@ -199,7 +203,7 @@ mod tests {
     #[test]
     fn a_rate_is_that_of_the_motion() {
         let values: Vec<f64> = (0..50).map(|frame| 0.002 * f64::from(frame)).collect();
-        assert!((rate_per_s(&values, 0.4) - 0.025).abs() < 1e-12);
-        assert_eq!(rate_per_s(&values[..RATE_FRAMES], 0.4), 0.0);
+        assert!((rms_rate(&values, 0.08) - 0.025).abs() < 1e-12);
+        assert_eq!(rms_rate(&values[..5], 0.08), 0.0);
     }
 }

@@ -2,7 +2,7 @@
 
 /// A frame is no longer than this: sound in a room loses its phase.
 const FRAME_S_MAX: f64 = 0.4;
-/// Frames of rotors that bob are so much shorter than those of others.
+/// Frames of rotors that bob are so much shorter than those of others: 1.4 to 2.5 do alike, within what chance makes of 19 flights.
 const BOBBING_SHORTER: f64 = 1.75;
 /// Frames to either side over which the common speed is averaged.
 const COMMON_FRAMES: usize = 2;
@@ -11,7 +11,7 @@ const COMMON_FRAMES_BOBBING: usize = 1;
 /// How the speeds of a vehicle's rotors change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Pace {
-    /// By less than 1 % in a second, or only of one rotor.
+    /// By less than 1.5 % in a second (rms), or each for itself.
     #[default]
     Steady,
     /// All together, by some percent in some tenths of a second.
@@ -20,7 +20,7 @@ pub(super) enum Pace {
 
 impl Pace {
     /// Length of the frames of a line of some order, around some speed: `√(frame_hz_s2 / f)`, so that what a change of speed smears is as
-    /// many resolution cells in any line.
+    /// many resolution cells in any line, up to 0.4 s; and less where they bob.
     pub(super) fn frame_s_of_order(self, frame_hz_s2: f64, speed_rev_s: f64) -> impl Fn(f64) -> f64 {
         move |order| (frame_hz_s2 / (order * speed_rev_s)).sqrt().min(FRAME_S_MAX) / self.shorter()
     }

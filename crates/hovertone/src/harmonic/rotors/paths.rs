@@ -14,6 +14,16 @@ pub(super) fn around<'a>(tracks: impl IntoIterator<Item = &'a Vec<f64>>, margin:
     (low - margin, high + margin)
 }
 
+/// Offsets from a common speed that lead nowhere beyond limits, lowest and highest; where it moves by more than is between these, those
+/// from their middle.
+pub(super) fn offsets_within(limits_rev_s: (f64, f64), common_rev_s: &[f64]) -> (f64, f64) {
+    let (slowest, fastest) =
+        common_rev_s.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &speed| (low.min(speed), high.max(speed)));
+    let (low, high) = (limits_rev_s.0 - slowest, limits_rev_s.1 - fastest);
+    let half_width = (limits_rev_s.1 - limits_rev_s.0) / 2.0;
+    if low < high { (low, high) } else { (-half_width, half_width) }
+}
+
 /// The path through speeds in the middles of all frames.
 pub(super) fn path_through(speeds_rev_s: impl IntoIterator<Item = f64>, quantum: &Quantum<'_>) -> Option<SpeedPath> {
     let time_s = |frame: usize| frame_middle_ticks(frame) as f64 * quantum.tick_s;

@@ -15,7 +15,7 @@ use super::identity::TrackFrame;
 use super::line_weights::line_weights;
 use super::motion::common_motion;
 use super::pace::Pace;
-use super::paths::{around, path_through, share_close, tracks_of};
+use super::paths::{around, offsets_within, path_through, share_close, tracks_of};
 use super::phase_kept::phase_kept;
 use super::search::{OffsetGrid, Trust, found_tracks};
 use super::separation::{RESOLVED_CELLS, SeparatedRotor};
@@ -103,7 +103,7 @@ pub(super) fn rough_tracks(
     let Some(common) = motion.or_else(|| path_through([middle_rev_s], quantum)) else { return (Vec::new(), pace) };
     let frame_s = Pace::Steady.frame_s_of_order(FIRST_FRAME_HZ_S2, middle_rev_s);
     let spectra = Spectra::along(quantum, &quantum.series, &common, (frame_s, FIRST_FRAMES_APART), planner);
-    let grid = OffsetGrid::new((limits_rev_s.0 - middle_rev_s, limits_rev_s.1 - middle_rev_s), &spectra);
+    let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
     let line_weights = line_weights(&spectra, &grid, count);
     let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE };
     let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS), trust);

@@ -55,6 +55,10 @@ impl OffsetGrid {
         Self { first_rev_s: low_rev_s, step_rev_s: (high_rev_s - low_rev_s) / (points - 1) as f64, points }
     }
 
+    pub(super) fn points(&self) -> usize {
+        self.points
+    }
+
     fn offset_rev_s(&self, place: usize) -> f64 {
         self.first_rev_s + place as f64 * self.step_rev_s
     }
@@ -250,7 +254,8 @@ impl<'a> GridScores<'a> {
             factors.extend(pairs.map(|(&own, &next)| (factor(own), factor(next) - factor(own))));
             for (&(bin, share), product) in line.places.at_points.iter().zip(&mut products) {
                 let (own, more) = factors[bin as usize];
-                *product *= f64::from(own + share * more);
+                // rounding of what is likely beyond all measure must not make it unlikely
+                *product *= f64::from((own + share * more).max(1.0));
             }
             // one logarithm for many lines
             if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == self.lines.len() {
