@@ -16,7 +16,7 @@ const RESOLVED_SHARE_MIN: f64 = 0.5;
 const LOST_SHARE_MAX: f64 = 0.2;
 /// Where a faint rotor would have been heard for this share of the time, the search has found it, and one that is not told apart turns like
 /// one that is: in 120 simulated clips with three rotors alike and one of down to a tenth of their power elsewhere, in pairs, or all alike, the mean of the
-/// group was within its u in 118.
+/// group was within its u in 117.
 const FAINT_SHARE_MIN: f64 = 0.2;
 /// How far bobbing takes the mean of a rotor from its track's, in resolutions.
 const BOBBING_RESOLUTIONS: f64 = 0.7;
