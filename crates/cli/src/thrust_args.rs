@@ -64,7 +64,7 @@ pub(crate) struct IdentifyArguments {
     /// Folder that the names of the recordings start from [default: the folder of the experiment file]
     #[arg(long, value_name = "DIR", help_heading = "Reading files")]
     pub(crate) data_root: Option<PathBuf>,
-    /// The method whose constant is reported; all are computed [default: separated where all rotors are told apart, else harmonic]
+    /// The method whose constant is reported; all are computed [default: separated where several rotors are heard beside each other, else harmonic]
     #[arg(long, value_parser = method_parser())]
     pub(crate) method: Option<Method>,
     #[command(flatten)]

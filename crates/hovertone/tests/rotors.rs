@@ -262,6 +262,7 @@ fn rotors_that_turn_alike_are_not_invented() {
     );
     let speed = tone.speed(Method::Separated).unwrap();
     assert_eq!(speed.method, Method::Separated);
+    assert!((tone.speed(Method::Harmonic).unwrap().speed.rev_s() - 60.0).abs() < 1e-3);
     let (error, std) = (speed.speed.rev_s() - 60.0, speed.combined_std_uncertainty_rev_s().unwrap());
     assert!(error.abs() < 0.01 && error.abs() < 2.0 * std, "{error} ± {std}");
     assert!((speed.mean_square_rad2_s2.unwrap() / (TAU * 60.0).powi(2) - 1.0).abs() < 2e-4);

@@ -84,13 +84,14 @@ pub(crate) fn identify(
     let experiment = &source.experiment;
     let has_rotors = inputs.iter().filter_map(|input| input.record.tone()?.speed(Method::Separated)).any(is_separated);
     let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
+    let unresolved_std_share = unresolved_std_share(experiment, &inputs);
     let tables = Method::ALL
         .into_iter()
         .filter(|&method| method != Method::Separated || has_rotors)
         .map(|method| {
             let settings = ThrustSettings {
                 follows_loudest: method != Method::Separated,
-                unresolved_std_share: unresolved_std_share(experiment, &inputs),
+                unresolved_std_share,
                 ..experiment.thrust_settings()
             };
             thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings)

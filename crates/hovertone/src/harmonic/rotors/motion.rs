@@ -68,10 +68,7 @@ pub(super) fn common_motion(
         let sharper = power(&pattern_along(&rows, &shifts)) / power(&pattern_along(&rows, &vec![0.0; rows.len()]));
         let offsets: Vec<f64> = shifts.into_iter().map(|shift| shift * grid.step_rev_s).collect();
         let rate_rev_s2 = rms_rate(&offsets, (look.frames_apart * FRAME_TICKS) as f64 * quantum.tick_s);
-        let times_s = spectra.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
-        let speeds = spectra.common_rev_s.iter().zip(&offsets).map(|(common, offset)| common + offset);
-        let path = SpeedPath::through(&times_s.zip(speeds).collect::<Vec<_>>(), quantum.tick_s, quantum.ticks);
-        path.map(|path| (path, rate_rev_s2 / middle_rev_s, sharper))
+        spectra.path_at(&offsets, quantum).map(|path| (path, rate_rev_s2 / middle_rev_s, sharper))
     };
     let (path, rate_share_per_s, sharper) = look_along(&path_through([middle_rev_s], quantum)?, &FIRST_LOOK)?;
     if rate_share_per_s < RATE_MIN_PER_S || sharper < SHARPER_MIN {

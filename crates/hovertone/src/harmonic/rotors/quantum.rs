@@ -108,15 +108,7 @@ pub(super) fn rough_tracks(
     let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE };
     let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS), trust);
     let frames = quantum.ticks / FRAME_TICKS;
-    let paths: Vec<SpeedPath> = tracks
-        .into_iter()
-        .filter_map(|track| {
-            let times_s = spectra.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
-            let speeds = track.iter().zip(&spectra.common_rev_s).map(|(offset, common)| common + offset);
-            let points: Vec<(f64, f64)> = times_s.zip(speeds).collect();
-            SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
-        })
-        .collect();
+    let paths: Vec<SpeedPath> = tracks.iter().filter_map(|track| spectra.path_at(track, quantum)).collect();
     (tracks_of(&paths, frames), pace)
 }
 

@@ -104,6 +104,14 @@ impl Spectra {
         (0..self.frames()).map(|frame| frame_middle_ticks(frame * self.frames_apart))
     }
 
+    /// The path of what is so far from the shared speed in each frame.
+    pub(super) fn path_at(&self, offsets_rev_s: &[f64], quantum: &Quantum<'_>) -> Option<SpeedPath> {
+        let times_s = self.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
+        let speeds = self.common_rev_s.iter().zip(offsets_rev_s).map(|(common, offset)| common + offset);
+        let points: Vec<(f64, f64)> = times_s.zip(speeds).collect();
+        SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+    }
+
     /// Frames from one to the next.
     pub(super) fn frames_apart(&self) -> usize {
         self.frames_apart
