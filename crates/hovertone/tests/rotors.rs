@@ -96,6 +96,11 @@ fn heard_by(rotors: &[Rotor], sound: &Sound, tone: ToneConfig, seed: u64) -> Spe
     speed_from_source(&mut signal, &config, &mut |_| {}).unwrap()
 }
 
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
+}
+
 fn tone_of(analysis: &SpeedAnalysis) -> &RotorTone {
     match &analysis.outcome {
         Outcome::Ok(tone) => tone,
@@ -130,6 +135,29 @@ fn four_rotors_are_told_apart_where_two_of_them_cross() {
         right += usize::from((point.speed_rev_s - rotors[real].speed_rev_s(point.time_s)).abs() < 0.05);
     }
     assert!(all > 400 && 10 * right > 9 * all, "{right} of {all}");
+}
+
+#[test]
+fn rotors_that_bob_together_keep_their_distances() {
+    // 13 % in a second at its fastest, by twice what neighbours are apart
+    let bobbing = |mean_rev_s| Rotor { swing_share: 0.014, swing_hz: 1.5, ..Rotor::at(mean_rev_s) };
+    let rotors = [61.1, 60.5, 59.9, 59.3].map(bobbing);
+    let analysis = heard(&rotors, 11);
+    let tone = tone_of(&analysis);
+    assert_eq!(tone.rotors.len(), 4);
+    for (found, real) in tone.rotors.iter().zip(&rotors) {
+        let error = found.speed.speed.rev_s() - real.mean_rev_s;
+        assert!(error.abs() < 0.05, "{error}");
+        let points = || found.track.iter().filter(|point| (0.3..LENGTH_S - 0.3).contains(&point.time_s));
+        let right = points().filter(|point| (point.speed_rev_s - real.speed_rev_s(point.time_s)).abs() < 0.3).count();
+        assert!(20 * right > 19 * points().count(), "{right} of {}", points().count());
+    }
+    let mean_square = mean(rotors.iter().map(|rotor| {
+        let time_s = |step: u32| f64::from(step) * LENGTH_S / 600.0;
+        mean((0..600).map(|step| (TAU * rotor.speed_rev_s(time_s(step))).powi(2)))
+    }));
+    let error = tone.speed(Method::Separated).unwrap().mean_square_rad2_s2.unwrap() / mean_square - 1.0;
+    assert!(error.abs() < 5e-4, "{error}");
 }
 
 #[test]

@@ -20,6 +20,11 @@ impl Jitter {
         Self { axes: std::array::from_fn(axis) }
     }
 
+    /// What comes on top of a command now.
+    pub(super) fn now(&self) -> Command {
+        Command::from_array(self.axes.each_ref().map(|axis| axis.value))
+    }
+
     /// The command with what comes on top of it now; to be called once per controller period.
     pub(super) fn shaken(&mut self, command: Command) -> Command {
         let mut parts = command.to_array();

@@ -58,6 +58,12 @@ impl ScenarioRun {
         let pilot = flight.pilot(first.setpoint);
         let period_s = scenario.flight.vehicle.controller.period_s.value;
         let jitter = scenario.jitter.map(|jitter| Jitter::new(&jitter, period_s, scenario.flight.seed));
+        if let Some(jitter) = jitter.as_ref().filter(|_| first.motors_on) {
+            // as if it had hovered before: a controller that is suddenly asked for another climb than it has would kick all rotors
+            let mut body = flight.body();
+            body.velocity_m_s.z += jitter.now().climb * scenario.flight.vehicle.controller.climb_m_s_max.value;
+            flight.place_body(&body);
+        }
         let state = flight.state();
         Ok(Self {
             scenario,

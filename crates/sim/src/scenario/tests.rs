@@ -87,6 +87,24 @@ fn means_are_those_of_the_steps_and_hovers_are_told_apart() {
 }
 
 #[test]
+fn a_hover_with_an_unsteady_hand_begins_in_full_swing() {
+    let spread = |rows: &[FlightState]| {
+        let speeds: Vec<f64> = rows.iter().map(|row| row.speed_rad_s.iter().sum::<f64>() / 4.0).collect();
+        speeds.iter().copied().fold(0.0, f64::max) - speeds.iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    let of_seed = |seed: u32| {
+        let (_, rows, _) = run(&format!(
+            "duration_s = 2.0\nseed = {seed}\n[sound]\nsample_rate_hz = 8000\n[pilot]\njitter = {{ climb_std = 0.079, time_constant_s = 0.3 }}"
+        ));
+        (spread(&rows[..20]), spread(&rows[20..]))
+    };
+    // a controller that is suddenly asked for another climb than it has kicks all rotors: 40 rad/s with the first seed
+    for (first, rest) in (1..6).map(of_seed) {
+        assert!(first < 0.8 * rest, "{first} {rest}");
+    }
+}
+
+#[test]
 fn a_flight_from_the_ground_is_silent_first_and_after_landing() {
     let (channels, rows, truth) = run("[flight]\nstarts_on_ground = true\n[sound]\nsample_rate_hz = 8000\n[ground]\n\
          [[microphone]]\nposition_m = [1, 0, 0.5]\nideal = true\n\

@@ -34,6 +34,21 @@ pub(super) struct TrackFrame {
     pub(super) is_heard: bool,
 }
 
+/// The tracks about what they share: where rotors bob, that moves by more from frame to frame than they are apart.
+pub(super) fn about_their_mean(mut tracks: Vec<Vec<TrackFrame>>) -> Vec<Vec<TrackFrame>> {
+    let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
+    let count = tracks.len() as f64;
+    for frame in 0..frames {
+        let of_all = |value: fn(&TrackFrame) -> f64| tracks.iter().map(|track| value(&track[frame])).sum::<f64>();
+        let (speed, slope) = (of_all(|own| own.speed_rev_s) / count, of_all(|own| own.slope_rev_s2) / count);
+        for own in tracks.iter_mut().map(|track| &mut track[frame]) {
+            own.speed_rev_s -= speed;
+            own.slope_rev_s2 -= slope;
+        }
+    }
+    tracks
+}
+
 /// What is known of the rotors from what came before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Identity {
@@ -250,6 +265,22 @@ mod tests {
         let next = identity.labelled(&turned, 0.04);
         let of_before = |rotor: usize| tracks[labelled[29][rotor]][29].speed_rev_s;
         assert!((0..3).all(|rotor| turned[next[0][rotor]][0].speed_rev_s == of_before(rotor)));
+    }
+
+    #[test]
+    fn rotors_that_bob_keep_their_names() {
+        // all change by more than they are apart from frame to frame; and the tracks change places with every frame
+        let tracks: Vec<Vec<TrackFrame>> = (0..3)
+            .map(|track| {
+                let rotor = |index: usize| (track + index) % 3;
+                let speed = |index: usize| 60.0 + 0.6 * rotor(index) as f64 + 2.0 * (1.7 * index as f64).sin();
+                (0..40).map(|index| TrackFrame { speed_rev_s: speed(index), ..TrackFrame::default() }).collect()
+            })
+            .collect();
+        let labelled = Identity::default().labelled(&about_their_mean(tracks), 0.04);
+        let rotor = |place: usize, index: usize| (labelled[index][place] + index) % 3;
+        assert!((0..3).all(|place| (0..40).all(|index| rotor(place, index) == rotor(place, 0))));
+        assert!(about_their_mean(Vec::new()).is_empty());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What each line counts: one that no rotor sounds says nothing but noise.
 
-use super::search::OffsetGrid;
+use super::grid::OffsetGrid;
 use super::spectra::{LineSpectra, Spectra};
 
 /// Resolution cells that a rotor fills in a frame: `∫ lobe⁴`, and a little for what its speed changes within.

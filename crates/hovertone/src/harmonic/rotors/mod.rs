@@ -7,6 +7,7 @@
 //! (`coherence`, `join`). Which rotor is which, where they cross, their loudness tells (`identity`).
 
 mod atoms;
+mod grid;
 mod hearing;
 mod identity;
 mod line_weights;
@@ -17,9 +18,11 @@ mod paths;
 mod phase_kept;
 mod quantum;
 mod retrace;
+mod scores;
 mod search;
 mod separation;
 mod spectra;
+mod together;
 
 use super::block_at;
 use super::quanta::{InQuanta, Quantum, QuantumCutter, QuantumListener, limits_rev_s};
@@ -28,7 +31,7 @@ use crate::channel::ChannelBand;
 use crate::span::Span;
 use crate::statistics::median;
 use atoms::{ChannelAtoms, atoms_of};
-use identity::{Identity, TrackFrame};
+use identity::{Identity, TrackFrame, about_their_mean};
 use pace::Pace;
 use quantum::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_quantum, rough_tracks};
 use rustfft::FftPlanner;
@@ -228,7 +231,10 @@ impl QuantumListener for RotorTracer {
         let heard = rotors_of_quantum(quantum, &self.atoms, &rough, &mut self.planner);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
-        let labelling = self.identity.labelled(&frames, frame_s);
+        let labelling = match rough.pace {
+            Pace::Steady => self.identity.labelled(&frames, frame_s),
+            Pace::Bobbing => self.identity.labelled(&about_their_mean(frames.clone()), frame_s),
+        };
         let place = (start_s, tick_s);
         let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
         self.tracks.resolution_rev_s = self.tracks.resolution_rev_s.max(resolution_rev_s);
@@ -240,7 +246,7 @@ impl QuantumListener for RotorTracer {
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;
         self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * length_s;
         let phases_kept: Vec<f64> = heard.iter().filter_map(|rotor| rotor.phase_kept).collect();
-        let are_wide = median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);
+        let are_wide = rough.pace == Pace::Bobbing || median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);
         let apart_rev_s = if are_wide { WIDE_LINE_FACTOR * resolution_rev_s } else { resolution_rev_s };
         let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
         let is_close = |rotor: usize, other: usize, frame: usize| {

@@ -5,10 +5,11 @@ use super::super::best_path::best_path;
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
+use super::grid::OffsetGrid;
 use super::line_weights::line_weights;
 use super::pace::Pace;
 use super::paths::{offsets_within, path_through};
-use super::search::{GridScores, OffsetGrid, Trust};
+use super::scores::{GridScores, Trust};
 use super::spectra::{FRAME_TICKS, Spectra};
 use crate::statistics::{mean, median};
 use rustfft::FftPlanner;
@@ -59,7 +60,12 @@ pub(super) fn common_motion(
         let spectra = Spectra::along(quantum, &quantum.series, path, (frame_s, look.frames_apart), planner);
         let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
         let line_weights = line_weights(&spectra, &grid, count);
-        let scores = GridScores::new(&spectra, atoms, &grid, Trust { line_weights: &line_weights, residue_share: 0.0 });
+        let scores = GridScores::new(
+            &spectra,
+            atoms,
+            &grid,
+            Trust { line_weights: &line_weights, residue_share: 0.0, echo_share: 0.0 },
+        );
         let rows: Vec<Vec<f32>> =
             (0..spectra.frames()).map(|frame| above_median(&scores.of_frame(frame, &[]))).collect();
         let points_of = |share: f64| share * middle_rev_s / grid.step_rev_s;

@@ -2,7 +2,8 @@
 
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
-use super::identity::{Identity, TrackFrame};
+use super::identity::{Identity, TrackFrame, about_their_mean};
+use super::pace::Pace;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks};
 
 /// Lowest and highest of all tracks, and a margin beyond.
@@ -33,12 +34,13 @@ pub(super) fn path_through(speeds_rev_s: impl IntoIterator<Item = f64>, quantum:
 }
 
 /// Paths through the same speeds, so labelled in each frame that each path is as continuous as it can be.
-pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], quantum: &Quantum<'_>) -> Vec<SpeedPath> {
+pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, quantum: &Quantum<'_>) -> Vec<SpeedPath> {
     let frame_s = FRAME_TICKS as f64 * quantum.tick_s;
     let frames: Vec<Vec<TrackFrame>> = speeds_rev_s
         .iter()
         .map(|track| track.iter().map(|&speed_rev_s| TrackFrame { speed_rev_s, ..TrackFrame::default() }).collect())
         .collect();
+    let frames = if pace == Pace::Bobbing { about_their_mean(frames) } else { frames };
     let labelling = Identity::default().labelled(&frames, frame_s);
     (0..speeds_rev_s.len())
         .filter_map(|rotor| {
@@ -51,9 +53,14 @@ pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], quantum: &Quantum<'_>)
 }
 
 /// Paths through tracks that are offsets from a common speed.
-pub(super) fn paths_along(offsets_rev_s: &[Vec<f64>], common_rev_s: &[f64], quantum: &Quantum<'_>) -> Vec<SpeedPath> {
+pub(super) fn paths_along(
+    offsets_rev_s: &[Vec<f64>],
+    common_rev_s: &[f64],
+    pace: Pace,
+    quantum: &Quantum<'_>,
+) -> Vec<SpeedPath> {
     let of = |track: &Vec<f64>| track.iter().zip(common_rev_s).map(|(offset, common)| common + offset).collect();
-    continuous_paths(&offsets_rev_s.iter().map(of).collect::<Vec<Vec<f64>>>(), quantum)
+    continuous_paths(&offsets_rev_s.iter().map(of).collect::<Vec<Vec<f64>>>(), pace, quantum)
 }
 
 /// The speeds of paths in each frame.

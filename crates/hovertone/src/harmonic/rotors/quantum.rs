@@ -7,6 +7,7 @@ use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use super::RoughQuantum;
 use super::atoms::ChannelAtoms;
+use super::grid::OffsetGrid;
 use super::hearing::{
     Apart, CLOSE_SEARCH, CLOSE_SEARCH_AFRESH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, Hearing, MARGIN_SHARE,
     OWN_FRAME_HZ_S2,
@@ -17,7 +18,8 @@ use super::motion::common_motion;
 use super::pace::Pace;
 use super::paths::{around, offsets_within, path_through, share_close, tracks_of};
 use super::phase_kept::phase_kept;
-use super::search::{OffsetGrid, Trust, found_tracks};
+use super::scores::Trust;
+use super::search::found_tracks;
 use super::separation::{RESOLVED_CELLS, SeparatedRotor};
 use super::spectra::{FRAME_TICKS, Spectra, frame_middle_ticks};
 use crate::channel::ChannelBand;
@@ -105,7 +107,7 @@ pub(super) fn rough_tracks(
     let spectra = Spectra::along(quantum, &quantum.series, &common, (frame_s, FIRST_FRAMES_APART), planner);
     let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
     let line_weights = line_weights(&spectra, &grid, count);
-    let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE };
+    let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE, echo_share: 0.0 };
     let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS), trust);
     let frames = quantum.ticks / FRAME_TICKS;
     let paths: Vec<SpeedPath> = tracks.iter().filter_map(|track| spectra.path_at(track, quantum)).collect();
@@ -147,6 +149,10 @@ pub(super) fn rotors_of_quantum(
     if let Some(reclaimed) = hearing.reclaimed(&apart, &left).filter(|other| other.rest_energy < apart.rest_energy) {
         apart = reclaimed;
         left = hearing.left_over(&apart, frame_hz_s2);
+    }
+
+    if rough.pace == Pace::Bobbing {
+        apart = hearing.together(apart);
     }
 
     let close_share =

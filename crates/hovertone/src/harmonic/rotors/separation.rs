@@ -7,7 +7,7 @@ use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
 use super::atoms::ChannelAtoms;
 use super::mixture::Mixture;
-use super::search::worth;
+use super::scores::worth;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks, phasors};
 use crate::channel::TICKS_PER_HOP;
 use crate::spectrogram::hann_weights;

@@ -1,0 +1,239 @@
+//! What speaks for one more rotor at each speed: the likelihood of all its lines, beside rotors that are known and echoes.
+
+use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
+use super::grid::OffsetGrid;
+use super::mixture::Mixture;
+use super::spectra::{LineSpectra, Spectra};
+use realfft::num_complex::Complex;
+use std::ops::Range;
+
+/// Share of a line's energy that must be left to it by the others.
+const ENERGY_LEFT_MIN: f32 = 0.1;
+/// Up to here a line counts for its likelihood, and beyond for the logarithm.
+const LINEAR_UP_TO: f64 = 8.0;
+/// What a rotor leaves behind when it is taken away lies within so many cells of its lines, and counts for nothing below this.
+const RESIDUE_CELLS: f32 = 4.0;
+const RESIDUE_MIN: f32 = 0.03;
+/// Likelihoods are cut here, so that the product of so many is still a number.
+const LIKELIHOOD_MAX: f32 = 1e9;
+const LINES_PER_LOGARITHM: usize = 32;
+
+/// What the spectra are taken for.
+#[derive(Clone, Copy)]
+pub(super) struct Trust<'a> {
+    /// What each line counts.
+    pub(super) line_weights: &'a [f64],
+    /// Power that a rotor leaves around its lines when it is taken away, as a share of its own: neither its path nor its level is
+    /// quite what is assumed.
+    pub(super) residue_share: f32,
+    /// Power that is still heard a frame later where it was, as a share: what the walls send back counts as noise.
+    pub(super) echo_share: f32,
+}
+/// What a line's likelihood counts for: itself where it is weak, which is what tells most in noise; its logarithm where it is strong:
+/// what is left of a strong line after it was taken away must not outvote the lines of a weak rotor.
+pub(super) fn worth(likelihood: f64) -> f64 {
+    LINEAR_UP_TO * (likelihood / LINEAR_UP_TO).ln_1p()
+}
+
+/// Scores of the points of a grid, frame by frame.
+pub(super) struct GridScores<'a> {
+    lines: Vec<CountingLine<'a>>,
+    common_rev_s: &'a [f64],
+    residue_share: f32,
+    /// Of the frame before.
+    echo_share: f32,
+    points: usize,
+}
+
+/// A line that counts.
+struct CountingLine<'a> {
+    spectra: &'a LineSpectra,
+    atoms: &'a ChannelAtoms,
+    places: LinePlaces,
+    weight: f64,
+}
+
+/// Where a line is at each point of a grid.
+struct LinePlaces {
+    /// The bins into which it can fall.
+    bins: Range<usize>,
+    /// Among them, the bin below it and how far on it is to the next.
+    at_points: Vec<(u32, f32)>,
+}
+
+impl<'a> GridScores<'a> {
+    pub(super) fn new(spectra: &'a Spectra, atoms: &'a [ChannelAtoms], grid: &OffsetGrid, trust: Trust<'_>) -> Self {
+        let lines = spectra.lines.iter().zip(atoms).zip(trust.line_weights);
+        let lines = lines.filter(|(_, weight)| **weight > 0.0).map(|((spectra, atoms), &weight)| CountingLine {
+            spectra,
+            atoms,
+            places: LinePlaces::of(spectra, grid),
+            weight,
+        });
+        Self {
+            lines: lines.collect(),
+            common_rev_s: &spectra.common_rev_s,
+            residue_share: trust.residue_share,
+            echo_share: trust.echo_share.powi(spectra.frames_apart() as i32),
+            points: grid.points(),
+        }
+    }
+
+    /// What speaks for one more rotor at each point, beside others at known offsets.
+    pub(super) fn of_frame(&self, frame: usize, others_rev_s: &[f64]) -> Vec<f64> {
+        let mut scores = vec![0.0; self.points];
+        let mut products = vec![1.0f64; self.points];
+        let mut left = LeftBeside { residue_share: self.residue_share, ..LeftBeside::default() };
+        let mut factors: Vec<(f32, f32)> = Vec::new();
+        for (index, line) in self.lines.iter().enumerate() {
+            left.take_away(line, frame, self.common_rev_s[frame], others_rev_s);
+            if let Some(before) = frame.checked_sub(1).filter(|_| self.echo_share > 0.0) {
+                let moved_rev_s = self.common_rev_s[frame] - self.common_rev_s[before];
+                left.discount(line, line.spectra.frame(before), moved_rev_s, self.echo_share);
+            }
+            let scale = (line.weight / LINEAR_UP_TO) as f32;
+            let factor = |likelihood: f32| 1.0 + scale * likelihood.min(LIKELIHOOD_MAX);
+            factors.clear();
+            // of each bin, and how much the next one has more
+            let pairs = left.likelihoods.iter().zip(left.likelihoods.iter().skip(1));
+            factors.extend(pairs.map(|(&own, &next)| (factor(own), factor(next) - factor(own))));
+            for (&(bin, share), product) in line.places.at_points.iter().zip(&mut products) {
+                let (own, more) = factors[bin as usize];
+                // rounding of what is likely beyond all measure must not make it unlikely
+                *product *= f64::from((own + share * more).max(1.0));
+            }
+            // one logarithm for many lines
+            if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == self.lines.len() {
+                for (score, product) in scores.iter_mut().zip(&mut products) {
+                    *score += LINEAR_UP_TO * std::mem::replace(product, 1.0).ln();
+                }
+            }
+        }
+        scores
+    }
+}
+
+impl LinePlaces {
+    fn of(line: &LineSpectra, grid: &OffsetGrid) -> Self {
+        let bins = grid.bins_of(line);
+        let at_points = (0..grid.points()).map(|point| {
+            let place =
+                (line.bin_of(line.order * grid.offset_rev_s(point) * line.frame_s) - bins.start as f64).max(0.0);
+            let bin = place.floor().min((bins.len() - 2) as f64);
+            (bin as u32, (place - bin).min(1.0) as f32)
+        });
+        Self { at_points: at_points.collect(), bins }
+    }
+}
+
+/// A line's likelihood in some bins of a frame, once other rotors have been taken away.
+#[derive(Default)]
+struct LeftBeside {
+    residue_share: f32,
+    likelihoods: Vec<f32>,
+    left: Vec<Complex<f32>>,
+    energy_left: Vec<f32>,
+    /// Noise and what the others leave behind.
+    floor: Vec<f32>,
+    places: Vec<f64>,
+    seen: Vec<Complex<f64>>,
+}
+
+impl LeftBeside {
+    fn take_away(&mut self, line: &CountingLine<'_>, frame: usize, common_rev_s: f64, others_rev_s: &[f64]) {
+        let Self { residue_share, likelihoods, left, energy_left, floor, places, seen } = self;
+        let CountingLine { spectra: line, atoms, places: LinePlaces { bins, .. }, .. } = line;
+        likelihoods.clear();
+        left.clear();
+        left.extend_from_slice(&line.frame(frame)[bins.clone()]);
+        places.clear();
+        seen.clear();
+        let reached = line.cells_of(bins.start) - REACH_CELLS..line.cells_of(bins.end) + REACH_CELLS;
+        for other in others_rev_s {
+            for order in &atoms.orders {
+                let cells = (order * (common_rev_s + other) - line.order * common_rev_s) * line.frame_s;
+                if let Some(z) = line.at(frame, cells).filter(|_| reached.contains(&cells)) {
+                    places.push(cells);
+                    seen.push(z);
+                }
+            }
+        }
+        if places.is_empty() {
+            likelihoods.extend(left.iter().map(Complex::norm_sqr));
+            return;
+        }
+        energy_left.clear();
+        energy_left.resize(left.len(), 1.0);
+        floor.clear();
+        floor.resize(left.len(), 1.0);
+        let step_cells = line.cells_of(1) - line.cells_of(0);
+        for (cells, amplitude) in places.iter().zip(Mixture::of_steady(places).amplitudes(seen)) {
+            let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
+            let bin_of = |cells: f64| line.bin_of(cells) - bins.start as f64;
+            let from = bin_of(cells - REACH_CELLS).ceil().max(0.0) as usize;
+            let to = ((bin_of(cells + REACH_CELLS).floor() + 1.0).max(0.0) as usize).min(left.len());
+            if from >= to {
+                continue;
+            }
+            let first_cells = line.cells_of(bins.start + from) - cells;
+            let lobes = HannLobes::from(first_cells, step_cells);
+            for ((left, energy), lobe) in left[from..to].iter_mut().zip(&mut energy_left[from..to]).zip(lobes) {
+                *left -= amplitude * lobe;
+                *energy *= 1.0 - lobe * lobe;
+            }
+            let residue = *residue_share * amplitude.norm_sqr();
+            if residue > RESIDUE_MIN {
+                let (first, step) = (first_cells as f32 / RESIDUE_CELLS, step_cells as f32 / RESIDUE_CELLS);
+                for (floor, index) in floor[from..to].iter_mut().zip(0i16..) {
+                    let away = first + f32::from(index) * step;
+                    *floor += residue * (1.0 - away * away).max(0.0).powi(2);
+                }
+            }
+        }
+        let left = left.iter().zip(energy_left).zip(floor);
+        likelihoods.extend(left.map(|((z, energy), floor)| z.norm_sqr() / (*floor * energy.max(ENERGY_LEFT_MIN))));
+    }
+
+    /// What was heard a frame before, while the common speed has moved on, is noise now.
+    fn discount(&mut self, line: &CountingLine<'_>, before: &[Complex<f32>], moved_rev_s: f64, echo_share: f32) {
+        let CountingLine { spectra: line, places: LinePlaces { bins, .. }, .. } = line;
+        let moved_bins = line.bin_of(line.order * moved_rev_s * line.frame_s) - line.bin_of(0.0);
+        let whole = moved_bins.floor();
+        let share = (moved_bins - whole) as f32;
+        let power = |bin: Option<usize>| bin.and_then(|bin| before.get(bin)).map_or(0.0, Complex::norm_sqr);
+        for (likelihood, bin) in self.likelihoods.iter_mut().zip(bins.clone()) {
+            let bin = bin.checked_add_signed(whole as isize);
+            let (own, next) = (power(bin), power(bin.map(|bin| bin + 1)));
+            *likelihood /= 1.0 + echo_share * (own + share * (next - own));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::atoms::hann_lobe;
+    use super::*;
+
+    /// A line of order 1 in two frames of 0.2 s; in the second it has moved up and is weaker than the echo of the first.
+    #[test]
+    fn an_echo_is_no_rotor() {
+        let frame = |lines: &[(f64, f64)]| -> Vec<Complex<f32>> {
+            let at = |cells: f64| lines.iter().map(|(place, level)| level * hann_lobe(cells - place)).sum::<f64>();
+            (0..160).map(|bin| Complex::new(at((f64::from(bin) - 80.0) / 2.0) as f32, 0.1)).collect()
+        };
+        // places are cells from the common speed, which is 5 rev/s, a cell, higher in the second frame
+        let mut spectra = Spectra::of_line(&[frame(&[(-8.0, 40.0)]), frame(&[(-9.0, 20.0), (6.0, 15.0)])]);
+        spectra.common_rev_s = vec![60.0, 65.0];
+        let grid = OffsetGrid::new((-100.0, 100.0), &spectra);
+        let atoms = [ChannelAtoms { orders: vec![1.0] }];
+        let best_rev_s = |echo_share: f32| {
+            let trust = Trust { line_weights: &[1.0], residue_share: 0.0, echo_share };
+            let scores = GridScores::new(&spectra, &atoms, &grid, trust).of_frame(1, &[]);
+            let best = (0..grid.points()).max_by(|&a, &b| scores[a].total_cmp(&scores[b])).unwrap();
+            assert_eq!(grid.score_at(&scores, grid.offset_rev_s(best)), scores[best]);
+            grid.offset_rev_s(best)
+        };
+        assert!((best_rev_s(0.0) + 45.0).abs() < 1.5);
+        assert!((best_rev_s(0.3) - 30.0).abs() < 1.5);
+    }
+}
