@@ -6,6 +6,8 @@ use std::f64::consts::PI;
 
 /// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there.
 pub(super) const REACH_CELLS: f64 = 6.0;
+/// Places half a cell apart within that reach to either side.
+const LOBE_PLACES: usize = 28;
 /// Below this the quotient of the lobe loses its digits.
 const LOBE_DENOMINATOR_MIN: f32 = 0.02;
 /// Lines closer than this share one lobe; their amplitudes cannot be told apart.
@@ -58,38 +60,56 @@ pub(super) fn hann_lobe(cells: f64) -> f64 {
     }
 }
 
-/// The lobe at equal steps: its sine by recurrence.
-pub(super) struct HannLobes {
-    cells: f32,
-    step_cells: f32,
-    sine: (f32, f32),
-    turn: (f32, f32),
+/// Lobes of Hann frames whose places are known by their sines as well: of one place, the sine of all others half cells away is one of
+/// four values, and of two, the sine of their difference follows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlacedLobe {
+    pub(super) cells: f64,
+    sine: f64,
+    cosine: f64,
 }
 
-impl HannLobes {
-    pub(super) fn from(cells: f64, step_cells: f64) -> Self {
-        let ((sine, cosine), (turn_sine, turn_cosine)) = ((PI * cells).sin_cos(), (PI * step_cells).sin_cos());
-        Self {
-            cells: cells as f32,
-            step_cells: step_cells as f32,
-            sine: (cosine as f32, sine as f32),
-            turn: (turn_cosine as f32, turn_sine as f32),
-        }
+impl PlacedLobe {
+    pub(super) fn at(cells: f64) -> Self {
+        let (sine, cosine) = (PI * cells).sin_cos();
+        Self { cells, sine, cosine }
     }
-}
 
-impl Iterator for HannLobes {
-    type Item = f32;
+    /// The lobe of one at the place of the other.
+    pub(super) fn at_place_of(self, other: Self) -> f64 {
+        let x = self.cells - other.cells;
+        let below = PI * x * (1.0 - x * x);
+        if x.abs() > REACH_CELLS || below.abs() < f64::from(LOBE_DENOMINATOR_MIN) {
+            return hann_lobe(x);
+        }
+        (self.sine * other.cosine - self.cosine * other.sine) / below
+    }
 
-    fn next(&mut self) -> Option<f32> {
-        let ((re, im), (turn_re, turn_im)) = (self.sine, self.turn);
-        let x = self.cells;
-        // sin(π x) vanishes where the denominator does
-        let below = PI as f32 * x * (1.0 - x * x);
-        let lobe = if below.abs() > LOBE_DENOMINATOR_MIN { im / below } else { hann_lobe(f64::from(x)) as f32 };
-        self.sine = (re * turn_re - im * turn_im, re * turn_im + im * turn_re);
-        self.cells += self.step_cells;
-        Some(lobe)
+    /// The lobe at so many places from `half_cells` halves of a cell on, each half a cell after the one before.
+    pub(super) fn lobes_from(self, half_cells: i32) -> [f32; LOBE_PLACES] {
+        // sin(π (n / 2 - x)) for n = 0 … 3
+        let (sine, cosine) = (self.sine as f32, self.cosine as f32);
+        let mut sines = [-sine, cosine, sine, -cosine];
+        sines.rotate_left(half_cells.rem_euclid(4) as usize);
+        let first_cells = f64::from(half_cells) / 2.0 - self.cells;
+        let mut lobes = [0.0f32; LOBE_PLACES];
+        let mut is_near_zero = false;
+        for (index, (lobe, step)) in lobes.iter_mut().zip(0i16..).enumerate() {
+            let x = first_cells as f32 + 0.5 * f32::from(step);
+            // the sine vanishes where the denominator does
+            let below = PI as f32 * x * (1.0 - x * x);
+            is_near_zero |= below.abs() <= LOBE_DENOMINATOR_MIN;
+            *lobe = sines[index % 4] / below;
+        }
+        if is_near_zero {
+            for (index, lobe) in lobes.iter_mut().enumerate() {
+                let x = first_cells + 0.5 * index as f64;
+                if x.abs() < 1.5 {
+                    *lobe = hann_lobe(x) as f32;
+                }
+            }
+        }
+        lobes
     }
 }
 
@@ -111,8 +131,18 @@ mod tests {
             assert!((hann_lobe(cells) - sum / weights).abs() < 1e-3, "{cells}");
             assert_eq!(hann_lobe(cells), hann_lobe(-cells));
         }
-        for (index, lobe) in HannLobes::from(-5.77, 0.25).take(46).enumerate() {
-            assert!((f64::from(lobe) - hann_lobe(-5.77 + 0.25 * index as f64)).abs() < 1e-4, "{index}");
+        for cells in [-3.77, 0.0, 2.5, 7.001, -0.4997] {
+            let placed = PlacedLobe::at(cells);
+            for half_cells in [-20, -13, 3] {
+                for (index, lobe) in placed.lobes_from(half_cells).into_iter().enumerate() {
+                    let away = f64::from(half_cells) / 2.0 + 0.5 * index as f64 - cells;
+                    let is_within = away.abs() <= REACH_CELLS;
+                    assert!(!is_within || (f64::from(lobe) - hann_lobe(away)).abs() < 1e-5, "{cells} {away}");
+                }
+            }
+            for other in [-3.77, -2.7701, 0.3, 1.49] {
+                assert!((placed.at_place_of(PlacedLobe::at(other)) - hann_lobe(cells - other)).abs() < 1e-12);
+            }
         }
     }
 }

@@ -28,10 +28,11 @@ pub(super) const COMMON_SEARCH: Search =
     Search { frame_hz_s2: 180.0, margin_share: MARGIN_SHARE, sweeps: 2, is_afresh: false, residue_share: 0.03 };
 /// The same for rotors that are close together: each stands in what another leaves behind.
 pub(super) const COMMON_SEARCH_OF_CLOSE: Search = Search { residue_share: 0.0, ..COMMON_SEARCH };
-/// And along what these have found.
+/// And along what these have found, afresh: tracks that have taken each other's rotors would stay there.
 pub(super) const CLOSE_SEARCH: Search =
-    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 2, is_afresh: false, residue_share: 0.0 };
-pub(super) const CLOSE_SEARCH_AFRESH: Search = Search { is_afresh: true, ..CLOSE_SEARCH };
+    Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 2, is_afresh: true, residue_share: 0.0 };
+/// Where rotors are close to each other nearly all the time, first from where they are.
+pub(super) const ALWAYS_CLOSE_SEARCH: Search = Search { is_afresh: false, ..CLOSE_SEARCH };
 
 /// A line at f has frames of `√(this / f)` along what rotors that bob share.
 const TOGETHER_FRAME_HZ_S2: f64 = 60.0;

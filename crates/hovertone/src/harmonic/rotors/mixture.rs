@@ -1,6 +1,6 @@
 //! Amplitudes of lines that overlap in one frame: least squares under the frame's window.
 
-use super::atoms::{REACH_CELLS, hann_lobe};
+use super::atoms::{PlacedLobe, REACH_CELLS};
 use realfft::num_complex::Complex;
 
 /// Added to the diagonal of the Gram matrix: lines much closer than a resolution cell share what is there instead of
@@ -14,42 +14,56 @@ const RIDGE: f64 = 0.02;
 pub(super) struct Mixture {
     /// Lines by place.
     order: Vec<usize>,
-    /// Row i of the factor holds its columns from `first[i]` to i.
-    first: Vec<usize>,
-    rows: Vec<Vec<Complex<f64>>>,
+    rows: Vec<Row>,
+    factors: Vec<Complex<f64>>,
+}
+
+/// A row of the factor holds its columns from `first` to its diagonal.
+#[derive(Clone, Copy)]
+struct Row {
+    first: usize,
+    /// Where column 0 would be among all factors, if the row had one.
+    offset: isize,
+}
+
+impl Row {
+    fn place(self, column: usize) -> usize {
+        (self.offset + column as isize) as usize
+    }
 }
 
 impl Mixture {
-    /// Of steady lines at `places`, in resolution cells.
-    pub(super) fn of_steady(places: &[f64]) -> Self {
-        Self::new(places, |a, b| Complex::new(hann_lobe(places[a] - places[b]), 0.0))
+    /// Of steady lines.
+    pub(super) fn of_steady(lines: &[PlacedLobe]) -> Self {
+        let gram = |a: usize, b: usize| Complex::new(lines[a].at_place_of(lines[b]), 0.0);
+        Self::new(lines.len(), |line| lines[line].cells, gram)
     }
 
-    /// Of lines around `places`, in resolution cells.
-    pub(super) fn new(places: &[f64], gram: impl Fn(usize, usize) -> Complex<f64>) -> Self {
-        let count = places.len();
+    /// Of so many lines, each around a place in resolution cells.
+    pub(super) fn new(count: usize, place: impl Fn(usize) -> f64, gram: impl Fn(usize, usize) -> Complex<f64>) -> Self {
         let mut order: Vec<usize> = (0..count).collect();
-        order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
-        let mut rows: Vec<Vec<Complex<f64>>> = Vec::with_capacity(count);
-        let mut first = vec![0usize; count];
+        order.sort_unstable_by(|&a, &b| place(a).total_cmp(&place(b)));
+        let mut rows: Vec<Row> = Vec::with_capacity(count);
+        let mut factors: Vec<Complex<f64>> = Vec::with_capacity(count * (count + 1) / 2);
         for i in 0..count {
-            first[i] = if i == 0 { 0 } else { first[i - 1] };
-            while places[order[i]] - places[order[first[i]]] > REACH_CELLS {
-                first[i] += 1;
+            let mut first = rows.last().map_or(0, |row| row.first);
+            while place(order[i]) - place(order[first]) > REACH_CELLS {
+                first += 1;
             }
-            let mut row = Vec::with_capacity(i - first[i] + 1);
-            for j in first[i]..i {
-                let mut value = gram(order[i], order[j]);
-                for k in first[i].max(first[j])..j {
-                    value -= row[k - first[i]] * rows[j][k - first[j]].conj();
-                }
-                row.push(value / rows[j][j - first[j]].re);
+            let row = Row { first, offset: factors.len() as isize - first as isize };
+            for j in first..i {
+                let other = rows[j];
+                let from = first.max(other.first);
+                let own = &factors[row.place(from)..];
+                let others = &factors[other.place(from)..other.place(j)];
+                let known: Complex<f64> = own.iter().zip(others).map(|(own, other)| own * other.conj()).sum();
+                factors.push((gram(order[i], order[j]) - known) / factors[other.place(j)].re);
             }
-            let others: f64 = row.iter().map(Complex::norm_sqr).sum();
-            row.push(Complex::new((1.0 + RIDGE - others).max(RIDGE * RIDGE).sqrt(), 0.0));
+            let others: f64 = factors[row.place(first)..].iter().map(Complex::norm_sqr).sum();
+            factors.push(Complex::new((1.0 + RIDGE - others).max(RIDGE * RIDGE).sqrt(), 0.0));
             rows.push(row);
         }
-        Self { order, first, rows }
+        Self { order, rows, factors }
     }
 
     /// The amplitudes of lines that see `seen`, but for what the ridge takes of them.
@@ -59,7 +73,8 @@ impl Mixture {
         for i in (0..solved.len()).rev() {
             solved[i] /= self.diagonal(i);
             let value = solved[i];
-            for (other, factor) in solved[self.first[i]..i].iter_mut().zip(&self.rows[i]) {
+            let first = self.rows[i].first;
+            for (other, factor) in solved[first..i].iter_mut().zip(self.columns(i, first)) {
                 *other -= value * factor.conj();
             }
         }
@@ -83,21 +98,27 @@ impl Mixture {
     /// Solves with the lower factor; nothing stands before `from`.
     fn eliminate(&self, values: &mut [Complex<f64>], from: usize) {
         for i in from..values.len() {
-            let start = self.first[i].max(from);
-            let factors = &self.rows[i][start.min(i) - self.first[i]..];
-            let known: Complex<f64> =
-                values[start.min(i)..i].iter().zip(factors).map(|(value, factor)| value * factor).sum();
+            let start = self.rows[i].first.max(from).min(i);
+            let factors = self.columns(i, start);
+            let known: Complex<f64> = values[start..i].iter().zip(factors).map(|(value, factor)| value * factor).sum();
             values[i] = (values[i] - known) / self.diagonal(i);
         }
     }
 
+    /// The factor's row i from a column to before its diagonal.
+    fn columns(&self, i: usize, from: usize) -> &[Complex<f64>] {
+        let row = self.rows[i];
+        &self.factors[row.place(from)..row.place(i)]
+    }
+
     fn diagonal(&self, i: usize) -> f64 {
-        self.rows[i][i - self.first[i]].re
+        self.factors[self.rows[i].place(i)].re
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::atoms::hann_lobe;
     use super::*;
 
     #[test]
@@ -113,13 +134,13 @@ mod tests {
                 others + own * RIDGE
             })
             .collect();
-        let mixture = Mixture::of_steady(&places);
+        let mixture = Mixture::of_steady(&places.map(PlacedLobe::at));
         for (got, wanted) in mixture.amplitudes(&seen).iter().zip(&wanted) {
             assert!((got - wanted).norm() < 1e-9);
         }
         // a line by itself is all its own; two in one place explain each other
         assert!((mixture.share_of_its_own(6) - 1.0 + RIDGE).abs() < 1e-9);
-        let twice = Mixture::of_steady(&[1.0, 1.0]);
+        let twice = Mixture::of_steady(&[1.0, 1.0].map(PlacedLobe::at));
         let both = twice.amplitudes(&[Complex::new(1.0, 0.0); 2]);
         assert!((both[0] - both[1]).norm() < 1e-9 && (both[0].re - 0.5).abs() < 0.02);
         assert!(twice.share_of_its_own(0) < 0.001);

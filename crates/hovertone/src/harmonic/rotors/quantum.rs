@@ -9,7 +9,7 @@ use super::RoughQuantum;
 use super::atoms::ChannelAtoms;
 use super::grid::OffsetGrid;
 use super::hearing::{
-    Apart, CLOSE_SEARCH, CLOSE_SEARCH_AFRESH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, Hearing, MARGIN_SHARE,
+    ALWAYS_CLOSE_SEARCH, Apart, CLOSE_SEARCH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, Hearing, MARGIN_SHARE,
     OWN_FRAME_HZ_S2,
 };
 use super::identity::TrackFrame;
@@ -36,6 +36,9 @@ const FIRST_RESIDUE_SHARE: f32 = 0.06;
 /// Where two rotors are closer than so many of those cells in such a share of the frames, longer ones tell them apart better.
 const CLOSE_CELLS: f64 = 2.0;
 const CLOSE_SHARE: f64 = 0.3;
+/// And in such a share, two searches better than one: of rotors 0.1 % apart all four are right in 0.948 of the frames of 20 clips, and in
+/// 0.938 by one. That is not so 0.3 % apart.
+const ALWAYS_CLOSE_SHARE: f64 = 0.8;
 /// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
 /// noise alone follows its maxima.
 const HEARD_MARGIN: f64 = 3.0;
@@ -138,7 +141,8 @@ pub(super) fn rotors_of_quantum(
     drop(spectra);
     if are_close(&apart.tracks()) {
         frame_hz_s2 = CLOSE_SEARCH.frame_hz_s2;
-        for search in [CLOSE_SEARCH, CLOSE_SEARCH_AFRESH] {
+        let are_always_close = share_close(&apart.tracks(), close_rev_s) > ALWAYS_CLOSE_SHARE;
+        for search in are_always_close.then_some(ALWAYS_CLOSE_SEARCH).into_iter().chain([CLOSE_SEARCH]) {
             let finer = hearing.searched(&apart.tracks(), search);
             apart = apart.or_better(finer);
         }

@@ -1,6 +1,6 @@
 //! What speaks for one more rotor at each speed: the likelihood of all its lines, beside rotors that are known and echoes.
 
-use super::atoms::{ChannelAtoms, HannLobes, REACH_CELLS};
+use super::atoms::{ChannelAtoms, PlacedLobe, REACH_CELLS};
 use super::grid::OffsetGrid;
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
@@ -135,7 +135,7 @@ struct LeftBeside {
     energy_left: Vec<f32>,
     /// Noise and what the others leave behind.
     floor: Vec<f32>,
-    places: Vec<f64>,
+    places: Vec<PlacedLobe>,
     seen: Vec<Complex<f64>>,
 }
 
@@ -153,7 +153,7 @@ impl LeftBeside {
             for order in &atoms.orders {
                 let cells = (order * (common_rev_s + other) - line.order * common_rev_s) * line.frame_s;
                 if let Some(z) = line.at(frame, cells).filter(|_| reached.contains(&cells)) {
-                    places.push(cells);
+                    places.push(PlacedLobe::at(cells));
                     seen.push(z);
                 }
             }
@@ -167,22 +167,22 @@ impl LeftBeside {
         floor.clear();
         floor.resize(left.len(), 1.0);
         let step_cells = line.cells_of(1) - line.cells_of(0);
-        for (cells, amplitude) in places.iter().zip(Mixture::of_steady(places).amplitudes(seen)) {
+        for (place, amplitude) in places.iter().zip(Mixture::of_steady(places).amplitudes(seen)) {
             let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
             let bin_of = |cells: f64| line.bin_of(cells) - bins.start as f64;
-            let from = bin_of(cells - REACH_CELLS).ceil().max(0.0) as usize;
-            let to = ((bin_of(cells + REACH_CELLS).floor() + 1.0).max(0.0) as usize).min(left.len());
+            let from = bin_of(place.cells - REACH_CELLS).ceil().max(0.0) as usize;
+            let to = ((bin_of(place.cells + REACH_CELLS).floor() + 1.0).max(0.0) as usize).min(left.len());
             if from >= to {
                 continue;
             }
-            let first_cells = line.cells_of(bins.start + from) - cells;
-            let lobes = HannLobes::from(first_cells, step_cells);
+            let lobes = place.lobes_from(line.half_cells_of(bins.start + from));
             for ((left, energy), lobe) in left[from..to].iter_mut().zip(&mut energy_left[from..to]).zip(lobes) {
                 *left -= amplitude * lobe;
                 *energy *= 1.0 - lobe * lobe;
             }
             let residue = *residue_share * amplitude.norm_sqr();
             if residue > RESIDUE_MIN {
+                let first_cells = line.cells_of(bins.start + from) - place.cells;
                 let (first, step) = (first_cells as f32 / RESIDUE_CELLS, step_cells as f32 / RESIDUE_CELLS);
                 for (floor, index) in floor[from..to].iter_mut().zip(0i16..) {
                     let away = first + f32::from(index) * step;

@@ -185,7 +185,7 @@ impl MixedChannel {
                 let (a, b) = (&self.atoms[a].phasors[from..to], &self.atoms[b].phasors[from..to]);
                 weighted_product(b, a, window) / weight
             };
-            let mixture = Mixture::new(&places, gram);
+            let mixture = Mixture::new(places.len(), |atom| places[atom], gram);
             let solved = mixture.amplitudes(&seen);
             for (index, (atom, amplitude)) in self.atoms.iter_mut().zip(solved).enumerate() {
                 atom.amplitudes.push(amplitude);

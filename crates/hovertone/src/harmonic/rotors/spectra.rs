@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 
 /// Ticks from one frame to the next: 0.04 s.
 pub(super) const FRAME_TICKS: usize = TICKS_PER_HOP / 2;
+/// Bins are half a resolution cell apart.
 const ZERO_PAD_FACTOR: usize = 2;
 
 /// The frames of one line.
@@ -157,6 +158,11 @@ impl LineSpectra {
     /// Resolution cells of a bin from the shared speed.
     pub(super) fn cells_of(&self, bin: usize) -> f64 {
         (bin as f64 - self.half_bins as f64) / ZERO_PAD_FACTOR as f64
+    }
+
+    /// The same in halves of a cell.
+    pub(super) fn half_cells_of(&self, bin: usize) -> i32 {
+        bin as i32 - self.half_bins as i32
     }
 
     /// The spectrum between its bins, by the polynomial through the six around; `None` beyond the edge.
