@@ -134,7 +134,8 @@ impl RotorTracks {
     }
 
     /// How far the mean of a rotor may be from its track's, in each hover alike: where all bob, frames cut off where they turn round, and hear
-    /// more of where they are loud. Of 37 simulated flights in a room with rotors 1 and 2 % apart, 0.068 % rms where this is 0.063 %.
+    /// more of where they are loud. Of 37 simulated flights in a room with rotors 1 and 2 % apart, 0.011 % rms where this is 0.063 %; where
+    /// gusts and commands are ten times as strong, 0.08 % of 16.
     fn of_bobbing_rev_s(&self) -> f64 {
         BOBBING_RESOLUTIONS * self.resolution_rev_s * self.bobbing_s / self.length_s.max(f64::MIN_POSITIVE)
     }

@@ -1,10 +1,11 @@
 //! Several rotors told apart from one microphone.
 //!
-//! In each quantum of up to ten seconds: spectra of all lines in short frames (`spectra`); a path for each rotor with the
-//! others taken away (`search`), once in a wide band of speeds, which misses none, and again in what is then known to hold them all;
-//! the amplitudes of all lines solved for together, so that each rotor is heard alone
-//! (`separation`) and its path is known more finely (`retrace`); and then the same likelihood as for a single rotor
-//! (`coherence`, `join`). Which rotor is which, where they cross, their loudness tells (`identity`).
+//! In each quantum of up to ten seconds: what they share, where the vehicle bobs (`motion`); spectra of all lines in short frames along
+//! it (`spectra`); a path for each rotor with the others taken away (`search`, `scores`), once in a wide band of speeds, which misses
+//! none, and again in what is then known to hold them all; the amplitudes of all lines solved for together, so that each rotor is heard
+//! alone (`separation`) and its path is known more finely (`retrace`), or all of them as one pattern, where they bob (`together`); and
+//! then the same likelihood as for a single rotor (`coherence`, `join`). Which rotor is which, where they cross, their loudness tells
+//! (`identity`).
 
 mod atoms;
 mod grid;
