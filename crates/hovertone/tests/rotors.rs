@@ -139,7 +139,7 @@ fn four_rotors_are_told_apart_where_two_of_them_cross() {
 
 #[test]
 fn rotors_that_bob_together_keep_their_distances() {
-    // 13 % in a second at its fastest, by twice what neighbours are apart
+    // 13 % in a second at its fastest, by 1.4 times what neighbours are apart to either side
     let bobbing = |mean_rev_s| Rotor { swing_share: 0.014, swing_hz: 1.5, ..Rotor::at(mean_rev_s) };
     let rotors = [61.1, 60.5, 59.9, 59.3].map(bobbing);
     let analysis = heard(&rotors, 11);

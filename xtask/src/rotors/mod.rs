@@ -123,6 +123,7 @@ within 0.2 s.
 - identity: share of rotors and frames that are right under one labelling for the whole clip.
 - median: of the error of one rotor in one frame. mean square: rms over clips of the error of ⟨ω²⟩, which is what carries the
   weight. worst: the largest of these. within 2 u: share of rotors and frames within twice the stated uncertainty of a point.
+- times real time: each clip on one core, two at once.
 - in brackets: what was aimed at.
 
 | sound | answered | set | identity | median, % | mean square, % | worst, % | within 2 u | times real time |

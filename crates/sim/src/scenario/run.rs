@@ -5,6 +5,7 @@ use super::truth::{Means, ScenarioTruth, SpanTruth};
 use super::{Scenario, ScenarioError};
 use crate::control::{Command, Pilot};
 use crate::flight::{Flight, FlightState};
+use crate::flight_settings::Start;
 use crate::sound::{FlightSound, RotorState, SoundState};
 
 /// A run, in a fixed amount of memory but for one entry per hover.
@@ -58,10 +59,11 @@ impl ScenarioRun {
         let pilot = flight.pilot(first.setpoint);
         let period_s = scenario.flight.vehicle.controller.period_s.value;
         let jitter = scenario.jitter.map(|jitter| Jitter::new(&jitter, period_s, scenario.flight.seed));
-        if let Some(jitter) = jitter.as_ref().filter(|_| first.motors_on) {
+        if let (Some(jitter), Start::Hover(_)) = (&jitter, scenario.flight.start) {
             // as if it had hovered before: a controller that is suddenly asked for another climb than it has would kick all rotors
             let mut body = flight.body();
-            body.velocity_m_s.z += jitter.now().climb * scenario.flight.vehicle.controller.climb_m_s_max.value;
+            body.velocity_m_s.z +=
+                jitter.now().limited().climb * scenario.flight.vehicle.controller.climb_m_s_max.value;
             flight.place_body(&body);
         }
         let state = flight.state();

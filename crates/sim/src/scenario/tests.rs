@@ -102,6 +102,11 @@ fn a_hover_with_an_unsteady_hand_begins_in_full_swing() {
     for (first, rest) in (1..6).map(of_seed) {
         assert!(first < 0.8 * rest, "{first} {rest}");
     }
+    // on the ground nothing moves yet
+    let (_, rows, _) = run("[flight]\nstarts_on_ground = true\n[sound]\nsample_rate_hz = 8000\n[ground]\n\
+         [[microphone]]\nposition_m = [1, 0, 0.5]\n[pilot]\njitter = { climb_std = 0.079 }\n\
+         [[maneuver]]\nkind = \"take_off\"\nheight_m = 0.5\nduration_s = 1");
+    assert_eq!(rows[0].velocity_m_s, [0.0; 3]);
 }
 
 #[test]

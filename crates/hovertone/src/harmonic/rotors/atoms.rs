@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 
 /// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there.
 pub(super) const REACH_CELLS: f64 = 6.0;
-/// Places half a cell apart within that reach to either side.
-const LOBE_PLACES: usize = 28;
+/// Places half a cell apart within that reach to either side, rounded up to whole vectors.
+const LOBE_PLACES: usize = (4 * REACH_CELLS as usize + 1).next_multiple_of(4);
 /// Below this the quotient of the lobe loses its digits.
 const LOBE_DENOMINATOR_MIN: f32 = 0.02;
 /// Lines closer than this share one lobe; their amplitudes cannot be told apart.

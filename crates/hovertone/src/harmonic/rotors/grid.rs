@@ -30,10 +30,13 @@ impl OffsetGrid {
         self.points
     }
 
-    /// The score at an offset, between those of the points around it.
+    /// The score at an offset, between those of the points around it; nothing speaks for what lies outside.
     pub(super) fn score_at(&self, scores: &[f64], offset_rev_s: f64) -> f64 {
-        let place = ((offset_rev_s - self.first_rev_s) / self.step_rev_s).clamp(0.0, self.points as f64 - 1.0);
+        let place = (offset_rev_s - self.first_rev_s) / self.step_rev_s;
         let (below, share) = (place as usize, place.fract());
+        if place < 0.0 || below >= self.points {
+            return 0.0;
+        }
         let (own, next) = (scores[below], scores[(below + 1).min(self.points - 1)]);
         own + share * (next - own)
     }

@@ -38,7 +38,8 @@ pub(super) const ALWAYS_CLOSE_SEARCH: Search = Search { is_afresh: false, ..CLOS
 const TOGETHER_FRAME_HZ_S2: f64 = 60.0;
 /// Times that the rotors are drawn as one pattern, each time along what they shared before.
 const TOGETHER_ROUNDS: usize = 3;
-/// In a room with a reverberation time of 0.5 s this share of the power is still there a frame later. 0.2 to 0.6 do alike.
+/// In a room with a reverberation time of 0.5 s this share of the power is still there a frame later. 0.2 to 0.6 do alike. These frames overlap,
+/// so that sound that holds still counts less as well: this is for what moves by a cell or so from one to the next.
 const ECHO_SHARE: f32 = 0.3;
 
 /// How the rotors are looked for beside each other.
@@ -210,17 +211,15 @@ impl<'a, 'p> Hearing<'a, 'p> {
     /// The rotors once more as one pattern, where that explains more of what is not an echo: a path that lags behind explains the
     /// echoes as well, and so leaves less of the sound than the right one.
     pub(super) fn together(&mut self, apart: Apart) -> Apart {
-        let reach_rev_s = MARGIN_SHARE * self.middle_rev_s;
+        let frame_s = Pace::Steady.frame_s_of_order(TOGETHER_FRAME_HZ_S2, self.middle_rev_s);
         let found = apart.tracks();
         let mut tracks = found.clone();
-        let mut gain = 0.0;
+        let mut scores = FrameScores::default();
         for _ in 0..TOGETHER_ROUNDS {
-            let frame_s = Pace::Steady.frame_s_of_order(TOGETHER_FRAME_HZ_S2, self.middle_rev_s);
-            let scores = self.scores(&self.quantum.series, &tracks, frame_s, ECHO_SHARE);
-            tracks = scores.moved_as_one(&tracks, reach_rev_s);
-            gain = scores.total(&tracks) - scores.total(&found);
+            scores = self.scores(&self.quantum.series, &tracks, &frame_s, ECHO_SHARE);
+            tracks = scores.moved_as_one(&tracks, MARGIN_SHARE * self.middle_rev_s);
         }
-        if gain > 0.0 {
+        if scores.total(&tracks) > scores.total(&found) {
             let paths = tracks.into_iter().filter_map(|track| path_through(track, self.quantum)).collect();
             self.apart(paths).worth_as_much_as(apart)
         } else {

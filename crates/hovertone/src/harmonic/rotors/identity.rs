@@ -4,6 +4,8 @@
 //! speed continuous and its lines as loud, against each other, as they were: loudness is what tells rotors apart that have
 //! come out of a crossing.
 
+use super::pace::Pace;
+
 /// A rotor's speed is where its last speed and slopes put it, to within this; further, where its line is not apart from
 /// another rotor's.
 const STEP_STD_REV_S: f64 = 0.05;
@@ -34,21 +36,6 @@ pub(super) struct TrackFrame {
     pub(super) is_heard: bool,
 }
 
-/// The tracks about what they share: where rotors bob, that moves by more from frame to frame than they are apart.
-pub(super) fn about_their_mean(mut tracks: Vec<Vec<TrackFrame>>) -> Vec<Vec<TrackFrame>> {
-    let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
-    let count = tracks.len() as f64;
-    for frame in 0..frames {
-        let of_all = |value: fn(&TrackFrame) -> f64| tracks.iter().map(|track| value(&track[frame])).sum::<f64>();
-        let (speed, slope) = (of_all(|own| own.speed_rev_s) / count, of_all(|own| own.slope_rev_s2) / count);
-        for own in tracks.iter_mut().map(|track| &mut track[frame]) {
-            own.speed_rev_s -= speed;
-            own.slope_rev_s2 -= slope;
-        }
-    }
-    tracks
-}
-
 /// What is known of the rotors from what came before.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Identity {
@@ -59,7 +46,7 @@ pub(super) struct Identity {
 
 impl Identity {
     /// For each frame, the track of each rotor: `labelling[frame][rotor]`.
-    pub(super) fn labelled(&mut self, tracks: &[Vec<TrackFrame>], frame_s: f64) -> Vec<Vec<usize>> {
+    pub(super) fn labelled(&mut self, tracks: &[Vec<TrackFrame>], frame_s: f64, pace: Pace) -> Vec<Vec<usize>> {
         let count = tracks.len();
         let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
         let unchanged: Vec<usize> = (0..count).collect();
@@ -74,7 +61,7 @@ impl Identity {
             } else {
                 self.templates(tracks, &labellings, &path, frame_s, pass == 0)
             };
-            path = self.best_sequence(tracks, &labellings, &templates, frame_s);
+            path = self.best_sequence(tracks, &labellings, &templates, (frame_s, pace));
         }
         let labelled: Vec<Vec<usize>> = path.iter().map(|&place| labellings[place].clone()).collect();
         let templates = self.templates(tracks, &labellings, &path, frame_s, false);
@@ -140,7 +127,7 @@ impl Identity {
         tracks: &[Vec<TrackFrame>],
         labellings: &[Vec<usize>],
         templates: &[Vec<Vec<Option<f64>>>],
-        frame_s: f64,
+        (frame_s, pace): (f64, Pace),
     ) -> Vec<usize> {
         let count = tracks.len();
         let frame_of = |frame: usize| -> Vec<&TrackFrame> { tracks.iter().map(|track| &track[frame]).collect() };
@@ -149,7 +136,7 @@ impl Identity {
         for (frame, templates) in templates.iter().enumerate() {
             let now = frame_of(frame);
             let before = if frame == 0 { self.last.iter().collect() } else { frame_of(frame - 1) };
-            let steps = step_costs(&before, &now, frame_s);
+            let steps = step_costs(&before, &now, frame_s, pace);
             let mut origin = vec![0; labellings.len()];
             let mut next = vec![0.0; labellings.len()];
             for ((origin, next), labelling) in origin.iter_mut().zip(&mut next).zip(labellings) {
@@ -183,15 +170,25 @@ impl Identity {
     }
 }
 
-/// What it costs each rotor of one frame to be each track of the next.
-fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64) -> Vec<Vec<f64>> {
-    let slope = |frame: &TrackFrame| frame.slope_rev_s2.clamp(-SLOPE_REV_S2_MAX, SLOPE_REV_S2_MAX);
+/// What it costs each rotor of one frame to be each track of the next. Where rotors bob, that is by how it moves against the others: what
+/// they share changes by more from frame to frame than they are apart.
+fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64, pace: Pace) -> Vec<Vec<f64>> {
+    let shared = |value: fn(&TrackFrame) -> f64, frames: &[&TrackFrame]| match pace {
+        Pace::Steady => 0.0,
+        Pace::Bobbing => frames.iter().map(|frame| value(frame)).sum::<f64>() / frames.len() as f64,
+    };
+    let shared_step = shared(|frame| frame.speed_rev_s, now) - shared(|frame| frame.speed_rev_s, before);
+    let slope = |frame: &TrackFrame, all: &[&TrackFrame]| {
+        let own = frame.slope_rev_s2 - shared(|frame| frame.slope_rev_s2, all);
+        own.clamp(-SLOPE_REV_S2_MAX, SLOPE_REV_S2_MAX)
+    };
     before
         .iter()
         .map(|from| {
             now.iter()
                 .map(|to| {
-                    let expected = from.speed_rev_s + frame_s * (slope(from) + slope(to)) / 2.0;
+                    let own_step = frame_s * (slope(from, before) + slope(to, now)) / 2.0;
+                    let expected = from.speed_rev_s + shared_step + own_step;
                     let std = if from.is_close() || to.is_close() { STEP_STD_REV_S_CLOSE } else { STEP_STD_REV_S };
                     STEP_COST * (((to.speed_rev_s - expected) / std).powi(2) / STEP_COST).ln_1p()
                 })
@@ -255,14 +252,14 @@ mod tests {
             })
             .collect();
         let mut identity = Identity::default();
-        let labelled = identity.labelled(&tracks, 0.04);
+        let labelled = identity.labelled(&tracks, 0.04, Pace::Steady);
         assert!(labelled[..10].iter().all(|labelling| labelling == &labelled[0]));
         assert!(labelled[10..].iter().all(|labelling| labelling == &labelled[10]));
         assert_eq!(labelled[0][0], labelled[10][1]);
         assert_eq!(labelled[0][2], labelled[10][2]);
         // what comes next keeps the names, whatever the order of the tracks
         let turned: Vec<Vec<TrackFrame>> = [2, 0, 1].iter().map(|&track| tracks[track][10..].to_vec()).collect();
-        let next = identity.labelled(&turned, 0.04);
+        let next = identity.labelled(&turned, 0.04, Pace::Steady);
         let of_before = |rotor: usize| tracks[labelled[29][rotor]][29].speed_rev_s;
         assert!((0..3).all(|rotor| turned[next[0][rotor]][0].speed_rev_s == of_before(rotor)));
     }
@@ -277,10 +274,15 @@ mod tests {
                 (0..40).map(|index| TrackFrame { speed_rev_s: speed(index), ..TrackFrame::default() }).collect()
             })
             .collect();
-        let labelled = Identity::default().labelled(&about_their_mean(tracks), 0.04);
+        let mut identity = Identity::default();
+        let labelled = identity.labelled(&tracks, 0.04, Pace::Bobbing);
         let rotor = |place: usize, index: usize| (labelled[index][place] + index) % 3;
         assert!((0..3).all(|place| (0..40).all(|index| rotor(place, index) == rotor(place, 0))));
-        assert!(about_their_mean(Vec::new()).is_empty());
+        // and where they are steady again, from where they were
+        let steady =
+            |track: usize| vec![TrackFrame { speed_rev_s: tracks[track][39].speed_rev_s, ..TrackFrame::default() }; 5];
+        let next = identity.labelled(&[steady(2), steady(0), steady(1)], 0.04, Pace::Steady);
+        assert!((0..3).all(|place| [2, 0, 1][next[4][place]] == labelled[39][place]));
     }
 
     #[test]

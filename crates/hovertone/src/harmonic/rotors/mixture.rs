@@ -22,13 +22,13 @@ pub(super) struct Mixture {
 #[derive(Clone, Copy)]
 struct Row {
     first: usize,
-    /// Where column 0 would be among all factors, if the row had one.
-    offset: isize,
+    /// Where that one is among all factors.
+    start: usize,
 }
 
 impl Row {
     fn place(self, column: usize) -> usize {
-        (self.offset + column as isize) as usize
+        self.start + column - self.first
     }
 }
 
@@ -50,7 +50,7 @@ impl Mixture {
             while place(order[i]) - place(order[first]) > REACH_CELLS {
                 first += 1;
             }
-            let row = Row { first, offset: factors.len() as isize - first as isize };
+            let row = Row { first, start: factors.len() };
             for j in first..i {
                 let other = rows[j];
                 let from = first.max(other.first);

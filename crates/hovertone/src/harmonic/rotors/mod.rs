@@ -3,7 +3,7 @@
 //! In each quantum of up to ten seconds: what they share, where the vehicle bobs (`motion`); spectra of all lines in short frames along
 //! it (`spectra`); a path for each rotor with the others taken away (`search`, `scores`), once in a wide band of speeds, which misses
 //! none, and again in what is then known to hold them all; the amplitudes of all lines solved for together, so that each rotor is heard
-//! alone (`separation`) and its path is known more finely (`retrace`), or all of them as one pattern, where they bob (`together`); and
+//! alone (`separation`) and its path is known more finely (`retrace`), and then all of them as one pattern, where they bob (`together`); and
 //! then the same likelihood as for a single rotor (`coherence`, `join`). Which rotor is which, where they cross, their loudness tells
 //! (`identity`).
 
@@ -32,7 +32,7 @@ use crate::channel::ChannelBand;
 use crate::span::Span;
 use crate::statistics::median;
 use atoms::{ChannelAtoms, atoms_of};
-use identity::{Identity, TrackFrame, about_their_mean};
+use identity::{Identity, TrackFrame};
 use pace::Pace;
 use quantum::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_quantum, rough_tracks};
 use rustfft::FftPlanner;
@@ -232,10 +232,7 @@ impl QuantumListener for RotorTracer {
         let heard = rotors_of_quantum(quantum, &self.atoms, &rough, &mut self.planner);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
-        let labelling = match rough.pace {
-            Pace::Steady => self.identity.labelled(&frames, frame_s),
-            Pace::Bobbing => self.identity.labelled(&about_their_mean(frames.clone()), frame_s),
-        };
+        let labelling = self.identity.labelled(&frames, frame_s, rough.pace);
         let place = (start_s, tick_s);
         let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
         self.tracks.resolution_rev_s = self.tracks.resolution_rev_s.max(resolution_rev_s);
@@ -247,6 +244,7 @@ impl QuantumListener for RotorTracer {
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;
         self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * length_s;
         let phases_kept: Vec<f64> = heard.iter().filter_map(|rotor| rotor.phase_kept).collect();
+        // frames as short as rotors that bob ask for make all lines wide
         let are_wide = rough.pace == Pace::Bobbing || median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);
         let apart_rev_s = if are_wide { WIDE_LINE_FACTOR * resolution_rev_s } else { resolution_rev_s };
         let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];

@@ -2,7 +2,7 @@
 
 use super::super::path::SpeedPath;
 use super::super::quanta::Quantum;
-use super::identity::{Identity, TrackFrame, about_their_mean};
+use super::identity::{Identity, TrackFrame};
 use super::pace::Pace;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks};
 
@@ -40,8 +40,7 @@ pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, quantum: &
         .iter()
         .map(|track| track.iter().map(|&speed_rev_s| TrackFrame { speed_rev_s, ..TrackFrame::default() }).collect())
         .collect();
-    let frames = if pace == Pace::Bobbing { about_their_mean(frames) } else { frames };
-    let labelling = Identity::default().labelled(&frames, frame_s);
+    let labelling = Identity::default().labelled(&frames, frame_s, pace);
     (0..speeds_rev_s.len())
         .filter_map(|rotor| {
             path_through(

@@ -26,9 +26,10 @@ pub(super) struct Trust<'a> {
     /// Power that a rotor leaves around its lines when it is taken away, as a share of its own: neither its path nor its level is
     /// quite what is assumed.
     pub(super) residue_share: f32,
-    /// Power that is still heard a frame later where it was, as a share: what the walls send back counts as noise.
+    /// Power that is still heard where it was in the next frame, as a share: what the walls send back counts as noise.
     pub(super) echo_share: f32,
 }
+
 /// What a line's likelihood counts for: itself where it is weak, which is what tells most in noise; its logarithm where it is strong:
 /// what is left of a strong line after it was taken away must not outvote the lines of a weak rotor.
 pub(super) fn worth(likelihood: f64) -> f64 {
@@ -74,7 +75,7 @@ impl<'a> GridScores<'a> {
             lines: lines.collect(),
             common_rev_s: &spectra.common_rev_s,
             residue_share: trust.residue_share,
-            echo_share: trust.echo_share.powi(spectra.frames_apart() as i32),
+            echo_share: trust.echo_share,
             points: grid.points(),
         }
     }
@@ -200,10 +201,10 @@ impl LeftBeside {
         let moved_bins = line.bin_of(line.order * moved_rev_s * line.frame_s) - line.bin_of(0.0);
         let whole = moved_bins.floor();
         let share = (moved_bins - whole) as f32;
+        let whole = whole as isize;
         let power = |bin: Option<usize>| bin.and_then(|bin| before.get(bin)).map_or(0.0, Complex::norm_sqr);
         for (likelihood, bin) in self.likelihoods.iter_mut().zip(bins.clone()) {
-            let bin = bin.checked_add_signed(whole as isize);
-            let (own, next) = (power(bin), power(bin.map(|bin| bin + 1)));
+            let (own, next) = (power(bin.checked_add_signed(whole)), power(bin.checked_add_signed(whole + 1)));
             *likelihood /= 1.0 + echo_share * (own + share * (next - own));
         }
     }

@@ -3,6 +3,7 @@
 
 use super::super::best_path::best_path;
 use super::grid::OffsetGrid;
+use super::paths::{offsets_from, smoothed_mean};
 use crate::statistics::{mean, median};
 use std::ops::RangeInclusive;
 
@@ -47,6 +48,9 @@ impl FrameScores {
     /// The tracks as a pattern: it moves as a whole to where most speaks for it, by up to `reach_rev_s` from where it is known to be;
     /// and along that each rotor goes slowly to where most speaks for it alone.
     pub(super) fn moved_as_one(&self, tracks: &[Vec<f64>], reach_rev_s: f64) -> Vec<Vec<f64>> {
+        if self.frames() == 0 {
+            return tracks.to_vec();
+        }
         let offsets = slow_offsets(tracks);
         let shared_rev_s = self.shared_motion(&offsets, reach_rev_s);
         let along =
@@ -92,6 +96,7 @@ impl FrameScores {
         let scores: Vec<Vec<f64>> = (0..self.frames())
             .map(|frame| {
                 let side = own_side(rotor, offsets_rev_s, frame);
+                // of alike rotors one has no side but where it is
                 let known = ((own[frame] - low) / self.grid.step_rev_s).round() as usize;
                 let at = |place: usize| {
                     let is_barred = place != known && !side.contains(&offset_rev_s(place));
@@ -123,15 +128,11 @@ fn own_side(rotor: usize, offsets_rev_s: &[Vec<f64>], frame: usize) -> RangeIncl
 
 /// How far each track is from the mean of all, over some tenths of a second.
 fn slow_offsets(tracks: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let frames = tracks.first().map_or(0, Vec::len);
-    let middles: Vec<f64> =
-        (0..frames).map(|frame| tracks.iter().map(|track| track[frame]).sum::<f64>() / tracks.len() as f64).collect();
-    let near = |frame: usize| frame.saturating_sub(SLOW_FRAMES)..(frame + SLOW_FRAMES + 1).min(frames);
-    let slow = |track: &Vec<f64>| {
-        let offsets: Vec<f64> = track.iter().zip(&middles).map(|(speed, middle)| speed - middle).collect();
-        (0..frames).map(|frame| median(&offsets[near(frame)]).unwrap_or_default()).collect()
+    let slow = |offsets: Vec<f64>| {
+        let near = |frame: usize| frame.saturating_sub(SLOW_FRAMES)..(frame + SLOW_FRAMES + 1).min(offsets.len());
+        (0..offsets.len()).map(|frame| median(&offsets[near(frame)]).unwrap_or_default()).collect()
     };
-    tracks.iter().map(slow).collect()
+    offsets_from(tracks, &smoothed_mean(tracks, 0)).into_iter().map(slow).collect()
 }
 
 /// How far the top of a parabola through a point and its neighbours is from it.
@@ -190,7 +191,7 @@ mod tests {
             assert!(errors.iter().filter(|error| error.abs() < 0.15).count() > 110, "{real}: {errors:?}");
         }
         assert!(scores.total(&found) > scores.total(&tracks));
-        assert!(FrameScores::default().moved_as_one(&[], 1.8).is_empty());
+        assert_eq!(FrameScores::default().moved_as_one(&tracks, 1.8), tracks);
     }
 
     #[test]
