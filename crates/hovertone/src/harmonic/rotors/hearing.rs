@@ -219,7 +219,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
             scores = self.scores(&self.quantum.series, &tracks, &frame_s, ECHO_SHARE);
             tracks = scores.moved_as_one(&tracks, MARGIN_SHARE * self.middle_rev_s);
         }
-        if scores.total(&tracks) > scores.total(&found) {
+        if scores.speak_more_for(&tracks, &found) {
             let paths = tracks.into_iter().filter_map(|track| path_through(track, self.quantum)).collect();
             self.apart(paths).worth_as_much_as(apart)
         } else {
