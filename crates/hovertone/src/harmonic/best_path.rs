@@ -9,8 +9,6 @@ pub(super) fn best_path(scores: &[impl AsRef<[f64]>], step_std: f64) -> Vec<usiz
     let points = total.len();
     let mut next = vec![0.0; points];
     let curvature = 1.0 / (2.0 * step_std * step_std);
-    // of points so far apart, how much the crossing of their parabolas shifts by a difference of their totals
-    let shift_of_difference: Vec<f64> = (0..points).map(|apart| 1.0 / (2.0 * curvature * apart as f64)).collect();
     let mut from = vec![0u32; points * rest.len()];
     let (mut places, mut borders) = (vec![0usize; points], vec![0.0f64; points + 1]);
     for (score, origin) in rest.iter().zip(from.chunks_exact_mut(points.max(1))) {
@@ -18,7 +16,10 @@ pub(super) fn best_path(scores: &[impl AsRef<[f64]>], step_std: f64) -> Vec<usiz
         places[0] = 0;
         (borders[0], borders[1]) = (f64::NEG_INFINITY, f64::INFINITY);
         for q in 1..points {
-            let crossing = |p: usize| (q + p) as f64 / 2.0 + (total[p] - total[q]) * shift_of_difference[q - p];
+            let crossing = |p: usize| {
+                let (qf, pf) = (q as f64, p as f64);
+                ((curvature * qf * qf - total[q]) - (curvature * pf * pf - total[p])) / (2.0 * curvature * (qf - pf))
+            };
             let mut s = crossing(places[last]);
             while s <= borders[last] && last > 0 {
                 last -= 1;
