@@ -5,7 +5,7 @@ use crate::spectrogram_args::SpectrogramArguments;
 use crate::thrust_args::{CompareArguments, ExportArguments, FitArguments, IdentifyArguments, WeighArguments};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use hovertone::Method;
+use hovertone::speed::Method;
 use hovertone_vehicle::Gear;
 use std::path::PathBuf;
 

@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use crate::recording::{Hearing, Job};
-use hovertone::{PictureConfig, Pictures, Span, pictures_from_source, views_of_recording};
+use hovertone::speed::Span;
 use hovertone_figures::Trial;
+use hovertone_figures::{PictureConfig, Pictures, pictures_from_source, views_of_recording};
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_page::{SoundClip, clip_from_source};
 use hovertone_report::SpeedRecord;
@@ -68,7 +69,7 @@ pub(crate) fn trial_of<'a>(
         recording: &record.file,
         analysis: record.analysis(),
         reason,
-        method: record.config.method,
+        method: record.method,
         pictures: drawing.map(|drawing| &drawing.pictures),
     }
 }

@@ -3,7 +3,7 @@
 use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
 use crate::thrust_args::ExportArguments;
-use hovertone::PROPELLER_DIAMETER_M;
+use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_exchange::{IdentifiedRotor, export_text, identified_from_results};
 use std::fs;
 use std::path::Path;

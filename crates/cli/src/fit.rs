@@ -5,8 +5,10 @@ use crate::files::sha256_of_bytes;
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
 use crate::thrust_args::FitArguments;
-use hovertone::{
-    FitError, ForcePoint, Gravity, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, Warning,
+
+use hovertone::thrust::regression::FitError;
+use hovertone::thrust::{
+    ForcePoint, Gravity, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
     figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit, torque_constant_n_m_s2,
     warnings_of_points,
 };
@@ -115,20 +117,20 @@ fn fitted_table(
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
     let mut warnings = warnings_of_points(&points, &fit, is_weighed.then_some(plan.gravity.m_s2));
     let voltages: Vec<Option<f64>> = group.rows.iter().map(|row| row.voltage_v).collect();
-    warnings.extend(row_drifts(&points, &voltages).into_iter().map(Warning::ConstantDrifts));
+    warnings.extend(row_drifts(&points, &voltages).into_iter().map(ThrustWarning::ConstantDrifts));
     let figure_of_merit = merit_of(group, &points, plan);
     warnings.extend(figure_of_merit.filter(|merit| !is_plausible_merit(*merit)).map(|figure_of_merit| {
-        Warning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
+        ThrustWarning::ImplausibleFigureOfMerit { name: "at the largest thrust".to_owned(), figure_of_merit }
     }));
     warnings.extend(
         coefficients
             .filter(|both| !both.is_plausible)
-            .map(|both| Warning::ImplausibleThrustCoefficient { propeller: both.propeller }),
+            .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
     );
     let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
     let stated = points.iter().filter(has_std).count();
     if is_stated && stated < points.len() {
-        warnings.push(Warning::UncertaintiesIncomplete { stated, of: points.len() });
+        warnings.push(ThrustWarning::UncertaintiesIncomplete { stated, of: points.len() });
     }
     let notes = table.notes.iter().map(|note| Notice::new(note, ""));
     Ok(FittedTable {

@@ -2,12 +2,14 @@
 
 use crate::failure::Failure;
 use crate::label_args::{BodyAxes, FrameLayout, LabelArguments};
+use crate::recording::Heard;
 use crate::spin_up::names_of;
-use hovertone::{
-    FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, TrackPoint, labels_from_log, labels_from_spin_up,
+use hovertone::rotors::{
+    FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, labels_from_log, labels_from_spin_up,
 };
+use hovertone::speed::TrackPoint;
 use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes};
-use hovertone_report::{Notice, SpeedRecord};
+use hovertone_report::Notice;
 use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
 use std::fs;
 use std::path::Path;
@@ -71,7 +73,7 @@ fn logs_of(
     vehicle: Option<&Vehicle>,
     path: &Path,
 ) -> Result<Vec<FlightLog>, Failure> {
-    let failed = |error: hovertone::LogError| Failure::failed(error.to_string(), "correct the log", path);
+    let failed = |error: hovertone::rotors::LogError| Failure::failed(error.to_string(), "correct the log", path);
     let motors = |logged: LoggedMotors, signal| {
         let LoggedMotors { time_s, names, values } = logged;
         FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(failed)
@@ -136,7 +138,8 @@ fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[
 }
 
 /// Labels the rotors of a recording; what is not told is said.
-pub(crate) fn label(record: &mut SpeedRecord, plan: &LabelPlan) {
+pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
+    let Heard { record, config: heard_with, spin_up } = heard;
     if record.speed().is_none() {
         return;
     }
@@ -145,13 +148,12 @@ pub(crate) fn label(record: &mut SpeedRecord, plan: &LabelPlan) {
             let hint = "download the log again; what could be read of it was used";
             record.notices.extend(notes.iter().map(|note| Notice::new(note, hint)));
             let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
-            let rotor_count = record.config.rotors.count as usize;
+            let rotor_count = heard_with.rotors.count as usize;
             best_of(logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, config)))
         }
-        LabelPlan::SpinUp(names) => {
-            let spin_up = record.tone().and_then(|tone| tone.spin_up.as_ref());
-            spin_up.map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default()))
-        }
+        LabelPlan::SpinUp(names) => spin_up
+            .as_ref()
+            .map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default())),
     };
     if let Some(reason) = labels.as_ref().and_then(|labels| labels.not_told.as_ref()) {
         let text = format!("which rotor is which is not told in full: {reason}");

@@ -3,14 +3,15 @@
 use crate::failure::Failure;
 use crate::label_args::LabelArguments;
 use crate::progress::{Progress, Share};
-use crate::recording::{Hearing, Job};
+use crate::recording::{Heard, Hearing, Job};
 use crate::toml_file::TomlFile;
-use hovertone::{
-    ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, TrackPoint, labels_from_microphones,
+use hovertone::rotors::{
+    ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, labels_from_microphones,
     microphone_lines_from_source,
 };
+use hovertone::speed::TrackPoint;
 use hovertone_media::{OpenOptions, Recording};
-use hovertone_report::{Notice, SpeedRecord};
+use hovertone_report::Notice;
 use hovertone_vehicle::Vehicle;
 use serde::Deserialize;
 use std::path::Path;
@@ -126,32 +127,33 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
 }
 
 /// Labels the rotors of all recordings, whose channels are heard once more; what is not told is said.
-pub(crate) fn label_all(records: &mut [SpeedRecord], jobs: &[Job], plan: &ArrayPlan, wants_progress: bool) {
-    let progress = Progress::new("comparing the microphones of", records.len(), wants_progress);
-    for (record, job) in records.iter_mut().zip(jobs) {
-        label(record, &job.path, plan, &mut progress.recording());
+pub(crate) fn label_all(all: &mut [Heard], jobs: &[Job], plan: &ArrayPlan, wants_progress: bool) {
+    let progress = Progress::new("comparing the microphones of", all.len(), wants_progress);
+    for (heard, job) in all.iter_mut().zip(jobs) {
+        label(heard, &job.path, plan, &mut progress.recording());
     }
     progress.finish();
 }
 
-fn label(record: &mut SpeedRecord, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>) {
+fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>) {
+    let Heard { record, config, .. } = heard;
     let Some(facts) = record.recording.as_ref().filter(|_| record.speed().is_some()) else { return };
     let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
     let channels = plan.array.microphone_count();
     let end_s = tracks.iter().filter_map(|track| track.last()).map(|point| point.time_s).fold(0.0, f64::max);
-    let mut heard: Vec<MicrophoneLines> = Vec::new();
+    let mut channel_lines: Vec<MicrophoneLines> = Vec::new();
     for channel in 1..=channels {
         let options =
             OpenOptions { audio_track: Some(facts.audio_track), channel: Some(channel), ..OpenOptions::default() };
-        let mut on_progress = |progress: hovertone::Progress| {
+        let mut on_progress = |progress: hovertone::sound::Progress| {
             share.set(((channel - 1) as f64 + (progress.time_s / end_s).clamp(0.0, 1.0)) / channels as f64);
         };
         let lines = Recording::open(path, &options).map_err(|error| error.to_string()).and_then(|mut recording| {
-            microphone_lines_from_source(&mut recording, &tracks, &record.config.tone, &plan.config, &mut on_progress)
+            microphone_lines_from_source(&mut recording, &tracks, &config.tone, &plan.config, &mut on_progress)
                 .map_err(|error| error.to_string())
         });
         match lines {
-            Ok(lines) => heard.push(lines),
+            Ok(lines) => channel_lines.push(lines),
             Err(error) => {
                 let text = format!("which rotor is which is not told: channel {channel} could not be heard: {error}");
                 record.notices.push(Notice::new(text, "check the file"));
@@ -159,7 +161,7 @@ fn label(record: &mut SpeedRecord, path: &Path, plan: &ArrayPlan, share: &mut Sh
             }
         }
     }
-    let labels = labels_from_microphones(&heard, &plan.array, &plan.config);
+    let labels = labels_from_microphones(&channel_lines, &plan.array, &plan.config);
     if let Some(reason) = &labels.not_told {
         let text = format!("which rotor is which is not told in full: {reason}");
         record.notices.push(Notice::new(text, reason.hint()));

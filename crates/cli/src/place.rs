@@ -2,7 +2,8 @@
 
 use crate::failure::Failure;
 use crate::thrust_args::{AirArguments, PlaceArguments};
-use hovertone::{Air, Gravity, PROPELLER_DIAMETER_M};
+use hovertone::thrust::{Air, Gravity};
+use hovertone::vehicle::PROPELLER_DIAMETER_M;
 
 const SEE_HELP: &str = "see --help";
 

@@ -2,10 +2,15 @@
 
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
-use hovertone::{Config, Discovery, FoundSpeed, SpeedAnalysis, Warning, speed_from_source, tones_from_source};
+use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
+use hovertone::sound::Passes;
+use hovertone::speed::{Config, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
+use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, OpenOptions, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use rayon::prelude::*;
+use serde::Serialize;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What to hear of every file.
@@ -32,56 +37,102 @@ pub(crate) struct Job {
     pub(crate) config: Config,
     /// How the tone is found, where nobody says which it is; the order of `config` then means nothing.
     pub(crate) discovery: Option<Discovery>,
+    /// Analyses of the rotors that follow the speed.
+    pub(crate) requests: Requests,
+}
+
+/// Analyses of the rotors that follow the speed, each with passes of its own.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Requests {
+    /// The condition of each rotor.
+    pub(crate) condition: bool,
+    /// When each rotor began to turn.
+    pub(crate) spin_up: bool,
+}
+
+/// A recording that was heard.
+pub(crate) struct Heard {
+    /// The answer.
+    pub(crate) record: SpeedRecord,
+    /// The settings behind it: those of the job, with the tone that was found.
+    pub(crate) config: Config,
+    /// When each rotor began to turn, where that is wanted.
+    pub(crate) spin_up: Option<SpinUp>,
 }
 
 /// Hears all recordings, in parallel; the answers are in the order of the jobs.
-pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<SpeedRecord> {
-    jobs.par_iter().map(|job| hear(job, hearing, &mut progress.recording())).collect()
+pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<Heard> {
+    jobs.par_iter()
+        .map(|job| {
+            hear(job, hearing, &mut progress.recording()).unwrap_or_else(|failure| Heard {
+                record: record_of(job, &job.config, Answer::Failed { reason: failure.reason }, failure.facts),
+                config: job.config.clone(),
+                spin_up: None,
+            })
+        })
+        .collect()
 }
 
-fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> SpeedRecord {
-    let failed = |reason: String, recording| SpeedRecord {
-        file: job.name.clone(),
-        config: job.config.clone(),
-        recording,
-        answer: Answer::Failed { reason },
-        found: None,
-        labels: None,
-        notices: Vec::new(),
-    };
+/// The same, where only the records matter.
+pub(crate) fn records_of(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<SpeedRecord> {
+    hear_all(jobs, hearing, progress).into_iter().map(|heard| heard.record).collect()
+}
+
+/// Why a recording could not be heard, and what is known of it all the same.
+struct NotHeard {
+    reason: String,
+    facts: Option<RecordingFacts>,
+}
+
+impl NotHeard {
+    fn because(reason: impl ToString) -> Self {
+        Self { reason: reason.to_string(), facts: None }
+    }
+}
+
+fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
     if let Some(reason) = wrong_kind(&job.path) {
-        return failed(reason, None);
+        return Err(NotHeard::because(reason));
     }
     let options = OpenOptions { audio_track: hearing.audio_track, channel: hearing.channel, ..OpenOptions::default() };
-    let mut recording = match Recording::open(&job.path, &options) {
-        Ok(recording) => recording,
-        Err(error) => return failed(error.to_string(), None),
-    };
-    let sha256 = match hearing.wants_hash.then(|| sha256_of_file(&job.path)).transpose() {
-        Ok(sha256) => sha256,
-        Err(error) => return failed(format!("the file could not be read to its end: {error}; check the disk"), None),
-    };
-    let analysis = analysis_of(&mut recording, job, share);
+    let mut recording = Recording::open(&job.path, &options).map_err(NotHeard::because)?;
+    let sha256 = hearing.wants_hash.then(|| sha256_of_file(&job.path)).transpose().map_err(|error| {
+        NotHeard::because(format!("the file could not be read to its end: {error}; check the disk"))
+    })?;
+    let analysed = analysed(&mut recording, job, share);
     let facts = facts_of(&recording, sha256);
-    let (analysis, config, found) = match analysis {
-        Ok(analysis) => analysis,
-        Err(error) => return failed(error.to_string(), Some(facts)),
+    let Analysed { analysis, config, found, spin_up } = match analysed {
+        Ok(analysed) => analysed,
+        Err(error) => return Err(NotHeard { reason: error.to_string(), facts: Some(facts) }),
     };
     let of_the_file = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
     let matters =
         |warning: &&Warning| hearing.wants_samples || !matches!(warning, Warning::HoverShorterThanSample { .. });
     let notices = of_the_file.chain(analysis.warnings.iter().filter(matters).map(Notice::from)).collect();
-    let mut record = SpeedRecord {
-        file: job.name.clone(),
-        config,
-        recording: Some(facts),
-        answer: Answer::Heard(Box::new(analysis)),
-        found,
-        labels: None,
-        notices,
-    };
+    let record = record_of(job, &config, Answer::Heard(Box::new(analysis)), Some(facts));
+    let mut record = SpeedRecord { found, notices, ..record };
     record.notices.extend(notice_of_reading(&record));
-    record
+    Ok(Heard { record, config, spin_up })
+}
+
+fn record_of(job: &Job, config: &Config, answer: Answer, recording: Option<RecordingFacts>) -> SpeedRecord {
+    SpeedRecord {
+        file: job.name.clone(),
+        method: config.method,
+        order: config.tone.order,
+        wants_condition: job.requests.condition,
+        settings: written(config),
+        recording,
+        answer,
+        found: None,
+        labels: None,
+        notices: Vec::new(),
+    }
+}
+
+/// Settings as they are written out. They can all be written.
+fn written(settings: &impl Serialize) -> Value {
+    serde_json::to_value(settings).unwrap_or_default()
 }
 
 /// What only somebody who knows what was typed can say.
@@ -103,28 +154,60 @@ fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     Some(Notice::new(text, "check the blades and say --blades N; `hovertone tones` shows the other readings"))
 }
 
-fn analysis_of(
-    recording: &mut Recording,
-    job: &Job,
-    share: &mut Share<'_>,
-) -> Result<(SpeedAnalysis, Config, Option<Found>), hovertone::Error> {
+/// What the passes over a recording give.
+struct Analysed {
+    analysis: SpeedAnalysis,
+    config: Config,
+    found: Option<Found>,
+    spin_up: Option<SpinUp>,
+}
+
+fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Result<Analysed, hovertone::speed::Error> {
     let (start_s, declared_s) = (recording.info().start_s, recording.info().declared_duration_s);
     let mut heard_s: f64 = 0.0;
-    let mut on_progress = |progress: hovertone::Progress| {
+    let mut on_progress = |progress: hovertone::sound::Progress| {
         let time_s = progress.time_s - start_s;
-        // once it was heard, we know better than the header
+        // after the first pass the length is known better than from the header
         let length_s = if progress.pass == 1 { declared_s } else { Some(heard_s) };
         heard_s = heard_s.max(time_s);
         let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
         share.set((f64::from(progress.pass - 1) + of_pass) / f64::from(progress.pass_count));
     };
-    let Some(discovery) = job.discovery else {
-        let analysis = speed_from_source(recording, &job.config, &mut on_progress)?;
-        return Ok((analysis, job.config.clone(), None));
+    let Requests { condition, spin_up } = job.requests;
+    let speed_passes = match (job.discovery, spin_up) {
+        (Some(_), true) => passes_of_speed(&job.config) + passes_of_spin_up(&job.config),
+        (None, true) => passes_of_spin_up(&job.config),
+        (_, false) => passes_of_speed(&job.config),
     };
-    let found = tones_from_source(recording, &job.config, &discovery, &mut on_progress)?;
-    let FoundSpeed { families, rotor, config, analysis, alternatives } = found;
-    Ok((analysis, config, Some(Found { discovery, families, rotor, alternatives })))
+    let mut passes = Passes::planned(recording, speed_passes + u32::from(condition), &mut on_progress)?;
+    let mut analysed = match job.discovery {
+        Some(discovery) => {
+            let FoundSpeed { families, rotor, config, analysis, alternatives } =
+                tones_from_passes(&mut passes, &job.config, &discovery)?;
+            let found = Found { settings: written(&discovery), families, rotor, alternatives };
+            Analysed { analysis, config, found: Some(found), spin_up: None }
+        }
+        None if spin_up => {
+            let (analysis, spin_up) = speed_after_spin_up(&mut passes, &job.config)?;
+            Analysed { analysis, config: job.config.clone(), found: None, spin_up: Some(spin_up) }
+        }
+        None => {
+            let analysis = speed_from_passes(&mut passes, &job.config)?;
+            Analysed { analysis, config: job.config.clone(), found: None, spin_up: None }
+        }
+    };
+    let has_tone = matches!(analysed.analysis.outcome, Outcome::Ok(_));
+    if spin_up && analysed.spin_up.is_none() && has_tone {
+        let (analysis, spin_up) = speed_after_spin_up(&mut passes, &analysed.config)?;
+        analysed = Analysed { analysis, spin_up: Some(spin_up), ..analysed };
+    }
+    if condition {
+        let conditions = conditions_from_analysis(&mut passes, &analysed.analysis, &analysed.config.tone)?;
+        if let Outcome::Ok(tone) = &mut analysed.analysis.outcome {
+            tone.rotors.iter_mut().zip(conditions).for_each(|(rotor, condition)| rotor.condition = condition);
+        }
+    }
+    Ok(analysed)
 }
 
 fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts {

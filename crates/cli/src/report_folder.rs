@@ -3,7 +3,7 @@
 use crate::drawing::{draw_all, trial_of};
 use crate::failure::Failure;
 use crate::recording::{Hearing, Job};
-use hovertone::Method;
+use hovertone::speed::Method;
 use hovertone_figures::{
     DOTS_PER_INCH, ExperimentFigures, Figure, Trial, figure_png, figures_of_experiment, recording_figure,
 };

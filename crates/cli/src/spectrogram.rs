@@ -3,7 +3,7 @@
 use crate::drawing::{drawing_of, trial_of};
 use crate::failure::{Ending, Failure};
 use crate::progress::Progress;
-use crate::recording::{Hearing, Job, hear_all};
+use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::spectrogram_args::SpectrogramArguments;
 use crate::speed::{config_of, ending_of};
 use crate::terminal::Terminal;
@@ -21,7 +21,13 @@ enum Kind {
 pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let kind = kind_of(&arguments.output)?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
-    let job = Job { name: arguments.file.display().to_string(), path: arguments.file.clone(), config, discovery };
+    let job = Job {
+        name: arguments.file.display().to_string(),
+        path: arguments.file.clone(),
+        config,
+        discovery,
+        requests: Requests::default(),
+    };
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,
@@ -30,7 +36,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     };
     let jobs = [job];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = hear_all(&jobs, hearing, &progress);
+    let records = records_of(&jobs, hearing, &progress);
     progress.finish();
     let ending = ending_of(&records);
     terminal.notes(&records.iter().collect::<Vec<_>>());

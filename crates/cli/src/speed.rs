@@ -6,11 +6,12 @@ use crate::files::files_of;
 use crate::labels::{LabelPlan, label};
 use crate::microphones::{ArrayPlan, label_all};
 use crate::progress::Progress;
-use crate::recording::{Hearing, Job, hear_all};
+use crate::recording::{Hearing, Job, Requests, hear_all};
 use crate::terminal::Terminal;
 use crate::tones::discovery_of;
 use crate::vehicles::preset;
-use hovertone::{Config, Discovery, Method, ToneConfig};
+use hovertone::speed::{Config, Method, ToneConfig};
+use hovertone::tones::Discovery;
 use hovertone_report::{SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use hovertone_vehicle::Order;
 use std::path::PathBuf;
@@ -28,14 +29,15 @@ struct Plan {
 pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
     let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
-    let mut records = hear_all(&plan.jobs, plan.hearing, &progress);
+    let mut heard = hear_all(&plan.jobs, plan.hearing, &progress);
     progress.finish();
     if let Some(labels) = &plan.labels {
-        records.iter_mut().for_each(|record| label(record, labels));
+        heard.iter_mut().for_each(|heard| label(heard, labels));
     }
     if let Some(array) = &plan.microphones {
-        label_all(&mut records, &plan.jobs, array, !arguments.hearing.no_progress);
+        label_all(&mut heard, &plan.jobs, array, !arguments.hearing.no_progress);
     }
+    let records: Vec<SpeedRecord> = heard.into_iter().map(|heard| heard.record).collect();
     if arguments.json {
         for record in &records {
             terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;
@@ -66,9 +68,9 @@ pub(crate) fn ending_of<'a>(records: impl IntoIterator<Item = &'a SpeedRecord>) 
 }
 
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
-    let (mut config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
-    config.rotors.wants_spin_up = arguments.labels.spin_up.is_some();
-    let jobs = jobs_of(&arguments.files, &config, discovery);
+    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    let requests = Requests { condition: arguments.analysis.condition, spin_up: arguments.labels.spin_up.is_some() };
+    let jobs = jobs_of(&arguments.files, &config, discovery, requests);
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,
@@ -82,7 +84,12 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
 }
 
 /// One job for each file, all alike.
-pub(crate) fn jobs_of(names: &[PathBuf], config: &Config, discovery: Option<Discovery>) -> Vec<Job> {
+pub(crate) fn jobs_of(
+    names: &[PathBuf],
+    config: &Config,
+    discovery: Option<Discovery>,
+    requests: Requests,
+) -> Vec<Job> {
     let mut jobs = Vec::new();
     for name in names {
         let files = files_of(name);
@@ -93,6 +100,7 @@ pub(crate) fn jobs_of(names: &[PathBuf], config: &Config, discovery: Option<Disc
             path,
             config: config.clone(),
             discovery,
+            requests,
         }));
     }
     jobs
@@ -116,7 +124,6 @@ pub(crate) fn config_of(
     let of_vehicle = asked.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
     config.rotors.count = known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
     config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
-    config.rotors.wants_condition = analysis.condition;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);

@@ -3,7 +3,7 @@
 use crate::args::{HearingArguments, ToneArguments, method_parser};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use hovertone::Method;
+use hovertone::speed::Method;
 use hovertone_exchange::SimulatorFormat;
 use std::path::PathBuf;
 

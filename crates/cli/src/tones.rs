@@ -3,11 +3,12 @@
 use crate::args::{KnownArguments, TonesArguments};
 use crate::failure::{Ending, Failure};
 use crate::progress::Progress;
-use crate::recording::{Hearing, hear_all};
+use crate::recording::{Hearing, Requests, records_of};
 use crate::speed::{ending_of, jobs_of};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
-use hovertone::{Config, Discovery, DiscoveryConfig, KnownRotor, ToneConfig};
+use hovertone::speed::{Config, ToneConfig};
+use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
 use hovertone_report::{tones_json, tones_text};
 use hovertone_vehicle::Order;
 
@@ -17,7 +18,7 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
     let mut config = Config::for_tone(tone);
     (config.span.from_s, config.span.to_s) = (arguments.from, arguments.to);
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone tones --help`"))?;
-    let jobs = jobs_of(&arguments.files, &config, Some(discovery));
+    let jobs = jobs_of(&arguments.files, &config, Some(discovery), Requests::default());
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,
@@ -25,7 +26,7 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
         wants_samples: false,
     };
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = hear_all(&jobs, hearing, &progress);
+    let records = records_of(&jobs, hearing, &progress);
     progress.finish();
     if arguments.json {
         for record in &records {

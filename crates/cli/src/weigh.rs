@@ -4,12 +4,13 @@ use crate::export::identified;
 use crate::failure::{Ending, Failure};
 use crate::place::gravity_of;
 use crate::progress::Progress;
-use crate::recording::{Hearing, hear_all};
+use crate::recording::{Hearing, Requests, records_of};
 use crate::speed::{ending_of, jobs_of, tone_of};
 use crate::terminal::Terminal;
 use crate::thrust_args::WeighArguments;
 use crate::vehicles::preset;
-use hovertone::{AcousticScale, Config, Gravity, HeardHover, Method, SpeedEstimate, ToneConfig, UncertaintyInputs};
+use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
+use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
 use hovertone_exchange::IdentifiedRotor;
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
@@ -29,14 +30,14 @@ struct Plan {
 /// Hears all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
-    let jobs = jobs_of(&arguments.files, &plan.config, None);
+    let jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default());
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,
         ..Hearing::default()
     };
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = hear_all(&jobs, hearing, &progress);
+    let records = records_of(&jobs, hearing, &progress);
     progress.finish();
     let hovers: Vec<HeardHover> = records.iter().filter_map(hover_of).collect();
     if let Some(weighed) = plan.scale_for(&records).weigh(&hovers) {

@@ -4,7 +4,7 @@ use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
 use crate::colour::{INK, MUTED, SERIES};
 use crate::figure::{Figure, FigureError};
-use hovertone::{BudgetLine, ThrustTable};
+use hovertone_thrust::{BudgetLine, ThrustTable};
 
 const ROW: i32 = 52;
 const LEFT: i32 = 500;

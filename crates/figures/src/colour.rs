@@ -1,7 +1,7 @@
 //! Colours that can be told apart by everybody, in print and on screens.
 
 use colorous::Gradient;
-use hovertone::Method;
+use hovertone_analysis::Method;
 use plotters::style::RGBColor;
 
 /// Text and axes.

@@ -5,7 +5,7 @@ use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, Sheet, WIDTH};
 use crate::colour::{GRID, INK, MUTED, SERIES};
 use crate::figure::{Figure, FigureError, shortened};
 use crate::trial::Trial;
-use hovertone::{CutReason, Span};
+use hovertone_analysis::{CutReason, Span};
 
 const ROW: i32 = 62;
 const LOAD_GAP: i32 = 56;

@@ -3,7 +3,8 @@
 use crate::figure::{Figure, FigureError};
 use crate::trial::Trial;
 use crate::{budget, database, fit, gaussian, load_spectrograms, maximum_trace, rotors, spectrum};
-use hovertone::{Method, ThrustTable};
+use hovertone_analysis::Method;
+use hovertone_thrust::ThrustTable;
 
 /// What the figures of an experiment are drawn from.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,8 @@ use crate::axis::{Axis, range_with_margin};
 use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, WIDTH};
 use crate::colour::{INK, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError, shortened};
-use hovertone::{COVERAGE_FACTOR, LoadThrust, Method, ThrustTable};
+use hovertone_analysis::Method;
+use hovertone_thrust::{COVERAGE_FACTOR, LoadThrust, ThrustTable};
 use plotters::style::Color;
 
 /// Squared speeds are shown in this unit.

@@ -6,7 +6,7 @@ use crate::colour::{GRID, colour_of_method};
 use crate::figure::{Figure, FigureError, shortened};
 use crate::spectrum::harmonic_name;
 use crate::trial::{Trial, hull, ridge_lines};
-use hovertone::{Method, Ridge};
+use hovertone_analysis::{Method, Ridge};
 use plotters::style::Color;
 use std::f64::consts::TAU;
 

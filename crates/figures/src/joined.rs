@@ -4,7 +4,7 @@ use crate::canvas::{Anchor, Panel, Sheet};
 use crate::colour::{INK, MUTED};
 use crate::figure::{FigureError, shortened};
 use crate::trial::Trial;
-use hovertone::Span;
+use hovertone_analysis::Span;
 
 /// Trials narrower than these have their number alone, or nothing above them.
 const WIDTH_OF_WORDS: f64 = 120.0;

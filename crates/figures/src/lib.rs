@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! canvas       layers of drawing on one sheet, by plotters        axis      ranges, ticks and their labels
+//! picture      sound → spectrograms of bounded size, and the mean spectrum of the hover
 //! raster       a spectrogram as the pixels of a PNG               colour    colours that everybody can tell apart
 //! figure       name, words and SVG of a figure                    bitmap    SVG → PNG
 //! trial        what the figures show of a recording               joined    trials one after the other on one time axis
@@ -23,6 +24,7 @@ mod gaussian;
 mod joined;
 mod load_spectrograms;
 mod maximum_trace;
+mod picture;
 mod raster;
 mod rotors;
 mod spectrogram;
@@ -33,6 +35,9 @@ pub use bitmap::{DOTS_PER_INCH, figure_png};
 pub use colour::{LEVEL_COUNT, level_colours, method_colour};
 pub use experiment::{ExperimentFigures, figures_of_experiment};
 pub use figure::{Figure, FigureError};
+pub use picture::{
+    MeanSpectrum, Picture, PictureConfig, PictureError, PictureView, Pictures, pictures_from_source, views_of_recording,
+};
 pub use rotors::rotors_figure;
 pub use spectrogram::recording_figure;
 pub use trial::Trial;

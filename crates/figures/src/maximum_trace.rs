@@ -6,7 +6,7 @@ use crate::colour::{GRID, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError};
 use crate::joined::{Joined, end_s, joined_by_load, joined_words};
 use crate::trial::{Trial, ridge_lines};
-use hovertone::{Method, Ridge};
+use hovertone_analysis::{Method, Ridge};
 use plotters::style::Color;
 
 const PANEL: i32 = 330;

@@ -2,9 +2,9 @@
 
 use crate::colour::{ColourMap, LEVEL_COUNT};
 use crate::figure::FigureError;
+use crate::picture::Picture;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use hovertone::Picture;
 
 /// This share of the cells lies below the darkest colour: the floor of the noise is one colour, not confetti.
 const FLOOR_SHARE: f64 = 0.5;

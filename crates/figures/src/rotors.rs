@@ -4,10 +4,11 @@ use crate::axis::Axis;
 use crate::canvas::{Canvas, LETTER, Panel, Place, WIDTH};
 use crate::colour::{ColourMap, INK, OVER_PICTURE, SERIES};
 use crate::figure::{Figure, FigureError};
+use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
 use crate::spectrum::harmonic_name;
 use crate::trial::{Trial, track_lines};
-use hovertone::{Picture, RotorEstimate};
+use hovertone_analysis::RotorEstimate;
 use plotters::style::{Color, RGBColor};
 
 /// A margin around the tracks, as a share of what they cover.

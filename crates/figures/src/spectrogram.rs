@@ -4,11 +4,12 @@ use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
 use crate::colour::{BAND, ColourMap, INK, MUTED, OVER_PICTURE, PAPER};
 use crate::figure::{Figure, FigureError, shortened};
+use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
 use crate::rotors;
 use crate::spectrum::harmonic_name;
 use crate::trial::{Trial, ridge_lines, track_lines};
-use hovertone::{Method, Picture};
+use hovertone_analysis::Method;
 use plotters::style::Color;
 
 const ROWS_MAX: usize = 330;
@@ -117,7 +118,7 @@ fn draw_whole(
 fn draw_zoom(
     canvas: &mut Canvas,
     trial: &Trial<'_>,
-    band: &hovertone::Band,
+    band: &hovertone_analysis::Band,
     picture: &Picture,
     place: Place,
 ) -> Result<(), FigureError> {

@@ -4,8 +4,8 @@ use crate::axis::{Axis, range_with_margin};
 use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{BAND, SERIES};
 use crate::figure::{Figure, FigureError, shortened};
+use crate::picture::MeanSpectrum;
 use crate::trial::Trial;
-use hovertone::MeanSpectrum;
 use plotters::style::Color;
 
 /// Points of a curve: two for each half millimetre.
@@ -32,7 +32,8 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     };
     canvas.panel(&panel)?;
     canvas.plot(&panel, "bands", |plot| {
-        let block = |band: &hovertone::Band| plot.block((band.band_hz_low, band.band_hz_high), levels_db, BAND, 0.35);
+        let block =
+            |band: &hovertone_analysis::Band| plot.block((band.band_hz_low, band.band_hz_high), levels_db, BAND, 0.35);
         bands.iter().try_for_each(block)
     })?;
     canvas.plot(&panel, "spectrum", |plot| plot.line(&all, SERIES[0].stroke_width(2)))?;

@@ -1,8 +1,7 @@
 //! What the figures show of one recording.
 
-use hovertone::{
-    Band, Hover, Method, Outcome, Picture, Pictures, RidgeFrame, RotorTone, Span, SpeedAnalysis, TrackPoint,
-};
+use crate::picture::{Picture, Pictures};
+use hovertone_analysis::{Band, Hover, Method, Outcome, RidgeFrame, RotorTone, Span, SpeedAnalysis, TrackPoint};
 
 /// Points of a curve at most: more are not seen in print.
 const POINTS_MAX: usize = 1200;

@@ -3,12 +3,12 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // what tests share has no attribute by which the lints know it
 
-use hovertone::{
-    Config, Force, LoadSpeeds, Method, Outcome, PictureConfig, Pictures, Signal, Span, SpeedAnalysis, ThrustSettings,
-    ThrustTable, ToneConfig, TrialSpeeds, pictures_from_source, speed_from_source, thrust_from_loads,
-    views_of_recording,
-};
+use hovertone_analysis::{Method, Outcome, Span, SpeedAnalysis};
 use hovertone_figures::{ExperimentFigures, Figure, Trial, figure_png, figures_of_experiment, recording_figure};
+use hovertone_figures::{PictureConfig, Pictures, pictures_from_source, views_of_recording};
+use hovertone_rotor_speed::{Config, ToneConfig, speed_from_source};
+use hovertone_signal::Signal;
+use hovertone_thrust::{Force, LoadSpeeds, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_vehicle::Order;
 use roxmltree::{Document, Node};
 use std::f64::consts::TAU;

@@ -4,7 +4,8 @@
 
 mod testkit;
 
-use hovertone::{Config, Method, RotorCondition, ToneConfig};
+use hovertone::rotors::RotorCondition;
+use hovertone::speed::{Config, Method, ToneConfig};
 use hovertone_vehicle::Order;
 use testkit::{Rotor, analyse, sound, tone};
 

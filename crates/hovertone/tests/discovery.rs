@@ -3,10 +3,9 @@
 
 mod testkit;
 
-use hovertone::{
-    Config, Discovery, DiscoveryConfig, FoundSpeed, KnownRotor, Method, Outcome, Remark, Signal, ToneConfig,
-    tones_from_source,
-};
+use hovertone::sound::Signal;
+use hovertone::speed::{Config, Method, Outcome, ToneConfig};
+use hovertone::tones::{Discovery, DiscoveryConfig, FoundSpeed, KnownRotor, Remark, tones_from_source};
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
@@ -265,7 +264,7 @@ fn a_rotor_a_hum_and_beeps_are_three_families() {
     let mut source = Signal::new(samples, SAMPLE_RATE_HZ);
     let found = tones_from_source(&mut source, &config, &discovery, &mut |_| {}).expect("an analysis");
     let near = |hz: f64| {
-        let is_near = |family: &&hovertone::ToneFamily| (family.fundamental_hz / hz - 1.0).abs() < 0.01;
+        let is_near = |family: &&hovertone::tones::ToneFamily| (family.fundamental_hz / hz - 1.0).abs() < 0.01;
         found.families.iter().find(is_near).unwrap_or_else(|| panic!("no family near {hz} Hz"))
     };
     // the hum's lines lie near thirds and fifths of the shaft's, so that doubt is allowed, but not another first reading

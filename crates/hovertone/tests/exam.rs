@@ -3,7 +3,8 @@
 
 mod testkit;
 
-use hovertone::{Error, Method, Signal, Warning, speed_from_source};
+use hovertone::sound::Signal;
+use hovertone::speed::{Error, Method, Warning, speed_from_source};
 use testkit::{Rotor, SAMPLE_RATE_HZ, TWO_BLADES, analyse, config, hears_nothing, sound, steady, tone};
 
 #[test]

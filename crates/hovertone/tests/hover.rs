@@ -3,7 +3,8 @@
 
 mod testkit;
 
-use hovertone::{CutReason, Error, NoTone, Outcome, Signal, Warning, speed_from_source};
+use hovertone::sound::Signal;
+use hovertone::speed::{CutReason, Error, NoTone, Outcome, Warning, speed_from_source};
 use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, hears_nothing, sound, steady, tone};
 
 /// Silence 0-2 s, run-up 2-4 s, hover 4-12 s at 90 rev/s, run-down 12-14 s, silence to 16 s.

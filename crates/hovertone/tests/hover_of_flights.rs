@@ -3,7 +3,7 @@
 
 mod testkit;
 
-use hovertone::{CutReason, Outcome};
+use hovertone::speed::{CutReason, Outcome};
 use testkit::not_rotors::Dice;
 use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound};
 

@@ -2,10 +2,10 @@
 
 #![allow(missing_docs, clippy::unwrap_used)] // a test may
 
-use hovertone::{
-    FlightLog, LabelSource, LabelsConfig, LogError, LogSignals, MotorSignal, NotTold, RotorLabels, TrackPoint,
-    labels_from_log,
+use hovertone::rotors::{
+    FlightLog, LabelSource, LabelsConfig, LogError, LogSignals, MotorSignal, NotTold, RotorLabels, labels_from_log,
 };
+use hovertone::speed::TrackPoint;
 use hovertone_vehicle::{Layout, RotorPlace};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

@@ -3,10 +3,12 @@
 
 #![allow(missing_docs, clippy::unwrap_used)] // a test may
 
-use hovertone::{
+use hovertone::rotors::{
     ArrayError, LabelSource, MicrophoneArray, MicrophoneLines, MicrophonesConfig, NotTold, PlacedRotor, RotorLabels,
-    Signal, ToneConfig, TrackPoint, labels_from_microphones, microphone_lines_from_source,
+    labels_from_microphones, microphone_lines_from_source,
 };
+use hovertone::sound::Signal;
+use hovertone::speed::{ToneConfig, TrackPoint};
 use hovertone_vehicle::{Layout, Order};
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;

@@ -3,7 +3,8 @@
 
 mod testkit;
 
-use hovertone::{Config, NoTone, Outcome, Signal, ToneConfig, speed_from_source};
+use hovertone::sound::Signal;
+use hovertone::speed::{Config, NoTone, Outcome, ToneConfig, speed_from_source};
 use hovertone_vehicle::presets;
 use testkit::not_rotors::{Dice, KINDS, Kind};
 use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound, tone};

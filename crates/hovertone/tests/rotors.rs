@@ -3,7 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test may
 
-use hovertone::{Config, Method, Outcome, RotorTone, Signal, SpeedAnalysis, ToneConfig, Warning, speed_from_source};
+use hovertone::sound::Signal;
+use hovertone::speed::{Config, Method, Outcome, RotorTone, SpeedAnalysis, ToneConfig, Warning, speed_from_source};
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};

@@ -3,7 +3,7 @@
 
 mod testkit;
 
-use hovertone::{Config, Outcome};
+use hovertone::speed::{Config, Outcome};
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound, tone};

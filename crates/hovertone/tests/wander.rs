@@ -3,7 +3,7 @@
 
 mod testkit;
 
-use hovertone::{Config, Span};
+use hovertone::speed::{Config, Span};
 use rand::{RngExt, SeedableRng};
 use std::f64::consts::TAU;
 use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound, tone};

@@ -1,7 +1,7 @@
 //! The bytes of a video or audio file to a stream of samples, never resampled.
 //!
 //! [`Recording::open`] tells what a file is by its content, chooses an audio track and gives its sound as a
-//! [`SignalSource`](hovertone::SignalSource): mono, finite, at the rate it was recorded at, in blocks, so that memory
+//! [`SignalSource`](hovertone_signal::SignalSource): mono, finite, at the rate it was recorded at, in blocks, so that memory
 //! stays flat whatever the length. The way of the bytes:
 //!
 //! ```text

@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use hovertone::{SignalSource, SourceError};
+use hovertone_signal::{SignalSource, SourceError};
 
 use crate::choose;
 use crate::codec::CHANNEL_COUNT_MAX;

@@ -6,8 +6,8 @@ mod recordings;
 
 use std::time::{Duration, Instant};
 
-use hovertone::SignalSource;
 use hovertone_media::{MediaError, MediaWarning, Recording};
+use hovertone_signal::SignalSource;
 use recordings::{files_of, name_of, native_only, samples, temp_file, test_data};
 
 /// By hand and optimised every file takes a few milliseconds; this bound only tells a hang from a busy machine.

@@ -4,8 +4,8 @@
 
 mod recordings;
 
-use hovertone::SignalSource;
 use hovertone_media::{MediaWarning, Recording};
+use hovertone_signal::SignalSource;
 use recordings::{files_of, lag_against, name_of, native_only, samples, test_data};
 
 const REFERENCE: &str = "a_pcm_s16le.wav";

@@ -6,8 +6,8 @@ mod recordings;
 
 use std::process::{Command, Stdio};
 
-use hovertone::SignalSource;
 use hovertone_media::{Decoder, FfmpegUse, MediaError, OpenOptions, Recording};
+use hovertone_signal::SignalSource;
 use recordings::{lag_against, native_only, samples, temp_file, test_data};
 
 fn has_ffmpeg() -> bool {

@@ -4,8 +4,8 @@
 
 mod recordings;
 
-use hovertone::SignalSource;
 use hovertone_media::{Container, Decoder, MediaError, MediaWarning, Recording};
+use hovertone_signal::SignalSource;
 use recordings::{native_only, samples, temp_file, wav_bytes};
 
 const RATE_HZ: u32 = 12_345;

@@ -4,7 +4,7 @@ use crate::seal::policy;
 use crate::sound::{SoundClip, rate_and_count};
 use crate::view::{Answer, InputView, MethodView, PageTable, TrialView, Words};
 use askama::Template;
-use hovertone::Method;
+use hovertone_analysis::Method;
 use hovertone_figures::{Figure, level_colours, method_colour};
 use hovertone_report::{
     Identification, TextTable, TitledTable, VERSION, agreement_text, budget_table, laws_table, method_title,
@@ -150,7 +150,7 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         sound_rate_hz: trials.iter().any(|trial| trial.sound.is_some()).then_some(rate_hz),
         trials,
         inputs: identification.inputs.iter().map(InputView::new).collect(),
-        settings: serde_json::to_string_pretty(identification.experiment)?,
+        settings: serde_json::to_string_pretty(identification.experiment.settings)?,
         command: report.command,
         report,
     };

@@ -3,7 +3,8 @@
 use audioadapter_buffers::direct::InterleavedSlice;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use hovertone::{SignalSource, SourceError, Span};
+use hovertone_analysis::Span;
+use hovertone_signal::{SignalSource, SourceError};
 use rubato::audioadapter::Adapter;
 use rubato::{Fft, FixedSync, Resampler};
 
@@ -119,7 +120,7 @@ fn header(sample_count: usize, rate_hz: u32) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hovertone::Signal;
+    use hovertone_signal::Signal;
     use std::f64::consts::TAU;
 
     fn clip(seconds: f64, rate_hz: f64, tone_hz: f64) -> SoundClip {

@@ -2,11 +2,12 @@
 
 use crate::report::TrialReport;
 use crate::sound::wav_uri;
-use hovertone::{Method, ThrustTable};
+use hovertone_analysis::Method;
 use hovertone_report::{
     Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, TextTable, cuts_in_words, method_title,
     scaled_number, with_uncertainty,
 };
+use hovertone_thrust::ThrustTable;
 use hovertone_vehicle::Estimate;
 
 /// A unit as people write it: "1e-5 N s²" is 10⁻⁵ N s².
@@ -183,12 +184,12 @@ impl<'a> Words<'a> {
     pub(crate) fn new(identification: &Identification<'a>) -> Self {
         let experiment = identification.experiment;
         Self {
-            vehicle: &experiment.vehicle_name,
+            vehicle: experiment.vehicle_name,
             experiment: identification.file,
             sha256: identification.sha256,
             rotor_count: experiment.rotor_count,
-            order: experiment.config.tone.order.to_string(),
-            load_count: experiment.loads.len(),
+            order: experiment.order.to_string(),
+            load_count: experiment.load_count,
             recording_count: identification.inputs.len(),
             heard_count: identification.inputs.iter().filter(|input| input.record.speed().is_some()).count(),
         }

@@ -3,7 +3,7 @@
 use crate::number::{DASH, PowerOfTen, significant, uncertainty, with_uncertainty};
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
-use hovertone::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget};
+use hovertone_thrust::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget};
 
 /// Contributions below this share of the constant are not worth a line for people; the JSON has them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;

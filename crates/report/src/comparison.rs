@@ -3,7 +3,7 @@
 use crate::number::{DASH, PowerOfTen, rounded};
 use crate::text_table::{Column, TextTable};
 use crate::thrust::{CONSTANT_UNIT, constant_cell, grams, method_title, speed_cells};
-use hovertone::{LoadThrust, ThrustTable};
+use hovertone_thrust::{LoadThrust, ThrustTable};
 use hovertone_vehicle::Estimate;
 use std::iter::zip;
 

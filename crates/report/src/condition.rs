@@ -4,7 +4,7 @@ use crate::number::{DASH, rounded};
 use crate::recording::SpeedRecord;
 use crate::speed::name_of_rotor;
 use crate::text_table::{Column, TextTable};
-use hovertone::ShaftLine;
+use hovertone_analysis::ShaftLine;
 
 /// The lines of all rotors, each against its own blade pass; nothing where nobody asked for them.
 pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
@@ -15,7 +15,7 @@ pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
         Column::numbers("its order", ""),
         Column::numbers("harmonics missing", ""),
     ]);
-    let wanted = || records.iter().filter(|record| record.config.rotors.wants_condition && record.speed().is_some());
+    let wanted = || records.iter().filter(|record| record.wants_condition && record.speed().is_some());
     wanted().next()?;
     for record in wanted() {
         let why_none = if record.rotors().is_empty() { "no rotors are told apart" } else { "" };

@@ -1,6 +1,6 @@
 //! What was not used of a recording, on one line.
 
-use hovertone::{Cut, CutReason, Span};
+use hovertone_analysis::{Cut, CutReason, Span};
 
 /// More stretches than this are summed up.
 const STRETCHES_MAX: usize = 6;

@@ -5,7 +5,7 @@ use crate::adequacy::laws_text;
 use crate::notice::Notice;
 use crate::number::{PowerOfTen, significant, with_uncertainty};
 use crate::thrust::CONSTANT_UNIT;
-use hovertone::{SquareLawFit, ThrustCoefficients};
+use hovertone_thrust::{SquareLawFit, ThrustCoefficients};
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
 

@@ -1,7 +1,7 @@
 //! How much flying a wish needs.
 
 use crate::number::significant;
-use hovertone::{FlightPlan, PlanWish};
+use hovertone_thrust::{FlightPlan, PlanWish};
 
 /// The plan in words, and what else it would show.
 pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {

@@ -48,7 +48,7 @@ pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use notice::Notice;
 pub use number::{ScaledNumber, scaled_number, with_uncertainty};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
-pub use results::{Identification, InputRecord, RESULTS_SCHEMA, results_json};
+pub use results::{ExperimentFacts, Identification, InputRecord, RESULTS_SCHEMA, results_json};
 pub use samples::{loads_data, samples_data};
 pub use speed::{speed_json, speed_table, track_csv};
 pub use text_table::{Column, Row, TextTable, wrapped};

@@ -4,8 +4,8 @@ use crate::VERSION;
 use crate::number::{DASH, PowerOfTen, significant};
 use crate::text_table::{Column, TextTable};
 use crate::thrust::{CONSTANT_UNIT, grams};
-use hovertone::{ThrustTable, VehicleModel};
 use hovertone_exchange::{IdentifiedRotor, SimulatorModel};
+use hovertone_thrust::{ThrustTable, VehicleModel};
 use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
 

@@ -1,6 +1,7 @@
 //! A warning as it is told: what it is, and what to do about it.
 
-use hovertone::Warning;
+use hovertone_analysis::Warning;
+use hovertone_thrust::ThrustWarning;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
@@ -22,6 +23,12 @@ impl Notice {
 
 impl From<&Warning> for Notice {
     fn from(warning: &Warning) -> Self {
+        Self::new(warning.to_string(), warning.hint())
+    }
+}
+
+impl From<&ThrustWarning> for Notice {
+    fn from(warning: &ThrustWarning) -> Self {
         Self::new(warning.to_string(), warning.hint())
     }
 }

@@ -1,11 +1,13 @@
 //! What one recording said, and what it was.
 
 use crate::notice::Notice;
-use hovertone::{
-    Config, Discovery, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, Span, SpeedAnalysis,
-    SpeedEstimate, ToneFamily,
+use hovertone_analysis::{
+    Method, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, Span, SpeedAnalysis, SpeedEstimate,
+    ToneFamily,
 };
+use hovertone_vehicle::Order;
 use serde::Serialize;
+use serde_json::Value;
 
 /// What is known of a file that could be opened.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,8 +50,8 @@ pub enum Answer {
 /// What was found where nobody had said which tone is the rotor's.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// How it was looked for.
-    pub discovery: Discovery,
+    /// The settings of the search, as they are written out.
+    pub settings: Value,
     /// All tone families, strongest first.
     pub families: Vec<ToneFamily>,
     /// Which of them was taken for the rotor's.
@@ -63,8 +65,14 @@ pub struct Found {
 pub struct SpeedRecord {
     /// Name of the file as it was given.
     pub file: String,
-    /// Settings of the analysis.
-    pub config: Config,
+    /// The method that was asked for.
+    pub method: Method,
+    /// Order of the tone that was followed.
+    pub order: Order,
+    /// Whether the condition of the rotors was asked for.
+    pub wants_condition: bool,
+    /// The settings of the analysis, as they are written out.
+    pub settings: Value,
     /// What the file is, where it could be opened.
     pub recording: Option<RecordingFacts>,
     /// What came of it.
@@ -96,7 +104,7 @@ impl SpeedRecord {
 
     /// The speed by the configured method; none where several readings of the tone stay plausible.
     pub fn speed(&self) -> Option<&SpeedEstimate> {
-        self.tone()?.speed(self.config.method).filter(|_| !self.is_ambiguous())
+        self.tone()?.speed(self.method).filter(|_| !self.is_ambiguous())
     }
 
     /// The rotors one by one, fastest first, where they were told apart.
@@ -111,7 +119,7 @@ impl SpeedRecord {
 
     /// Mean frequency of the tone that was followed, whether or not its order is settled.
     pub fn tone_hz(&self) -> Option<f64> {
-        let estimate = self.tone()?.speed(self.config.method)?;
+        let estimate = self.tone()?.speed(self.method)?;
         Some(estimate.speed.tone_hz(estimate.order))
     }
 

@@ -3,12 +3,14 @@
 use crate::VERSION;
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
-use hovertone::{
-    Drift, Experiment, Hover, Method, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap,
-    UncertaintyBudget,
+use hovertone_analysis::{Hover, Method};
+use hovertone_thrust::{
+    Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap, UncertaintyBudget,
+    VehicleModel,
 };
-use hovertone_vehicle::{Estimate, RotorSpeed};
+use hovertone_vehicle::{Estimate, Order, RotorSpeed};
 use serde::{Serialize, Serializer};
+use serde_json::Value;
 
 /// An identified experiment.
 #[derive(Clone, Copy, Debug)]
@@ -17,14 +19,31 @@ pub struct Identification<'a> {
     pub file: &'a str,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: &'a str,
-    /// What it says, settled.
-    pub experiment: &'a Experiment,
+    /// The settled experiment.
+    pub experiment: ExperimentFacts<'a>,
     /// The method whose constant is reported.
     pub method: Method,
     /// One table for each method.
     pub tables: &'a [ThrustTable],
     /// All recordings, load by load.
     pub inputs: &'a [InputRecord],
+}
+
+/// A settled experiment, as far as it is reported.
+#[derive(Clone, Copy, Debug)]
+pub struct ExperimentFacts<'a> {
+    /// Name of the vehicle.
+    pub vehicle_name: &'a str,
+    /// Number of its rotors.
+    pub rotor_count: u32,
+    /// Order of the tone that was followed.
+    pub order: Order,
+    /// Number of loads.
+    pub load_count: usize,
+    /// The simulator's model that is compared with the result, where one is named.
+    pub model: Option<&'a VehicleModel>,
+    /// All of it, as it is written out.
+    pub settings: &'a Value,
 }
 
 /// One recording of a load.
@@ -116,7 +135,7 @@ struct Input<'a> {
 struct Settings<'a> {
     file: &'a str,
     sha256: &'a str,
-    experiment: &'a Experiment,
+    experiment: &'a Value,
 }
 
 fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S::Ok, S::Error> {
@@ -175,12 +194,16 @@ pub fn results_json(identification: &Identification<'_>) -> Result<String, serde
         bootstrap: reported.and_then(|table| table.bootstrap),
         fit: reported.and_then(|table| table.fit.as_ref()),
         drifts: reported.map_or(&[], |table| &table.drifts),
-        vehicle_model: reported.and_then(|table| experiment.model.as_ref()?.against(table)),
+        vehicle_model: reported.and_then(|table| experiment.model?.against(table)),
         methods: tables,
         loads: reported.map(loads_of).unwrap_or_default(),
         warnings: reported.map(|table| table.warnings.iter().map(Notice::from).collect()).unwrap_or_default(),
         inputs: identification.inputs.iter().map(input_of).collect(),
-        settings: Settings { file: identification.file, sha256: identification.sha256, experiment },
+        settings: Settings {
+            file: identification.file,
+            sha256: identification.sha256,
+            experiment: experiment.settings,
+        },
         version: VERSION,
     };
     Ok(serde_json::to_string_pretty(&results)? + "\n")

@@ -1,7 +1,7 @@
 //! The paper's database and its tables as columns for programs.
 
 use crate::data_table::{Cell, DataTable};
-use hovertone::{LoadThrust, SampleThrust, ThrustTable};
+use hovertone_thrust::{LoadThrust, SampleThrust, ThrustTable};
 use hovertone_vehicle::RotorSpeed;
 
 /// A sample and whose it is.

@@ -6,12 +6,13 @@ use crate::number::{DASH, rounded, significant, uncertainty};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
-use hovertone::{
-    Config, Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, ShaftLine, Span,
-    SpeedEstimate, TrackPoint, UncertaintyTerm,
+use hovertone_analysis::{
+    Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, ShaftLine, Span, SpeedEstimate,
+    TrackPoint, UncertaintyTerm,
 };
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
+use serde_json::Value;
 
 /// Digits of speeds of which at most one is right.
 const DIGITS_OF_READINGS: usize = 4;
@@ -121,7 +122,7 @@ struct SpeedLine<'a> {
     window_s: Option<f64>,
     hover: Option<&'a Hover>,
     recording: Option<&'a RecordingFacts>,
-    settings: &'a Config,
+    settings: &'a Value,
     version: &'static str,
 }
 
@@ -214,8 +215,8 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
     serde_json::to_string(&SpeedLine {
         file: &record.file,
         status: record.status(),
-        method: estimate.map_or(record.config.method, |estimate| estimate.method),
-        order: (record.found.is_none() || estimate.is_some()).then_some(record.config.tone.order),
+        method: estimate.map_or(record.method, |estimate| estimate.method),
+        order: (record.found.is_none() || estimate.is_some()).then_some(record.order),
         tone_hz: record.tone_hz(),
         speed_rev_s: speed.map(RotorSpeed::rev_s),
         speed_rpm: speed.map(RotorSpeed::rpm),
@@ -237,7 +238,7 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         window_s: record.tone().map(|tone| tone.window_s),
         hover: record.analysis().map(|analysis| &analysis.hover),
         recording: record.recording.as_ref(),
-        settings: &record.config,
+        settings: &record.settings,
         version: VERSION,
     })
 }

@@ -2,7 +2,8 @@
 
 use crate::number::{DASH, PowerOfTen, rounded, significant, uncertainty, with_uncertainty};
 use crate::text_table::{Column, TextTable};
-use hovertone::{LoadThrust, Method, ThrustTable};
+use hovertone_analysis::Method;
+use hovertone_thrust::{LoadThrust, ThrustTable};
 use hovertone_vehicle::{Estimate, RotorSpeed};
 
 /// Unit of every thrust constant: newton per (rad/s)².

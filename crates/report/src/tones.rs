@@ -5,9 +5,10 @@ use crate::notice::Notice;
 use crate::number::{DASH, significant};
 use crate::recording::{Found, RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
-use hovertone::{Config, Discovery, Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
+use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 use hovertone_vehicle::{Gear, Order};
 use serde::Serialize;
+use serde_json::Value;
 
 /// Digits of a frequency or speed that the survey gives.
 const DIGITS: usize = 4;
@@ -202,8 +203,8 @@ struct TonesLine<'a> {
     warnings: &'a [Notice],
     reason: Option<String>,
     recording: Option<&'a RecordingFacts>,
-    discovery: Option<&'a Discovery>,
-    settings: &'a Config,
+    discovery: Option<&'a Value>,
+    settings: &'a Value,
     version: &'static str,
 }
 
@@ -237,8 +238,8 @@ pub fn tones_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         warnings: &record.notices,
         reason: record.reason(),
         recording: record.recording.as_ref(),
-        discovery: record.found.as_ref().map(|found| &found.discovery),
-        settings: &record.config,
+        discovery: record.found.as_ref().map(|found| &found.settings),
+        settings: &record.settings,
         version: VERSION,
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::VERSION;
 use crate::number::{rounded, with_uncertainty};
-use hovertone::WeighedHover;
+use hovertone_thrust::WeighedHover;
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
 

@@ -3,19 +3,28 @@
 //! Nothing here knows of sound. The estimator (`hovertone`) and the simulator (`hovertone-sim`) both build on this
 //! crate and on nothing else of each other, so that recovering a simulated flight proves something.
 
+mod constants;
 mod estimate;
 mod flight;
 mod frame;
+mod known_rotor;
+mod limits;
 mod presets;
 mod speed;
 mod vehicle;
 
+pub use constants::{GRAVITY_STANDARD_M_S2, SOUND_M_S};
 pub use estimate::{Ending, Estimate};
 pub use flight::{
     BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters, RotorParameters,
     find_flight_parameters, flight_presets,
 };
 pub use frame::RotorPlace;
+pub use known_rotor::KnownRotor;
+pub use limits::{
+    BLADES_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, KNOWN_RANGE_MARGIN, MESH_SIDEBANDS, PROPELLER_DIAMETER_M,
+    ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT, check_range, loudest_rotor_share,
+};
 pub use presets::{find_preset, presets};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};
 pub use vehicle::{ShaftSpeedRange, Sourced, Vehicle};

@@ -10,7 +10,8 @@ use crate::recording::Hearing;
 use crate::report_folder::Extras;
 use crate::terminal::Terminal;
 use crate::typed::typed_command;
-use hovertone::{Method, ThrustTable};
+use hovertone::speed::Method;
+use hovertone::thrust::ThrustTable;
 use hovertone_report::{
     PrintedRow, TextTable, TitledTable, comparison_with_paper, comparison_with_truth, method_title,
 };

@@ -5,7 +5,8 @@ use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
 use crate::toml_file::TomlFile;
 use crate::vehicles::preset_hint;
-use hovertone::{Experiment, ExperimentError, ExperimentFile, VehicleModel};
+use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
+use hovertone::thrust::VehicleModel;
 use std::path::{Path, PathBuf};
 
 const SEE_EXAMPLE: &str = "`hovertone identify --help` shows an experiment file";

@@ -8,20 +8,21 @@ pub(crate) use experiment_file::ExperimentSource;
 use crate::args::HearingArguments;
 use crate::failure::{Ending, Failure};
 use crate::progress::Progress;
-use crate::recording::{Hearing, Job, hear_all};
+use crate::recording::{Hearing, Job, records_of};
 use crate::report_folder::{Extras, write_report};
 use crate::speed::ending_of;
 use crate::terminal::Terminal;
 use crate::thrust_args::IdentifyArguments;
 use crate::typed::typed_command;
-use hovertone::{
-    Experiment, LoadSpeeds, Method, SpeedEstimate, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads,
-};
+use hovertone::experiment::Experiment;
+use hovertone::speed::{Method, SpeedEstimate};
+use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
-    Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary, thrust_table,
-    vehicle_model_text,
+    ExperimentFacts, Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary,
+    thrust_table, vehicle_model_text,
 };
 use recordings::jobs_of;
+use serde_json::Value;
 use std::path::Path;
 
 /// An experiment, what its recordings said, and what follows from it.
@@ -30,6 +31,8 @@ pub(crate) struct Identified {
     method: Method,
     inputs: Vec<InputRecord>,
     tables: Vec<ThrustTable>,
+    /// The settled experiment as it is written out.
+    settings: Value,
     /// What was heard, recording by recording, to be read again for its pictures.
     jobs: Vec<Job>,
     hearing: Hearing,
@@ -77,7 +80,7 @@ pub(crate) fn identify(
 ) -> Result<Identified, Failure> {
     let (jobs, loads) = jobs_of(&source, data_root)?.into_iter().unzip::<_, _, Vec<Job>, Vec<_>>();
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
-    let records = hear_all(&jobs, hearing, &progress);
+    let records = records_of(&jobs, hearing, &progress);
     progress.finish();
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
@@ -97,7 +100,8 @@ pub(crate) fn identify(
             thrust_from_loads(&loads_of(experiment, &inputs, method), method, &settings)
         })
         .collect();
-    Ok(Identified { source, method, inputs, tables, jobs, hearing })
+    let settings = serde_json::to_value(experiment).map_err(Failure::internal)?;
+    Ok(Identified { source, method, inputs, tables, settings, jobs, hearing })
 }
 
 /// How far the mean of all rotors may be from that of those which were told apart, as a share: the mean over all recordings, since the rotors
@@ -150,10 +154,18 @@ impl Identified {
 
     /// For the report.
     pub(crate) fn identification(&self) -> Identification<'_> {
+        let experiment = &self.source.experiment;
         Identification {
             file: &self.source.name,
             sha256: &self.source.sha256,
-            experiment: &self.source.experiment,
+            experiment: ExperimentFacts {
+                vehicle_name: &experiment.vehicle_name,
+                rotor_count: experiment.rotor_count,
+                order: experiment.config.tone.order,
+                load_count: experiment.loads.len(),
+                model: experiment.model.as_ref(),
+                settings: &self.settings,
+            },
             method: self.method,
             tables: &self.tables,
             inputs: &self.inputs,

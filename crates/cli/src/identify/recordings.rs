@@ -3,8 +3,8 @@
 use super::ExperimentSource;
 use crate::failure::Failure;
 use crate::files::files_of;
-use crate::recording::Job;
-use hovertone::ExperimentLoad;
+use crate::recording::{Job, Requests};
+use hovertone::experiment::ExperimentLoad;
 use std::path::{Path, PathBuf};
 
 /// Names that are listed when recordings are missing.
@@ -25,8 +25,13 @@ pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
                 missing.push((load, name.as_str()));
             }
             for path in files {
-                let job =
-                    Job { name: name_of(&path, root), path, config: load.config(&source.experiment), discovery: None };
+                let job = Job {
+                    name: name_of(&path, root),
+                    path,
+                    config: load.config(&source.experiment),
+                    discovery: None,
+                    requests: Requests::default(),
+                };
                 let is_known = |(known, of): &(Job, String)| *of == load.name && known.path == job.path;
                 if !jobs.iter().any(is_known) {
                     jobs.push((job, load.name.clone()));

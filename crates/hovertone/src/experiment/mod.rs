@@ -4,15 +4,12 @@
 mod resolve;
 #[cfg(test)]
 mod tests;
-mod vehicle_model;
 
-pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
-
-use crate::config::{Config, HoverConfig, RidgeConfig, SampleConfig, SpanConfig, SpectrogramConfig};
-use crate::error::ConfigError;
-use crate::rotors_config::RotorsConfig;
-use crate::thrust::{Air, Force, ThrustSettings, UncertaintyInputs};
-use hovertone_vehicle::{Gear, Order, QuantityError};
+use hovertone_rotor_speed::{
+    Config, HoverConfig, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig,
+};
+use hovertone_thrust::{Air, Force, ThrustSettings, UncertaintyInputs, VehicleModel};
+use hovertone_vehicle::{ConfigError, Gear, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
 /// An experiment file as it is written. Unknown keys are refused.

@@ -1,11 +1,10 @@
 //! The experiment file, settled: preset and own numbers, gravity, the tone's order, each load's force.
 
-use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting, VehicleModel};
-use crate::budget_config::BudgetConfig;
-use crate::config::{Config, SpanConfig, ToneConfig};
-use crate::method::Method;
-use crate::thrust::{Air, Force, GRAVITY_STANDARD_M_S2, Gravity, PROPELLER_DIAMETER_M};
-use hovertone_vehicle::{Order, Vehicle, find_preset};
+use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
+use hovertone_analysis::Method;
+use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
+use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
+use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset};
 
 /// A mass this many times off the preset's or the model's was written in grams, or is another vehicle's.
 const MASS_FACTOR_MAX: f64 = 10.0;
@@ -56,7 +55,7 @@ impl ExperimentFile {
         if self.vehicle.model.is_some() != model.is_some() {
             return Err(missing("the vehicle's model", "give the file that vehicle.model names"));
         }
-        model.as_ref().map_or(Ok(()), VehicleModel::check)?;
+        model.as_ref().map_or(Ok(()), check_model)?;
         let preset = match &self.vehicle.preset {
             Some(name) => Some(find_preset(name).ok_or_else(|| ExperimentError::UnknownPreset { name: name.clone() })?),
             None => None,
@@ -299,5 +298,21 @@ fn not_negative(name: &str, value: f64) -> Result<f64, ExperimentError> {
         Ok(value)
     } else {
         Err(ExperimentError::OutOfRange { name: name.to_owned(), value, must_be: "must be 0 or more" })
+    }
+}
+
+/// Refuses a model whose numbers mean nothing.
+fn check_model(model: &VehicleModel) -> Result<(), ExperimentError> {
+    let is_positive = |value: f64| value.is_finite() && value > 0.0;
+    let refuse = |name: &str, value: f64, must_be| {
+        Err(ExperimentError::OutOfRange { name: format!("{name} of the model {:?}", model.file), value, must_be })
+    };
+    match (model.mass_kg, model.propeller_diameter_m, model.rotor_count) {
+        (Some(mass_kg), ..) if !is_positive(mass_kg) => refuse("mass_kg", mass_kg, "must be a number above 0"),
+        (_, Some(diameter_m), _) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
+            refuse("propeller_diameter_m", diameter_m, "allowed 0.01 to 10")
+        }
+        (.., Some(0)) => refuse("rotors", 0.0, "must be at least 1"),
+        _ => Ok(()),
     }
 }

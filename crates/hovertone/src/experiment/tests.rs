@@ -1,7 +1,7 @@
 //! Experiment files as people write them, right and wrong.
 
 use super::*;
-use crate::thrust::GRAVITY_STANDARD_M_S2;
+use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 
 const GOOD: &str = r#"
 [vehicle]

@@ -3,7 +3,8 @@
 
 pub mod not_rotors;
 
-use hovertone::{Config, Outcome, RotorTone, Signal, SpeedAnalysis, ToneConfig, speed_from_source};
+use hovertone::sound::Signal;
+use hovertone::speed::{Config, Outcome, RotorTone, SpeedAnalysis, ToneConfig, speed_from_source};
 use hovertone_vehicle::Order;
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};

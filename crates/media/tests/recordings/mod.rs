@@ -5,8 +5,8 @@
 
 use std::path::{Path, PathBuf};
 
-use hovertone::SignalSource;
 use hovertone_media::{FfmpegUse, OpenOptions, Recording};
+use hovertone_signal::SignalSource;
 
 /// A folder of the shared test data; says so where there is none.
 pub(crate) fn test_data(folder: &str) -> Option<PathBuf> {

@@ -1,0 +1,31 @@
+//! What was heard of the rotors of a multirotor, as plain data: speeds and tracks, rotors one by one, the hover and what was cut away,
+//! tone families, labels, warnings; or "no rotor tone" and why.
+//!
+//! No arithmetic of sound stands here: `hovertone-rotor-speed` and `hovertone-rotor-id` fill these types in, everything behind them reads
+//! them.
+
+mod condition;
+mod hover;
+mod labels;
+mod method;
+mod no_tone;
+mod ridge;
+mod span;
+mod speed;
+mod speed_analysis;
+mod tone_family;
+mod uncertainty;
+mod warning;
+
+pub use condition::{RotorCondition, ShaftLine};
+pub use hover::{Cut, CutReason, Hover};
+pub use labels::{LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorLabel, RotorLabels};
+pub use method::Method;
+pub use no_tone::NoTone;
+pub use ridge::{Band, Peak, Ridge, RidgeFrame};
+pub use span::Span;
+pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint};
+pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
+pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
+pub use uncertainty::{UncertaintySource, UncertaintyTerm};
+pub use warning::Warning;

@@ -1,0 +1,52 @@
+//! Exams and benchmarks, run by people: `cargo run --release -p hovertone-bench -- EXAM`.
+
+#![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
+
+mod accuracy;
+mod cost;
+mod labels;
+mod rotors;
+mod roundtrip;
+mod speed;
+mod workspace;
+
+use std::path::Path;
+use std::process::ExitCode;
+use workspace::root;
+
+const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
+
+  speed      speed and memory of decoding and of `hovertone speed` on 30-minute files, as ratios: docs/speed.md
+             [--minutes N] for shorter files
+  accuracy   one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
+             [--draws N] [--coverage N] for fewer draws, [--only PART] to print one part,
+             [--install-peers] to install the other programs
+  rotors     four rotors from one microphone against the truth of every instant: docs/rotors.md
+             [--seeds N] for fewer seeds, [--only WORDS] to print some of its sounds, clip by clip
+  labels     which rotor is which, from logs, several microphones and the start of the motors: a section of docs/rotors.md
+             [--count N] for fewer flights, [--heard N] for fewer that are heard, [--started N] for fewer starts;
+             [--only logs|microphones|starts]
+  roundtrip  simulate, identify, compare with the truth: a hundred random hovers
+             [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words.as_slice() {
+        ["speed", options @ ..] => speed::run(&root(), options),
+        ["accuracy", options @ ..] => accuracy::run(&root(), options),
+        ["rotors", options @ ..] => rotors::run(&root(), options),
+        ["labels", options @ ..] => labels::run(&root(), options),
+        ["roundtrip", options @ ..] => roundtrip::run(&root(), options),
+        [speed::DECODE_TASK, file] => speed::decode(Path::new(file)),
+        _ => Err(HELP.to_owned()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,42 @@
+//! What of a recording is worth a picture.
+
+use super::PictureConfig;
+use hovertone_analysis::RotorTone;
+
+/// A band of frequencies to look at, and how closely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureView {
+    /// The harmonic around which it lies, 1 for the tone itself; absent where it shows all frequencies.
+    pub harmonic: Option<u32>,
+    /// Lowest frequency.
+    pub hz_low: f64,
+    /// Highest frequency.
+    pub hz_high: f64,
+    /// Length of its frames.
+    pub window_s: f64,
+}
+
+/// All frequencies up to a little above the highest harmonic that was followed, and each of those harmonics by itself. Without a tone,
+/// all that the recording holds.
+pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config: &PictureConfig) -> Vec<PictureView> {
+    let nyquist_hz = sample_rate_hz / 2.0;
+    let bands = tone.map_or(&[][..], |tone| &tone.bands);
+    let top_hz =
+        bands.iter().map(|band| band.band_hz_high + 2.0 * config.margin_share * band.width_hz()).reduce(f64::max);
+    let whole = PictureView {
+        harmonic: None,
+        hz_low: 0.0,
+        hz_high: top_hz.map_or(nyquist_hz, |top_hz| top_hz.min(nyquist_hz)),
+        window_s: config.window_s,
+    };
+    let zooms = bands.iter().map(|band| {
+        let margin_hz = config.margin_share * band.width_hz();
+        PictureView {
+            harmonic: Some(band.harmonic),
+            hz_low: (band.band_hz_low - margin_hz).max(0.0),
+            hz_high: (band.band_hz_high + margin_hz).min(nyquist_hz),
+            window_s: config.zoom_window_s,
+        }
+    });
+    [whole].into_iter().chain(zooms).collect()
+}

@@ -1,0 +1,86 @@
+//! All settings of an analysis. The settings of a stage, with their defaults and reasons, stand in the stage's folder.
+
+use crate::hover::{HoverConfig, HoverPart};
+use crate::ridge::{RidgeConfig, SpectrogramConfig};
+use crate::rotors::RotorsConfig;
+use crate::speed::{BudgetConfig, SampleConfig};
+use crate::survey::SpanConfig;
+use crate::tone::ToneConfig;
+use hovertone_analysis::Method;
+use hovertone_vehicle::ConfigError;
+use serde::Serialize;
+
+/// All settings of an analysis. `Default` holds the recommended values; the tone's order has none and must be said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Config {
+    /// Which tone of the rotor is followed.
+    pub tone: ToneConfig,
+    /// How many rotors sound, and where they are looked for.
+    pub rotors: RotorsConfig,
+    /// Which part of the recording is used.
+    pub span: SpanConfig,
+    /// How hovering is told from the rest.
+    pub hover: HoverConfig,
+    /// The part of the hover that is analysed.
+    #[serde(skip)]
+    pub hover_part: HoverPart,
+    /// How a hover is cut into samples.
+    pub samples: SampleConfig,
+    /// Frames and their spectra.
+    pub spectrogram: SpectrogramConfig,
+    /// How a ridge is drawn and when it counts as a tone.
+    pub ridge: RidgeConfig,
+    /// What else makes the speed uncertain.
+    pub budget: BudgetConfig,
+    /// Which of the estimators gives the speed.
+    pub method: Method,
+    /// Whether the others are wanted too, for comparison. The paper's two cost more time than the harmonic likelihood.
+    pub wants_all_methods: bool,
+}
+
+impl Config {
+    /// The recommended settings for a tone.
+    pub fn for_tone(tone: ToneConfig) -> Self {
+        Self {
+            tone,
+            rotors: RotorsConfig::default(),
+            span: SpanConfig::default(),
+            hover: HoverConfig::default(),
+            hover_part: HoverPart::default(),
+            samples: SampleConfig::default(),
+            spectrogram: SpectrogramConfig::default(),
+            ridge: RidgeConfig::default(),
+            budget: BudgetConfig::default(),
+            method: Method::default(),
+            wants_all_methods: false,
+        }
+    }
+
+    /// The estimators that are wanted.
+    pub(crate) fn methods(&self) -> impl Iterator<Item = Method> {
+        let is_there = |method: &Method| *method != Method::Separated || self.rotors.are_several();
+        let is_wanted = |method: &Method| {
+            // where there is nothing to tell apart, one rotor is heard alone
+            let is_instead = self.method == Method::Separated && *method == Method::Harmonic;
+            self.wants_all_methods || *method == self.method || is_instead
+        };
+        Method::ALL.into_iter().filter(is_there).filter(is_wanted)
+    }
+
+    /// Whether a method is wanted that reads ridges.
+    pub(crate) fn wants_ridges(&self) -> bool {
+        self.methods().any(Method::reads_ridges)
+    }
+
+    /// Refuses settings that mean nothing, by name, value and limit.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        self.tone.check()?;
+        self.rotors.check()?;
+        self.span.check()?;
+        self.hover.check()?;
+        self.samples.check()?;
+        self.spectrogram.check()?;
+        self.budget.check()?;
+        self.ridge.check()
+    }
+}

@@ -1,0 +1,32 @@
+//! From the sound of a hovering multirotor to the speed of its rotors.
+//!
+//! `pipeline` is the whole chain on one screen; `stages` holds its stages, each one function from one typed value to the next; the
+//! algorithms stand in the folders below them.
+//!
+//! Pure: no files, clock, threads, environment or printing. Sound comes in through [`hovertone_signal::SignalSource`].
+
+mod config;
+mod detection;
+mod discovery;
+mod error;
+mod harmonic;
+mod hover;
+mod pipeline;
+mod ridge;
+mod rotors;
+mod speed;
+mod stages;
+mod survey;
+mod tone;
+
+pub use config::Config;
+pub use discovery::{Discovery, FoundSpeed, tones_from_passes, tones_from_source};
+pub use error::Error;
+pub use hover::{HoverConfig, HoverPart};
+pub use pipeline::{passes_of_speed, speed_from_passes, speed_from_source, speed_from_survey, survey_from_passes};
+pub use ridge::{RidgeConfig, SpectrogramConfig};
+pub use rotors::RotorsConfig;
+pub use speed::{BudgetConfig, SampleConfig};
+pub use stages::Surveyed;
+pub use survey::SpanConfig;
+pub use tone::{DiscoveryConfig, ToneConfig, blades_known, lines_between_speeds};

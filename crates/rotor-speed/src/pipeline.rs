@@ -1,0 +1,89 @@
+//! The whole chain on one screen: survey → candidates → hover → lines → decision → speeds. No arithmetic here.
+
+use crate::config::Config;
+use crate::error::Error;
+use crate::stages::{
+    Candidates, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate, lines_from_hover,
+    passes_of_survey, speeds_from_decision, survey_from_source,
+};
+use crate::tone::search_range_rev_s;
+use hovertone_analysis::{Method, Outcome, SpeedAnalysis};
+use hovertone_signal::SignalSource;
+use hovertone_signal::passes::{Passes, Progress};
+
+/// From a recording to the speed of its rotors. Memory does not grow with the length of the recording, but for the list of samples.
+///
+/// # Errors
+/// Settings without a meaning, a source that fails, a band above half the sample rate. "No rotor tone" is no error but
+/// [`Outcome::NoRotorTone`].
+pub fn speed_from_source(
+    source: &mut dyn SignalSource,
+    config: &Config,
+    on_progress: &mut dyn FnMut(Progress),
+) -> Result<SpeedAnalysis, Error> {
+    speed_from_passes(&mut Passes::planned(source, passes_of_speed(config), on_progress)?, config)
+}
+
+/// The same, where the caller has planned the passes: [`passes_of_speed`] of them are made here.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub fn speed_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<SpeedAnalysis, Error> {
+    let surveyed = survey_from_passes(passes, config)?;
+    speed_from_survey(passes, &surveyed, config)
+}
+
+/// Passes that a speed needs: one for the survey, one for the lines, and two where rotors are separated. Where a weak tone is steady, one
+/// more tells its octave; it is announced when it turns out to be needed.
+pub fn passes_of_speed(config: &Config) -> u32 {
+    passes_of_survey() + passes_after_survey(config)
+}
+
+pub(crate) fn passes_after_survey(config: &Config) -> u32 {
+    if config.methods().any(|method| method == Method::Separated) { 3 } else { 1 }
+}
+
+/// The first stage by itself, for several analyses of one recording.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub fn survey_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Surveyed, Error> {
+    config.check()?;
+    // a tone that the recording cannot hold is refused before a pass is made
+    search_range_rev_s(&config.tone, passes.sample_rate_hz())?;
+    survey_from_source(passes, config, None)
+}
+
+/// The stages after the survey.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub fn speed_from_survey(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    config: &Config,
+) -> Result<SpeedAnalysis, Error> {
+    let candidates = match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
+        Ok(candidates) => candidates,
+        Err(stop) => return stop.answer(surveyed.heard),
+    };
+    let leading = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
+    let Some(slower_rev_s) = candidates.slower_than(&leading) else { return Ok(leading) };
+    passes.expect_more(passes_after_survey(config));
+    let slower = speed_of_candidate(passes, surveyed, &candidates, slower_rev_s, config)?;
+    Ok(if matches!(slower.outcome, Outcome::Ok(_)) { slower } else { leading })
+}
+
+fn speed_of_candidate(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    candidates: &Candidates,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<SpeedAnalysis, Error> {
+    let hover = hover_from_candidate(surveyed, candidates, speed_rev_s, config);
+    lines_from_hover(passes, surveyed, &hover, speed_rev_s, config)
+        .and_then(|lines| decision_from_lines(passes, surveyed, candidates, &hover, speed_rev_s, lines, config))
+        .and_then(|decision| speeds_from_decision(surveyed.heard, hover, decision, config))
+        .or_else(|stop: Stop| stop.answer(surveyed.heard))
+}

@@ -1,0 +1,61 @@
+//! A rotor's path once more, near where it is known to be: in its own lines, from which the other rotors have been taken away and
+//! which have been turned back by the path itself, so that frames can be longer and finer than along a path that all share.
+
+use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
+use crate::harmonic::best_path::best_path;
+use crate::harmonic::line::Line;
+use crate::harmonic::path::SpeedPath;
+use hovertone_signal::spectrogram::hann_weights;
+use realfft::num_complex::Complex;
+use std::f64::consts::TAU;
+
+/// Points of the grid in a resolution cell of the line that resolves most finely.
+const GRID_PER_CELL: f64 = 3.0;
+/// How far from the path, in such cells.
+const REACH_CELLS: f64 = 3.0;
+/// How much the distance from the path changes from one frame to the next, as a share of the speed.
+const STEP_STD_SHARE: f64 = 0.0004;
+
+/// The speeds of the best path through the lines' joint likelihood, frame by frame.
+pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl Fn(f64) -> f64) -> Vec<f64> {
+    let tick_s = path.tick_s;
+    let finest = lines.iter().map(|line| line.order * frame_s_of_order(line.order)).fold(1.0, f64::max);
+    let step_rev_s = 1.0 / (finest * GRID_PER_CELL);
+    let side = (REACH_CELLS * GRID_PER_CELL).round() as usize;
+    let points = 2 * side + 1;
+    let frames = path.ticks() / FRAME_TICKS;
+    let mut scores = vec![vec![0.0; points]; frames];
+    for line in lines {
+        let half_ticks = half_frame_ticks(frame_s_of_order(line.order), tick_s);
+        let length = 2 * half_ticks;
+        let window: Vec<f64> = hann_weights(length).collect();
+        let energy: f64 = window.iter().map(|w| w * w).sum::<f64>() * line.samples_per_tick * line.noise_variance;
+        let turns: Vec<Complex<f64>> = (0..points * length)
+            .map(|index| {
+                let offset = ((index / length) as f64 - side as f64) * step_rev_s;
+                let time_s = ((index % length) as f64 + 0.5 - half_ticks as f64) * tick_s;
+                Complex::from_polar(window[index % length], -TAU * line.order * offset * time_s)
+            })
+            .collect();
+        for (frame, scores) in scores.iter_mut().enumerate() {
+            let middle = frame_middle_ticks(frame);
+            let from = middle.saturating_sub(half_ticks);
+            let to = (middle + half_ticks).min(line.ticks.len());
+            let first = from + half_ticks - middle;
+            for (score, turns) in scores.iter_mut().zip(turns.chunks_exact(length)) {
+                let sum: Complex<f64> =
+                    line.ticks[from..to].iter().zip(&turns[first..]).map(|(z, turn)| z * turn).sum();
+                *score += sum.norm_sqr() / energy;
+            }
+        }
+    }
+    let step_std = STEP_STD_SHARE * path.mean_rev_s() / step_rev_s;
+    best_path(&scores, step_std)
+        .into_iter()
+        .enumerate()
+        .map(|(frame, place)| {
+            let offset = (place as f64 - side as f64) * step_rev_s;
+            path.speed_rev_s(frame_middle_ticks(frame)) + offset
+        })
+        .collect()
+}

@@ -1,0 +1,32 @@
+//! Settings of several rotors that are told apart.
+
+use hovertone_vehicle::{ConfigError, check_range};
+use serde::Serialize;
+
+/// How many rotors sound, and where they are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RotorsConfig {
+    /// Rotors that turn at once. One is not told apart from anything.
+    pub count: u32,
+    /// Half width of the band of speeds in which they are looked for, as a share of the speed that was heard. Rotors of real
+    /// quadrotors lie up to 22 % apart, and a rotor outside the band is silently taken for another one.
+    pub band_half_width_share: f64,
+}
+
+impl Default for RotorsConfig {
+    fn default() -> Self {
+        Self { count: 1, band_half_width_share: 0.25 }
+    }
+}
+
+impl RotorsConfig {
+    pub(crate) fn check(&self) -> Result<(), ConfigError> {
+        check_range("rotors", f64::from(self.count), 1.0, 12.0)?;
+        check_range("rotors.band_half_width_share", self.band_half_width_share, 0.005, 0.3)
+    }
+
+    /// Whether there is anything to tell apart.
+    pub(crate) fn are_several(&self) -> bool {
+        self.count > 1
+    }
+}

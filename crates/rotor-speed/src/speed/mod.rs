@@ -1,0 +1,212 @@
+//! Ridges → shaft speed: one number per harmonic, combined over harmonics, with spread and uncertainty.
+
+mod budget;
+mod harmonic;
+mod sample_settings;
+mod samples;
+mod separated;
+mod settings;
+
+pub(crate) use budget::with_budget;
+pub use sample_settings::SampleConfig;
+pub(crate) use samples::samples_from_hover;
+pub(crate) use separated::mean_track;
+pub use settings::BudgetConfig;
+
+use crate::ridge::RidgeConfig;
+use hovertone_analysis::{HarmonicSpeed, Method, Peak, Ridge, Span, SpeedEstimate, TrackPoint, Warning};
+use hovertone_signal::statistics::{mean, median, std, std_uncertainty_of_mean};
+use hovertone_vehicle::{Order, RotorSpeed};
+
+/// Standard deviation of an interpolated Hann peak, in resolution cells, at a peak as strong as the noise. The
+/// Cramér-Rao bound is √6 / 2π = 0.39; the log parabola reaches 1.6 times that where noise, not its bias, is the limit.
+const PEAK_STD_CELLS: f64 = 0.62;
+
+/// Harmonics of one shaft differ by 0.67 standard deviations in the typical frame. This leaves room for the peak's bias
+/// and for speed that changes within a frame.
+const ONE_SHAFT_STDS: f64 = 3.0;
+
+/// The harmonics that are used, with their weights. Eq 9 as printed is no average (its weights sum to 1.833 for exact
+/// harmonics); the corrected form weighs each harmonic's speed by the inverse of its variance.
+///
+/// - Harmonics that agree frame by frame come from one shaft. Then noise of density Φ is what limits them, and the
+///   weight is o² A² / Φ (Whittle).
+/// - Harmonics that disagree come from several rotors, and what limits them is which rotor wins. The rotors' lines are
+///   parted in proportion to the order, and so grows that variance: the weight is A² / (Φ o).
+#[derive(Clone, Debug)]
+pub(crate) struct HarmonicWeights<'a> {
+    used: Vec<(&'a Ridge, f64)>,
+}
+
+impl<'a> HarmonicWeights<'a> {
+    /// Weighs the ridges and leaves out, with a warning, those that have too few points or disagree with the reference:
+    /// the harmonic that most others agree with, then the clearest, then the lowest.
+    pub(crate) fn from_ridges(ridges: &'a [Ridge], config: &RidgeConfig, warnings: &mut Vec<Warning>) -> Self {
+        let speeds: Vec<Option<f64>> = ridges
+            .iter()
+            .map(|ridge| Some(mean(&ridge.points_hz(Method::MaximumTrace))? / ridge.band.order.lines_per_turn()))
+            .map(|speed| speed.filter(|speed| speed.is_finite()))
+            .collect();
+        let agree = |a: f64, b: f64| (a / b - 1.0).abs() <= config.harmonic_disagreement_share_max;
+        let has_points = |ridge: &Ridge| ridge.point_share() >= config.point_share_min;
+        let company = |speed: f64| {
+            ridges
+                .iter()
+                .zip(&speeds)
+                .filter(|(r, other)| has_points(r) && other.is_some_and(|o| agree(o, speed)))
+                .count()
+        };
+        let reference = ridges
+            .iter()
+            .zip(&speeds)
+            .filter(|(ridge, _)| has_points(ridge))
+            .filter_map(|(ridge, speed)| Some((ridge, (*speed)?)))
+            .rev()
+            .max_by(|(a, a_speed), (b, b_speed)| {
+                company(*a_speed).cmp(&company(*b_speed)).then(a.line_share.total_cmp(&b.line_share))
+            });
+        let mut used = Vec::new();
+        for (ridge, speed) in ridges.iter().zip(&speeds) {
+            let reason = match (speed, reference) {
+                _ if !has_points(ridge) => {
+                    format!("only {:.0} % of its frames hold a tone", 100.0 * ridge.point_share())
+                }
+                (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
+                    format!("its speed differs by {:.1} % from the others'", 100.0 * (speed / reference - 1.0))
+                }
+                (Some(_), Some(_)) => {
+                    used.push(ridge);
+                    continue;
+                }
+                _ => "it holds no tone".to_owned(),
+            };
+            warnings.push(Warning::HarmonicLeftOut { harmonic: ridge.band.harmonic, reason });
+        }
+        let is_one_shaft =
+            reference.is_some_and(|(reference, _)| used.iter().all(|ridge| is_of_one_shaft(reference, ridge)));
+        let order_power = if is_one_shaft { 2 } else { -1 };
+        let weight = |ridge: &Ridge| ridge.band.order.lines_per_turn().powi(order_power) * typical_over_sides(ridge);
+        let total: f64 = used.iter().map(|ridge| weight(ridge)).sum();
+        Self { used: used.into_iter().map(|ridge| (ridge, weight(ridge) / total)).collect() }
+    }
+
+    /// Mean speed over a stretch of time, of a track that this made. `None` where no frame has a point.
+    ///
+    /// The harmonics are combined frame by frame and the frames averaged. Where every harmonic has a point in every frame
+    /// that is eq 7 for each harmonic and eq 9 corrected over them; where a harmonic comes and goes, its frames do not pull
+    /// the mean towards the times at which it was heard.
+    pub(crate) fn speed_in(&self, span: Option<&Span>, track: &Track) -> Option<SpeedEstimate> {
+        let points = track.points_in(span);
+        let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
+        Some(SpeedEstimate {
+            method: track.method,
+            order: track.order,
+            speed: RotorSpeed::from_rev_s(mean(&speeds)?),
+            std_uncertainty_rev_s: std_uncertainty_of_mean(&speeds),
+            spread_rev_s: std(&speeds),
+            mean_square_rad2_s2: None,
+            frame_count: speeds.len(),
+            budget: Vec::new(),
+            harmonics: self
+                .used
+                .iter()
+                .filter_map(|(ridge, weight)| harmonic_in(span, ridge, *weight, track.method))
+                .collect(),
+        })
+    }
+
+    /// The speed of every frame in which at least one harmonic has a point; `None` for a method that does not read ridges.
+    pub(crate) fn track(&self, method: Method, order: Order) -> Option<Track> {
+        if !method.reads_ridges() {
+            return None;
+        }
+        let frame_count = self.used.first().map_or(0, |(ridge, _)| ridge.frames.len());
+        let points = (0..frame_count).filter_map(|index| self.point_of_frame(index, method, order)).collect();
+        Some(Track { method, order, points })
+    }
+
+    fn point_of_frame(&self, index: usize, method: Method, order: Order) -> Option<TrackPoint> {
+        let present: Vec<(&Ridge, f64, Peak)> = self
+            .used
+            .iter()
+            .filter_map(|&(ridge, weight)| Some((ridge, weight, ridge.frames.get(index)?.peak?)))
+            .collect();
+        let (first, ..) = present.first()?;
+        let total: f64 = present.iter().map(|(_, weight, _)| weight).sum();
+        let shares = || {
+            present
+                .iter()
+                .map(|(ridge, weight, peak)| (weight / total / ridge.band.order.lines_per_turn(), *ridge, peak))
+        };
+        let speed_rev_s: f64 = shares().map(|(share, _, peak)| share * peak.hz(method)).sum();
+        let variance: f64 = shares().map(|(share, ridge, peak)| (share * peak_std_hz(ridge, peak)).powi(2)).sum();
+        Some(TrackPoint {
+            time_s: first.frames[index].time_s,
+            tone_hz: speed_rev_s * order.lines_per_turn(),
+            speed_rev_s,
+            std_uncertainty_rev_s: variance.sqrt(),
+            level_db: present.iter().map(|(_, _, peak)| peak.level_db).fold(f64::MIN, f64::max),
+        })
+    }
+}
+
+/// The speed of each frame by one method, in order of time.
+#[derive(Clone, Debug)]
+pub(crate) struct Track {
+    pub(crate) method: Method,
+    order: Order,
+    pub(crate) points: Vec<TrackPoint>,
+}
+
+impl Track {
+    fn points_in(&self, span: Option<&Span>) -> &[TrackPoint] {
+        let Some(span) = span else { return &self.points };
+        let from = self.points.partition_point(|point| point.time_s < span.from_s);
+        let to = self.points.partition_point(|point| point.time_s < span.to_s);
+        &self.points[from..to.max(from)]
+    }
+}
+
+/// What one harmonic says over a stretch of time.
+fn harmonic_in(span: Option<&Span>, ridge: &Ridge, weight: f64, method: Method) -> Option<HarmonicSpeed> {
+    let from = span.map_or(0, |span| ridge.frames.partition_point(|frame| frame.time_s < span.from_s));
+    let to = span.map_or(ridge.frames.len(), |span| ridge.frames.partition_point(|frame| frame.time_s < span.to_s));
+    let points: Vec<f64> =
+        ridge.frames[from..to.max(from)].iter().filter_map(|frame| Some(frame.peak?.hz(method))).collect();
+    Some(HarmonicSpeed {
+        harmonic: ridge.band.harmonic,
+        order: ridge.band.order,
+        mean_hz: mean(&points)?,
+        std_hz: std(&points),
+        frame_count: points.len(),
+        weight,
+    })
+}
+
+/// Standard deviation of a peak's frequency from the noise around it.
+fn peak_std_hz(ridge: &Ridge, peak: &Peak) -> f64 {
+    let over_mean_noise = 10f64.powf(peak.over_sides_db / 10.0) * std::f64::consts::LN_2;
+    PEAK_STD_CELLS * ridge.resolution_hz / over_mean_noise.sqrt()
+}
+
+/// Whether two harmonics agree frame by frame as closely as the noise around them lets them.
+fn is_of_one_shaft(a: &Ridge, b: &Ridge) -> bool {
+    let over_noise: Vec<f64> = a
+        .frames
+        .iter()
+        .zip(&b.frames)
+        .filter_map(|(a_frame, b_frame)| Some((a_frame.peak?, b_frame.peak?)))
+        .map(|(a_peak, b_peak)| {
+            let turns = |ridge: &Ridge, hz: f64| hz / ridge.band.order.lines_per_turn();
+            let apart = turns(a, a_peak.maximum_hz) - turns(b, b_peak.maximum_hz);
+            apart.abs() / turns(a, peak_std_hz(a, &a_peak)).hypot(turns(b, peak_std_hz(b, &b_peak)))
+        })
+        .collect();
+    median(&over_noise).is_none_or(|typical| typical <= ONE_SHAFT_STDS)
+}
+
+/// Power of the typical peak of a ridge over the noise around it.
+fn typical_over_sides(ridge: &Ridge) -> f64 {
+    let levels: Vec<f64> = ridge.frames.iter().filter_map(|frame| frame.peak.map(|peak| peak.over_sides_db)).collect();
+    10f64.powf(median(&levels).unwrap_or_default() / 10.0)
+}

@@ -1,0 +1,122 @@
+//! Stage 5: lines → is this a rotor, at this octave, and how many? A pass more where a weak tone is steady, and two more where several
+//! rotors are separated.
+
+use super::{Candidates, Lines, Silence, Stop, Surveyed};
+use crate::config::Config;
+use crate::detection::{mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum};
+use crate::error::Error;
+use crate::harmonic::HarmonicTracer;
+use crate::hover::restless_s;
+use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
+use crate::tone::{families_agree, foreign_series, lines_and_between, lines_between_speeds, lines_worth_hearing};
+use hovertone_analysis::{Hover, Method, NoTone};
+use hovertone_signal::passes::Passes;
+use hovertone_vehicle::BLADES_MAX;
+
+/// The candidate is a rotor, or several.
+pub(crate) struct Decision {
+    pub(crate) lines: Lines,
+    /// Each rotor's track; empty where they are not separated.
+    pub(crate) rotors: RotorTracks,
+}
+
+/// Decides whether the lines are a rotor's, and separates its rotors where the settings want them.
+pub(crate) fn decision_from_lines(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    candidates: &Candidates,
+    hover: &Hover,
+    speed_rev_s: f64,
+    lines: Lines,
+    config: &Config,
+) -> Result<Decision, Stop> {
+    let why_none = why_no_rotor(passes, surveyed, candidates, hover, speed_rev_s, &lines, config)?;
+    if let Some(reason) = why_none {
+        let reason = or_mains_hum(reason, &surveyed.survey);
+        return Err(Silence { reason, hover: hover.clone(), warnings: lines.warnings }.into());
+    }
+    let wants_rotors = config.methods().any(|method| method == Method::Separated);
+    let rotors = if wants_rotors {
+        rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?
+    } else {
+        RotorTracks::default()
+    };
+    let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
+    Ok(Decision { lines, rotors })
+}
+
+/// Why the lines are no rotor's at this speed.
+fn why_no_rotor(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    candidates: &Candidates,
+    hover: &Hover,
+    speed_rev_s: f64,
+    lines: &Lines,
+    config: &Config,
+) -> Result<Option<NoTone>, Error> {
+    let survey = &surveyed.survey;
+    let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
+    if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
+        not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
+    }
+    // several rotors crowd each other's lines; two families that agree on the shaft speed are stronger evidence
+    let are_crowded = config.rotors.are_several() && matches!(not_a_line, Some(NoTone::NotALine { .. }));
+    if are_crowded && families_agree(survey, &candidates.map, &config.tone, passes.sample_rate_hz(), speed_rev_s)? {
+        not_a_line = None;
+    }
+    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+    Ok(not_a_line
+        .or_else(|| not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover))
+        .or_else(|| mains_hum_reason(&lines.clearest, survey))
+        .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
+}
+
+/// One pass, where a steady tone is too weak for the comb to settle its octave: do lines between the assumed ones sound as well? A gear
+/// mesh has no octave to settle.
+fn slower_shaft(
+    passes: &mut Passes<'_>,
+    hover: &Hover,
+    lines: &Lines,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<Option<NoTone>, Error> {
+    let order = config.tone.order.lines_per_turn();
+    if order > BLADES_MAX {
+        return Ok(None);
+    }
+    let found = lines.harmonic.speed_in(None, config.tone.order);
+    let steady_rev_s = found.map_or(speed_rev_s, |found| found.speed.rev_s());
+    let bands = lines_and_between(&lines.channel_bands, order, steady_rev_s);
+    let mut harmonic = HarmonicTracer::new(passes.sample_rate_hz(), &bands);
+    passes.expect_more(1);
+    passes.listen(&hover.spans_s(), &mut harmonic)?;
+    Ok(harmonic.finish().lines_between(order).map(|between| NoTone::SlowerShaft {
+        line_count: between.count,
+        speed_rev_s: between.times_slower.map(|times| steady_rev_s / f64::from(times)),
+    }))
+}
+
+/// Two passes: the rotors are located in a wide band of speeds, and then each is followed by itself.
+fn rotors_from_hover(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    hover: &Hover,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<RotorTracks, Error> {
+    let sample_rate_hz = passes.sample_rate_hz();
+    let lines_in = |limits_rev_s: (f64, f64)| {
+        lines_worth_hearing(lines_between_speeds(limits_rev_s, &config.tone, sample_rate_hz), &surveyed.survey)
+    };
+    let order = config.tone.order.lines_per_turn();
+    let mesh_order = (order > BLADES_MAX).then_some(order);
+    let share = config.rotors.band_half_width_share;
+    let wide = lines_in((speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share)));
+    let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
+    passes.listen(&hover.spans_s(), &mut scout)?;
+    let rough = scout.finish();
+    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
+    passes.listen(&hover.spans_s(), &mut tracer)?;
+    Ok(tracer.finish())
+}

@@ -1,0 +1,20 @@
+//! The stages of the chain. Each is one function from one typed value to the next; the settings that it needs come from [`Config`].
+//!
+//! [`Config`]: crate::Config
+
+mod candidates;
+mod decision;
+mod hover;
+mod lines;
+mod speeds;
+mod stop;
+mod survey;
+
+pub(crate) use candidates::{Candidates, candidates_from_survey};
+pub(crate) use decision::{Decision, decision_from_lines};
+pub(crate) use hover::hover_from_candidate;
+pub(crate) use lines::{Lines, lines_from_hover};
+pub(crate) use speeds::speeds_from_decision;
+pub(crate) use stop::{Silence, Stop};
+pub use survey::Surveyed;
+pub(crate) use survey::{passes_of_survey, survey_from_source};

@@ -1,0 +1,74 @@
+//! Stage 6: decision → the answer, by every method that is wanted.
+
+use super::{Decision, Lines, Silence, Stop};
+use crate::config::Config;
+use crate::detection::{warning_of_rotors, warning_of_samples, warnings_of_hover, warnings_of_speed};
+use crate::rotors::RotorTracks;
+use crate::speed::{HarmonicWeights, Track, mean_track, samples_from_hover, with_budget};
+use hovertone_analysis::{Hover, Method, NoTone, Outcome, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate};
+
+/// Speeds over the hover and in each of its samples, tracks, rotors, and what weakens them.
+pub(crate) fn speeds_from_decision(
+    heard: Span,
+    hover: Hover,
+    decision: Decision,
+    config: &Config,
+) -> Result<SpeedAnalysis, Stop> {
+    let Decision { lines, rotors: rotor_tracks } = decision;
+    let mut warnings = lines.warnings.clone();
+    let order = config.tone.order;
+    let weights = HarmonicWeights::from_ridges(&lines.ridges, &config.ridge, &mut warnings);
+    let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, order)).collect();
+    let heard_by = HeardBy { weights: &weights, tracks: &tracks, lines: &lines, rotor_tracks: &rotor_tracks };
+    let speeds = heard_by.speeds_in(None, hover.length_s(), config);
+    let window_s = lines.ridges.first().map_or(0.0, |ridge| ridge.window_s);
+    if speeds.is_empty() {
+        let reason = NoTone::NoFrame { window_s, hover_s: hover.length_s() };
+        return Err(Silence { reason, hover, warnings }.into());
+    }
+    let samples: Vec<SampleSpeeds> = samples_from_hover(&hover, &config.samples, &mut warnings)
+        .into_iter()
+        .map(|span| SampleSpeeds { speeds: heard_by.speeds_in(Some(&span), span.length_s(), config), span })
+        .filter(|sample| !sample.speeds.is_empty())
+        .collect();
+    warnings.extend(warnings_of_hover(&hover));
+    warnings.extend(warnings_of_speed(&lines.ridges, &speeds));
+    warnings.extend(warning_of_samples(&samples));
+    let rotors = rotor_tracks.rotors(order, &config.budget);
+    let wants_rotors = config.methods().any(|method| method == Method::Separated);
+    warnings.extend(warning_of_rotors(&rotors, &speeds, if wants_rotors { config.rotors.count } else { 1 }));
+    let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;
+    let track = match tracks.into_iter().find(|track| track.method == config.method) {
+        Some(track) => track.points,
+        None if are_all_apart => mean_track(&rotors),
+        None => lines.harmonic.points_in(None, order),
+    };
+    let Lines { bands, ridges, .. } = lines;
+    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges });
+    Ok(SpeedAnalysis { heard, hover, outcome, warnings })
+}
+
+/// The same hover, as each method hears it.
+struct HeardBy<'a> {
+    weights: &'a HarmonicWeights<'a>,
+    tracks: &'a [Track],
+    lines: &'a Lines,
+    rotor_tracks: &'a RotorTracks,
+}
+
+impl HeardBy<'_> {
+    /// The speed in a span of `length_s`, or in all of the hover, by every method that is wanted and hears one there.
+    fn speeds_in(&self, span: Option<&Span>, length_s: f64, config: &Config) -> Vec<SpeedEstimate> {
+        let order = config.tone.order;
+        let loudest_share = config.budget.loudest_rotor_share(config.rotors.count);
+        config
+            .methods()
+            .filter_map(|method| match self.tracks.iter().find(|track| track.method == method) {
+                Some(track) => Some((self.weights.speed_in(span, track)?, loudest_share)),
+                None if method == Method::Separated => self.rotor_tracks.speed_in(span, order),
+                None => Some((self.lines.harmonic.speed_in(span, order)?, loudest_share)),
+            })
+            .map(|(speed, rotors_std_share)| with_budget(speed, &config.budget, rotors_std_share, length_s))
+            .collect()
+    }
+}

@@ -1,0 +1,58 @@
+//! Stage 1, one pass: sound → survey of all of it.
+
+use super::Silence;
+use crate::config::Config;
+use crate::error::Error;
+use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
+use hovertone_analysis::{NoTone, Span};
+use hovertone_signal::passes::{Passes, Piece};
+
+/// A survey, and the span of the recording that it covers.
+#[derive(Debug)]
+pub struct Surveyed {
+    pub(crate) survey: Survey,
+    pub(crate) heard: Span,
+}
+
+impl Surveyed {
+    /// The span that was heard, on the recording's clock.
+    pub fn heard(&self) -> Span {
+        self.heard
+    }
+
+    /// # Errors
+    /// "No rotor tone" where there is nothing to look for one in.
+    pub(crate) fn check(&self, config: &Config) -> Result<(), Silence> {
+        if config.span.is_given() && self.heard.length_s() <= 0.0 {
+            return Err(Silence::because(NoTone::OutsideRecording));
+        }
+        self.survey.why_nothing(self.heard.length_s()).map_or(Ok(()), |reason| Err(Silence::because(reason)))
+    }
+}
+
+/// Passes that the survey makes.
+pub(crate) fn passes_of_survey() -> u32 {
+    1
+}
+
+/// Surveys the span of the settings. Rows of another kind can be built `beside` it in the same pass.
+pub(crate) fn survey_from_source(
+    passes: &mut Passes<'_>,
+    config: &Config,
+    mut beside: Option<&mut RowsBuilder>,
+) -> Result<Surveyed, Error> {
+    let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
+    let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
+    let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
+    let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
+        Piece::Start(time_s) => from_s = time_s,
+        Piece::Samples(samples) => {
+            builder.push(samples);
+            if let Some(beside) = &mut beside {
+                beside.push(samples);
+            }
+        }
+        Piece::Heard(_) => {}
+    })?;
+    Ok(Surveyed { survey: builder.finish(to_s), heard: Span { from_s, to_s: to_s.max(from_s) } })
+}

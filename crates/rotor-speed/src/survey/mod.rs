@@ -1,0 +1,160 @@
+//! Signal → survey: the whole recording as a coarse spectrogram that fits in memory whatever its length, and its low
+//! frequencies as a fine one.
+
+mod mains_hum;
+mod rows;
+mod span;
+
+pub(crate) use mains_hum::MainsHum;
+pub(crate) use rows::{Row, Rows, RowsBuilder};
+pub use span::SpanConfig;
+
+use hovertone_analysis::NoTone;
+use hovertone_signal::spectrogram::Decimator;
+use mains_hum::mains_hum;
+use rows::mean_power;
+
+/// Sound quieter than this is silence: the last bit of 24, and what rounding makes of an offset of full scale.
+const SILENCE_DB: f64 = -138.0;
+
+/// The recording in rows of equal length.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Survey {
+    /// All frequencies, coarsely. Mains hum is taken out.
+    pub(crate) rows: Vec<Row>,
+    pub(crate) bin_hz: f64,
+    /// The same as they were, where hum was taken out.
+    rows_with_hum: Option<Vec<Row>>,
+    /// The low frequencies, finely, as they are.
+    pub(crate) fine: Rows,
+    /// Highest frequency that the fine rows hold.
+    pub(crate) fine_hz_max: f64,
+    /// The mains hum that was found.
+    pub(crate) hum: Option<MainsHum>,
+}
+
+impl Survey {
+    /// A survey of rows alone.
+    pub(crate) fn of_rows(Rows { rows, bin_hz }: Rows) -> Self {
+        Self { rows, bin_hz, ..Self::default() }
+    }
+
+    /// The rows as they were heard, hum included.
+    pub(crate) fn rows_with_hum(&self) -> &[Row] {
+        self.rows_with_hum.as_ref().unwrap_or(&self.rows)
+    }
+
+    /// Mean power spectrum of all that was heard.
+    pub(crate) fn mean_power(&self) -> Option<Vec<f64>> {
+        mean_power(self.rows.iter())
+    }
+
+    /// Why nothing can be found in it; `None` when something sounds.
+    pub(crate) fn why_nothing(&self, heard_s: f64) -> Option<NoTone> {
+        if self.rows.is_empty() {
+            return Some(NoTone::TooShort { heard_s });
+        }
+        self.rows.iter().all(|row| row.level_db(self.bin_hz) < SILENCE_DB).then_some(NoTone::Silence)
+    }
+}
+
+/// Frames and rows of a survey.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SurveySettings {
+    /// Length of a frame of all frequencies.
+    pub(crate) window_s: f64,
+    /// Length of a row.
+    pub(crate) row_s: f64,
+    /// Most rows; a longer recording gets longer rows.
+    pub(crate) rows_max: usize,
+    /// Length of a frame of the low frequencies, and of their rows.
+    pub(crate) fine_window_s: f64,
+    /// Highest of the low frequencies.
+    pub(crate) fine_hz_max: f64,
+}
+
+/// Builds a survey from a stream of samples.
+pub(crate) struct SurveyBuilder {
+    coarse: RowsBuilder,
+    decimator: Decimator,
+    fine: RowsBuilder,
+}
+
+impl SurveyBuilder {
+    pub(crate) fn new(settings: SurveySettings, sample_rate_hz: f64, start_s: f64) -> Self {
+        let rows_max = settings.rows_max;
+        let decimator = Decimator::new(sample_rate_hz, settings.fine_hz_max);
+        let fine_s = settings.fine_window_s;
+        let fine_start_s = start_s + decimator.delay_s();
+        Self {
+            coarse: RowsBuilder::new(sample_rate_hz, start_s, settings.window_s, settings.row_s, rows_max),
+            fine: RowsBuilder::new(decimator.rate_hz(), fine_start_s, fine_s, fine_s, rows_max / 2),
+            decimator,
+        }
+    }
+
+    pub(crate) fn push(&mut self, samples: &[f32]) {
+        self.coarse.push(samples);
+        self.fine.push(self.decimator.push(samples));
+    }
+
+    pub(crate) fn finish(self, end_s: f64) -> Survey {
+        let Rows { mut rows, bin_hz } = self.coarse.finish(end_s);
+        let fine = self.fine.finish(end_s);
+        let fine_hz_max = self.decimator.hz_max();
+        let hum = mains_hum(&fine, fine_hz_max);
+        let rows_with_hum = hum.is_some().then(|| rows.clone());
+        if let Some(hum) = &hum {
+            rows.iter_mut().for_each(|row| hum.take_out(&mut row.power, bin_hz));
+        }
+        Survey { rows, bin_hz, rows_with_hum, fine, fine_hz_max, hum }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn survey(seconds: usize, rows_max: usize) -> Survey {
+        let settings = SurveySettings { window_s: 0.2, row_s: 0.5, rows_max, fine_window_s: 1.0, fine_hz_max: 3000.0 };
+        let mut builder = SurveyBuilder::new(settings, 1000.0, 2.0);
+        for second in 0..seconds {
+            let level = if second == 3 { 0.5 } else { 0.0 };
+            let block: Vec<f32> = (0..1000).map(|n| level * ((n as f32) * 1.3).sin()).collect();
+            block.chunks(100).for_each(|samples| builder.push(samples));
+        }
+        builder.finish(2.0 + seconds as f64)
+    }
+
+    #[test]
+    fn rows_cover_the_recording_on_its_own_clock() {
+        let survey = survey(10, 256);
+        assert_eq!(survey.rows.len(), 20);
+        assert!((survey.rows[0].span.from_s - 2.0).abs() < 1e-9);
+        assert!((survey.rows[19].span.to_s - 12.0).abs() < 1e-9);
+        for pair in survey.rows.windows(2) {
+            assert!((pair[0].span.to_s - pair[1].span.from_s).abs() < 1e-9);
+        }
+        let loudest = survey.rows.iter().max_by(|a, b| a.level_db(survey.bin_hz).total_cmp(&b.level_db(survey.bin_hz)));
+        assert!(loudest.is_some_and(|row| row.span.from_s > 4.9 && row.span.to_s < 6.2));
+    }
+
+    #[test]
+    fn a_long_recording_has_longer_rows_and_not_more_of_them() {
+        let survey = survey(100, 16);
+        assert!((9..=16).contains(&survey.rows.len()), "{}", survey.rows.len());
+        for pair in survey.rows.windows(2) {
+            assert!((pair[0].span.to_s - pair[1].span.from_s).abs() < 1e-9);
+        }
+        let lengths = || survey.rows.iter().map(|row| row.span.length_s());
+        assert!((lengths().sum::<f64>() - 100.0).abs() < 1e-9);
+        assert!(
+            lengths().rev().skip(1).all(|length_s| (7.5..8.5).contains(&length_s)),
+            "{:?}",
+            lengths().collect::<Vec<_>>()
+        );
+        // one second of a sine of half of full scale, under windows that spread it over 1.5 bins
+        let energy: f64 = survey.rows.iter().map(|row| row.power.iter().sum::<f64>() * row.span.length_s()).sum();
+        assert!((energy / (1.5 * 0.25) - 1.0).abs() < 0.05, "{energy}");
+    }
+}

@@ -1,0 +1,148 @@
+//! Shaft speed → one search band for each harmonic of the tone.
+
+use crate::error::Error;
+use crate::tone::ToneConfig;
+use hovertone_analysis::{Band, Warning};
+use hovertone_signal::channels::ChannelBand;
+use hovertone_vehicle::BLADES_MAX;
+
+/// Sound above this share of half the sample rate is inside the recorder's own filter.
+const USABLE_NYQUIST_SHARE: f64 = 0.98;
+
+/// Harmonics between which other lines are looked for.
+const BETWEEN_LINES: u32 = 8;
+/// A steady rotor is looked for again so near to where it was found.
+const STEADY_SHARE: f64 = 0.003;
+
+/// Shaft speeds to look for, in turns per second: the given band's or the configured ones, as far as a recording of that
+/// rate can hold their tone.
+pub(crate) fn search_range_rev_s(tone: &ToneConfig, sample_rate_hz: f64) -> Result<(f64, f64), Error> {
+    let order = tone.order.lines_per_turn();
+    let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
+    if let Some((low_hz, high_hz)) = tone.band_hz {
+        if high_hz > hz_max {
+            return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
+        }
+        return Ok((low_hz / order, high_hz / order));
+    }
+    let low = tone.speed_min.rev_s();
+    let high = tone.speed_max.rev_s().min(hz_max / (1.0 + tone.band_half_width_share) / order);
+    if low < high { Ok((low, high)) } else { Err(Error::ToneAboveNyquist { order: tone.order, sample_rate_hz }) }
+}
+
+/// The bands around a shaft speed, as many harmonics as the recording can hold.
+pub(crate) fn bands_around(
+    speed_rev_s: f64,
+    tone: &ToneConfig,
+    sample_rate_hz: f64,
+    warnings: &mut Vec<Warning>,
+) -> Result<Vec<Band>, Error> {
+    let tone_hz = speed_rev_s * tone.order.lines_per_turn();
+    let found_hz = (tone_hz * (1.0 - tone.band_half_width_share), tone_hz * (1.0 + tone.band_half_width_share));
+    let (low_hz, high_hz) = tone.band_hz.unwrap_or(found_hz);
+    let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
+    let mut bands = Vec::new();
+    for harmonic in 1..=tone.harmonics {
+        let times = f64::from(harmonic);
+        if times * high_hz <= hz_max {
+            bands.push(Band {
+                harmonic,
+                order: tone.order.harmonic(harmonic),
+                band_hz_low: times * low_hz,
+                band_hz_high: times * high_hz,
+            });
+        } else if harmonic == 1 {
+            return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
+        } else {
+            let reason = format!("its band reaches {:.0} Hz, the recording ends at {hz_max:.0} Hz", times * high_hz);
+            warnings.push(Warning::HarmonicLeftOut { harmonic, reason });
+        }
+    }
+    Ok(bands)
+}
+
+/// Every line that the harmonic likelihood hears: the blade pass and the gear mesh with their harmonics, as far as each is known
+/// and the recording can hold them.
+pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: f64) -> Vec<ChannelBand> {
+    let order = tone.order.lines_per_turn();
+    let share = tone.band_half_width_share;
+    let found_rev_s = (speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share));
+    let speeds_rev_s = tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| (low_hz / order, high_hz / order));
+    lines_between_speeds(speeds_rev_s, tone, sample_rate_hz)
+}
+
+/// The same lines, for shafts between two speeds.
+pub fn lines_between_speeds(
+    (low_rev_s, high_rev_s): (f64, f64),
+    tone: &ToneConfig,
+    sample_rate_hz: f64,
+) -> Vec<ChannelBand> {
+    let order = tone.order.lines_per_turn();
+    let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
+    let is_blade_pass = order <= BLADES_MAX;
+    let blades = tone.blades.map(f64::from).filter(|_| !is_blade_pass);
+    let own = if is_blade_pass { tone.blade_pass_lines } else { tone.gear_mesh_lines };
+    let blade_pass =
+        blades.into_iter().flat_map(|blades| (1..=tone.blade_pass_lines).map(move |k| f64::from(k) * blades));
+    let mut orders: Vec<f64> = (1..=own).map(|k| f64::from(k) * order).chain(blade_pass).collect();
+    orders.sort_by(f64::total_cmp);
+    orders.dedup();
+    orders
+        .into_iter()
+        .filter(|order| order * high_rev_s <= hz_max)
+        .map(|order| ChannelBand {
+            order,
+            is_first: order == tone.order.lines_per_turn() || blades == Some(order),
+            band_hz_low: order * low_rev_s,
+            band_hz_high: order * high_rev_s,
+        })
+        .collect()
+}
+
+/// The lines of a steady rotor and those at halves, thirds, quarters and fifths between the lowest of its blade pass: where they sound,
+/// the shaft turns more slowly than assumed. They are looked for at its speed alone: among so many lines there are always some
+/// that noise puts in a row at another.
+pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64, speed_rev_s: f64) -> Vec<ChannelBand> {
+    let mut between: Vec<f64> = (2..=5)
+        .flat_map(|parts: u32| (1..parts).map(move |part| f64::from(part) / f64::from(parts)))
+        .flat_map(|share| (0..BETWEEN_LINES).map(move |line| (f64::from(line) + share) * order))
+        .collect();
+    between.sort_by(f64::total_cmp);
+    // a half is two quarters
+    between.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * order);
+    let own = lines.iter().map(|line| (line.order, line.is_first));
+    own.chain(between.into_iter().map(|order| (order, false)))
+        .map(|(order, is_first)| ChannelBand {
+            order,
+            is_first,
+            band_hz_low: order * speed_rev_s * (1.0 - STEADY_SHARE),
+            band_hz_high: order * speed_rev_s * (1.0 + STEADY_SHARE),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh() -> ToneConfig {
+        ToneConfig::of_order(Order::new(69.0).unwrap())
+    }
+
+    #[test]
+    fn three_harmonics_have_three_bands_that_do_not_touch() {
+        let bands = bands_around(60.17, &mesh(), 48000.0, &mut Vec::new()).unwrap();
+        assert_eq!(bands.len(), 3);
+        assert_eq!(bands[2].order.lines_per_turn(), 207.0);
+        assert!(bands.windows(2).all(|pair| pair[0].band_hz_high < pair[1].band_hz_low));
+        assert!(bands[0].band_hz_low < 4151.7 && bands[0].band_hz_high > 4151.7);
+    }
+
+    #[test]
+    fn harmonics_above_the_recording_are_left_out_and_said() {
+        let mut warnings = Vec::new();
+        assert_eq!(bands_around(60.17, &mesh(), 22050.0, &mut warnings).unwrap().len(), 2);
+        assert!(matches!(warnings[..], [Warning::HarmonicLeftOut { harmonic: 3, .. }]));
+        assert!(bands_around(60.17, &mesh(), 8000.0, &mut Vec::new()).is_err());
+    }
+}

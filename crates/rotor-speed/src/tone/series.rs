@@ -1,0 +1,176 @@
+//! Rows of levels → the strongest series of lines in them: a fundamental, followed from row to row.
+
+use super::levels::{LevelRow, LevelRows};
+use crate::tone::DiscoveryConfig;
+use hovertone_signal::statistics::median;
+
+/// Distance of neighbouring fundamentals on the search grid, as a share.
+const GRID_STEP_SHARE: f64 = 0.003;
+/// Lines that a series is recognised by, each counting less than the one before.
+const SERIES_LINES: u32 = 8;
+/// Places between lines, at half orders, where a series has none.
+const GAP_COUNT: u32 = 4;
+/// In the scan a line counts up to this level, so that one strong line does not outweigh a series.
+const SCAN_LEVEL_DB_MAX: f32 = 40.0;
+/// A row is looked through this near the fundamental of the whole: rotors in flight change their speed by this.
+const ROW_HALF_WIDTH_SHARE: f64 = 0.08;
+/// Speeds this near count as the same when rows are pooled: a hover wanders.
+const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
+/// A row has the family when it scores this share of what its typical rows do.
+const PRESENT_SCORE_SHARE: f64 = 0.5;
+/// Where the peak of a harmonic is looked for beside its expected place, as a share.
+const REFINE_HALF_WIDTH_SHARE: f64 = 0.012;
+/// Peaks lower than this do not take part in the refinement of a fundamental.
+const REFINE_LEVEL_DB_MIN: f64 = 6.0;
+/// Lines that are taken away after a family was found, and how wide.
+const MASKED_LINES: u32 = 40;
+const MASK_HALF_WIDTH_SHARE: f64 = 0.025;
+const MASK_HALF_WIDTH_BINS: f64 = 3.0;
+
+/// A series of lines over time.
+#[derive(Clone, Debug)]
+pub(crate) struct Series {
+    /// Fundamental: the median over the rows that have it.
+    pub(crate) hz: f64,
+    /// Fundamental in each row; absent where the series is not present.
+    pub(crate) row_hz: Vec<Option<f64>>,
+}
+
+impl Series {
+    /// The strongest series of the rows; `None` where none scores enough in any row.
+    pub(crate) fn strongest(levels: &LevelRows, config: &DiscoveryConfig) -> Option<Self> {
+        let hz_max = config.fundamental_hz_max.min(0.9 * levels.hz_max());
+        if hz_max <= config.fundamental_hz_min || levels.rows.is_empty() {
+            return None;
+        }
+        let count = ((hz_max / config.fundamental_hz_min).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
+        let grid_hz: Vec<f64> =
+            (0..count).map(|i| config.fundamental_hz_min * (GRID_STEP_SHARE * i as f64).exp()).collect();
+        let weights = Weights::new();
+        let scores: Vec<Vec<f64>> = levels
+            .rows
+            .iter()
+            .map(|row| {
+                let widened = row.widened(GRID_STEP_SHARE / 2.0);
+                grid_hz.iter().map(|&hz| score_db(&widened, &weights, hz / levels.bin_hz)).collect()
+            })
+            .collect();
+        let leading = leading_place(&scores)?;
+        Self::followed(levels, &grid_hz, &scores, leading, config)
+    }
+
+    fn followed(
+        levels: &LevelRows,
+        grid_hz: &[f64],
+        scores: &[Vec<f64>],
+        leading: usize,
+        config: &DiscoveryConfig,
+    ) -> Option<Self> {
+        let reach = (ROW_HALF_WIDTH_SHARE / GRID_STEP_SHARE) as usize;
+        let window = leading.saturating_sub(reach)..(leading + reach + 1).min(grid_hz.len());
+        let best: Vec<(usize, f64)> = scores
+            .iter()
+            .filter_map(|row| window.clone().map(|i| (i, row[i])).max_by(|a, b| a.1.total_cmp(&b.1)))
+            .collect();
+        let (cubes, squares) =
+            best.iter().map(|&(_, s)| s.max(0.0)).fold((0.0, 0.0), |(c, q), s| (c + s.powi(3), q + s.powi(2)));
+        let typical_db = if squares > 0.0 { cubes / squares } else { 0.0 };
+        let score_db_min = config.row_score_db_min.max(PRESENT_SCORE_SHARE * typical_db);
+        let row_hz: Vec<Option<f64>> = best
+            .iter()
+            .zip(&levels.rows)
+            .map(|(&(place, score), row)| {
+                (score >= score_db_min).then(|| refined_hz(row, grid_hz[place], levels.bin_hz))
+            })
+            .collect();
+        let present: Vec<f64> = row_hz.iter().copied().flatten().collect();
+        Some(Self { hz: median(&present)?, row_hz })
+    }
+
+    /// The same series with its fundamental multiplied.
+    pub(crate) fn times(&self, factor: f64) -> Self {
+        Self { hz: self.hz * factor, row_hz: self.row_hz.iter().map(|hz| hz.map(|hz| hz * factor)).collect() }
+    }
+
+    /// The same series in rows of another survey of the same sound.
+    pub(crate) fn in_rows_of(&self, own: &LevelRows, other: &LevelRows) -> Self {
+        let hz_at = |row: &LevelRow| {
+            let within = own.rows.iter().zip(&self.row_hz).filter_map(|(mine, hz)| {
+                let middle_s = (mine.span.from_s + mine.span.to_s) / 2.0;
+                hz.filter(|_| middle_s >= row.span.from_s && middle_s <= row.span.to_s)
+            });
+            let hz = median(&within.collect::<Vec<_>>())?;
+            Some(refined_hz(row, hz, other.bin_hz))
+        };
+        Self { hz: self.hz, row_hz: other.rows.iter().map(hz_at).collect() }
+    }
+
+    /// Takes the lines of the series out of the rows, so that the next strongest shows.
+    pub(crate) fn take_out_of(&self, levels: &mut LevelRows) {
+        let bin_hz = levels.bin_hz;
+        for (row, hz) in levels.rows.iter_mut().zip(&self.row_hz) {
+            // where it is not present, something of it may still sound
+            let hz = hz.unwrap_or(self.hz);
+            for line in (1..=MASKED_LINES).map(f64::from) {
+                let place = line * hz / bin_hz;
+                let half = (MASK_HALF_WIDTH_SHARE * place).max(MASK_HALF_WIDTH_BINS).min(hz / bin_hz / 3.0);
+                row.level_to_floor(place - half, place + half);
+            }
+        }
+    }
+}
+
+/// Orders at which a series has lines and where it has none, each with its share of the sum.
+struct Weights {
+    orders: Vec<(f64, f32)>,
+}
+
+impl Weights {
+    fn new() -> Self {
+        let weighted = |orders: Vec<f64>, sign: f64| {
+            let sum: f64 = (1..=orders.len()).map(|k| (k as f64).powf(-0.5)).sum();
+            let share = move |index: usize| (sign * (index as f64 + 1.0).powf(-0.5) / sum) as f32;
+            orders.into_iter().enumerate().map(move |(index, order)| (order, share(index)))
+        };
+        let lines = (1..=SERIES_LINES).map(f64::from).collect();
+        let gaps = (0..GAP_COUNT).map(|k| f64::from(k) + 0.5).collect();
+        Self { orders: weighted(lines, 1.0).chain(weighted(gaps, -1.0)).collect() }
+    }
+}
+
+/// Mean level of the lines of a fundamental at `place` bins, less that of the places between.
+fn score_db(widened: &[f32], weights: &Weights, place: f64) -> f64 {
+    let level_db = |order: f64| {
+        widened.get((order * place).round() as usize).map_or(0.0, |level| level.clamp(0.0, SCAN_LEVEL_DB_MAX))
+    };
+    f64::from(weights.orders.iter().map(|&(order, weight)| weight * level_db(order)).sum::<f32>())
+}
+
+/// The place that explains most of the rows. Squares count strong rows more than many weak ones.
+fn leading_place(scores: &[Vec<f64>]) -> Option<usize> {
+    let reach = (POOL_HALF_WIDTH_SHARE / GRID_STEP_SHARE).round() as usize;
+    let count = scores.first()?.len();
+    let mut support = vec![0.0; count];
+    for row in scores {
+        for (place, sum) in support.iter_mut().enumerate() {
+            let window = &row[place.saturating_sub(reach)..(place + reach + 1).min(count)];
+            *sum += window.iter().copied().fold(0.0, f64::max).powi(2);
+        }
+    }
+    let (place, &best) = support.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    (best > 0.0).then_some(place)
+}
+
+/// Least squares through the peaks of the harmonics: f = Σ w k p / Σ w k², w the level.
+fn refined_hz(row: &LevelRow, hz: f64, bin_hz: f64) -> f64 {
+    let (mut products, mut squares) = (0.0, 0.0);
+    for line in (1..=SERIES_LINES).map(f64::from) {
+        let place = line * hz / bin_hz;
+        let half = (REFINE_HALF_WIDTH_SHARE * place).max(1.0);
+        if let Some((peak, level_db)) = row.peak(place - half, place + half).filter(|it| it.1 >= REFINE_LEVEL_DB_MIN) {
+            products += level_db * line * peak * bin_hz;
+            squares += level_db * line * line;
+        }
+    }
+    if squares > 0.0 { products / squares } else { hz }
+}

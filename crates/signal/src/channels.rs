@@ -1,0 +1,260 @@
+//! Sound → one complex signal for each line of a rotor, at a low rate: what the harmonic likelihood listens to.
+//!
+//! A bank of band-passes in the frequency domain. Blocks of 0.17 s under a Hann window, half overlapping, are
+//! transformed; the bins around a line are transformed back on their own, and the blocks added up. The windows add up to
+//! one, so that inside its band a channel is the sound itself, shifted in frequency and thinned out:
+//!
+//! `z_o(t) = A_o exp(j (o θ(t) + φ_o) − j 2π f_o t)`, f_o the middle of the channel.
+//!
+//! A line outside the band is suppressed as the window's side lobes are, by more than 70 dB.
+
+use crate::spectrogram::{Window, smooth_at_least};
+use realfft::num_complex::Complex;
+use realfft::{RealFftPlanner, RealToComplex};
+use rustfft::{Fft, FftPlanner};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Length of a block. Bins of 6 Hz: fine enough for the lowest line, short enough to follow the edges of a hover.
+const BLOCK_S: f64 = 0.17;
+/// Bins beyond the wanted band on either side, so that the window's main lobe fits in.
+const GUARD_BINS: usize = 4;
+/// Fewest bins of a channel.
+const WIDTH_BINS_MIN: usize = 16;
+/// A stretch of sound fades in and out over this time: a hard edge would splash the lines into each other's channels.
+const FADE_S: f64 = 0.03;
+
+/// A hop is divided in so many ticks; each is a whole number of samples in every channel.
+pub const TICKS_PER_HOP: usize = 8;
+
+/// Where a channel listens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChannelBand {
+    /// Lines per turn of the shaft.
+    pub order: f64,
+    /// Whether it is the first of its family: the blade pass or the gear mesh itself.
+    pub is_first: bool,
+    pub band_hz_low: f64,
+    pub band_hz_high: f64,
+}
+
+/// A channel of the bank.
+pub struct Channel {
+    /// Lines per turn of the shaft.
+    pub order: f64,
+    /// Whether it is the first of its family.
+    pub is_first: bool,
+    /// The frequency that is shifted to zero.
+    pub centre_hz: f64,
+    /// Samples per second.
+    pub rate_hz: f64,
+    /// Samples that each hop of the bank adds.
+    pub hop_samples: usize,
+    first_bin: i64,
+    centre_bin: i64,
+    inverse: Arc<dyn Fft<f32>>,
+    block: Vec<Complex<f32>>,
+    tail: Vec<Complex<f32>>,
+}
+
+/// Splits a stream of samples into channels.
+pub struct ChannelBank {
+    pub channels: Vec<Channel>,
+    sample_rate_hz: f64,
+    window: Vec<f32>,
+    plan: Arc<dyn RealToComplex<f32>>,
+    pending: Vec<f32>,
+    /// Samples of this stretch that came in so far, and blocks that went out.
+    taken_samples: u64,
+    block_index: i64,
+    input: Vec<f32>,
+    output: Vec<Complex<f32>>,
+    scratch: Vec<Complex<f32>>,
+    inverse_scratch: Vec<Complex<f32>>,
+}
+
+impl ChannelBank {
+    pub fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
+        let block_samples = smooth_at_least((BLOCK_S * sample_rate_hz).round() as usize, 4);
+        let plan = RealFftPlanner::new().plan_fft_forward(block_samples);
+        let bin_hz = sample_rate_hz / block_samples as f64;
+        let mut planner = FftPlanner::new();
+        let channels: Vec<Channel> = bands.iter().map(|band| Channel::new(band, bin_hz, &mut planner)).collect();
+        let scratch_len = channels.iter().map(|channel| channel.inverse.get_inplace_scratch_len()).max().unwrap_or(0);
+        Self {
+            channels,
+            sample_rate_hz,
+            window: Window::Hann.values(block_samples).into_iter().map(|weight| weight as f32).collect(),
+            pending: Vec::new(),
+            taken_samples: 0,
+            block_index: 0,
+            input: plan.make_input_vec(),
+            output: plan.make_output_vec(),
+            scratch: plan.make_scratch_vec(),
+            inverse_scratch: vec![Complex::default(); scratch_len],
+            plan,
+        }
+    }
+
+    /// Time that each hop covers.
+    pub fn hop_s(&self) -> f64 {
+        (self.window.len() / 2) as f64 / self.sample_rate_hz
+    }
+
+    /// A new stretch of sound begins.
+    pub fn restart(&mut self) {
+        self.pending.clear();
+        // half a block of nothing before the first sample, so that the windows add up to one from there on
+        self.pending.resize(self.window.len() / 2, 0.0);
+        self.taken_samples = 0;
+        self.block_index = -1;
+        for channel in &mut self.channels {
+            channel.tail.fill(Complex::default());
+        }
+    }
+
+    /// Takes in samples and hands out every hop that they complete: the new samples of each channel are appended to
+    /// `series`, one for each channel.
+    pub fn push(&mut self, samples: &[f32], series: &mut [Vec<Complex<f32>>]) {
+        let fade_samples = self.fade_samples();
+        let faded_samples = usize::try_from(self.taken_samples).map_or(fade_samples, |taken| taken.min(fade_samples));
+        let (fading, whole) = samples.split_at(samples.len().min(fade_samples - faded_samples));
+        self.pending.extend(fading.iter().zip(faded_samples..).map(|(sample, n)| sample * fade(n, fade_samples)));
+        self.pending.extend_from_slice(whole);
+        self.taken_samples += samples.len() as u64;
+        // the last samples stay behind: they fade out if nothing follows
+        self.take_blocks(fade_samples, series);
+    }
+
+    /// The stretch ends here.
+    pub fn finish(&mut self, series: &mut [Vec<Complex<f32>>]) {
+        if self.taken_samples == 0 {
+            return;
+        }
+        let fade_samples = self.fade_samples().min(self.pending.len());
+        let from = self.pending.len() - fade_samples;
+        for (index, sample) in self.pending[from..].iter_mut().enumerate() {
+            *sample *= fade(fade_samples - 1 - index, fade_samples);
+        }
+        // until the last sample has gone through both of its blocks
+        self.pending.resize(self.pending.len() + self.window.len(), 0.0);
+        self.take_blocks(0, series);
+        self.taken_samples = 0;
+    }
+
+    fn fade_samples(&self) -> usize {
+        (FADE_S * self.sample_rate_hz).round() as usize
+    }
+
+    fn take_blocks(&mut self, keep_samples: usize, series: &mut [Vec<Complex<f32>>]) {
+        let (block_samples, hop_samples) = (self.window.len(), self.window.len() / 2);
+        let mut start = 0;
+        while start + block_samples + keep_samples <= self.pending.len() {
+            for ((into, sample), weight) in self.input.iter_mut().zip(&self.pending[start..]).zip(&self.window) {
+                *into = sample * weight;
+            }
+            // the buffers are the plan's own, so that their lengths cannot be wrong
+            let is_done = self.plan.process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
+            debug_assert!(is_done.is_ok());
+            for (channel, series) in self.channels.iter_mut().zip(series.iter_mut()) {
+                channel.add_block(&self.output, self.block_index, block_samples, series, &mut self.inverse_scratch);
+            }
+            self.block_index += 1;
+            start += hop_samples;
+        }
+        self.pending.drain(..start);
+    }
+}
+
+impl Channel {
+    fn new(band: &ChannelBand, bin_hz: f64, planner: &mut FftPlanner<f32>) -> Self {
+        let middle_hz = (band.band_hz_low + band.band_hz_high) / 2.0;
+        let centre_bin = (middle_hz / bin_hz).round() as i64;
+        let half_bins = ((band.band_hz_high - middle_hz) / bin_hz).ceil() as usize + GUARD_BINS;
+        let width = smooth_at_least((2 * half_bins).max(WIDTH_BINS_MIN), 2 * TICKS_PER_HOP);
+        Self {
+            order: band.order,
+            is_first: band.is_first,
+            centre_hz: centre_bin as f64 * bin_hz,
+            rate_hz: width as f64 * bin_hz,
+            hop_samples: width / 2,
+            first_bin: centre_bin - width as i64 / 2,
+            centre_bin,
+            inverse: planner.plan_fft_inverse(width),
+            block: vec![Complex::default(); width],
+            tail: vec![Complex::default(); width / 2],
+        }
+    }
+
+    /// Adds one block of the sound and hands out the half block that is complete with it.
+    fn add_block(
+        &mut self,
+        spectrum: &[Complex<f32>],
+        block_index: i64,
+        block_samples: usize,
+        series: &mut Vec<Complex<f32>>,
+        scratch: &mut [Complex<f32>],
+    ) {
+        let width = self.block.len();
+        // twice the positive frequencies; the sign turns the phase from the block's start to the stretch's
+        let sign = if (self.centre_bin * block_index).rem_euclid(2) == 1 { -1.0 } else { 1.0 };
+        let scale = sign * 2.0 / block_samples as f32;
+        let (rising, negative) = self.block.split_at_mut(width / 2);
+        for (into, bin) in negative.iter_mut().chain(rising).zip(self.first_bin..) {
+            // bin 0 holds the offset of the sound card
+            *into = match usize::try_from(bin) {
+                Ok(bin) if bin > 0 => spectrum.get(bin).copied().unwrap_or_default() * scale,
+                _ => Complex::default(),
+            };
+        }
+        self.inverse.process_with_scratch(&mut self.block, scratch);
+        let (first, second) = self.block.split_at(width / 2);
+        if block_index >= 0 {
+            series.extend(first.iter().zip(&self.tail).map(|(new, old)| new + old));
+        }
+        self.tail.copy_from_slice(second);
+    }
+}
+
+/// Raised cosine from 0 to 1.
+fn fade(index: usize, length: usize) -> f32 {
+    let share = (index as f64 + 0.5) / length.max(1) as f64;
+    (0.5 - 0.5 * (TAU / 2.0 * share).cos()) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_channel_is_the_line_itself_shifted_to_its_middle() {
+        let (rate, hz, amplitude, phase) = (48000.0, 4162.7, 0.3, 0.7);
+        let samples: Vec<f32> = (0..96000)
+            .map(|n| {
+                let t = f64::from(n) / rate;
+                // a stranger well outside the band, ten times as strong
+                (amplitude * (TAU * hz * t + phase).cos() + 10.0 * amplitude * (TAU * 3000.0 * t).cos()) as f32
+            })
+            .collect();
+        let band = ChannelBand { order: 69.0, is_first: true, band_hz_low: 3820.0, band_hz_high: 4480.0 };
+        let mut bank = ChannelBank::new(rate, &[band]);
+        for block in [7, 1000, 65536] {
+            let mut series = vec![Vec::new()];
+            bank.restart();
+            samples.chunks(block).for_each(|samples| bank.push(samples, &mut series));
+            bank.finish(&mut series);
+            let channel = &bank.channels[0];
+            assert!((series[0].len() as f64 / channel.rate_hz - 2.0).abs() < 0.2);
+            let mut worst = 0.0f64;
+            for (p, z) in series[0].iter().enumerate() {
+                let t = p as f64 / channel.rate_hz;
+                if (0.1..1.9).contains(&t) {
+                    let turn = TAU * (hz - channel.centre_hz) * t + phase;
+                    let want = Complex::new(amplitude * turn.cos(), amplitude * turn.sin());
+                    worst = worst.max((Complex::new(f64::from(z.re), f64::from(z.im)) - want).norm() / amplitude);
+                }
+            }
+            assert!(worst < 1e-3, "blocks of {block}: {worst}");
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! Loads and their trials → points of force and squared speed with what is uncertain about each.
+
+pub(crate) mod bootstrap;
+
+pub use bootstrap::TrialBootstrap;
+
+use crate::force::Force;
+use crate::speeds::LoadSpeeds;
+use crate::speeds::TrialSpeeds;
+use crate::square_law::point_verdict::{CONSTANTS_FOR_GROSS, are_split, is_off_by_a_factor};
+use crate::square_law::{ForcePoint, PointNoise};
+use crate::statistics::{mean, median};
+use hovertone_vehicle::RotorSpeed;
+
+/// Degrees of freedom of an uncertainty that comes from the frames of one trial: some hundred frames of a hover are worth
+/// about so many independent ones.
+pub(crate) const FREEDOM_OF_FRAMES: f64 = 20.0;
+/// Degrees of freedom from which the scatter of the trials tells their uncertainty better than the frames do.
+const FREEDOM_OF_TRIALS_MIN: usize = 4;
+/// Degrees of freedom from which Student's distribution is the normal one, and F is chi-square: p differs by less than 1e-5.
+const FREEDOM_KNOWN: f64 = 1e5;
+/// A load in which a rotor was heard.
+pub(crate) struct HeardLoad<'a> {
+    /// Its place among all loads.
+    pub(crate) index: usize,
+    pub(crate) load: &'a LoadSpeeds,
+    /// Mean shaft speeds of its trials, those that are off by a factor left out.
+    pub(crate) trials_rad_s: Vec<f64>,
+    /// Mean of those.
+    pub(crate) speed_rad_s: f64,
+    /// Relative standard uncertainty of that mean …
+    pub(crate) speed_std_share: f64,
+    /// … and the part of it that the method itself says.
+    pub(crate) estimator_std_share: f64,
+    /// Force of the whole vehicle.
+    pub(crate) force_n: f64,
+    /// What this load's force is uncertain by alone, not together with others.
+    pub(crate) own_force_std_n: f64,
+}
+
+/// All that was heard, ready to be fitted.
+pub(crate) struct Campaign<'a> {
+    pub(crate) loads: Vec<HeardLoad<'a>>,
+    pub(crate) points: Vec<ForcePoint>,
+    pub(crate) noise: PointNoise,
+    /// Degrees of freedom of the speeds' uncertainty.
+    pub(crate) speed_freedom: f64,
+    /// Trials that are off by a factor: load and recording.
+    pub(crate) gross_trials: Vec<(String, String)>,
+    /// Half of the trials or more are off by a factor from the others.
+    pub(crate) are_split: bool,
+}
+
+/// Which trials are off by a factor.
+struct GrossTrials {
+    /// For each load, each of its trials.
+    by_load: Vec<Vec<bool>>,
+    /// So many that nobody knows which of them.
+    are_split: bool,
+}
+
+impl<'a> Campaign<'a> {
+    /// Trial means are what counts: the samples of a trial overlap and share a flight.
+    pub(crate) fn of(loads: &'a [LoadSpeeds], rotor_count: u32) -> Self {
+        let GrossTrials { by_load: gross, are_split } = gross_trials(loads, rotor_count);
+        let mut heard: Vec<HeardLoad<'a>> = loads
+            .iter()
+            .enumerate()
+            .filter_map(|(index, load)| heard_load(index, load, rotor_count, &gross[index]))
+            .collect();
+        let speed_freedom = settle_speed_std(&mut heard);
+        let points: Vec<ForcePoint> = heard.iter().map(HeardLoad::point).collect();
+        let share = |of: &dyn Fn(&HeardLoad<'_>) -> f64| heard.iter().map(|load| of(load).powi(2)).sum::<f64>();
+        let speed_share = share(&|load| 2.0 * load.speed_std_share);
+        let all_share = speed_share + share(&|load| load.own_force_std_n / load.force_n);
+        // Welch and Satterthwaite: what is known beside the scatter makes the whole better known
+        let degrees_of_freedom = speed_freedom * (all_share / speed_share.max(f64::MIN_POSITIVE)).powi(2);
+        let names = gross.iter().zip(loads).flat_map(|(gross, load)| {
+            let named = load.trials.iter().zip(gross).filter(|(_, gross)| **gross);
+            named.map(|(trial, _)| (load.name.clone(), trial.recording.clone()))
+        });
+        // where the scatter hardly counts beside what is stated, its degrees of freedom are as good as infinite
+        let is_known = degrees_of_freedom > FREEDOM_KNOWN;
+        Self {
+            points,
+            noise: if is_known { PointNoise::Stated } else { PointNoise::Measured { degrees_of_freedom } },
+            speed_freedom,
+            gross_trials: names.collect(),
+            are_split,
+            loads: heard,
+        }
+    }
+}
+
+impl HeardLoad<'_> {
+    fn point(&self) -> ForcePoint {
+        let square = self.speed_rad_s.powi(2);
+        ForcePoint {
+            name: self.load.name.clone(),
+            speed_square_rad2_s2: square,
+            speed_square_std_rad2_s2: 2.0 * square * self.speed_std_share,
+            force_n: self.force_n,
+            force_std_n: self.own_force_std_n,
+        }
+    }
+
+    /// Whether the whole vehicle flies: a hover, not a bench.
+    pub(crate) fn is_hover(&self) -> bool {
+        matches!(self.load.force, Force::Weight { .. })
+    }
+
+    /// Mean length of a trial's hover.
+    pub(crate) fn trial_s(&self) -> Option<f64> {
+        mean(&self.load.trials.iter().map(|trial| trial.hover_s).collect::<Vec<_>>())
+    }
+}
+
+/// Factor from the force of the rotors that run to that of the whole vehicle: 1 in a hover.
+pub(crate) fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64 {
+    f64::from(rotor_count) / f64::from(rotors_running.max(1))
+}
+
+fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
+    mean(&trial.counted().iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
+}
+
+/// For each load, which of its trials are off by a factor. A load all of whose trials are is judged as a load; where half of
+/// all trials are, nobody knows which half, and none is left out.
+fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> GrossTrials {
+    let constants: Vec<Vec<Option<f64>>> = loads
+        .iter()
+        .map(|load| {
+            let force_n = load.force.newtons() * whole_vehicle_factor(load.rotors_running, rotor_count);
+            load.trials.iter().map(|trial| Some(force_n / trial_rad_s(trial)?.powi(2))).collect()
+        })
+        .collect();
+    let known: Vec<f64> = constants.iter().flatten().flatten().copied().collect();
+    let are_split = are_split(&known);
+    let middle = median(&known).filter(|_| known.len() >= CONSTANTS_FOR_GROSS && !are_split);
+    let is_gross = |constant: &Option<f64>| match (constant, middle) {
+        (Some(constant), Some(middle)) => is_off_by_a_factor(*constant, middle),
+        _ => false,
+    };
+    let of_load = |trials: &Vec<Option<f64>>| {
+        let gross: Vec<bool> = trials.iter().map(is_gross).collect();
+        let has_sound_one = trials.iter().zip(&gross).any(|(constant, gross)| constant.is_some() && !gross);
+        if has_sound_one { gross } else { vec![false; trials.len()] }
+    };
+    GrossTrials { by_load: constants.iter().map(of_load).collect(), are_split }
+}
+
+fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &[bool]) -> Option<HeardLoad<'a>> {
+    let kept = || load.trials.iter().zip(gross).filter(|(_, gross)| !**gross).map(|(trial, _)| trial);
+    let trials_rad_s: Vec<f64> = kept().filter_map(trial_rad_s).collect();
+    let speed_rad_s = mean(&trials_rad_s)?;
+    let within: Vec<f64> = kept()
+        .flat_map(TrialSpeeds::counted)
+        .filter_map(|sample| Some(RotorSpeed::from_rev_s(sample.std_uncertainty_rev_s?).rad_s()))
+        .collect();
+    let estimator = mean(&within).map_or(0.0, |std| std / (trials_rad_s.len() as f64).sqrt());
+    let factor = whole_vehicle_factor(load.rotors_running, rotor_count);
+    let force_n = load.force.newtons() * factor;
+    Some(HeardLoad {
+        index,
+        load,
+        trials_rad_s,
+        speed_rad_s,
+        speed_std_share: estimator / speed_rad_s,
+        estimator_std_share: estimator / speed_rad_s,
+        force_n,
+        own_force_std_n: force_n * load.force.relative_std().0,
+    })
+}
+
+/// Settles the uncertainty of every load's speed: from the scatter of all trials about the means of their loads, pooled, since
+/// five trials alone tell theirs to a third only. Gives back its degrees of freedom.
+fn settle_speed_std(loads: &mut [HeardLoad<'_>]) -> f64 {
+    let freedom: usize = loads.iter().map(|load| load.trials_rad_s.len() - 1).sum();
+    let squares: f64 = loads
+        .iter()
+        .flat_map(|load| load.trials_rad_s.iter().map(|trial| (trial / load.speed_rad_s - 1.0).powi(2)))
+        .sum();
+    let scatter = (freedom > 0).then(|| (squares / freedom as f64).sqrt());
+    let mut by_frames = true;
+    for load in loads {
+        let of_scatter = scatter.map(|scatter| scatter / (load.trials_rad_s.len() as f64).sqrt());
+        load.speed_std_share = match of_scatter {
+            Some(of_scatter) if freedom >= FREEDOM_OF_TRIALS_MIN => {
+                by_frames = false;
+                of_scatter
+            }
+            // two or three trials can agree by chance better than their frames allow
+            Some(of_scatter) => of_scatter.max(load.estimator_std_share),
+            None => load.estimator_std_share,
+        };
+        load.estimator_std_share = load.estimator_std_share.min(load.speed_std_share);
+    }
+    if by_frames { FREEDOM_OF_FRAMES } else { freedom as f64 }
+}

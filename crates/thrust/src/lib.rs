@@ -1,0 +1,40 @@
+//! From rotor speeds and known forces to the thrust constant C_f in F = C_f ω²: the square law through all loads with its uncertainty
+//! budget; and per sample, per trial and per load as the paper averages.
+
+mod air;
+mod budget;
+mod campaign;
+mod drift;
+mod fit;
+mod force;
+mod plan;
+pub mod regression;
+mod settings;
+mod speeds;
+mod square_law;
+mod statistics;
+mod table;
+mod vehicle_model;
+mod warning;
+mod weighing;
+
+pub use air::{
+    Air, Gravity, ThrustCoefficients, figure_of_merit, gravity_m_s2, is_plausible_merit, thrust_constant_n_s2,
+    torque_constant_n_m_s2,
+};
+pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget, UncertaintyInputs};
+pub use campaign::TrialBootstrap;
+pub use drift::{Drift, DriftKind, row_drifts};
+pub use fit::{thrust_from_loads, warnings_of_points};
+pub use force::Force;
+pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
+pub use settings::ThrustSettings;
+pub use speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
+pub use square_law::{
+    ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, PointNoise, PointVerdict, PowerLaw,
+    SquareLawFit, square_law_fit,
+};
+pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
+pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
+pub use warning::ThrustWarning;
+pub use weighing::{AcousticScale, HeardHover, WeighedHover};

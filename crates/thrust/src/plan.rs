@@ -1,0 +1,246 @@
+//! Before flying: how many loads, trials and seconds a wanted uncertainty needs. The plan is a campaign with the scatter that is
+//! to be expected, fitted like a real one, so that plan and budget cannot disagree.
+
+use crate::budget::BudgetInput;
+use crate::fit::thrust_from_loads;
+use crate::force::Force;
+use crate::settings::ThrustSettings;
+use crate::speeds::LoadSpeeds;
+use crate::speeds::SampleSpeed;
+use crate::speeds::TrialSpeeds;
+use crate::square_law::load_range::force_ratio_for_intercept;
+use hovertone_analysis::Method;
+use hovertone_analysis::Span;
+use hovertone_vehicle::PROPELLER_DIAMETER_M;
+use hovertone_vehicle::RotorSpeed;
+use serde::Serialize;
+
+/// What is tried, each list in growing order: no fewer than three loads, of which one can be named that does not fit, and three
+/// trials, whose scatter can be measured.
+const LOADS: [usize; 4] = [3, 4, 5, 8];
+const TRIALS: [usize; 6] = [3, 4, 5, 8, 12, 20];
+const SECONDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 60.0];
+/// Flights cost more than their seconds: take-off, landing, another load.
+const OVERHEAD_S: f64 = 20.0;
+/// Any speed will do: only shares matter.
+const SPEED_RAD_S: f64 = 400.0;
+
+/// What is wanted, and with what it is flown.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlanWish {
+    /// Wanted expanded uncertainty (k = 2) of the constant, as a share.
+    pub expanded_share: f64,
+    /// Mass of the vehicle.
+    pub vehicle_mass_kg: f64,
+    /// Largest mass that it may carry beside itself.
+    pub added_mass_kg_max: f64,
+    /// Standard uncertainty of a weighing.
+    pub mass_std_kg: f64,
+    /// Gravity where it is flown.
+    pub gravity_m_s2: f64,
+    /// Its standard uncertainty.
+    pub gravity_std_m_s2: f64,
+    /// Spread of the speed while it hovers (the paper's STD over its speed: 0.0123) …
+    pub speed_spread_share: f64,
+    /// … and the time over which it is correlated.
+    pub correlation_time_s: f64,
+    /// Everything else.
+    pub settings: ThrustSettings,
+}
+
+/// What will do.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FlightPlan {
+    /// Loads, evenly spaced from none to the largest.
+    pub load_count: usize,
+    /// Trials of each.
+    pub trials_per_load: usize,
+    /// Seconds of hover in each trial.
+    pub trial_s: f64,
+    /// Seconds of hover in all.
+    pub hover_s: f64,
+    /// Expanded uncertainty (k = 2) that is to be expected, as a share.
+    pub expanded_share: f64,
+    /// What contributes most to it.
+    pub largest: BudgetInput,
+    /// Largest over smallest weight that would show an intercept, with so many trials; absent where none would.
+    pub force_ratio_for_intercept: Option<f64>,
+}
+
+/// Why there is no plan.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// Masses or shares that mean nothing.
+    #[error("{name} = {value} means nothing here, it must be {must_be}")]
+    OutOfRange {
+        /// Which.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What is allowed.
+        must_be: &'static str,
+    },
+    /// More flying does not help.
+    #[error(
+        "no number of flights brings the uncertainty below {:.2} % (k = 2): what remains is the {}",
+        100.0 * .best_share, .largest.title()
+    )]
+    OutOfReach {
+        /// The best that can be had.
+        best_share: f64,
+        /// What stands in the way.
+        largest: BudgetInput,
+    },
+}
+
+/// The plan that reaches the wish with the least flying.
+///
+/// # Errors
+/// Wishes that mean nothing, or that no number of flights reaches.
+pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
+    for (name, value) in [
+        ("expanded_share", wish.expanded_share),
+        ("vehicle_mass_kg", wish.vehicle_mass_kg),
+        ("added_mass_kg_max", wish.added_mass_kg_max),
+        ("gravity_m_s2", wish.gravity_m_s2),
+        ("speed_spread_share", wish.speed_spread_share),
+        ("correlation_time_s", wish.correlation_time_s),
+    ] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(PlanError::OutOfRange { name, value, must_be: "a number above 0" });
+        }
+    }
+    for (name, value) in [("mass_std_kg", wish.mass_std_kg), ("gravity_std_m_s2", wish.gravity_std_m_s2)] {
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(PlanError::OutOfRange { name, value, must_be: "0 or more" });
+        }
+    }
+    if let Some(value) = wish.settings.propeller_diameter_m.filter(|value| !PROPELLER_DIAMETER_M.contains(value)) {
+        return Err(PlanError::OutOfRange { name: "propeller_diameter_m", value, must_be: "from 0.01 to 10" });
+    }
+    let mut plans: Vec<FlightPlan> = Vec::new();
+    for load_count in LOADS {
+        for trials_per_load in TRIALS {
+            plans.extend(SECONDS.iter().filter_map(|&trial_s| expected(wish, load_count, trials_per_load, trial_s)));
+        }
+    }
+    let cost_s = |plan: &FlightPlan| plan.hover_s + OVERHEAD_S * (plan.load_count * plan.trials_per_load) as f64;
+    let good = plans.iter().filter(|plan| plan.expanded_share <= wish.expanded_share);
+    match good.min_by(|a, b| cost_s(a).total_cmp(&cost_s(b))) {
+        Some(plan) => Ok(*plan),
+        None => {
+            let best = plans.iter().min_by(|a, b| a.expanded_share.total_cmp(&b.expanded_share));
+            let nothing = PlanError::OutOfRange {
+                name: "expanded_share",
+                value: wish.expanded_share,
+                must_be: "within what floats hold",
+            };
+            Err(best.map_or(nothing, |best| PlanError::OutOfReach {
+                best_share: best.expanded_share,
+                largest: best.largest,
+            }))
+        }
+    }
+}
+
+/// Standard uncertainty of the mean speed of a trial, as a share: σ √(2 τ/T), and no more than the spread itself.
+fn trial_std_share(wish: &PlanWish, trial_s: f64) -> f64 {
+    wish.speed_spread_share * (2.0 * wish.correlation_time_s / trial_s).sqrt().min(1.0)
+}
+
+fn expected(wish: &PlanWish, load_count: usize, trials_per_load: usize, trial_s: f64) -> Option<FlightPlan> {
+    let std_share = trial_std_share(wish, trial_s);
+    // speeds that scatter by exactly so much, evenly
+    let middle = (trials_per_load as f64 - 1.0) / 2.0;
+    let squares: f64 = (0..trials_per_load).map(|trial| (trial as f64 - middle).powi(2)).sum();
+    let unit = std_share * ((trials_per_load as f64 - 1.0) / squares).sqrt();
+    let loads: Vec<LoadSpeeds> = (0..load_count)
+        .map(|load| {
+            let added_mass_kg = wish.added_mass_kg_max * load as f64 / (load_count as f64 - 1.0);
+            let mass_kg = wish.vehicle_mass_kg + added_mass_kg;
+            let rad_s = SPEED_RAD_S * (mass_kg / wish.vehicle_mass_kg).sqrt();
+            let trial = |trial: usize| TrialSpeeds {
+                recording: String::new(),
+                hover_s: trial_s,
+                hover: None,
+                samples: vec![SampleSpeed {
+                    span: Span { from_s: 0.0, to_s: trial_s },
+                    speed: RotorSpeed::from_rad_s(rad_s * (1.0 + unit * (trial as f64 - middle))),
+                    std_uncertainty_rev_s: None,
+                    spread_rev_s: None,
+                    frame_count: 1,
+                }],
+            };
+            LoadSpeeds {
+                name: load.to_string(),
+                force: Force::Weight {
+                    vehicle_mass_kg: wish.vehicle_mass_kg,
+                    added_mass_kg,
+                    mass_std_kg: wish.mass_std_kg,
+                    gravity_m_s2: wish.gravity_m_s2,
+                    gravity_std_m_s2: wish.gravity_std_m_s2,
+                },
+                rotors_running: wish.settings.rotor_count,
+                power_w: None,
+                trials: (0..trials_per_load).map(trial).collect(),
+            }
+        })
+        .collect();
+    let budget = thrust_from_loads(&loads, Method::default(), &wish.settings).budget?;
+    let largest = budget.lines.iter().max_by(|a, b| a.share.total_cmp(&b.share))?.input;
+    let load_std_share =
+        (2.0 * std_share / (trials_per_load as f64).sqrt()).hypot(wish.mass_std_kg / wish.vehicle_mass_kg);
+    Some(FlightPlan {
+        load_count,
+        trials_per_load,
+        trial_s,
+        hover_s: (load_count * trials_per_load) as f64 * trial_s,
+        expanded_share: budget.expanded_share,
+        largest,
+        force_ratio_for_intercept: force_ratio_for_intercept(load_std_share, load_count),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wish(expanded_share: f64) -> PlanWish {
+        PlanWish {
+            expanded_share,
+            vehicle_mass_kg: 0.413,
+            added_mass_kg_max: 0.1,
+            mass_std_kg: 0.0005,
+            gravity_m_s2: 9.785,
+            gravity_std_m_s2: 0.0005,
+            speed_spread_share: 0.0123,
+            correlation_time_s: 0.3,
+            settings: ThrustSettings { follows_loudest: false, ..ThrustSettings::for_rotors(4) },
+        }
+    }
+
+    #[test]
+    fn a_stricter_wish_needs_more_flying() {
+        let plans = [0.01, 0.006, 0.0045].map(|share| flight_plan(&wish(share)).unwrap());
+        assert!(plans[0].hover_s < plans[1].hover_s && plans[1].hover_s < plans[2].hover_s, "{plans:?}");
+        assert!(plans.iter().zip([0.01, 0.006, 0.0045]).all(|(plan, share)| plan.expanded_share <= share));
+        assert!(plans[2].force_ratio_for_intercept.unwrap() < plans[0].force_ratio_for_intercept.unwrap_or(11.0));
+    }
+
+    #[test]
+    fn what_no_flying_reaches_says_what_is_in_the_way() {
+        let ridge = PlanWish { settings: ThrustSettings::for_rotors(4), ..wish(0.01) };
+        let Err(PlanError::OutOfReach { best_share, largest }) = flight_plan(&ridge) else { panic!("a plan") };
+        assert_eq!(largest, BudgetInput::LoudestRotor);
+        assert!((best_share - 0.02).abs() < 0.002, "{best_share}");
+        assert!(matches!(flight_plan(&wish(0.0)), Err(PlanError::OutOfRange { .. })));
+        let refused = |wish: PlanWish| matches!(flight_plan(&wish), Err(PlanError::OutOfRange { .. }));
+        assert!(refused(PlanWish { vehicle_mass_kg: f64::NAN, ..wish(0.01) }));
+        assert!(refused(PlanWish { mass_std_kg: f64::NAN, ..wish(0.01) }));
+        assert!(refused(PlanWish { mass_std_kg: -0.1, ..wish(0.01) }));
+        assert!(refused(PlanWish { gravity_std_m_s2: f64::INFINITY, ..wish(0.01) }));
+        let diameter = ThrustSettings { propeller_diameter_m: Some(254.0), ..wish(0.01).settings };
+        assert!(refused(PlanWish { settings: diameter, ..wish(0.01) }));
+    }
+}

@@ -1,0 +1,172 @@
+//! Whether each point agrees with the others, and which force would.
+
+use crate::square_law::{
+    DISAGREEMENT_CHANCE, ForcePoint, PointNoise, agreement_of, law_through_origin, scatter_factor,
+};
+use crate::statistics::median;
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+/// A point whose constant is so many times the median, or so many times below it, is another unit, another octave or another
+/// flight, and no load.
+const GROSS_FACTOR: f64 = 2.0;
+/// Fewest constants among which one can be told to be off by a factor.
+pub(crate) const CONSTANTS_FOR_GROSS: usize = 3;
+
+/// One point against the others.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PointVerdict {
+    /// Name of the load or row.
+    pub name: String,
+    /// How much its force is above what the others' constant gives at its speed, as a share; absent for a single point.
+    pub deviation_share: Option<f64>,
+    /// Constant from the others (leave one out).
+    pub thrust_constant_of_others_n_s2: Option<f64>,
+    /// Chance that a right point deviates so much.
+    pub p_value: Option<f64>,
+    /// Whether it agrees with the others; absent where nothing tells.
+    pub fits: Option<bool>,
+    /// Off by a factor, and left out of the fit.
+    pub is_gross: bool,
+    /// Force that would agree with the others …
+    pub force_that_fits_n: Option<f64>,
+    /// … and its standard uncertainty.
+    pub force_that_fits_std_n: Option<f64>,
+}
+
+/// Whether a constant is another unit's, another octave's or another flight's than that of most.
+pub(crate) fn is_off_by_a_factor(constant_n_s2: f64, middle_n_s2: f64) -> bool {
+    !(middle_n_s2 / GROSS_FACTOR..=middle_n_s2 * GROSS_FACTOR).contains(&constant_n_s2)
+}
+
+/// Points whose own constant is off by a factor from the median.
+pub(crate) fn gross_points(points: &[ForcePoint]) -> Vec<bool> {
+    let constants: Vec<f64> = points.iter().map(ForcePoint::thrust_constant_n_s2).collect();
+    let middle = median(&constants).filter(|_| points.len() >= CONSTANTS_FOR_GROSS && !are_split(&constants));
+    let is_gross = |constant: &f64| middle.is_some_and(|middle| is_off_by_a_factor(*constant, middle));
+    constants.iter().map(is_gross).collect()
+}
+
+/// Whether half of the constants or more are off by a factor from the others: nobody knows which half.
+pub(crate) fn are_split(constants_n_s2: &[f64]) -> bool {
+    let Some(middle) = median(constants_n_s2) else { return false };
+    let off = constants_n_s2.iter().filter(|constant| is_off_by_a_factor(**constant, middle)).count();
+    off > 0 && 2 * off >= constants_n_s2.len()
+}
+
+/// Judges every point against those that are kept. As long as they disagree together, the one that deviates most is named
+/// and set aside; of two that disagree nobody knows which, and both are named.
+pub(crate) fn verdicts(points: &[ForcePoint], gross: &[bool], noise: PointNoise) -> Vec<PointVerdict> {
+    let mut kept: Vec<usize> = (0..points.len()).filter(|&index| !gross[index]).collect();
+    let mut misfits: Vec<usize> = Vec::new();
+    while kept.len() > 1 && together_disagree(points, &kept, noise) {
+        if kept.len() == 2 {
+            misfits.append(&mut kept.clone());
+            break;
+        }
+        let worst = kept
+            .iter()
+            .copied()
+            .filter_map(|index| Some((index, against_others(points, index, &kept, noise)?.stds.abs())))
+            .max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((worst, _)) = worst else { break };
+        misfits.push(worst);
+        kept.retain(|&index| index != worst);
+    }
+    let judged = |index: usize| {
+        let is_misfit = gross[index] || misfits.contains(&index);
+        let against = against_others(points, index, &kept, noise);
+        let fits = against.as_ref().filter(|against| against.p_value.is_some()).map(|_| !is_misfit);
+        let that_fits = |of: fn(&Against) -> f64| against.as_ref().filter(|_| is_misfit).map(of);
+        PointVerdict {
+            name: points[index].name.clone(),
+            deviation_share: against.as_ref().map(|against| against.deviation_share),
+            thrust_constant_of_others_n_s2: against.as_ref().map(|against| against.constant_n_s2),
+            p_value: against.as_ref().and_then(|against| against.p_value),
+            fits: if gross[index] { Some(false) } else { fits },
+            is_gross: gross[index],
+            force_that_fits_n: that_fits(|against| against.expected_n),
+            force_that_fits_std_n: that_fits(|against| against.expected_std_n),
+        }
+    };
+    (0..points.len()).map(judged).collect()
+}
+
+/// A point against the constant of the others.
+struct Against {
+    constant_n_s2: f64,
+    expected_n: f64,
+    expected_std_n: f64,
+    deviation_share: f64,
+    /// Deviation in standard uncertainties.
+    stds: f64,
+    p_value: Option<f64>,
+}
+
+fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: PointNoise) -> Option<Against> {
+    let own = &points[index];
+    let others: Vec<&ForcePoint> = kept.iter().filter(|&&other| other != index).map(|&other| &points[other]).collect();
+    let fit = law_through_origin(&others, noise).ok()?;
+    let factor = match noise {
+        // the residuals of the others are all that tells
+        PointNoise::FromResiduals => fit.agreement.scatter_factor(),
+        _ => scatter_factor(fit.agreement, noise),
+    };
+    let (speed_std, force_std_n) = match noise {
+        PointNoise::FromResiduals => (0.0, factor.unwrap_or(f64::INFINITY)),
+        _ => (own.speed_square_std_rad2_s2, own.force_std_n),
+    };
+    let expected_n = fit.slope * own.speed_square_rad2_s2;
+    let slope_std = fit.slope_std * factor.unwrap_or(f64::INFINITY);
+    let expected_std_n = (slope_std * own.speed_square_rad2_s2).hypot(fit.slope * speed_std);
+    let stds = stds_of(own.force_n - expected_n, expected_std_n.hypot(force_std_n));
+    let p_value = match noise {
+        PointNoise::Stated => two_sided_chance(stds, None),
+        PointNoise::Measured { degrees_of_freedom } => two_sided_chance(stds, Some(degrees_of_freedom)),
+        PointNoise::FromResiduals => two_sided_chance(stds, Some(fit.agreement.degrees_of_freedom as f64)),
+    };
+    Some(Against {
+        constant_n_s2: fit.slope,
+        expected_n,
+        expected_std_n: if expected_std_n.is_finite() { expected_std_n } else { 0.0 },
+        deviation_share: own.force_n / expected_n - 1.0,
+        stds,
+        p_value,
+    })
+}
+
+/// A deviation in standard uncertainties. Points that agree to the last digit have none of either: they do not deviate.
+fn stds_of(deviation: f64, std: f64) -> f64 {
+    if deviation == 0.0 { 0.0 } else { deviation / std }
+}
+
+/// Chance of a deviation at least so large either way: normal, or Student's where the uncertainty has degrees of freedom.
+/// `None` without any.
+pub(crate) fn two_sided_chance(stds: f64, degrees_of_freedom: Option<f64>) -> Option<f64> {
+    let tail = match degrees_of_freedom {
+        // the library's tails take no infinity
+        _ if stds.is_infinite() => 0.0,
+        None => Normal::new(0.0, 1.0).ok()?.sf(stds.abs()),
+        Some(freedom) => StudentsT::new(0.0, 1.0, freedom).ok()?.sf(stds.abs()),
+    };
+    Some((2.0 * tail).min(1.0)).filter(|chance| chance.is_finite())
+}
+
+/// Whether points disagree with one law together. Where nobody states uncertainties the largest deviation among so many
+/// decides (Bonferroni).
+fn together_disagree(points: &[ForcePoint], kept: &[usize], noise: PointNoise) -> bool {
+    let p_value = match noise {
+        PointNoise::FromResiduals => {
+            let p_of = |&index: &usize| against_others(points, index, kept, noise)?.p_value;
+            kept.iter().filter_map(p_of).reduce(f64::min).map(|p_value| p_value * kept.len() as f64)
+        }
+        _ => {
+            let of: Vec<&ForcePoint> = kept.iter().map(|&index| &points[index]).collect();
+            law_through_origin(&of, noise)
+                .ok()
+                .and_then(|fit| agreement_of(fit.agreement, noise))
+                .map(|law| law.p_value)
+        }
+    };
+    p_value.is_some_and(|p_value| p_value < DISAGREEMENT_CHANCE)
+}

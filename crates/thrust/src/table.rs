@@ -1,0 +1,101 @@
+//! The thrust constant by one method, load by load: the output of the fit.
+
+use crate::air::ThrustCoefficients;
+use crate::budget::UncertaintyBudget;
+use crate::campaign::TrialBootstrap;
+use crate::drift::Drift;
+use crate::speeds::SampleSpeed;
+use crate::square_law::SquareLawFit;
+use crate::warning::ThrustWarning;
+use hovertone_analysis::Method;
+use hovertone_vehicle::{Estimate, RotorSpeed};
+use serde::Serialize;
+
+/// The thrust constant by one method: the paper's table, and the answer under it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ThrustTable {
+    /// How the ridges were read.
+    pub method: Method,
+    /// Rotors of the vehicle.
+    pub rotor_count: u32,
+    /// One row for each load.
+    pub loads: Vec<LoadThrust>,
+    /// Constant of the whole vehicle by the fit, uncertain by weighing and speeds; absent where nothing was heard.
+    pub thrust_constant_total_n_s2: Option<Estimate>,
+    /// Constant of one rotor: the total over the number of rotors.
+    pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    /// Constant of the whole vehicle as the paper has it: the plain mean over the loads.
+    pub plain_mean_total_n_s2: Option<Estimate>,
+    /// The fit: the law's agreement, the laws beside it, each load against the others.
+    pub fit: Option<SquareLawFit>,
+    /// All that makes the constant of the whole vehicle uncertain.
+    pub budget: Option<UncertaintyBudget>,
+    /// The constant of one rotor without its dimension, where air and diameter are known.
+    pub coefficients: Option<ThrustCoefficients>,
+    /// Its scatter when trials are drawn anew: to be compared with what the budget says of the speeds.
+    pub bootstrap: Option<TrialBootstrap>,
+    /// What drifts beyond chance.
+    pub drifts: Vec<Drift>,
+    /// What weakens the result.
+    pub warnings: Vec<ThrustWarning>,
+}
+
+/// One row of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LoadThrust {
+    /// Name of the load.
+    pub name: String,
+    /// Mass that is lifted; none on a bench.
+    pub mass_kg: Option<f64>,
+    /// Force that the rotors balance.
+    pub force_n: f64,
+    /// How many rotors balance it.
+    pub rotors_running: u32,
+    /// Mean shaft speed over all trials, or over all their samples by the methods of the paper; absent where nothing was heard.
+    #[serde(rename = "speed_rad_s")]
+    pub speed: Option<RotorSpeed>,
+    /// Its standard uncertainty, from the scatter of the trials.
+    pub std_uncertainty_rad_s: Option<f64>,
+    /// Standard deviation of the speed over all frames: the paper's STD column.
+    pub spread_rad_s: Option<f64>,
+    /// Constant of the whole vehicle from this load alone.
+    pub thrust_constant_total_n_s2: Option<Estimate>,
+    /// Constant of one rotor from this load alone.
+    pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    /// Whether it agrees with the other loads; absent where there is nothing to compare.
+    pub fits: Option<bool>,
+    /// Figure of merit, where power, air and diameter are known.
+    pub figure_of_merit: Option<f64>,
+    /// Chance that a right load is as far from the others as this one.
+    pub p_value: Option<f64>,
+    /// Mass that would agree with the other loads, where this one does not …
+    pub mass_that_fits_kg: Option<f64>,
+    /// … and its standard uncertainty.
+    pub mass_that_fits_std_kg: Option<f64>,
+    /// Its trials.
+    pub trials: Vec<TrialThrust>,
+}
+
+/// One trial of a load.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TrialThrust {
+    /// Name of the recording.
+    pub recording: String,
+    /// Mean shaft speed over its hover, or over its samples by the methods of the paper.
+    #[serde(rename = "speed_rad_s")]
+    pub speed: Option<RotorSpeed>,
+    /// Constant of the whole vehicle from this trial alone.
+    pub thrust_constant_total_n_s2: Option<f64>,
+    /// Its samples.
+    pub samples: Vec<SampleThrust>,
+}
+
+/// One sample of a trial.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SampleThrust {
+    /// Speed of the sample.
+    #[serde(flatten)]
+    pub speed: SampleSpeed,
+    /// Constant of the whole vehicle from this sample alone.
+    pub thrust_constant_total_n_s2: f64,
+}

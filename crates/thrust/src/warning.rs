@@ -1,0 +1,217 @@
+//! What weakens a thrust constant, with what to do about it. Values, not print-outs.
+
+use crate::drift::Drift;
+use crate::drift::DriftKind;
+use crate::square_law::ForceLaw;
+use crate::square_law::LoadRange;
+use serde::Serialize;
+use std::fmt;
+
+/// Names that a warning lists.
+const NAMES_MAX: usize = 5;
+
+/// Something that weakens a thrust constant.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum ThrustWarning {
+    /// A load disagrees with the others.
+    LoadDoesNotFit {
+        /// Its name.
+        name: String,
+        /// Mass that would agree; absent for a bench run.
+        mass_that_fits_kg: Option<f64>,
+        /// Its standard uncertainty.
+        mass_that_fits_std_kg: Option<f64>,
+        /// Off by a factor, and left out of the fit.
+        is_left_out: bool,
+    },
+    /// Many rows of a table disagree with the others.
+    RowsDoNotFit {
+        /// Their names.
+        names: Vec<String>,
+        /// Off by a factor, and left out of the fit.
+        are_left_out: bool,
+    },
+    /// A trial is off by a factor from all others, and left out of the fit.
+    TrialLeftOut {
+        /// Its load.
+        load: String,
+        /// Its recording.
+        recording: String,
+    },
+    /// Half of the constants or more are off by a factor from the others.
+    ConstantsSplit,
+    /// Bench runs and hovers stand in one fit.
+    MixedBenchAndHover,
+    /// Only one load: nothing can be compared.
+    SingleLoad,
+    /// All loads are the same.
+    EqualLoads {
+        /// How many.
+        count: usize,
+    },
+    /// The loads are too much alike to see an intercept.
+    NarrowLoadRange(LoadRange),
+    /// The evidence prefers another law than F = C ω².
+    OtherLawPreferred {
+        /// Which.
+        law: ForceLaw,
+        /// Its probability among the three.
+        probability: f64,
+    },
+    /// The constant changes over time.
+    ConstantDrifts(Drift),
+    /// A thrust coefficient that no propeller has.
+    ImplausibleThrustCoefficient {
+        /// T / (ρ n² D⁴).
+        propeller: f64,
+    },
+    /// A figure of merit that no rotor has.
+    ImplausibleFigureOfMerit {
+        /// Load or row.
+        name: String,
+        /// T √(T/(2 ρ A)) / P.
+        figure_of_merit: f64,
+    },
+    /// Some rows of a table have no uncertainty, and those of the others do not count.
+    UncertaintiesIncomplete {
+        /// Rows that have one.
+        stated: usize,
+        /// Rows.
+        of: usize,
+    },
+    /// The mass is a preset's or a model's, and that of another specimen.
+    MassNotWeighed {
+        /// The mass that was taken.
+        mass_kg: f64,
+    },
+    /// Several rotors run, and one ridge follows the loudest.
+    LoudestRotor,
+}
+
+impl ThrustWarning {
+    /// What to do about it.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::LoadDoesNotFit { mass_that_fits_kg: Some(_), is_left_out: false, .. } => {
+                "weigh that load again, and check that it does not disturb the rotors' air"
+            }
+            Self::LoadDoesNotFit { mass_that_fits_kg: None, is_left_out: false, .. } => {
+                "check the thrust and the recordings of that load"
+            }
+            Self::RowsDoNotFit { .. } => {
+                "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"
+            }
+            Self::TrialLeftOut { .. } => "hear it again: another harmonic or another machine may have been followed",
+            Self::LoadDoesNotFit { is_left_out: true, .. } => "check its mass, its unit and its recordings",
+            Self::ConstantsSplit => {
+                "do not use this constant: check masses, units, rotors and the order of the tone, and add a load that decides"
+            }
+            Self::MixedBenchAndHover => {
+                "on a bench a rotor stands alone and the air around it is still; fit bench runs and hovers apart to compare them"
+            }
+            Self::SingleLoad => "fly a second load: one load cannot show whether it fits",
+            Self::EqualLoads { .. } => "fly loads as far apart as is safe: equal ones show nothing of the law",
+            Self::NarrowLoadRange(_) => {
+                "the square law is assumed, not tested; `hovertone fit --plan` says what loads and trials would do"
+            }
+            Self::OtherLawPreferred { .. } => {
+                "C_f is that of the square law all the same, as simulators have it; use it near the speeds it was measured at"
+            }
+            Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
+                "at a given speed neither time nor voltage changes thrust: zero the stand between runs, let it warm up, and take \
+                 rows in random order"
+            }
+            Self::ConstantDrifts(_) => {
+                "keep height and place, fly loads in random order, each with a battery equally full"
+            }
+            Self::ImplausibleThrustCoefficient { .. } => {
+                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
+            }
+            Self::ImplausibleFigureOfMerit { .. } => {
+                "rotors have 0.05 to 0.85: check the power (all running rotors together), its unit, and the diameter"
+            }
+            Self::UncertaintiesIncomplete { .. } => "state one in every row, or in none",
+            Self::MassNotWeighed { .. } => {
+                "weigh it ready to fly and write vehicle.mass_kg: 1 % of mass is 1 % of C_f, and the ± does not know of it"
+            }
+            Self::LoudestRotor => {
+                "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; the ± of the tables does not show it, the budget counts it"
+            }
+        }
+    }
+}
+
+impl fmt::Display for ThrustWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::LoadDoesNotFit { name, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
+                write!(f, "load \"{name}\" does not fit the others")?;
+                match (mass_that_fits_kg, mass_that_fits_std_kg) {
+                    (Some(mass_kg), Some(std_kg)) => {
+                        write!(f, "; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * std_kg)?;
+                    }
+                    (Some(mass_kg), None) => write!(f, "; {:.1} g would", 1e3 * mass_kg)?,
+                    (None, _) => {}
+                }
+                if *is_left_out { f.write_str("; it is off by a factor and left out") } else { Ok(()) }
+            }
+            Self::RowsDoNotFit { names, are_left_out } => {
+                let shown = names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ");
+                write!(f, "{} rows do not fit the others: {shown}", names.len())?;
+                if names.len() > NAMES_MAX {
+                    f.write_str(", …")?;
+                }
+                if *are_left_out { f.write_str("; they are off by a factor and left out") } else { Ok(()) }
+            }
+            Self::TrialLeftOut { load, recording } => {
+                write!(f, "{recording} of load \"{load}\" is off by a factor from all other trials and left out")
+            }
+            Self::ConstantsSplit => f.write_str(
+                "half of the constants are off from the others by a factor of two or more, and nothing tells which half is right",
+            ),
+            Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
+            Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),
+            Self::EqualLoads { count } => write!(f, "all {count} loads weigh the same"),
+            Self::NarrowLoadRange(range) => {
+                write!(
+                    f,
+                    "the largest force is only {:.2} times the smallest, which leaves an intercept open to ±{:.1} % of the force",
+                    range.force_ratio,
+                    100.0 * range.intercept_std_share
+                )?;
+                match range.force_ratio_needed {
+                    Some(ratio) => write!(f, "; {ratio:.1} times would do"),
+                    None => f.write_str("; no range would do without more or longer trials"),
+                }
+            }
+            Self::OtherLawPreferred { law, probability } => {
+                write!(f, "{} describes the loads better (probability {:.0} %)", law.formula(), 100.0 * probability)
+            }
+            Self::ConstantDrifts(drift) => {
+                let step = match drift.kind {
+                    DriftKind::PerTrial => "from trial to trial",
+                    DriftKind::PerSecond => "each second of a trial",
+                    DriftKind::PerRow => "from row to row of the table",
+                    DriftKind::PerVolt => "with each volt of the supply",
+                };
+                let percent = 100.0 * drift.constant_share;
+                write!(f, "the constant drifts by {percent:+.3} % {step} (p = {:.4})", drift.p_value)
+            }
+            Self::ImplausibleThrustCoefficient { propeller } => {
+                write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside of what propellers have")
+            }
+            Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
+                write!(f, "a figure of merit of {figure_of_merit:.3} (\"{name}\") is outside of what rotors have")
+            }
+            Self::UncertaintiesIncomplete { stated, of } => {
+                write!(f, "only {stated} of {of} rows have an uncertainty above 0: all forces are taken as equally uncertain")
+            }
+            Self::MassNotWeighed { mass_kg } => {
+                write!(f, "the vehicle's mass, {:.1} g, is that of a preset or a model: nobody weighed this one", 1e3 * mass_kg)
+            }
+            Self::LoudestRotor => f.write_str("one speed stands for all rotors: that of the loudest, or their mean by loudness"),
+        }
+    }
+}
