@@ -62,7 +62,11 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
             ["--spread", share] => {
                 spread_share = share.parse().map_err(|_| format!("--spread {share}: not a number"))?
             }
-            _ => return Err("cargo run --release -p hovertone-bench -- roundtrip [--count N] [--spread SHARE]".to_owned()),
+            _ => {
+                return Err(
+                    "cargo run --release -p hovertone-bench -- roundtrip [--count N] [--spread SHARE]".to_owned()
+                );
+            }
         }
     }
     cargo(root, &["build", "--release", "--locked", "-p", "hovertone-cli"])?;

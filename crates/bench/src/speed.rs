@@ -1,8 +1,8 @@
 //! How fast and how small: decoding alone and the whole `hovertone speed` on long files of each container, as ratios to
 //! real time and to decoding alone, with peak memory. Run by people, never in a test.
 
-use crate::workspace::cargo;
 use crate::cost::{REPEATS, fastest};
+use crate::workspace::cargo;
 use crate::workspace::target;
 use hovertone::sound::SignalSource;
 use hovertone_media::{OpenOptions, Recording};

@@ -4,10 +4,11 @@
 
 mod testkit;
 
-use hovertone::rotors::RotorCondition;
+use hovertone::rotors::{RotorCondition, conditions_from_analysis};
+use hovertone::sound::{Passes, Signal};
 use hovertone::speed::{Config, Method, ToneConfig};
 use hovertone_vehicle::Order;
-use testkit::{Rotor, analyse, sound, tone};
+use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, sound, tone};
 
 const LENGTH_S: f64 = 9.0;
 const NOISE_STD: f64 = 0.05;
@@ -32,11 +33,14 @@ fn conditions(means_rev_s: [f64; 3], lines: [Vec<(f64, f64)>; 3]) -> Vec<RotorCo
     let rotors: Vec<Rotor<'_>> =
         speeds.iter().zip(&lines).map(|(&speed_rev_s, lines)| Rotor { speed_rev_s, lines }).collect();
     let mut config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
-    (config.rotors.count, config.rotors.wants_condition, config.method) = (3, true, Method::Separated);
-    let analysis = analyse(sound(&rotors, LENGTH_S, NOISE_STD, 5), &config);
-    let rotors = &tone(&analysis).rotors;
-    assert_eq!(rotors.len(), 3);
-    rotors.iter().map(|rotor| rotor.condition.clone().unwrap()).collect()
+    (config.rotors.count, config.method) = (3, Method::Separated);
+    let sound = sound(&rotors, LENGTH_S, NOISE_STD, 5);
+    let analysis = analyse(sound.clone(), &config);
+    assert_eq!(tone(&analysis).rotors.len(), 3);
+    let (mut source, on_progress) = (Signal::new(sound, SAMPLE_RATE_HZ), &mut |_| {});
+    let mut passes = Passes::planned(&mut source, 1, on_progress).unwrap();
+    let conditions = conditions_from_analysis(&mut passes, &analysis, &config.tone).unwrap();
+    conditions.into_iter().map(Option::unwrap).collect()
 }
 
 /// Levels to within three standard uncertainties, and half a decibel for what the track's own error smears.

@@ -3,7 +3,7 @@
 
 mod testkit;
 
-use hovertone::sound::Signal;
+use hovertone::sound::{Signal, SignalError};
 use hovertone::speed::{Error, Method, Warning, speed_from_source};
 use testkit::{Rotor, SAMPLE_RATE_HZ, TWO_BLADES, analyse, config, hears_nothing, sound, steady, tone};
 
@@ -211,7 +211,7 @@ fn a_rate_that_cannot_be_or_cannot_hold_the_tone_is_refused_at_once() {
     for rate in [0.0, -8000.0, f64::NAN, f64::INFINITY, 4294967295.0, 10.0] {
         let mut source = Signal::new(vec![0.1; 1000], rate);
         let refused = speed_from_source(&mut source, &config(2.0), &mut |_| {});
-        assert!(matches!(refused, Err(Error::SampleRate { .. })), "{rate}");
+        assert!(matches!(refused, Err(Error::Signal(SignalError::SampleRate { .. }))), "{rate}");
     }
     let mut source = Signal::new(vec![0.1; 3000], 1000.0);
     let refused = speed_from_source(&mut source, &config(69.0), &mut |_| {});

@@ -34,7 +34,9 @@ pub struct ChannelBand {
     pub order: f64,
     /// Whether it is the first of its family: the blade pass or the gear mesh itself.
     pub is_first: bool,
+    /// Lower edge.
     pub band_hz_low: f64,
+    /// Upper edge.
     pub band_hz_high: f64,
 }
 
@@ -59,6 +61,7 @@ pub struct Channel {
 
 /// Splits a stream of samples into channels.
 pub struct ChannelBank {
+    /// One channel for each band, in their order.
     pub channels: Vec<Channel>,
     sample_rate_hz: f64,
     window: Vec<f32>,
@@ -74,6 +77,7 @@ pub struct ChannelBank {
 }
 
 impl ChannelBank {
+    /// A bank of one channel for each band.
     pub fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
         let block_samples = smooth_at_least((BLOCK_S * sample_rate_hz).round() as usize, 4);
         let plan = RealFftPlanner::new().plan_fft_forward(block_samples);

@@ -1,9 +1,9 @@
 //! What half an hour of sound costs, beside the leanest of the peers.
 
 use super::document::Document;
+use crate::cost::{Cost, REPEATS, fastest};
 use crate::speed::rendered_wav;
 use crate::workspace::cargo;
-use crate::cost::{Cost, REPEATS, fastest};
 use crate::workspace::target;
 use std::path::Path;
 use std::process::{Command, Stdio};

@@ -20,7 +20,6 @@ mod sound;
 mod track;
 mod workbench;
 
-use crate::speed;
 use document::Document;
 pub(crate) use draws::drawn;
 use std::fs;
@@ -113,7 +112,12 @@ fn made_by(root: &Path, words: &[&str]) -> String {
     let is_changed = !git(&["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default().is_empty();
     format!(
         "made by `{}`, hovertone {} at commit {}{}",
-        ["cargo run --release -p hovertone-bench -- accuracy"].iter().chain(words).copied().collect::<Vec<_>>().join(" "),
+        ["cargo run --release -p hovertone-bench -- accuracy"]
+            .iter()
+            .chain(words)
+            .copied()
+            .collect::<Vec<_>>()
+            .join(" "),
         env!("CARGO_PKG_VERSION"),
         commit.trim(),
         if is_changed { " with changes" } else { "" },
@@ -134,7 +138,7 @@ fn options_of(words: &[&str]) -> Result<Options, String> {
     let mut options = Options {
         draws: DRAWS,
         coverage_draws: COVERAGE_DRAWS,
-        minutes: bench::MINUTES,
+        minutes: crate::speed::MINUTES,
         install_peers: false,
         only: None,
     };
@@ -164,7 +168,9 @@ fn options_of(words: &[&str]) -> Result<Options, String> {
 
 fn usage() -> String {
     let parts = Part::ALL.map(|(name, _)| name).join("|");
-    format!("cargo run --release -p hovertone-bench -- accuracy [--draws N] [--coverage N] [--minutes N] [--install-peers] [--only {parts}]")
+    format!(
+        "cargo run --release -p hovertone-bench -- accuracy [--draws N] [--coverage N] [--minutes N] [--install-peers] [--only {parts}]"
+    )
 }
 
 #[cfg(test)]

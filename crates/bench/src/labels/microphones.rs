@@ -3,7 +3,10 @@
 use super::flight::Flown;
 use super::{Count, Counts, separated};
 use crate::accuracy::drawn;
-use hovertone::rotors::{MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, RotorLabels, labels_from_microphones, microphone_lines_from_source};
+use hovertone::rotors::{
+    MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, RotorLabels, labels_from_microphones,
+    microphone_lines_from_source,
+};
 use hovertone::sound::Signal;
 use hovertone::speed::{ToneConfig, TrackPoint};
 use hovertone_sim::scenario::{

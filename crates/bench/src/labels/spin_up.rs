@@ -2,9 +2,9 @@
 
 use super::Count;
 use crate::accuracy::drawn;
-use hovertone::rotors::{LabelsConfig, RotorLabels, labels_from_spin_up};
-use hovertone::sound::Signal;
-use hovertone::speed::{Config, Method, Outcome, ToneConfig, speed_from_source};
+use hovertone::rotors::{LabelsConfig, RotorLabels, labels_from_spin_up, passes_of_spin_up, speed_after_spin_up};
+use hovertone::sound::{Passes, Signal};
+use hovertone::speed::{Config, Error, Method, Outcome, ToneConfig};
 use hovertone_vehicle::Order;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -144,13 +144,16 @@ fn labelled(start: Start, seed: u64) -> Result<Option<(RotorLabels, Vec<usize>)>
     let samples = sound(&rotors, &mut rng);
     let order = Order::from_blades(2).map_err(|error| error.to_string())?;
     let mut config = Config::for_tone(ToneConfig::of_order(order));
-    (config.rotors.count, config.rotors.wants_spin_up, config.method) = (4, true, Method::Separated);
+    (config.rotors.count, config.method) = (4, Method::Separated);
     let mut signal = Signal::new(samples, RATE_HZ);
-    let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
+    let on_progress = &mut |_| {};
+    let (analysis, spin_up) = Passes::planned(&mut signal, passes_of_spin_up(&config), on_progress)
+        .map_err(Error::from)
+        .and_then(|mut passes| speed_after_spin_up(&mut passes, &config))
+        .map_err(|error| error.to_string())?;
     let Outcome::Ok(tone) = &analysis.outcome else { return Ok(None) };
-    let spin_up = tone.spin_up.as_ref().ok_or("nobody looked for the starts")?;
     let names: Vec<(usize, String)> = (1..=4).map(|number| (number, format!("motor {number}"))).collect();
-    let labels = labels_from_spin_up(spin_up, tone.rotors.len(), &names, &LabelsConfig::default());
+    let labels = labels_from_spin_up(&spin_up, tone.rotors.len(), &names, &LabelsConfig::default());
     let nearest = |speed_rev_s: f64| {
         let off = |rotor: &usize| (rotors[*rotor].hover_rev_s - speed_rev_s).abs();
         (0..4).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0)

@@ -1,6 +1,5 @@
 //! Against the Cramér-Rao bound, with the truth known at every instant. `cargo xtask bench accuracy` does it with many more draws.
 
-use super::*;
 use crate::harmonic::HarmonicTracer;
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::passes::StretchListener;

@@ -65,7 +65,7 @@ fn part_above(left: f64, right: f64, threshold: f64) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::TODO::loudest_bin;
+    use crate::ridge::peak::loudest_bin;
     use hovertone_signal::spectrogram::{Stft, Window};
     use std::f64::consts::TAU;
 

@@ -61,6 +61,7 @@ pub(super) fn over_sides(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hovertone_signal::peak::peak_offset_bins;
     use hovertone_signal::spectrogram::{Stft, Window};
     use std::f64::consts::TAU;
 

@@ -73,6 +73,13 @@ pub(crate) struct SurveySettings {
     pub(crate) fine_hz_max: f64,
 }
 
+#[cfg(test)]
+impl Default for SurveySettings {
+    fn default() -> Self {
+        Self { window_s: 0.2, row_s: 0.5, rows_max: 256, fine_window_s: 1.0, fine_hz_max: 3000.0 }
+    }
+}
+
 /// Builds a survey from a stream of samples.
 pub(crate) struct SurveyBuilder {
     coarse: RowsBuilder,
@@ -116,7 +123,7 @@ mod tests {
     use super::*;
 
     fn survey(seconds: usize, rows_max: usize) -> Survey {
-        let settings = SurveySettings { window_s: 0.2, row_s: 0.5, rows_max, fine_window_s: 1.0, fine_hz_max: 3000.0 };
+        let settings = SurveySettings { rows_max, ..SurveySettings::default() };
         let mut builder = SurveyBuilder::new(settings, 1000.0, 2.0);
         for second in 0..seconds {
             let level = if second == 3 { 0.5 } else { 0.0 };

@@ -19,6 +19,10 @@ impl SpanConfig {
         self.from_s.is_some() || self.to_s.is_some()
     }
 
+    /// Refuses a span that ends before it starts.
+    ///
+    /// # Errors
+    /// [`ConfigError::EmptySpan`].
     pub fn check(&self) -> Result<(), ConfigError> {
         let (from_s, to_s) = (self.from_s.unwrap_or(0.0), self.to_s.unwrap_or(f64::INFINITY));
         if from_s < to_s { Ok(()) } else { Err(ConfigError::EmptySpan { from_s, to_s }) }

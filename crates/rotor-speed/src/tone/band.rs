@@ -124,6 +124,7 @@ pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64, speed_rev_s: 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hovertone_vehicle::Order;
 
     fn mesh() -> ToneConfig {
         ToneConfig::of_order(Order::new(69.0).unwrap())

@@ -275,8 +275,7 @@ impl CombMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hover::HoverConfig;
-    use crate::survey::SurveyBuilder;
+    use crate::survey::{SurveyBuilder, SurveySettings};
     use crate::tone::ToneConfig;
     use hovertone_vehicle::Order;
     use std::f64::consts::TAU;
@@ -297,7 +296,7 @@ mod tests {
                 (sound + 0.02 * ((noise >> 40) as f64 / f64::from(1 << 23) - 1.0)) as f32
             })
             .collect();
-        let mut builder = SurveyBuilder::new(&HoverConfig::default(), rate, 0.0);
+        let mut builder = SurveyBuilder::new(SurveySettings::default(), rate, 0.0);
         builder.push(&samples);
         CombMap::from_survey(&builder.finish(3.0), tone, (15.0, 280.0)).leading_speed_rev_s().unwrap()
     }

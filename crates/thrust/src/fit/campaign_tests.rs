@@ -1,6 +1,8 @@
 //! Whole campaigns, simulated as numbers: what is stated against the truth.
 
-use super::*;
+use crate::*;
+use hovertone_analysis::{Method, Span};
+use hovertone_vehicle::RotorSpeed;
 use rand::SeedableRng;
 use rand_distr::{Distribution, Normal, Uniform};
 

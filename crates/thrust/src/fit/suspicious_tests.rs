@@ -1,13 +1,9 @@
 //! Input that should make anybody suspicious: it is refused, or its result is flagged.
 
-use super::*;
-use crate::TODO::GRAVITY_M_S2;
-use crate::TODO::TRUTH_N_S2;
-use crate::TODO::VEHICLE_KG;
-use crate::TODO::exact_hovers;
-use crate::TODO::fitted;
-use crate::TODO::load;
-use crate::TODO::weight;
+use super::campaign_tests::{GRAVITY_M_S2, TRUTH_N_S2, VEHICLE_KG, exact_hovers, fitted, load, weight};
+use crate::*;
+use hovertone_analysis::Method;
+use hovertone_vehicle::RotorSpeed;
 
 #[test]
 fn an_outlier_of_three_hundred_per_cent_is_named_and_left_out() {
@@ -131,7 +127,7 @@ fn points_that_mean_nothing_are_refused_by_number() {
     for (force_n, speed_square) in [(0.0, 1e5), (-1.0, 1e5), (f64::NAN, 1e5), (1.0, 0.0), (1.0, f64::INFINITY)] {
         let bad = ForcePoint { force_n, speed_square_rad2_s2: speed_square, ..good.clone() };
         let refusal = square_law_fit(&[good.clone(), bad], PointNoise::Stated);
-        assert_eq!(refusal.unwrap_err(), crate::FitError::UnusablePoint { number: 2 });
+        assert_eq!(refusal.unwrap_err(), crate::regression::FitError::UnusablePoint { number: 2 });
     }
     assert!(square_law_fit(&[], PointNoise::Stated).is_err());
 }

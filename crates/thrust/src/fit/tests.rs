@@ -1,6 +1,8 @@
 //! The paper's tables by the code that makes everybody else's.
 
-use super::*;
+use crate::*;
+use hovertone_analysis::{Method, Span};
+use hovertone_vehicle::RotorSpeed;
 
 /// Rows of the paper: name, mass behind the printed constant in g, printed rpm and constant of tables 1 and 2.
 ///
