@@ -1,4 +1,4 @@
-//! The whole model: commands in, one state of everything out per step. Nothing is stored, whatever the length.
+//! The whole model: commands in, one state out per step. Memory does not grow with the length of the flight.
 
 use crate::airframe::Airframe;
 use crate::body::{BODY_NUMBERS, BodyState, Euler, normalised, rotation};
@@ -6,11 +6,11 @@ use crate::control::{Command, Controller, Pilot, PilotGains, Setpoint};
 use crate::environment::{Battery, Wind};
 use crate::flight_settings::{FlightSettings, Start};
 use crate::forces::{Wrench, gyroscopic_torque_n_m, rotor_wrench};
+use crate::ornstein_uhlenbeck::OrnsteinUhlenbeck;
 use crate::rk4::rk4;
 use crate::rotor::ground_effect;
 use crate::seed::{Part, stream};
 use crate::trim::{HoverTrim, hover_trim};
-use crate::wander::OrnsteinUhlenbeck;
 use hovertone_vehicle::QuantityError;
 use nalgebra::Vector3;
 
@@ -18,10 +18,10 @@ use nalgebra::Vector3;
 const NUMBERS: usize = BODY_NUMBERS + 5;
 const CHARGE: usize = BODY_NUMBERS + 4;
 
-/// Everything there is to know at one instant; a row of the truth.
+/// The state at one instant; a row of the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlightState {
-    /// Since the start.
+    /// Time since the start.
     pub time_s: f64,
     /// The commands in force, ±1.
     pub command: Command,
@@ -45,7 +45,7 @@ pub struct FlightState {
     pub battery_v: f64,
     /// Velocity of the air at the vehicle, world axes.
     pub wind_m_s: [f64; 3],
-    /// The rotors' hubs from the centre of mass, body axes: the same all flight long.
+    /// The rotors' hubs from the centre of mass, body axes; constant during the flight.
     pub hub_m: [[f64; 3]; 4],
 }
 
@@ -87,23 +87,22 @@ pub struct Flight {
     controller: Controller,
     battery: Option<Battery>,
     wind: Wind,
-    /// Of each motor's gain about its own.
+    /// Wander of each motor's gain about its mean.
     motor_wander: Option<[OrnsteinUhlenbeck; 4]>,
-    /// Each motor's gain over its own, now.
+    /// Each motor's present gain over its mean.
     gain_shares: [f64; 4],
     numbers: [f64; NUMBERS],
     steps: u64,
     steps_per_run: u64,
     motors_on: bool,
-    /// v_o as the controller has it: the trim's, or more of a battery that gives less than its nominal voltage.
+    /// v_o in the controller: the trim's voltage, or more where the battery gives less than its nominal voltage.
     hover_demand_v: [f64; 4],
     command: Command,
     demand_v: [f64; 4],
 }
 
 impl Flight {
-    /// Puts the vehicle together and finds its hover. Fails on a setting out of bounds, naming it, and when it cannot
-    /// hover.
+    /// Builds the vehicle and finds its hover. Fails on a setting out of bounds, naming it, and if the vehicle cannot hover.
     pub fn new(settings: FlightSettings) -> Result<Self, QuantityError> {
         settings.check()?;
         let airframe = Airframe::new(&settings)?;
@@ -155,42 +154,42 @@ impl Flight {
         })
     }
 
-    /// What is flown.
+    /// The settings.
     pub fn settings(&self) -> &FlightSettings {
         &self.settings
     }
 
-    /// The vehicle as it was put together.
+    /// The vehicle.
     pub fn airframe(&self) -> &Airframe {
         &self.airframe
     }
 
-    /// The hover that was found.
+    /// The vehicle's hover.
     pub fn trim(&self) -> &HoverTrim {
         &self.trim
     }
 
-    /// Motors on or off; off means no voltage, which brakes them. On again, the controller takes over at its next run.
+    /// Switches the motors on or off. Off means no voltage, which brakes them. On takes effect at the controller's next run.
     pub fn switch_motors(&mut self, on: bool) {
         self.motors_on = on;
     }
 
-    /// Whether the controller runs in the coming step, and so whether a pilot has to decide.
+    /// Whether the controller runs in the next step, so that a new command counts.
     pub fn controller_is_due(&self) -> bool {
         self.steps.is_multiple_of(self.steps_per_run)
     }
 
-    /// The body alone, as the controllers see it.
+    /// The body's state.
     pub fn body(&self) -> BodyState {
         body_of(&self.numbers)
     }
 
-    /// Puts the body elsewhere, at once; for examining the model.
+    /// Sets the body's state; for tests of the model.
     pub fn place_body(&mut self, body: &BodyState) {
         self.numbers[..BODY_NUMBERS].copy_from_slice(&body.to_array());
     }
 
-    /// One step on, under commands that count when the controller is due.
+    /// Goes on by one step. The command counts if the controller is due.
     pub fn step(&mut self, command: &Command) -> FlightState {
         if self.controller_is_due() {
             self.command = command.limited();
@@ -214,7 +213,7 @@ impl Flight {
         self.state()
     }
 
-    /// The state now.
+    /// The present state.
     pub fn state(&self) -> FlightState {
         let body = self.body();
         let speed_rad_s = speeds_of(&self.numbers);
@@ -292,9 +291,9 @@ impl Flight {
         })
     }
 
-    /// A pilot for this vehicle that holds a place, with gains from its own dynamics: an attitude of 4 rad/s at least,
-    /// by overdriving a controller that is slower, a fifth of that for the place, and a third of the yaw loop for the
-    /// heading.
+    /// A pilot that holds a place, with gains from the vehicle's own dynamics. The bandwidth of the attitude is at least
+    /// 4 rad/s (a slower controller is overdriven), that of the place a fifth of it, and that of the heading a third of the
+    /// yaw loop's.
     pub fn pilot(&self, setpoint: Setpoint) -> Pilot {
         let controller = &self.settings.vehicle.controller;
         let (mut roll, mut yaw) = (0.0, 0.0);
@@ -320,7 +319,7 @@ impl Flight {
     }
 }
 
-/// A flight with its pilot: an endless iterator of states, the present one first.
+/// A flight with its pilot: an endless iterator of states, beginning with the present state.
 #[derive(Clone, Debug)]
 pub struct PilotedFlight {
     flight: Flight,
@@ -330,7 +329,7 @@ pub struct PilotedFlight {
 }
 
 impl PilotedFlight {
-    /// Puts the pilot in the flight.
+    /// Joins a flight and a pilot.
     pub fn new(flight: Flight, pilot: Pilot) -> Self {
         Self { flight, pilot, command: Command::HOVER, is_started: false }
     }

@@ -1,20 +1,17 @@
-//! The paper's experiment, and what it printed.
+//! The paper's experiment and its printed results.
 //!
 //! Pizetta, Brandao, Pizziolo, Sarcinelli-Filho, "Spectrogram Analysis: An Approach to Identify The Quadrotor Thrust
 //! Model", preprints201808.0313 v1: an AR.Drone hovers with three loads, five trials of 10 s each.
 //!
 //! Misprints, as checked by arithmetic. The C_f columns are `m · 9.80 / ω²` of the whole weight, in 1e-5 N s² (the
-//! heading has 1e-4); velocities are rpm and rad/s of the propeller (the headings have 10³ rpm, 10² rad/s, motor);
+//! heading has 1e-4); velocities are rpm and rad/s of the propeller (the headings say 10³ rpm, 10² rad/s, motor);
 //! the headline 28.5180e-4 and 28.5290e-4 N s² are the plain means of the columns, a hundred times too large; and the
 //! masses behind the columns are 413, 444 and 472 g, while the text has 413, 442 and 462 g. With 413, 444 and 462 g
 //! the three constants agree within 0.16 %.
 
-use crate::hover::{HoverSettings, RotorSound};
-use crate::seed::{Part, mixed};
-use crate::tones::ToneSettings;
 use hovertone_vehicle::RotorSpeed;
 
-/// Gravity behind the printed constants, m/s². The places of the authors have 9.785 and 9.787.
+/// Gravity in the printed constants, m/s². At the authors' places it is 9.785 and 9.787.
 pub const GRAVITY_M_S2: f64 = 9.80;
 /// Trials of each load.
 pub const TRIAL_COUNT: u32 = 5;
@@ -34,7 +31,7 @@ pub const TABLE_2_MEAN_THRUST_CONSTANT_N_S2: f64 = 2.8529e-5;
 pub struct PrintedRow {
     /// "Propeller Velocity": rpm, printed as 10³ rpm.
     pub speed_rpm: f64,
-    /// "STD", rpm: only table 1 has it.
+    /// "STD", rpm; only in table 1.
     pub spread_rpm: Option<f64>,
     /// "Motor Angular Velocity ω": the propeller's, rad/s, printed as 10² rad/s.
     pub speed_rad_s: f64,
@@ -45,9 +42,9 @@ pub struct PrintedRow {
 /// One load of the experiment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperLoad {
-    /// What the drone carried.
+    /// The load.
     pub name: &'static str,
-    /// Mass with which the printed speeds give one thrust constant, and which is simulated.
+    /// Mass with which the printed speeds give one thrust constant; the simulated mass.
     pub mass_kg: f64,
     /// Mass that the text and the tables print.
     pub printed_mass_kg: f64,
@@ -86,7 +83,7 @@ pub const LOADS: [PaperLoad; 3] = [
         table_2: row_2(3740.0479, 391.6569, 2.8366e-5),
     },
     PaperLoad {
-        // The tables have "Bug Hull".
+        // The tables say "Bug Hull".
         name: "big hull",
         mass_kg: 0.462,
         printed_mass_kg: 0.462,
@@ -97,62 +94,20 @@ pub const LOADS: [PaperLoad; 3] = [
 ];
 
 impl PaperLoad {
-    /// Mean shaft speed of the rotors: table 1's.
+    /// Mean shaft speed of the rotors, from table 1.
     pub fn speed(&self) -> RotorSpeed {
         RotorSpeed::from_rpm(self.table_1.speed_rpm)
     }
 
-    /// Thrust constant of the whole vehicle that the simulated trials of this load have, N s²: `m g / ω²`.
+    /// Thrust constant of the whole vehicle in the simulated trials of this load, N s²: `m g / ω²`.
     pub fn thrust_constant_total_n_s2(&self) -> f64 {
         self.mass_kg * GRAVITY_M_S2 / self.speed().rad_s().powi(2)
-    }
-}
-
-/// How the experiment is simulated, where the paper does not say.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PaperSimulation {
-    /// Everything random comes from here.
-    pub seed: u64,
-    /// Samples per second.
-    pub sample_rate_hz: u32,
-    /// Step from one rotor's mean speed to the next one's, as a share. The paper gives one speed per load, so 0; real
-    /// rotors differ, and with 0.01 to 0.02 the loudest rotor misleads the maximum trace by 2 to 4 % of C_f.
-    pub rotor_spacing_share: f64,
-}
-
-impl Default for PaperSimulation {
-    fn default() -> Self {
-        Self { seed: 1, sample_rate_hz: 48_000, rotor_spacing_share: 0.0 }
-    }
-}
-
-impl PaperSimulation {
-    /// The settings of one trial. Speeds are such that `m g = C Σω²` holds exactly over the trial, with one C for all
-    /// trials of a load, [`PaperLoad::thrust_constant_total_n_s2`] `/ 4`; wander and noise differ from trial to trial,
-    /// levels and phases too.
-    pub fn trial(&self, load: &PaperLoad, trial: u32) -> HoverSettings {
-        let spread = |rotor: usize| 1.0 + self.rotor_spacing_share * (rotor as f64 - (ROTOR_COUNT as f64 - 1.0) / 2.0);
-        let mean_square = (0..ROTOR_COUNT).map(|rotor| spread(rotor).powi(2)).sum::<f64>() / ROTOR_COUNT as f64;
-        let speed_rad_s = load.speed().rad_s() / mean_square.sqrt();
-        let rotor = |rotor| RotorSound::at(RotorSpeed::from_rad_s(speed_rad_s * spread(rotor)));
-        // A load is told from the others by its mass: a trial stays the same when loads are added or reordered.
-        let load_seed = mixed(self.seed, Part::Trial, load.mass_kg.to_bits());
-        HoverSettings {
-            sample_rate_hz: self.sample_rate_hz,
-            duration_s: TRIAL_S,
-            rotors: (0..ROTOR_COUNT).map(rotor).collect(),
-            tones: ToneSettings::default(),
-            hold_hover_balance: true,
-            seed: mixed(load_seed, Part::Trial, u64::from(trial)),
-            ..HoverSettings::default()
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::HoverSound;
 
     /// Both tables follow from their own rpm column with the masses that the module's text names.
     #[test]
@@ -180,25 +135,5 @@ mod tests {
         }
         let (low, high) = (constants[2], constants[1]);
         assert!((high / low - 1.0 - 0.0016).abs() < 0.0001, "{}", high / low - 1.0);
-    }
-
-    #[test]
-    fn every_trial_hovers_by_the_same_constant() {
-        for rotor_spacing_share in [0.0, 0.01] {
-            let simulation = PaperSimulation { rotor_spacing_share, ..PaperSimulation::default() };
-            for load in &LOADS {
-                let mut first_samples = Vec::new();
-                for trial in 0..2 {
-                    let settings = HoverSettings { duration_s: 2.0, ..simulation.trial(load, trial) };
-                    let (samples, truth) = HoverSound::new(settings).unwrap().render_all();
-                    let constant = truth.thrust_constant_total_n_s2(load.mass_kg, GRAVITY_M_S2, 0.0, 2.0).unwrap();
-                    assert!((constant / load.thrust_constant_total_n_s2() - 1.0).abs() < 1e-12, "{constant}");
-                    let speeds: Vec<_> = (0..4).map(|rotor| truth.mean_speed(rotor, 0.0, 2.0).unwrap()).collect();
-                    assert!(speeds.windows(2).all(|pair| pair[0] != pair[1]));
-                    first_samples.push(samples[0]);
-                }
-                assert_ne!(first_samples[0], first_samples[1], "trials repeat one another");
-            }
-        }
     }
 }

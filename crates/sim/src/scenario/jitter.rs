@@ -2,8 +2,8 @@
 
 use super::sections::JitterSection;
 use crate::control::Command;
+use crate::ornstein_uhlenbeck::OrnsteinUhlenbeck;
 use crate::seed::{Part, stream};
-use crate::wander::OrnsteinUhlenbeck;
 use rand::RngExt;
 use rand_distr::StandardNormal;
 
@@ -20,12 +20,12 @@ impl Jitter {
         Self { axes: std::array::from_fn(axis) }
     }
 
-    /// What comes on top of a command now.
+    /// The present addition to a command.
     pub(super) fn now(&self) -> Command {
         Command::from_array(self.axes.each_ref().map(|axis| axis.value))
     }
 
-    /// The command with what comes on top of it now; to be called once per controller period.
+    /// The command with the next addition. Call it once per controller period.
     pub(super) fn shaken(&mut self, command: Command) -> Command {
         let mut parts = command.to_array();
         for (part, axis) in parts.iter_mut().zip(&mut self.axes) {
@@ -36,8 +36,8 @@ impl Jitter {
 }
 
 /// An Ornstein-Uhlenbeck process behind a lag of its own time constant τ: critically damped, second order, with
-/// autocovariance std² (1 + t/τ) e^(-t/τ) and a derivative of std/τ. Neither a thumb nor a filtered measurement jumps; a
-/// process that does would shake the rotors by its jumps, whatever its time constant.
+/// autocovariance std² (1 + t/τ) e^(-t/τ) and a derivative of std/τ. Neither a thumb nor a filtered measurement jumps; the
+/// jumps of a first-order process would shake the rotors, for any time constant.
 #[derive(Clone)]
 struct Smooth {
     input: OrnsteinUhlenbeck,

@@ -1,4 +1,4 @@
-//! The sound of a flight: what microphones hear of rotors whose speeds, places and axes are given at control rate.
+//! The sound of a flight at microphones: speeds, places and axes of the rotors are given at the control rate.
 //!
 //! ```text
 //! SoundState, every ms or so ─▶ source (one per rotor): lines + broadband ─▶ interpolator ─┐
@@ -7,12 +7,12 @@
 //!                                                       babble, ambient noise (noise colour) ─┴▶ microphone ─▶ samples
 //! ```
 //!
-//! Pressures are in pascal until the microphone; levels are dB re 20 µPa at 1 m. What each rotor radiates is made once,
-//! at the sample rate; every path reads it with a delay and a gain of its own. A path works from the moment of emission:
-//! what a rotor sends out during one control step arrives at a microphone over its own stretch of time, stretched or
-//! squeezed by the motion, so delay and Doppler shift are those of the retarded time without solving for it.
+//! Pressures are in pascal until the microphone; levels are dB re 20 µPa at 1 m. The radiated sound of
+//! each rotor is made once, at the sample rate; every path reads it with a delay and a gain of its own. A path works from
+//! the time of emission: the sound of one control step arrives at a microphone in an interval that the motion makes longer
+//! or shorter. So delay and Doppler shift are exact for the retarded time, without solving for it.
 //!
-//! What it leaves out: absorption in air (by ISO 9613-1, at 20 °C and 50 % humidity, 0.03 dB per metre at 4 kHz, 0.11 at
+//! Not modelled: absorption in air (by ISO 9613-1, at 20 °C and 50 % humidity, 0.03 dB per metre at 4 kHz, 0.11 at
 //! 8 kHz, 0.36 at 16 kHz), walls that absorb high and low notes differently, reflections of second and higher order one
 //! by one (the exponential tail stands for them, without Doppler shift), shielding by the vehicle, wind over the
 //! microphone, and interaction between rotors.
@@ -26,6 +26,7 @@ mod level;
 mod lines;
 mod microphone;
 mod noise_colour;
+mod noise_slope;
 mod path;
 mod phasors;
 mod reverberation;
@@ -33,6 +34,7 @@ mod room;
 mod settings;
 mod source;
 mod state;
+mod tone_settings;
 
 pub use babble::BabbleSettings;
 pub use directivity::Directivity;
@@ -41,3 +43,6 @@ pub use microphone::MicrophoneSettings;
 pub use room::{Room, Surroundings, WallAbsorption};
 pub use settings::{AmbientSettings, BroadbandSettings, MotorTones, SoundSettings, SourceSettings};
 pub use state::{RotorState, SoundState};
+pub use tone_settings::{BladePassTones, GearMeshTones, ToneSettings};
+
+pub(crate) use noise_slope::SlopeFilterRoots;

@@ -1,7 +1,7 @@
 //! Normal noise of a set level, flat up to a corner and falling with a straight slope above, fast enough for many
 //! sources.
 
-use crate::noise::slope_roots;
+use super::noise_slope::{PoleAndZero, SlopeFilterRoots};
 use rand::RngExt;
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
@@ -12,9 +12,8 @@ const LANES: usize = 8;
 /// Groups of poles, at most: 32 poles are 15 octaves, 10 Hz at 192 kHz.
 const GROUPS_MAX: usize = 4;
 
-/// The ladder of poles and zeros of [`crate::noise`], as a sum of its partial fractions, which do not wait for each
-/// other: `Π (1 - z_k/z) / (1 - p_k/z) = c + Σ r_k / (1 - p_k/z)`. Poles and zeros alternate, so all r have one sign and
-/// nothing cancels.
+/// The filter of [`SlopeFilterRoots`] as a sum of its partial fractions, `Π (1 - z_k/z) / (1 - p_k/z) = c + Σ r_k /
+/// (1 - p_k/z)`, which can be computed in parallel. Poles and zeros alternate, so all r have one sign and nothing cancels.
 #[derive(Clone)]
 pub(crate) struct ColouredNoise {
     direct: f32,
@@ -28,7 +27,7 @@ pub(crate) struct ColouredNoise {
 }
 
 impl ColouredNoise {
-    /// Noise of that standard deviation. The first samples are already stationary.
+    /// Noise of this standard deviation. The first samples are already stationary.
     pub(crate) fn new(
         std: f64,
         slope_db_per_octave: f64,
@@ -36,29 +35,30 @@ impl ColouredNoise {
         sample_rate_hz: f64,
         random: Pcg64,
     ) -> Self {
-        let (roots, top_zero) = slope_roots(slope_db_per_octave, flat_below_hz, sample_rate_hz);
-        let gain = std / mean_power_gain(&roots, top_zero, flat_below_hz, sample_rate_hz).sqrt();
+        let roots = SlopeFilterRoots::new(slope_db_per_octave, flat_below_hz, sample_rate_hz);
+        let gain = std / mean_power_gain(&roots, flat_below_hz, sample_rate_hz).sqrt();
+        let ladder = &roots.ladder;
         let fraction = |index: usize, pole: f64| {
-            let product = |(other, &(other_pole, zero)): (usize, &(f64, f64))| {
-                let rest = if other == index { 1.0 } else { 1.0 - other_pole / pole };
-                (1.0 - zero / pole) / rest
+            let factor = |other: usize, root: &PoleAndZero| {
+                let rest = if other == index { 1.0 } else { 1.0 - root.pole / pole };
+                (1.0 - root.zero / pole) / rest
             };
-            roots.iter().enumerate().map(product).product::<f64>()
+            ladder.iter().enumerate().map(|(other, root)| factor(other, root)).product::<f64>()
         };
         let mut residues: Vec<f32> =
-            roots.iter().enumerate().map(|(index, &(pole, _))| (gain * fraction(index, pole)) as f32).collect();
-        let mut poles: Vec<f32> = roots.iter().map(|&(pole, _)| pole as f32).collect();
+            ladder.iter().enumerate().map(|(index, root)| (gain * fraction(index, root.pole)) as f32).collect();
+        let mut poles: Vec<f32> = ladder.iter().map(|root| root.pole as f32).collect();
         poles.truncate(GROUPS_MAX * LANES);
         poles.resize(poles.len().next_multiple_of(LANES), 0.0);
         residues.resize(poles.len(), 0.0);
         let lanes = |values: &[f32]| -> Vec<[f32; LANES]> { values.as_chunks().0.to_vec() };
-        let direct: f64 = gain * roots.iter().map(|&(pole, zero)| zero / pole).product::<f64>();
+        let direct: f64 = gain * ladder.iter().map(|root| root.zero / root.pole).product::<f64>();
         let mut noise = Self {
             direct: direct as f32,
             states: vec![[0.0; LANES]; poles.len() / LANES],
             poles: lanes(&poles),
             residues: lanes(&residues),
-            top_zero: top_zero as f32,
+            top_zero: roots.top_zero as f32,
             before: 0.0,
             random,
         };
@@ -109,14 +109,14 @@ impl ColouredNoise {
 }
 
 /// Mean of |H|² over the band: variance out for variance 1 in.
-fn mean_power_gain(roots: &[(f64, f64)], top_zero: f64, flat_below_hz: f64, sample_rate_hz: f64) -> f64 {
-    // Half the width of the flat part, so that none of the slope is stepped over.
+fn mean_power_gain(roots: &SlopeFilterRoots, flat_below_hz: f64, sample_rate_hz: f64) -> f64 {
+    // Steps of half the width of the flat part, so that no part of the slope falls between two steps.
     let count = (sample_rate_hz / flat_below_hz).max(500.0) as u32;
     let gain = |step: u32| {
         let cosine = (std::f64::consts::PI * (f64::from(step) + 0.5) / f64::from(count)).cos();
         let distance_square = |root: f64| 1.0 - 2.0 * root * cosine + root * root;
-        let ladder: f64 = roots.iter().map(|&(pole, zero)| distance_square(zero) / distance_square(pole)).product();
-        ladder * distance_square(top_zero)
+        let gain_of = |root: &PoleAndZero| distance_square(root.zero) / distance_square(root.pole);
+        roots.ladder.iter().map(gain_of).product::<f64>() * distance_square(roots.top_zero)
     };
     (0..count).map(gain).sum::<f64>() / f64::from(count)
 }
@@ -151,18 +151,18 @@ mod tests {
         let mut whites = noise.random.clone();
         let mut samples = vec![0.0; 2000];
         noise.fill(&mut samples);
-        let (roots, top_zero) = slope_roots(slope, corner_hz, rate_hz);
-        let gain = 1.0 / mean_power_gain(&roots, top_zero, corner_hz, rate_hz).sqrt();
-        let mut sections = vec![(0.0, 0.0); roots.len()];
+        let roots = SlopeFilterRoots::new(slope, corner_hz, rate_hz);
+        let gain = 1.0 / mean_power_gain(&roots, corner_hz, rate_hz).sqrt();
+        let mut sections = vec![(0.0, 0.0); roots.ladder.len()];
         let mut before = 0.0;
         for sample in samples {
             let mut value: f64 = gain * whites.sample::<f64, _>(StandardNormal);
-            for ((input, output), (pole, zero)) in sections.iter_mut().zip(&roots) {
-                *output = value + pole * *output - zero * *input;
+            for ((input, output), root) in sections.iter_mut().zip(&roots.ladder) {
+                *output = value + root.pole * *output - root.zero * *input;
                 *input = value;
                 value = *output;
             }
-            let expected = value - top_zero * before;
+            let expected = value - roots.top_zero * before;
             before = value;
             assert!((f64::from(sample) - expected).abs() < 1e-4, "{sample} {expected}");
         }

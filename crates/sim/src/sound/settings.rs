@@ -1,13 +1,13 @@
-//! What to simulate. Every default stands here or beside its own settings, with its reason.
+//! Settings of the sound of a flight. Every default stands here or beside its own settings, with its reason.
 
 use super::babble::BabbleSettings;
 use super::directivity::Directivity;
 use super::microphone::MicrophoneSettings;
 use super::room::{Room, Surroundings};
-use crate::tones::ToneSettings;
+use super::tone_settings::ToneSettings;
 use hovertone_vehicle::{QuantityError, RotorSpeed, Vehicle};
 
-/// What a number may be.
+/// The allowed values of a number.
 #[derive(Clone, Copy)]
 pub(crate) enum Bound {
     Finite,
@@ -16,7 +16,7 @@ pub(crate) enum Bound {
     Within(f64, f64, &'static str),
 }
 
-/// Refuses a number that is out of bounds, naming it.
+/// Refuses a number out of bounds, naming it.
 pub(crate) fn checked(name: &'static str, value: f64, bound: Bound) -> Result<(), QuantityError> {
     let (kept, must_be) = match bound {
         Bound::Finite => (true, "a number"),
@@ -31,7 +31,7 @@ pub(crate) fn checked(name: &'static str, value: f64, bound: Bound) -> Result<()
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotorTones {
     /// Lines per turn of the rotor's shaft; need not be whole. A brushless motor with `p` pole pairs behind a gear of
-    /// ratio `r` has its electrical turns at order `p r` and its commutation at `6 p r`.
+    /// ratio `r` has its electrical frequency at order `p r` and its commutation at `6 p r`.
     pub order: f64,
     /// Levels, in the unit of [`ToneSettings`].
     pub harmonic_levels: Vec<f64>,
@@ -40,25 +40,25 @@ pub struct MotorTones {
 /// The broadband noise of one rotor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BroadbandSettings {
-    /// Level of one rotor at 1 m in the direction where it is loudest, over the whole band, at the reference speed.
+    /// Level of one rotor at 1 m in its loudest direction, over the whole band, at the reference speed.
     pub level_db_spl: f64,
-    /// Below this the density is flat.
+    /// Below this frequency the density is flat.
     pub flat_below_hz: f64,
     /// Slope of the density above, between -6 and 0.
     pub slope_db_per_octave: f64,
-    /// Power goes with this power of the speed of the tips.
+    /// Exponent of the tip speed in the power.
     pub speed_exponent: f64,
     /// Depth m of `1 + m cos(blade pass)` on the noise's amplitude; its mean power stays.
     pub modulation_depth: f64,
 }
 
 impl Default for BroadbandSettings {
-    /// - 60 dB: with four rotors 66 dB at 1 m, 3 dB under the lines (assumed; real ones lie on both sides).
-    /// - Flat to 1 kHz, then -5 dB per octave: read off the octave floors of the project's recording of an M300 hovering
+    /// - 60 dB: with four rotors 66 dB at 1 m, 3 dB below the lines (assumed; real rotors lie on both sides).
+    /// - Flat to 1 kHz, then -5 dB per octave: from the octave floors of a recording of a hovering DJI M300
     ///   (106, 111, 108, 106, 99, 86 dB re arbitrary from 250 Hz to 8 kHz).
     /// - Fifth power: edge noise (Ffowcs Williams and Hall 1970); sixth is a compact dipole (Curle 1955).
-    /// - Depth 0.3: that blade pass modulates the broadband noise of small rotors is Baars, Bullard, Mohamed (TU Delft); the
-    ///   number is assumed.
+    /// - Depth 0.3: blade pass modulates the broadband noise of small rotors (Baars, Bullard, Mohamed, TU Delft); the number
+    ///   is assumed.
     fn default() -> Self {
         Self {
             level_db_spl: 60.0,
@@ -70,47 +70,46 @@ impl Default for BroadbandSettings {
     }
 }
 
-/// What each rotor radiates. All have the same set of lines, each with phases, levels and unsteadiness of its own.
+/// The sound of each rotor. All rotors have the same set of lines; phases, levels and unsteadiness differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceSettings {
-    /// Shaft speed at which the levels hold.
+    /// Shaft speed at which the levels are given.
     pub reference_speed: RotorSpeed,
     /// The lines of shaft, blades and gear, in units of `tone_level_db_spl`.
     pub tones: ToneSettings,
-    /// Level of a line of level 1 at 1 m, where it is loudest, of one rotor at the reference speed.
+    /// Level of a line of level 1 of one rotor, at 1 m in its loudest direction, at the reference speed.
     pub tone_level_db_spl: f64,
     /// Teeth of the pinion, for sidebands of the mesh at ± the speed of the motor's shaft.
     pub pinion_teeth: Option<u32>,
-    /// Level of the pinion's sidebands, as a share of the harmonic that they stand beside.
+    /// Level of the pinion's sidebands, as a share of their harmonic.
     pub pinion_sideband_level: f64,
     /// Electrical tones of the motor.
     pub motor: Option<MotorTones>,
     /// Broadband noise.
     pub broadband: Option<BroadbandSettings>,
-    /// Power of the blade-pass lines goes with this power of the speed.
+    /// Exponent of the speed in the power of the blade-pass lines.
     pub blade_speed_exponent: f64,
-    /// Power of shaft, gear and motor lines goes with this power of the speed.
+    /// Exponent of the speed in the power of shaft, gear and motor lines.
     pub mechanical_speed_exponent: f64,
     /// Standard deviation of the slow change of each line, in amplitude and, in radians, in phase: a share of 1.
     pub unsteadiness: f64,
     /// Time constant of that change (a critically damped second-order process).
     pub unsteadiness_time_constant_s: f64,
-    /// Where the blade-pass lines go.
+    /// Directivity of the blade-pass lines.
     pub blade_directivity: Directivity,
-    /// Where shaft, gear and motor go.
+    /// Directivity of shaft, gear and motor lines.
     pub mechanical_directivity: Directivity,
-    /// Where the broadband noise goes.
+    /// Directivity of the broadband noise.
     pub broadband_directivity: Directivity,
 }
 
 impl SourceSettings {
-    /// The lines that a vehicle's gear and blades make, at levels that hold at that speed (its hover).
+    /// The lines of a vehicle's gear and blades, at levels for this speed (its hover).
     ///
-    /// No measured level of an AR.Drone was found in the library. Tones of 53 dB make the lines of four rotors 69 dB at
-    /// 1 m, and 71 dB with the noise: under the 74 dB that the EU's limit for a class C1 drone (below 900 g) means, a
-    /// sound power of 85 dB(A) less 11 dB (Regulation 2019/945, from memory). Relative levels are the prototype's
-    /// (PHYSICS 6.2). Power of the blades with the fifth power of the speed (as the noise), of gear and motor with the
-    /// fourth (amplitude with load): assumed. Unsteadiness 10 % and 1 s are the prototype's.
+    /// No published level of an AR.Drone was found. Tones of 53 dB make the lines of four rotors 69 dB at 1 m, and 71 dB with
+    /// the noise. The EU's limit for a class C1 drone (below 900 g) is about 74 dB at 1 m: a sound power of 85 dB(A) minus
+    /// 11 dB (Regulation 2019/945). Assumed: the relative levels; the fifth power of the speed for the blades (as for the
+    /// noise); the fourth power for gear and motor (amplitude proportional to load); an unsteadiness of 10 % and 1 s.
     pub fn for_vehicle(vehicle: &Vehicle, hover_speed: RotorSpeed) -> Self {
         let gear = vehicle.gear.map(|gear| gear.value);
         Self {
@@ -119,7 +118,7 @@ impl SourceSettings {
             tone_level_db_spl: 53.0,
             pinion_teeth: gear.map(|gear| gear.pinion),
             pinion_sideband_level: 0.1,
-            // Six steps of one pole pair: the AR.Drone's number of poles was not found.
+            // Commutation with one pole pair: the AR.Drone's number of poles was not found.
             motor: gear.map(|gear| MotorTones { order: 6.0 * gear.ratio(), harmonic_levels: vec![0.2, 0.1] }),
             broadband: Some(BroadbandSettings::default()),
             blade_speed_exponent: 5.0,
@@ -132,8 +131,8 @@ impl SourceSettings {
         }
     }
 
-    /// One steady line at that order, the same in all directions, nothing else, 94 dB SPL at 1 m at every speed: for
-    /// checking against a closed form.
+    /// One steady line at this order, the same in all directions, 94 dB SPL at 1 m at every speed, and nothing else: for
+    /// checks against a closed form.
     pub fn single_line(order: u32, reference_speed: RotorSpeed) -> Self {
         Self {
             reference_speed,
@@ -187,33 +186,33 @@ impl SourceSettings {
     }
 }
 
-/// Noise of the place, of its own at each microphone.
+/// Noise of the place, independent at each microphone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmbientSettings {
     /// Level over the whole band.
     pub level_db_spl: f64,
-    /// Below this the density is flat.
+    /// Below this frequency the density is flat.
     pub flat_below_hz: f64,
     /// Slope of the density above, between -6 and 0.
     pub slope_db_per_octave: f64,
 }
 
 impl Default for AmbientSettings {
-    /// 50 dB, falling by 5 dB per octave above 60 Hz: about the noise criterion NC-45 that is the limit for a laboratory
-    /// (Handbook of Facilities Planning 1990, at ateam.lbl.gov), whose curves fall by that much per octave band.
+    /// 50 dB, falling by 5 dB per octave above 60 Hz: about the noise criterion NC-45, the limit for a laboratory (Handbook of
+    /// Facilities Planning 1990, at ateam.lbl.gov); its curves fall by 5 dB per octave band.
     fn default() -> Self {
         Self { level_db_spl: 50.0, flat_below_hz: 60.0, slope_db_per_octave: -5.0 }
     }
 }
 
-/// A whole scene. One channel per microphone.
+/// Settings of a whole scene. One channel per microphone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundSettings {
     /// Samples per second.
     pub sample_rate_hz: u32,
-    /// What each rotor radiates.
+    /// The sound of each rotor.
     pub source: SourceSettings,
-    /// Room, ground or nothing.
+    /// Room, ground or free field.
     pub surroundings: Surroundings,
     /// Speed of sound, m/s; `331.3 √(1 + t/273.15)` in dry air at t °C.
     pub speed_of_sound_m_s: f64,
@@ -223,7 +222,7 @@ pub struct SoundSettings {
     pub ambient: Option<AmbientSettings>,
     /// People talking outside.
     pub babble: Option<BabbleSettings>,
-    /// Everything random comes from here.
+    /// All random numbers come from this seed.
     pub seed: u64,
 }
 
@@ -243,7 +242,7 @@ impl SoundSettings {
         }
     }
 
-    /// Rotors and ideal microphones in the open, nothing else: for checking against a closed form.
+    /// Rotors and ideal microphones in a free field and nothing else: for checks against a closed form.
     pub fn free_field(source: SourceSettings, microphones_m: &[[f64; 3]]) -> Self {
         Self {
             surroundings: Surroundings::FreeField,
@@ -280,7 +279,7 @@ impl SoundSettings {
     }
 }
 
-/// Levels that are not a slip of the pen.
+/// Plausible levels.
 pub(crate) const LEVEL: Bound = Bound::Within(-100.0, 200.0, "between -100 and 200");
 const SLOPE: Bound = Bound::Within(-6.0, 0.0, "between -6 and 0");
 const EXPONENT: Bound = Bound::Within(0.0, 12.0, "between 0 and 12");

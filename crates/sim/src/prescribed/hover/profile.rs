@@ -1,19 +1,11 @@
-//! Take-off and landing: which share of its hover speed a rotor has at each instant.
+//! Take-off and landing: the speed of a rotor at each instant, as a share of its speed in hover.
 
+use crate::prescribed::truth::Span;
 use hovertone_vehicle::QuantityError;
 use std::f64::consts::PI;
 
-/// From one instant to another, in seconds from the first sample.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
-    /// Start.
-    pub from_s: f64,
-    /// End.
-    pub to_s: f64,
-}
-
-/// Rotors at rest, spun up, in hover, spun down, at rest again. Hover takes what the others leave of the sound.
-/// The default has no parts but hover.
+/// Rotors at rest, spun up, in hover, spun down, at rest again. The hover takes the rest of the sound's length.
+/// The default is hover alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SpeedProfile {
     /// Rotors at rest before.
@@ -85,8 +77,7 @@ impl ProfileParts {
     }
 }
 
-/// From 0 to 1 with no step in the acceleration's sign at either end; `share` outside 0..1 is held, and so is the 0/0
-/// of a ramp that takes no time.
+/// From 0 to 1 along half a period of a cosine. `share` outside 0..1 is clamped; the 0/0 of a ramp of no length gives 0.
 fn rising_cosine(share: f64) -> f64 {
     if share > 0.0 { 0.5 - 0.5 * (PI * share.min(1.0)).cos() } else { 0.0 }
 }

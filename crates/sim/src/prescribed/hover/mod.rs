@@ -1,148 +1,44 @@
-//! Settings in, samples and truth out.
+//! A hover by settings, rendered block by block: memory does not grow with the length.
+//!
+//! ```text
+//! seed ─▶ Ornstein-Uhlenbeck ─▶ shaft (speed, phase, exact integrals) ─▶ tones ─┐
+//!                   profile ──────┘                              └─▶ truth       ├─▶ fixed gain ─▶ samples
+//!                                                                      noise ───┘
+//! ```
 
-use crate::noise::{Noise, NoiseSettings};
-use crate::profile::{ProfileParts, SpeedProfile};
+mod noise;
+mod paper_trial;
+mod profile;
+mod settings;
+mod shaft;
+mod tones;
+
+pub use noise::NoiseSettings;
+pub use paper_trial::PaperSimulation;
+pub use profile::{ProfileParts, SpeedProfile};
+pub use settings::{HoverSettings, RotorSound};
+
+use super::phasors::BLOCK;
+use super::truth::{Truth, TruthRow};
+use crate::ornstein_uhlenbeck::OrnsteinUhlenbeck;
 use crate::seed::{Part, stream};
-use crate::shaft::{BLOCK, Shaft, hover_mean_sum_of_squares};
-use crate::tones::{RotorTones, ToneSettings};
-use crate::truth::{Truth, TruthRow};
-use crate::wander::OrnsteinUhlenbeck;
-use hovertone_vehicle::{QuantityError, RotorSpeed, Vehicle};
+use hovertone_vehicle::QuantityError;
+use noise::Noise;
+use shaft::{Shaft, hover_mean_sum_of_squares};
 use std::f64::consts::TAU;
+use tones::RotorTones;
 
-/// Noise further out than this is not counted in the headroom: one sample in 500 million, and the headroom's other half
-/// is above it.
+/// The headroom counts noise up to this many standard deviations. One sample in 500 million is larger, and the other
+/// half of the headroom is above it.
 const NOISE_PEAK_STD: f64 = 6.0;
-/// Wander further out than this is not counted when lines near half the sample rate are left out.
+/// Lines near half the sample rate are left out for a wander up to this many standard deviations.
 const WANDER_PEAK_STD: f64 = 6.0;
 
-/// One rotor: how fast, how loud, how steady.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RotorSound {
-    /// Mean shaft speed in hover.
-    pub mean_speed: RotorSpeed,
-    /// Loudness of all its lines against the levels in [`ToneSettings`].
-    pub level_db: f64,
-    /// Standard deviation of the speed's wander, as a share of the mean speed.
-    pub wander_std_share: f64,
-    /// Time constant of the wander's autocorrelation, exp(-t/τ).
-    pub wander_time_constant_s: f64,
-}
-
-impl RotorSound {
-    /// A rotor at 0 dB that wanders as the paper's tables have it: 1.2 % (44 to 48 rpm of 3610 to 3820), and 0.3 s
-    /// (assumed: the paper has no time constant).
-    pub fn at(mean_speed: RotorSpeed) -> Self {
-        Self { mean_speed, level_db: 0.0, wander_std_share: 0.012, wander_time_constant_s: 0.3 }
-    }
-
-    /// A rotor whose speed does not change.
-    pub fn steady(mean_speed: RotorSpeed) -> Self {
-        Self { wander_std_share: 0.0, ..Self::at(mean_speed) }
-    }
-}
-
-/// What to simulate.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HoverSettings {
-    /// Samples per second.
-    pub sample_rate_hz: u32,
-    /// Length of the sound, rounded to a whole sample.
-    pub duration_s: f64,
-    /// The rotors.
-    pub rotors: Vec<RotorSound>,
-    /// The lines that each rotor has.
-    pub tones: ToneSettings,
-    /// Broadband noise of the rotors; it falls silent with them.
-    pub rotor_noise: Option<NoiseSettings>,
-    /// Noise of the place, there from first to last sample; measured as the rotors' noise is.
-    pub ambient_noise: Option<NoiseSettings>,
-    /// Take-off and landing.
-    pub profile: SpeedProfile,
-    /// Scale all speeds by one factor, so that the mean of Σω² over the hover part is exactly that of the set mean
-    /// speeds, as the balance of forces has it: without it the wander's own mean leaves the weight of each trial off by
-    /// some 0.3 %. Costs a second run of the speeds, without sound.
-    pub hold_hover_balance: bool,
-    /// Largest sample that the lines can add up to, with six standard deviations of noise; full scale is 1.
-    pub peak: f64,
-    /// Time between rows of the truth, rounded to a whole sample.
-    pub truth_step_s: f64,
-    /// Everything random comes from here.
-    pub seed: u64,
-}
-
-impl Default for HoverSettings {
-    /// Ten seconds (the paper's trial) at 48 kHz, without rotors; peak 0.5 leaves 6 dB for whatever is done next.
-    fn default() -> Self {
-        Self {
-            sample_rate_hz: 48_000,
-            duration_s: 10.0,
-            rotors: Vec::new(),
-            tones: ToneSettings::default(),
-            rotor_noise: Some(NoiseSettings::default()),
-            ambient_noise: None,
-            profile: SpeedProfile::default(),
-            hold_hover_balance: false,
-            peak: 0.5,
-            truth_step_s: 0.01,
-            seed: 1,
-        }
-    }
-}
-
-impl HoverSettings {
-    /// All rotors of a vehicle at one mean speed, each with a wander of its own, and the lines that its gear and blades
-    /// make.
-    pub fn for_vehicle(vehicle: &Vehicle, mean_speed: RotorSpeed) -> Self {
-        Self {
-            rotors: vec![RotorSound::at(mean_speed); vehicle.rotor_count.value as usize],
-            tones: ToneSettings::for_vehicle(vehicle),
-            ..Self::default()
-        }
-    }
-
-    fn check(&self) -> Result<(), QuantityError> {
-        let refused = |name, value, must_be| Err(QuantityError { name, value, must_be });
-        if !(8_000..=192_000).contains(&self.sample_rate_hz) {
-            return refused("sample_rate_hz", f64::from(self.sample_rate_hz), "between 8000 and 192000");
-        }
-        if self.rotors.is_empty() {
-            return refused("rotors", 0.0, "at least one");
-        }
-        if !(self.peak > 0.0 && self.peak <= 1.0) {
-            return refused("peak", self.peak, "above 0, at most 1");
-        }
-        if !(self.truth_step_s.is_finite() && self.truth_step_s > 0.0) {
-            return refused("truth_step_s", self.truth_step_s, "above 0");
-        }
-        if !(self.duration_s.is_finite() && self.duration_s * f64::from(self.sample_rate_hz) >= 0.5) {
-            return refused("duration_s", self.duration_s, "at least one sample");
-        }
-        self.tones.check()?;
-        for rotor in &self.rotors {
-            let speed_rev_s = rotor.mean_speed.rev_s();
-            if !(speed_rev_s > 0.0 && speed_rev_s < f64::from(self.sample_rate_hz) / 4.0) {
-                return refused("mean_speed", speed_rev_s, "above 0 and below a quarter of the sample rate, in rev/s");
-            }
-            if !rotor.level_db.is_finite() {
-                return refused("level_db", rotor.level_db, "a number");
-            }
-            // Above this the Gaussian wander would reach a standing rotor.
-            if !(0.0..=0.1).contains(&rotor.wander_std_share) {
-                return refused("wander_std_share", rotor.wander_std_share, "between 0 and 0.1");
-            }
-            if !(rotor.wander_time_constant_s.is_finite() && rotor.wander_time_constant_s > 0.0) {
-                return refused("wander_time_constant_s", rotor.wander_time_constant_s, "above 0");
-            }
-        }
-        Ok(())
-    }
-}
-
-/// The sound as it is made: a fixed amount of state, whatever the length.
+/// The sound of a hover, rendered on demand. The size of its state does not depend on the length.
 ///
-/// The same settings give the same samples on the same machine, whatever the sizes of the blocks they are asked for in;
-/// a longer duration gives the same samples and more (unless there is a landing, or the hover balance is held).
+/// The same settings give the same samples on the same machine, for any sizes of the buffers given to
+/// [`render`](Self::render). A longer duration adds samples and changes none (unless there is a landing, or the hover balance
+/// is held).
 pub struct HoverSound {
     settings: HoverSettings,
     parts: ProfileParts,
@@ -152,8 +48,9 @@ pub struct HoverSound {
     ambient_noise: Option<Noise>,
     sample_count: u64,
     truth_step: u64,
-    /// Samples made so far, and those of the last block that were not handed out yet.
+    /// Number of samples made so far.
     made: u64,
+    /// The last block: its samples, how many of them were handed out, and how many there are.
     block: [f64; BLOCK],
     handed_out: usize,
     in_block: usize,
@@ -200,12 +97,12 @@ impl HoverSound {
         })
     }
 
-    /// What is simulated.
+    /// The settings.
     pub fn settings(&self) -> &HoverSettings {
         &self.settings
     }
 
-    /// When take-off, hover and landing are.
+    /// The spans of take-off, hover and landing.
     pub fn parts(&self) -> ProfileParts {
         self.parts
     }
@@ -215,13 +112,13 @@ impl HoverSound {
         self.gain
     }
 
-    /// Samples of the whole sound.
+    /// Number of samples of the whole sound.
     pub fn sample_count(&self) -> u64 {
         self.sample_count
     }
 
-    /// The next samples, as many as fit, full scale ±1; returns how many, 0 at the end. The rows of the truth that came
-    /// due are appended to `truth`, at most 48 samples ahead of the sound; keep them or clear them.
+    /// Writes the next samples, full scale ±1, and returns their number: the length of `samples`, less at the end, then 0.
+    /// Appends the rows of the truth up to there, and at most 48 samples beyond, to `truth`.
     pub fn render(&mut self, samples: &mut [f32], truth: &mut Vec<TruthRow>) -> usize {
         let mut written = 0;
         while written < samples.len() {
@@ -242,7 +139,7 @@ impl HoverSound {
         written
     }
 
-    /// The rest of the sound in one piece, for short ones.
+    /// The rest of the sound in one piece, for short sounds.
     pub fn render_all(mut self) -> (Vec<f32>, Truth) {
         let left = self.sample_count - self.made + (self.in_block - self.handed_out) as u64;
         let (mut samples, mut rows) = (vec![0.0; left as usize], Vec::new());
@@ -296,8 +193,9 @@ impl HoverSound {
             }
         }
         for k in 0..count {
-            // Pressure of the lines goes with the square of the speed, power of the noise with its fifth (PHYSICS
-            // section 8); the wander is too small for that to be heard and is left out, so that C/N0 is the set one.
+            // Pressure of the lines grows with the square of the speed, power of the noise with its fifth power (edge
+            // noise: Ffowcs Williams and Hall 1970). The wander is too small to be heard this way and is left out, so
+            // that the carrier-to-noise density is the set one.
             let loudness = share[k] * share[k];
             let mut value = loudness * lines[k];
             if let Some(noise) = &mut self.rotor_noise {

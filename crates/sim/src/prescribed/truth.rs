@@ -1,7 +1,16 @@
-//! The truth about a simulated sound: what an estimate of it should have found.
+//! The truth about a sound at prescribed speeds.
 
 use hovertone_vehicle::RotorSpeed;
 use std::f64::consts::TAU;
+
+/// From one instant to another, in seconds from the first sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Start.
+    pub from_s: f64,
+    /// End.
+    pub to_s: f64,
+}
 
 /// One rotor at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +23,7 @@ pub struct RotorTruth {
     pub square_integral_rad2_s: f64,
 }
 
-/// All rotors at one instant. Rows come every [`HoverSettings::truth_step_s`](crate::HoverSettings), and at the end.
+/// All rotors at one instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TruthRow {
     /// Seconds from the first sample.
@@ -25,16 +34,19 @@ pub struct TruthRow {
 
 /// The rows of a whole sound, and means over any span of it.
 ///
-/// Means are exact (sums over the samples as rendered) for spans that begin and end on a row, every 10 ms by default.
-/// Between two rows, `h` apart, the speed counts as constant: a mean square over `T` then has the relative standard
-/// error `2 √(D h³ / 24) / T` with `D = 2 std² / τ` of the wander; 2.5e-6 for 1.2 %, 0.3 s, 10 ms and 5 s.
+/// A [`HoverSound`](super::HoverSound) has a row every [`truth_step_s`](super::HoverSettings::truth_step_s), a
+/// [`Recording`](super::Recording) one at each node of its sampling; both have a last row at the end.
+///
+/// Means are exact (sums over the samples as rendered) for spans that begin and end on a row. Between two rows, `h` apart,
+/// the speed counts as constant: a mean square over `T` then has the relative standard error `2 √(D h³ / 24) / T` with
+/// `D = 2 std² / τ` of an Ornstein-Uhlenbeck wander; 2.5e-6 for 1.2 %, 0.3 s, 10 ms and 5 s.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Truth {
     rows: Vec<TruthRow>,
 }
 
 impl Truth {
-    /// The truth that those rows tell, in the order they were rendered.
+    /// From rows in the order of time.
     pub fn from_rows(rows: Vec<TruthRow>) -> Self {
         Self { rows }
     }
@@ -50,13 +62,29 @@ impl Truth {
         self.mean(from_s, to_s, |row| Some(row.rotors.get(rotor)?.turns)).map(RotorSpeed::from_rev_s)
     }
 
+    /// Mean shaft speed of a rotor over several spans together. `None` as for [`mean_speed`](Self::mean_speed).
+    pub fn mean_speed_over(&self, rotor: usize, spans: &[Span]) -> Option<RotorSpeed> {
+        let turns = |row: &TruthRow| Some(row.rotors.get(rotor)?.turns);
+        let length_s: f64 = spans.iter().map(|span| span.to_s - span.from_s).sum();
+        let turned = |span: &Span| Some(self.at(span.to_s, &turns)? - self.at(span.from_s, &turns)?);
+        let turned: f64 = spans.iter().map(turned).sum::<Option<f64>>()?;
+        (length_s > 0.0).then(|| RotorSpeed::from_rev_s(turned / length_s))
+    }
+
+    /// Shaft speed of each rotor at an instant, turns per second; straight between rows. `None` for an instant that is not
+    /// within the sound.
+    pub fn speeds_rev_s_at(&self, time_s: f64) -> Option<Vec<f64>> {
+        let speed = |rotor: usize| self.at(time_s, &|row: &TruthRow| Some(row.rotors.get(rotor)?.speed_rev_s));
+        (0..self.rows.first()?.rotors.len()).map(speed).collect()
+    }
+
     /// Mean of a rotor's squared angular speed, rad²/s². `None` as for [`mean_speed`](Self::mean_speed).
     pub fn mean_square(&self, rotor: usize, from_s: f64, to_s: f64) -> Option<f64> {
         self.mean(from_s, to_s, |row| Some(row.rotors.get(rotor)?.square_integral_rad2_s))
     }
 
-    /// Mean of the sum of the rotors' squared angular speeds, rad²/s²: what carries the weight in hover. `None` for an
-    /// empty span and for one that is not within the sound.
+    /// Mean of the sum of the rotors' squared angular speeds, rad²/s²; in hover it is proportional to the weight. `None` for
+    /// an empty span and for one that is not within the sound.
     pub fn mean_sum_of_squares(&self, from_s: f64, to_s: f64) -> Option<f64> {
         self.mean(from_s, to_s, |row| Some(row.rotors.iter().map(|rotor| rotor.square_integral_rad2_s).sum()))
     }
@@ -74,8 +102,8 @@ impl Truth {
         Some(mass_kg * gravity_m_s2 / squares)
     }
 
-    /// Thrust constant of the whole vehicle, N s²: that of one rotor times the number of rotors, which is what the
-    /// paper's tables print (total weight over ω² of equal rotors).
+    /// Thrust constant of the whole vehicle, N s²: that of one rotor times the number of rotors. The paper's tables print
+    /// this one (total weight over ω² of equal rotors).
     pub fn thrust_constant_total_n_s2(&self, mass_kg: f64, gravity_m_s2: f64, from_s: f64, to_s: f64) -> Option<f64> {
         let per_rotor = self.thrust_constant_per_rotor_n_s2(mass_kg, gravity_m_s2, from_s, to_s)?;
         Some(per_rotor * self.rows.first()?.rotors.len() as f64)
@@ -88,8 +116,8 @@ impl Truth {
         Some((self.at(to_s, &integral)? - self.at(from_s, &integral)?) / (to_s - from_s))
     }
 
-    /// An integral at an instant; straight between rows.
-    fn at(&self, time_s: f64, integral: &impl Fn(&TruthRow) -> Option<f64>) -> Option<f64> {
+    /// A number of the rows at an instant; straight between rows.
+    fn at(&self, time_s: f64, number: &impl Fn(&TruthRow) -> Option<f64>) -> Option<f64> {
         let last = self.rows.last()?;
         // A span computed from seconds may miss the ends by rounding.
         let rounding_s = 1e-9 * last.time_s.max(1.0);
@@ -98,12 +126,12 @@ impl Truth {
         }
         let above = self.rows.partition_point(|row| row.time_s < time_s).min(self.rows.len() - 1);
         let row = &self.rows[above];
-        let after = integral(row)?;
+        let after = number(row)?;
         if above == 0 {
             return Some(after);
         }
         let row_before = &self.rows[above - 1];
-        let before = integral(row_before)?;
+        let before = number(row_before)?;
         let share = (time_s - row_before.time_s) / (row.time_s - row_before.time_s);
         Some(before + share.min(1.0) * (after - before))
     }

@@ -1,28 +1,21 @@
-//! Broadband noise with a straight slope over the whole band.
+//! Broadband noise of a hover: its power density has a straight slope over the whole band.
 
+use crate::sound::SlopeFilterRoots;
 use hovertone_vehicle::QuantityError;
 use rand::RngExt;
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
-use std::f64::consts::{LN_2, TAU};
+use std::f64::consts::TAU;
 
-/// Below this the noise is flat: nothing is heard there, and a slope without end has no finite power.
+/// Below this frequency the noise is flat: nothing is heard there, and a slope without end has no finite power.
 const SHELF_HZ: f64 = 20.0;
-/// Poles per octave. With two, the slope is straight to 0.12 dB from 120 Hz to 16 kHz (the test below).
-const POLES_PER_OCTAVE: f64 = 2.0;
-/// A filter of samples goes flat towards half the sample rate, where the slope does not: by the share of
-/// 20 log (x / sin x), x = π f / sample rate. One more zero, at minus this times the share, makes up for it to 0.1 dB
-/// up to 16 kHz at 44.1 kHz.
-const TOP_ZERO: f64 = 0.14;
-/// A pole falls by this much per octave.
-const POLE_DB_PER_OCTAVE: f64 = 6.020_599_913_279_624;
-/// The slowest pole, at `SHELF_HZ`, forgets by e^-20 in this time: from there on the noise is stationary.
+/// In this time the slowest pole, at `SHELF_HZ`, decays by e^-20; after it the noise is stationary.
 const SETTLING_S: f64 = 20.0 / (TAU * SHELF_HZ);
 
-/// How much noise, and of which colour.
+/// Level and colour of the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseSettings {
-    /// Power of the reference line (`level²/2` of the gear mesh, else of the blade pass, of a rotor at 0 dB) against the
+    /// Power of the reference line (`level²/2` of the gear mesh, else of the blade pass, of a rotor at 0 dB) over the
     /// noise's power density at that line's frequency, dB-Hz.
     pub carrier_to_noise_density_db_hz: f64,
     /// Slope of the power density, between -6 and 0.
@@ -31,14 +24,14 @@ pub struct NoiseSettings {
 
 impl Default for NoiseSettings {
     /// 50 dB-Hz puts a steady line 37.5 dB above the noise of its bin in a 4096-point Hann frame at 48 kHz (17.6 Hz
-    /// wide); -3 dB per octave is the prototype's colour (PHYSICS section 6.2, which has 42 dB-Hz). Nothing measured.
+    /// wide). Both numbers are assumed, not measured.
     fn default() -> Self {
         Self { carrier_to_noise_density_db_hz: 50.0, slope_db_per_octave: -3.0 }
     }
 }
 
 impl NoiseSettings {
-    pub(crate) fn check(&self) -> Result<(), QuantityError> {
+    pub(super) fn check(&self) -> Result<(), QuantityError> {
         let (value, name) = (self.slope_db_per_octave, "slope_db_per_octave");
         if !(-6.0..=0.0).contains(&value) {
             return Err(QuantityError { name, value, must_be: "between -6 and 0" });
@@ -51,14 +44,14 @@ impl NoiseSettings {
     }
 
     /// One-sided power density at the reference line.
-    pub(crate) fn density_at_reference(&self, reference_level: f64) -> f64 {
+    pub(super) fn density_at_reference(&self, reference_level: f64) -> f64 {
         reference_level.powi(2) / 2.0 / 10_f64.powf(self.carrier_to_noise_density_db_hz / 10.0)
     }
 }
 
 /// A stream of noise samples.
 #[derive(Clone)]
-pub(crate) struct Noise {
+pub(super) struct Noise {
     gain: f64,
     filter: SlopeFilter,
     random: Pcg64,
@@ -67,7 +60,7 @@ pub(crate) struct Noise {
 
 impl Noise {
     /// Noise whose one-sided power density at `reference_hz` is `density` (units² per Hz).
-    pub(crate) fn new(
+    pub(super) fn new(
         density: f64,
         reference_hz: f64,
         slope_db_per_octave: f64,
@@ -86,18 +79,17 @@ impl Noise {
     }
 
     /// Standard deviation of the samples.
-    pub(crate) fn std(&self) -> f64 {
+    pub(super) fn std(&self) -> f64 {
         self.std
     }
 
-    pub(crate) fn next(&mut self) -> f64 {
+    pub(super) fn next(&mut self) -> f64 {
         let white: f64 = self.random.sample(StandardNormal);
         self.gain * self.filter.filtered(white)
     }
 }
 
-/// Poles at even steps of log frequency, each followed by a zero: the fraction of the way from a pole to the next where
-/// the filter falls is the wanted slope over that of a pole.
+/// The filter of [`SlopeFilterRoots`] as a cascade of first-order sections.
 #[derive(Clone)]
 struct SlopeFilter {
     sections: Vec<Section>,
@@ -114,12 +106,12 @@ struct Section {
 
 impl SlopeFilter {
     fn new(slope_db_per_octave: f64, sample_rate_hz: f64) -> Self {
-        let (ladder, top_zero) = slope_roots(slope_db_per_octave, SHELF_HZ, sample_rate_hz);
-        let section = |(pole, zero)| Section { pole, zero, input: 0.0, output: 0.0 };
-        let sections = match ladder.is_empty() {
-            true => Vec::new(),
-            false => ladder.into_iter().chain([(0.0, top_zero)]).map(section).collect(),
-        };
+        let roots = SlopeFilterRoots::new(slope_db_per_octave, SHELF_HZ, sample_rate_hz);
+        let section = |pole, zero| Section { pole, zero, input: 0.0, output: 0.0 };
+        let mut sections: Vec<Section> = roots.ladder.iter().map(|root| section(root.pole, root.zero)).collect();
+        if !sections.is_empty() {
+            sections.push(section(0.0, roots.top_zero));
+        }
         Self { sections, sample_rate_hz }
     }
 
@@ -142,28 +134,11 @@ impl SlopeFilter {
 
     /// Mean of |H|² over the band: variance out for variance 1 in.
     fn mean_power_gain(&self) -> f64 {
-        // Half the width of the flat shelf, so that no part of the slope is stepped over.
+        // Steps of half the width of the flat shelf, so that no part of the slope falls between two steps.
         let count = (self.sample_rate_hz / SHELF_HZ) as u32;
         let step_hz = self.sample_rate_hz / 2.0 / f64::from(count);
         (0..count).map(|step| self.power_gain((f64::from(step) + 0.5) * step_hz)).sum::<f64>() / f64::from(count)
     }
-}
-
-/// Poles, each with the zero that follows it, of a filter that is flat up to `shelf_hz` and falls with that slope above;
-/// and the one zero more that keeps the slope straight towards half the sample rate. Nothing, and 0, without a slope.
-pub(crate) fn slope_roots(slope_db_per_octave: f64, shelf_hz: f64, sample_rate_hz: f64) -> (Vec<(f64, f64)>, f64) {
-    let share = -slope_db_per_octave / POLE_DB_PER_OCTAVE;
-    if share == 0.0 {
-        return (Vec::new(), 0.0);
-    }
-    let corner = |octaves: f64| (-TAU * shelf_hz * (octaves * LN_2).exp() / sample_rate_hz).exp();
-    // Poles above half the sample rate still bend what is below it.
-    let count = (POLES_PER_OCTAVE * (sample_rate_hz / shelf_hz).log2()) as u32;
-    let roots = (0..count)
-        .map(f64::from)
-        .map(|number| (corner(number / POLES_PER_OCTAVE), corner((number + share) / POLES_PER_OCTAVE)))
-        .collect();
-    (roots, -TOP_ZERO * share)
 }
 
 #[cfg(test)]

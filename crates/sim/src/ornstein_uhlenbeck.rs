@@ -1,28 +1,33 @@
-//! How a rotor's speed wanders about its mean: an Ornstein-Uhlenbeck process.
+//! The Ornstein-Uhlenbeck process: a random wander about a mean.
 
-use rand::RngExt;
+use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 
 /// A stationary Gaussian process with autocovariance `std² exp(-|t| / time_constant_s)`, sampled every `step_s`.
 ///
 /// The update is exact for any step, `x ← x e^(-dt/τ) + std √(1 - e^(-2dt/τ)) n`, and the first value is drawn from the
-/// stationary distribution, so nothing has to settle.
+/// stationary distribution, so no settling time is needed.
 #[derive(Clone, Debug)]
-pub(crate) struct OrnsteinUhlenbeck {
+pub(crate) struct OrnsteinUhlenbeck<R = Pcg64> {
     value: f64,
     keep: f64,
     kick_std: f64,
-    random: Pcg64,
+    random: R,
 }
 
-impl OrnsteinUhlenbeck {
-    pub(crate) fn new(std: f64, time_constant_s: f64, step_s: f64, mut random: Pcg64) -> Self {
-        let keep = (-step_s / time_constant_s).exp();
+impl<R: Rng> OrnsteinUhlenbeck<R> {
+    pub(crate) fn new(std: f64, time_constant_s: f64, step_s: f64, mut random: R) -> Self {
         let first: f64 = random.sample(StandardNormal);
+        Self { value: std * first, ..Self::from_zero(std, time_constant_s, step_s, random) }
+    }
+
+    /// The process after it was 0: stationary after some time constants.
+    pub(crate) fn from_zero(std: f64, time_constant_s: f64, step_s: f64, random: R) -> Self {
+        let keep = (-step_s / time_constant_s).exp();
         // expm1 keeps the digits that 1 - keep² loses when the step is short.
         let kick_std = std * (-(-2.0 * step_s / time_constant_s).exp_m1()).sqrt();
-        Self { value: std * first, keep, kick_std, random }
+        Self { value: 0.0, keep, kick_std, random }
     }
 
     pub(crate) fn value(&self) -> f64 {
