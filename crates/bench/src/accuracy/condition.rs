@@ -2,10 +2,11 @@
 
 use super::bound::speed_bound_rev_s;
 use super::draws::drawn;
-use super::sound::{Colour, Noise, Rotor, SAMPLE_RATE_HZ, Series, Turning, rendered, tone_power};
+use super::sound::{Colour, Noise, Rotor, SAMPLE_RATE_HZ, Turning, mean_rev_s, rendered, series, tone_power};
 use super::track::median;
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, RotorsConfig, SpeedAnalysis, ToneConfig, speed_from_source};
+use hovertone_sim::prescribed::Line;
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -49,13 +50,14 @@ impl Tones {
         }
     }
 
-    fn series(self) -> Vec<Series> {
-        let mesh = || Series { order: 69, levels: vec![1.0, 0.5, 0.25] };
-        let blades = || Series { order: 2, levels: (1..=20).map(|number| 1.0 / f64::from(number)).collect() };
+    fn lines(self) -> Vec<Line> {
+        let mesh = series(69, &[1.0, 0.5, 0.25]);
+        let levels: Vec<f64> = (1..=20).map(|number| 1.0 / f64::from(number)).collect();
+        let blades = series(2, &levels);
         match self {
-            Self::GearMesh => vec![mesh()],
-            Self::BladePass => vec![blades()],
-            Self::Both => vec![mesh(), blades()],
+            Self::GearMesh => mesh,
+            Self::BladePass => blades,
+            Self::Both => [mesh, blades].concat(),
         }
     }
 
@@ -166,14 +168,14 @@ pub(super) fn scored(
 
 impl Condition {
     fn draw(&self, random: &mut Pcg64, methods: &[Method]) -> Result<Draw, String> {
-        let series = self.tones.series();
-        let noise = Noise::of_power(self.colour, tone_power(&series) / 10_f64.powf(self.snr_db / 10.0));
-        let mean_rev_s = random.random_range(SPEED_REV_S);
+        let lines = self.tones.lines();
+        let noise = Noise { colour: self.colour, power: tone_power(&lines) / 10_f64.powf(self.snr_db / 10.0) };
+        let speed_rev_s = random.random_range(SPEED_REV_S);
         let turning = if self.wanders { WANDER } else { Turning::Steady };
-        let rotor = Rotor { mean_rev_s, turning, series, noise };
-        let bound_rev_s = speed_bound_rev_s(&rotor.series, &rotor.noise, mean_rev_s);
+        let rotor = Rotor { mean_rev_s: speed_rev_s, turning, lines, noise };
+        let bound_rev_s = speed_bound_rev_s(&rotor.lines, &rotor.noise, speed_rev_s);
         let sound = rendered(&rotor, random);
-        let mut signal = Signal::new(sound.samples.clone(), SAMPLE_RATE_HZ);
+        let mut signal = Signal::new(sound.samples_f32(), SAMPLE_RATE_HZ);
         let mut answers = Vec::new();
         for &method in methods {
             let analysis = heard(&mut signal, self.tones.asked()?, 1, method)?;
@@ -181,14 +183,14 @@ impl Condition {
                 Outcome::Ok(tone) => tone.speed(method),
                 Outcome::NoRotorTone { .. } => None,
             };
-            let truth_rev_s = sound.mean_rev_s(&analysis.hover.segments);
+            let truth_rev_s = mean_rev_s(&sound, &analysis.hover.segments);
             answers.push(speed.zip(truth_rev_s).map(|(speed, truth_rev_s)| Answer {
                 error_rev_s: speed.speed.rev_s() - truth_rev_s,
                 bound_rev_s,
                 std_uncertainty_rev_s: speed.std_uncertainty_rev_s,
             }));
         }
-        Ok(Draw { bound_share: bound_rev_s / mean_rev_s, answers })
+        Ok(Draw { bound_share: bound_rev_s / speed_rev_s, answers })
     }
 }
 

@@ -5,12 +5,12 @@ use crate::accuracy::drawn;
 use hovertone::rotors::{LabelsConfig, RotorLabels, labels_from_spin_up, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::{Passes, Signal};
 use hovertone::speed::{Config, Error, Method, Outcome, ToneConfig};
+use hovertone_sim::prescribed::{self, Line, Noise, Recording, Sampling, Wander};
 use hovertone_vehicle::Order;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
-use std::f64::consts::TAU;
 
 const RATE_HZ: f64 = 16000.0;
 const LENGTH_S: f64 = 16.0;
@@ -53,10 +53,17 @@ impl Start {
     ];
 }
 
-/// A rotor: its speed in the hover, and changes of it: from when on it goes to which share, within about 0.1 s or so.
+/// A rotor: its speed in the hover, and the changes of its speed before, in order of time.
 struct Rotor {
     hover_rev_s: f64,
-    changes: Vec<(f64, f64, f64)>,
+    changes: Vec<Change>,
+}
+
+/// From an instant on the rotor goes to a share of its speed in the hover, with a first-order lag.
+struct Change {
+    at_s: f64,
+    to_share: f64,
+    lag_s: f64,
 }
 
 fn rotors(start: Start, rng: &mut Pcg64) -> Vec<Rotor> {
@@ -83,58 +90,81 @@ fn rotors(start: Start, rng: &mut Pcg64) -> Vec<Rotor> {
     let (shift, shift_s) = (rng.random_range(0.02..0.05), rng.random_range(0.03..0.3));
     let mut second: Vec<usize> = vec![1, 3, 0, 2];
     second.shuffle(rng);
-    let rotor = |(rotor, hover_rev_s): (usize, f64)| {
+    let change = |at_s: f64, to_share: f64, lag_s: f64| Change { at_s, to_share, lag_s };
+    let mut rotor_of = |rotor: usize, hover_rev_s: f64| {
         let run_up_s = rng.random_range(0.05..0.12);
         let first = 1.0 + common + rng.random_range(-0.003..0.003);
         let changes = match start {
             Start::NearHover => {
                 let near = 1.0 + rng.random_range(-0.025..0.025);
-                vec![(starts[rotor], near, run_up_s), (hover_s, 1.0, rng.random_range(0.05..0.4))]
+                vec![change(starts[rotor], near, run_up_s), change(hover_s, 1.0, rng.random_range(0.05..0.4))]
             }
-            Start::Shifted => vec![(starts[rotor], first - shift, run_up_s), (hover_s, 1.0, shift_s)],
-            Start::Before => vec![(-10.0, first, run_up_s)],
-            Start::FarFromHover => vec![(starts[rotor], 0.88 * first, run_up_s), (hover_s, 1.0, 0.1)],
+            Start::Shifted => vec![change(starts[rotor], first - shift, run_up_s), change(hover_s, 1.0, shift_s)],
+            Start::Before => vec![change(-10.0, first, run_up_s)],
+            Start::FarFromHover => vec![change(starts[rotor], 0.88 * first, run_up_s), change(hover_s, 1.0, 0.1)],
             Start::IdleFirst => {
-                vec![(0.3 + 0.5 * second[rotor] as f64, 0.6, run_up_s), (starts[rotor] + 2.0, 1.0, run_up_s)]
+                vec![
+                    change(0.3 + 0.5 * second[rotor] as f64, 0.6, run_up_s),
+                    change(starts[rotor] + 2.0, 1.0, run_up_s),
+                ]
             }
-            _ => vec![(starts[rotor], first, run_up_s), (hover_s, 1.0, 0.5)],
+            _ => vec![change(starts[rotor], first, run_up_s), change(hover_s, 1.0, 0.5)],
         };
         Rotor { hover_rev_s, changes }
     };
-    speeds.into_iter().enumerate().map(rotor).collect()
+    speeds.into_iter().enumerate().map(|(rotor, hover_rev_s)| rotor_of(rotor, hover_rev_s)).collect()
 }
+
+/// Noise beside lines of about level 1, and the recorder's gain.
+const NOISE_STD: f64 = 0.7;
+const GAIN: f64 = 0.003;
+const BLADE_PASS_LINES: u32 = 20;
 
 /// Blade pass and harmonics of four rotors that wander by 0.1 %, in noise.
 fn sound(rotors: &[Rotor], rng: &mut Pcg64) -> Vec<f32> {
-    let count = (LENGTH_S * RATE_HZ) as usize;
-    let mut samples = vec![0.0; count];
-    for rotor in rotors {
-        let (mut wander, keep) = (0.0, (-1.0 / (0.6 * RATE_HZ)).exp());
-        let (mut share, mut turns) = (0.0, 0.0);
-        let mut path: Vec<(f64, f64)> = Vec::with_capacity(count);
-        for n in 0..count {
-            let time_s = n as f64 / RATE_HZ;
-            let change = rotor.changes.iter().rev().find(|(at_s, ..)| time_s >= *at_s);
-            if let Some((_, to, lag_s)) = change {
-                share += (to - share) / (lag_s * RATE_HZ);
-            }
-            let normal: f64 = StandardNormal.sample(rng);
-            wander = keep * wander + 0.001 * (1.0 - keep * keep).sqrt() * normal;
-            turns += rotor.hover_rev_s * share * (1.0 + wander) / RATE_HZ;
-            path.push((turns, share));
-        }
-        for harmonic in 1..=20 {
+    let sampling = Sampling::new(RATE_HZ, LENGTH_S);
+    let rotors: Vec<prescribed::Rotor<'_>> = rotors.iter().map(|rotor| rotor.drawn(&sampling, rng)).collect();
+    let mut recording = Recording::of_rotors(&rotors, sampling);
+    recording.add_noise(&Noise::white(NOISE_STD), rng);
+    recording.scale(GAIN);
+    recording.samples_f32()
+}
+
+impl Rotor {
+    /// The rotor with its wander and its lines drawn. Speed and level are known at every sample.
+    fn drawn(&self, sampling: &Sampling, rng: &mut Pcg64) -> prescribed::Rotor<'static> {
+        let count = sampling.sample_count();
+        let wander = Wander { std: 0.001, time_constant_s: 0.6, step_s: 1.0 / RATE_HZ, count };
+        let shares = self.shares(sampling);
+        let wander = wander.ornstein_uhlenbeck_from_zero(rng);
+        let speeds_rev_s: Vec<f64> =
+            shares.iter().zip(wander).map(|(share, wander)| self.hover_rev_s * share * (1.0 + wander)).collect();
+        let line = |harmonic: u32| {
             let spread_db: f64 = StandardNormal.sample(rng);
             let level = 2.0 * f64::from(harmonic).powf(-0.7) * 10f64.powf(3.0 * spread_db / 20.0);
-            let (order, phase) = (2.0 * f64::from(harmonic), rng.random_range(0.0..TAU));
-            for (sample, (turns, share)) in samples.iter_mut().zip(&path) {
-                // radiated sound grows with the fifth power of the speed
-                *sample += level * share.powf(2.5) * (TAU * (order * turns).fract() + phase).cos();
-            }
-        }
+            Line::new(2.0 * f64::from(harmonic), level).with_random_phase(rng)
+        };
+        let lines = (1..=BLADE_PASS_LINES).map(line).collect();
+        // the speed of a sample is that on the way to it
+        let start_turns = speeds_rev_s[0] / RATE_HZ;
+        let speed_after = move |time_s: f64| speeds_rev_s[((time_s * RATE_HZ) as usize + 1).min(count - 1)];
+        // power of radiated sound grows with the fifth power of the speed
+        let level = move |time_s: f64| shares[((time_s * RATE_HZ).round() as usize).min(count - 1)].powf(2.5);
+        prescribed::Rotor::new(speed_after, lines).with_level(level).from_turns(start_turns)
     }
-    let noise = |rng: &mut Pcg64| -> f64 { StandardNormal.sample(rng) };
-    samples.into_iter().map(|sample| (0.003 * (sample + 0.7 * noise(rng))) as f32).collect()
+
+    /// The speed at each sample without the wander, as a share of the speed in hover: it follows the changes with a lag.
+    fn shares(&self, sampling: &Sampling) -> Vec<f64> {
+        let mut share = 0.0;
+        let mut after = |sample: usize| {
+            let time_s = sampling.time_s(sample);
+            if let Some(change) = self.changes.iter().rev().find(|change| time_s >= change.at_s) {
+                share += (change.to_share - share) / (change.lag_s * RATE_HZ);
+            }
+            share
+        };
+        (0..sampling.sample_count()).map(&mut after).collect()
+    }
 }
 
 /// What the labels are, and which rotor each track is; `None` where no rotor is heard.
