@@ -8,7 +8,7 @@ use hovertone::rotors::{RotorCondition, conditions_from_analysis};
 use hovertone::sound::{Passes, Signal};
 use hovertone::speed::{Config, Method, ToneConfig};
 use hovertone_vehicle::Order;
-use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, sound, tone};
+use testkit::{SAMPLE_RATE_HZ, analyse, rotor, sound, tone};
 
 const LENGTH_S: f64 = 9.0;
 const NOISE_STD: f64 = 0.05;
@@ -30,8 +30,7 @@ fn conditions(means_rev_s: [f64; 3], lines: [Vec<(f64, f64)>; 3]) -> Vec<RotorCo
     let second = |time_s: f64| middle + 0.15 * (0.9 * time_s).cos();
     let third = |time_s: f64| slowest + 0.1 * (1.7 * time_s).sin();
     let speeds: [&dyn Fn(f64) -> f64; 3] = [&first, &second, &third];
-    let rotors: Vec<Rotor<'_>> =
-        speeds.iter().zip(&lines).map(|(&speed_rev_s, lines)| Rotor { speed_rev_s, lines }).collect();
+    let rotors: Vec<_> = speeds.iter().zip(&lines).map(|(&speed_rev_s, lines)| rotor(speed_rev_s, lines)).collect();
     let mut config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
     (config.rotors.count, config.method) = (3, Method::Separated);
     let sound = sound(&rotors, LENGTH_S, NOISE_STD, 5);

@@ -6,12 +6,13 @@ mod testkit;
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, ToneConfig};
 use hovertone::tones::{Discovery, DiscoveryConfig, FoundSpeed, KnownRotor, Remark, tones_from_source};
+use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling};
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
-use testkit::{Rotor, SAMPLE_RATE_HZ, sound};
+use testkit::{SAMPLE_RATE_HZ, noise, rotor, sound};
 
 fn find(samples: Vec<f32>, rate_hz: f64, known: KnownRotor) -> FoundSpeed {
     let config = Config::for_tone(ToneConfig::of_order(Order::new(1.0).expect("an order")));
@@ -43,8 +44,7 @@ fn answer(found: &FoundSpeed) -> Answer {
 struct Series {
     blades: u32,
     speed_rev_s: f64,
-    /// Order and amplitude.
-    lines: Vec<(f64, f64)>,
+    lines: Vec<Line>,
     wander_share: f64,
     noise: f64,
     noise_slope: f64,
@@ -69,11 +69,12 @@ impl Series {
         let has_shaft_lines = rng.random_bool(0.6);
         let mut db = |std: f64| std * Distribution::<f64>::sample(&StandardNormal, &mut rng);
         let decay = 0.9 + db(0.25);
-        let mut lines: Vec<(f64, f64)> =
-            (1..=10).map(|k| (f64::from(k * blades), f64::from(k).powf(-decay) * 10f64.powf(db(3.0) / 20.0))).collect();
+        let mut line =
+            |k: u32| Line::new(f64::from(k * blades), f64::from(k).powf(-decay) * 10f64.powf(db(3.0) / 20.0));
+        let mut lines: Vec<Line> = (1..=10).map(&mut line).collect();
         match trap {
-            "no fundamental" => lines[0].1 = 0.0,
-            "second harmonic" => lines[1].1 = 3.0 * lines[0].1,
+            "no fundamental" => lines[0].level = 0.0,
+            "second harmonic" => lines[1].level = 3.0 * lines[0].level,
             _ => {}
         }
         // with an echo there are always some: what it does to a perfect rotor cannot be told from two blades
@@ -81,18 +82,19 @@ impl Series {
             let below = 10f64.powf(-(if has_shaft_lines { 15.0 + db(4.0) } else { 22.0 }) / 20.0);
             for order in (1..10 * blades).filter(|order| order % blades != 0) {
                 let blade_pass = f64::from(order) / f64::from(blades);
-                lines.push((f64::from(order), below * blade_pass.max(1.0).powf(-decay) * 10f64.powf(db(3.0) / 20.0)));
+                let level = below * blade_pass.max(1.0).powf(-decay);
+                lines.push(Line::new(f64::from(order), level * 10f64.powf(db(3.0) / 20.0)));
             }
         }
         match trap {
-            "line at half order" => lines.push((0.5 * f64::from(blades), 0.3)),
-            "foreign line" => lines.push((f64::from(blades) * rng.random_range(0.6..4.0), 0.5)),
+            "line at half order" => lines.push(Line::new(0.5 * f64::from(blades), 0.3)),
+            "foreign line" => lines.push(Line::new(f64::from(blades) * rng.random_range(0.6..4.0), 0.5)),
             "reflection" => {
                 // one echo: |1 + 0.8 exp(-i w t)|
                 let delay_s = rng.random_range(0.2e-3..6e-3);
-                for (order, amplitude) in &mut lines {
-                    let turn = TAU * *order * speed_rev_s * delay_s;
-                    *amplitude *= (1.0 + 0.8 * turn.cos()).hypot(0.8 * turn.sin());
+                for line in &mut lines {
+                    let turn = TAU * line.order * speed_rev_s * delay_s;
+                    line.level *= (1.0 + 0.8 * turn.cos()).hypot(0.8 * turn.sin());
                 }
             }
             _ => {}
@@ -113,31 +115,18 @@ impl Series {
 
     fn samples(&self, seed: u64) -> Vec<f32> {
         let mut rng = Pcg64::seed_from_u64(seed ^ 0x5eed);
-        let count = (LENGTH_S * RATE_HZ) as usize;
-        let mut samples = vec![0.0f64; count];
+        let mut rotors = Vec::new();
         for rotor in 0..self.rotors {
             let apart = self.rotor_spread_share * (f64::from(rotor) / 3.0 - 0.5) * f64::from(u8::from(self.rotors > 1));
-            let phases: Vec<f64> = self.lines.iter().map(|_| rng.random_range(0.0..TAU)).collect();
-            let (rate, start) = (rng.random_range(0.5..4.0), rng.random_range(0.0..TAU));
-            let mut turn = 0.0;
-            for (n, sample) in samples.iter_mut().enumerate() {
-                let wander = self.wander_share * (rate * n as f64 / RATE_HZ + start).sin();
-                let hz = self.speed_rev_s * (1.0 + apart + wander);
-                turn += hz / RATE_HZ;
-                for ((order, amplitude), phase) in self.lines.iter().zip(&phases) {
-                    if order * hz < 0.45 * RATE_HZ {
-                        *sample += amplitude * (TAU * (order * turn).fract() + phase).cos();
-                    }
-                }
-            }
+            let lines = self.lines.iter().map(|line| line.clone().with_random_phase(&mut rng)).collect();
+            let (rad_s, start) = (rng.random_range(0.5..4.0), rng.random_range(0.0..TAU));
+            let wander = move |time_s: f64| self.wander_share * (rad_s * time_s + start).sin();
+            rotors.push(Rotor::new(move |time_s| self.speed_rev_s * (1.0 + apart + wander(time_s)), lines));
         }
-        let mut last = 0.0;
-        for sample in &mut samples {
-            let white: f64 = StandardNormal.sample(&mut rng);
-            last = self.noise_slope * last + (1.0 - self.noise_slope) * white;
-            *sample = 0.02 * (*sample + self.noise * (last + 0.1 * white));
-        }
-        samples.into_iter().map(|sample| sample as f32).collect()
+        let mut recording = Recording::of_rotors(&rotors, Sampling::new(RATE_HZ, LENGTH_S));
+        recording.add_noise(&Noise::low_passed(self.noise, self.noise_slope, 0.1), &mut rng);
+        recording.scale(0.02);
+        recording.samples_f32()
     }
 
     /// Right is within the rotors' own spread, or a hundredth.
@@ -225,7 +214,7 @@ const WITH_SHAFT: [(f64, f64); 10] = [
 #[test]
 fn shaft_lines_settle_the_blades_and_a_blade_pass_alone_leaves_them_open() {
     let of = |lines: &[(f64, f64)], known: KnownRotor| {
-        let rotor = Rotor { speed_rev_s: &|_| 90.3, lines };
+        let rotor = rotor(|_| 90.3, lines);
         find(sound(&[rotor], 4.0, 0.002, 3), SAMPLE_RATE_HZ, known)
     };
     let Answer::Settled(speed) = answer(&of(&WITH_SHAFT, KnownRotor::default())) else { panic!("not settled") };
@@ -253,12 +242,10 @@ fn shaft_lines_settle_the_blades_and_a_blade_pass_alone_leaves_them_open() {
 
 #[test]
 fn a_rotor_a_hum_and_beeps_are_three_families() {
-    let rotor = Rotor { speed_rev_s: &|_| 231.7, lines: &WITH_SHAFT };
-    let hum = Rotor { speed_rev_s: &|_| 50.0, lines: &[(1.0, 0.03), (2.0, 0.02), (3.0, 0.02)] };
-    let mut samples = sound(&[rotor, hum], 8.0, 0.02, 4);
-    let beep = sound(&[Rotor { speed_rev_s: &|_| 1044.0, lines: &[(1.0, 0.2), (2.0, 0.1), (3.0, 0.1)] }], 1.0, 0.0, 4);
-    let start = (2.0 * SAMPLE_RATE_HZ) as usize;
-    samples[start..start + beep.len()].iter_mut().zip(&beep).for_each(|(sample, beep)| *sample += beep);
+    let hum = rotor(|_| 50.0, &[(1.0, 0.03), (2.0, 0.02), (3.0, 0.02)]);
+    let beep = rotor(|_| 1044.0, &[(1.0, 0.2), (2.0, 0.1), (3.0, 0.1)])
+        .with_level(|time_s| if (2.0..3.0).contains(&time_s) { 1.0 } else { 0.0 });
+    let samples = sound(&[rotor(|_| 231.7, &WITH_SHAFT), hum, beep], 8.0, 0.02, 4);
     let config = Config::for_tone(ToneConfig::of_order(Order::new(1.0).expect("an order")));
     let discovery = Discovery { wants_all: true, ..Discovery::default() };
     let mut source = Signal::new(samples, SAMPLE_RATE_HZ);
@@ -290,13 +277,8 @@ fn noise_silence_and_nothing_have_no_rotor() {
         |samples: Vec<f32>| matches!(answer(&find(samples, SAMPLE_RATE_HZ, KnownRotor::default())), Answer::Nothing);
     assert!(none(Vec::new()) && none(vec![0.0; 200_000]) && none(vec![0.2; 200_000]) && none(vec![0.1; 10]));
     for seed in 0..20 {
-        assert!(none(sound(&[], 4.0, 0.1, seed)), "white noise, seed {seed}");
-        let mut slow = 0.0f32;
-        let red = sound(&[], 4.0, 0.1, seed).into_iter().map(|x| {
-            slow += 0.02 * (x - slow);
-            slow
-        });
-        assert!(none(red.collect()), "red noise, seed {seed}");
+        assert!(none(noise(&Noise::white(0.1), 4.0, seed)), "white noise, seed {seed}");
+        assert!(none(noise(&Noise::low_passed(0.1, 0.98, 0.0), 4.0, seed)), "red noise, seed {seed}");
     }
 }
 

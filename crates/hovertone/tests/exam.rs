@@ -5,7 +5,8 @@ mod testkit;
 
 use hovertone::sound::{Signal, SignalError};
 use hovertone::speed::{Error, Method, Warning, speed_from_source};
-use testkit::{Rotor, SAMPLE_RATE_HZ, TWO_BLADES, analyse, config, hears_nothing, sound, steady, tone};
+use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling};
+use testkit::{SAMPLE_RATE_HZ, TWO_BLADES, analyse, config, hears_nothing, noise, rotor, sound, steady, tone};
 
 #[test]
 fn a_steady_rotor_is_read_within_the_bias_of_its_peak() {
@@ -29,7 +30,7 @@ fn a_steady_rotor_is_read_within_the_bias_of_its_peak() {
 #[test]
 fn a_drifting_rotor_is_read_as_its_mean_and_followed_along_its_track() {
     let speed_rev_s = |time_s: f64| 90.0 + 1.5 * (0.9 * time_s).sin();
-    let rotor = Rotor { speed_rev_s: &speed_rev_s, lines: &TWO_BLADES };
+    let rotor = rotor(speed_rev_s, &TWO_BLADES);
     let mut config = config(2.0);
     for method in Method::ALL {
         config.method = method;
@@ -52,7 +53,7 @@ fn a_drifting_rotor_is_read_as_its_mean_and_followed_along_its_track() {
 #[test]
 fn the_gear_mesh_gives_the_same_speed_as_the_blade_pass() {
     let lines = [(2.0, 0.05), (4.0, 0.03), (6.0, 0.02), (69.0, 0.05), (138.0, 0.02), (207.0, 0.01)];
-    let rotor = Rotor { speed_rev_s: &|_| 60.17, lines: &lines };
+    let rotor = rotor(|_| 60.17, &lines);
     let samples = sound(&[rotor], 5.0, 0.01, 3);
     let mut with_blades = config(69.0);
     with_blades.tone.blades = Some(2);
@@ -70,8 +71,8 @@ fn noise_silence_and_an_offset_are_no_rotor() {
         assert!(hears_nothing(&analyse(Vec::new(), &config(order))), "nothing, {order}");
         assert!(hears_nothing(&analyse(vec![0.1; 10], &config(order))), "ten samples, {order}");
         for seed in 0..20 {
-            let noise = sound(&[], 4.0, 0.1, seed);
-            assert!(hears_nothing(&analyse(noise, &config(order))), "white noise, order {order}, seed {seed}");
+            let white = noise(&Noise::white(0.1), 4.0, seed);
+            assert!(hears_nothing(&analyse(white, &config(order))), "white noise, order {order}, seed {seed}");
         }
     }
 }
@@ -80,15 +81,9 @@ fn noise_silence_and_an_offset_are_no_rotor() {
 fn noise_that_is_coloured_or_bursts_is_no_rotor() {
     let mut heard = 0;
     for seed in 0..20 {
-        let white = sound(&[], 5.0, 0.1, seed);
-        let (mut slow, mut band) = (0.0f32, [0.0f32; 2]);
-        let red: Vec<f32> = white
-            .iter()
-            .map(|x| {
-                slow += 0.02 * (x - slow);
-                slow
-            })
-            .collect();
+        let white = noise(&Noise::white(0.1), 5.0, seed);
+        let mut band = [0.0f32; 2];
+        let red = noise(&Noise::low_passed(0.1, 0.98, 0.0), 5.0, seed);
         // a resonance at 430 Hz, 60 Hz wide
         let (r, turn) = (1.0 - std::f32::consts::PI * 60.0 / 44100.0, std::f32::consts::TAU * 430.0 / 44100.0);
         let hum: Vec<f32> = white
@@ -119,7 +114,7 @@ fn the_gaussian_threshold_changes_little_between_a_half_and_nine_tenths() {
             * (1.0 + 0.009 * (3.1 * time_s).sin() + 0.008 * (7.7 * time_s + 1.0).sin() + 0.005 * (15.0 * time_s).cos())
     };
     let lines = [(2.0, 0.05), (4.0, 0.03), (69.0, 0.05), (138.0, 0.025), (207.0, 0.0125)];
-    let samples = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &lines }], 10.0, 0.01, 4);
+    let samples = sound(&[rotor(speed_rev_s, &lines)], 10.0, 0.01, 4);
     let speeds: Vec<f64> = [0.5, 0.6, 0.7, 0.8, 0.9]
         .into_iter()
         .map(|share| {
@@ -146,7 +141,7 @@ fn the_octave_is_right_whichever_harmonic_is_loudest() {
         &[(2.0, 0.03), (4.0, 0.03), (6.0, 0.1), (8.0, 0.03), (10.0, 0.02)], // third strongest
     ];
     for (index, lines) in series.into_iter().enumerate() {
-        let samples = sound(&[Rotor { speed_rev_s: &|_| truth_rev_s, lines }], 5.0, 0.02, 5);
+        let samples = sound(&[rotor(|_| truth_rev_s, lines)], 5.0, 0.02, 5);
         let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
         assert!((got / truth_rev_s - 1.0).abs() < 2e-3, "series {index}: {got}");
     }
@@ -155,9 +150,9 @@ fn the_octave_is_right_whichever_harmonic_is_loudest() {
 #[test]
 fn a_whine_in_one_band_does_not_outvote_two_harmonics_that_agree() {
     for whine_amplitude in [0.02, 0.2] {
-        let rotor = Rotor { speed_rev_s: &|_| 90.0, lines: &[(2.0, 0.1), (4.0, 0.05)] };
-        let whine = Rotor { speed_rev_s: &|_| 570.0, lines: &[(1.0, whine_amplitude)] };
-        let analysis = analyse(sound(&[rotor, whine], 5.0, 0.005, 11), &config(2.0));
+        let whine = rotor(|_| 570.0, &[(1.0, whine_amplitude)]);
+        let rotors = [rotor(|_| 90.0, &[(2.0, 0.1), (4.0, 0.05)]), whine];
+        let analysis = analyse(sound(&rotors, 5.0, 0.005, 11), &config(2.0));
         let got = tone(&analysis).speeds[0].speed.rev_s();
         assert!((got - 90.0).abs() < 0.02, "{got}");
         assert!(analysis.warnings.iter().any(|w| matches!(w, Warning::HarmonicLeftOut { harmonic: 3, .. })));
@@ -167,14 +162,9 @@ fn a_whine_in_one_band_does_not_outvote_two_harmonics_that_agree() {
 #[test]
 fn a_harmonic_that_comes_and_goes_does_not_pull_the_mean() {
     let speed_rev_s = |time_s: f64| 89.28 + 0.144 * time_s;
-    let base = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &[(2.0, 0.1), (4.0, 0.05)] }], 10.0, 0.002, 12);
-    let third = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &[(6.0, 0.1)] }], 10.0, 0.0, 12);
-    let samples: Vec<f32> = base
-        .iter()
-        .zip(&third)
-        .enumerate()
-        .map(|(n, (base, third))| if n as f64 / SAMPLE_RATE_HZ > 6.5 { base + third } else { *base })
-        .collect();
+    let base = rotor(speed_rev_s, &[(2.0, 0.1), (4.0, 0.05)]);
+    let third = rotor(speed_rev_s, &[(6.0, 0.1)]).with_level(|time_s| if time_s > 6.5 { 1.0 } else { 0.0 });
+    let samples = sound(&[base, third], 10.0, 0.002, 12);
     let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
     assert!((got - 90.0).abs() < 0.02, "{got}");
 }
@@ -185,7 +175,7 @@ fn a_glimpse_of_noise_is_no_rotor() {
     for seed in 0..300 {
         let mut config = config(69.0);
         (config.span.from_s, config.span.to_s) = (Some(0.0), Some(0.42));
-        heard += usize::from(!hears_nothing(&analyse(sound(&[], 0.6, 0.1, seed), &config)));
+        heard += usize::from(!hears_nothing(&analyse(noise(&Noise::white(0.1), 0.6, seed), &config)));
     }
     assert_eq!(heard, 0);
 }
@@ -193,13 +183,9 @@ fn a_glimpse_of_noise_is_no_rotor() {
 #[test]
 fn recordings_of_any_rate_tell_the_same_speed() {
     for rate in [8000.0, 22050.0, 48000.0, 96000.0, 47123.0] {
-        let samples: Vec<f32> = (0..(5.0 * rate) as usize)
-            .map(|n| {
-                let turn = std::f64::consts::TAU * 91.3 * n as f64 / rate;
-                TWO_BLADES.iter().map(|(order, amplitude)| (amplitude * (order * turn).cos()) as f32).sum()
-            })
-            .collect();
-        let mut source = Signal::new(samples, rate);
+        let lines = TWO_BLADES.map(|(order, level)| Line::new(order, level)).to_vec();
+        let recording = Recording::of_rotors(&[Rotor::steady(91.3, lines)], Sampling::new(rate, 5.0));
+        let mut source = Signal::new(recording.samples_f32(), rate);
         let analysis = speed_from_source(&mut source, &config(2.0), &mut |_| {}).expect("an analysis");
         let got = tone(&analysis).speeds[0].speed.rev_s();
         assert!((got - 91.3).abs() < 0.01, "{rate} Hz: {got}");

@@ -5,19 +5,15 @@ mod testkit;
 
 use hovertone::sound::Signal;
 use hovertone::speed::{CutReason, Error, NoTone, Outcome, Warning, speed_from_source};
-use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, hears_nothing, sound, steady, tone};
+use hovertone_sim::prescribed::Noise;
+use testkit::{SAMPLE_RATE_HZ, analyse, config, hears_nothing, noise, rotor, sound, steady, tone};
 
 /// Silence 0-2 s, run-up 2-4 s, hover 4-12 s at 90 rev/s, run-down 12-14 s, silence to 16 s.
 fn flight() -> Vec<f32> {
     let speed_rev_s = |t: f64| 90.0 * ((t - 2.0) / 2.0).clamp(0.0, 1.0).min(((14.0 - t) / 2.0).clamp(0.0, 1.0));
     let lines = [(2.0, 0.1), (4.0, 0.05), (6.0, 0.03)];
-    let mut samples = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &lines }], 16.0, 0.0, 6);
-    let hiss = sound(&[], 16.0, 0.0005, 7);
-    for (n, (sample, hiss)) in samples.iter_mut().zip(hiss).enumerate() {
-        let share = (speed_rev_s(n as f64 / SAMPLE_RATE_HZ) / 90.0) as f32;
-        *sample = *sample * share * share + hiss;
-    }
-    samples
+    let rotor = rotor(speed_rev_s, &lines).with_level(|t| (speed_rev_s(t) / 90.0).powi(2));
+    sound(&[rotor], 16.0, 0.0005, 7)
 }
 
 #[test]
@@ -39,7 +35,7 @@ fn only_the_hover_of_a_flight_is_used() {
 #[test]
 fn a_knock_on_the_microphone_is_cut_out() {
     let mut samples = steady(90.0, 10.0, 0.002);
-    for (n, knock) in sound(&[], 0.4, 1.0, 8).into_iter().enumerate() {
+    for (n, knock) in noise(&Noise::white(1.0), 0.4, 8).into_iter().enumerate() {
         samples[5 * SAMPLE_RATE_HZ as usize + n] += 3.0 * knock;
     }
     let analysis = analyse(samples, &config(2.0));
@@ -56,7 +52,7 @@ fn a_knock_on_the_microphone_is_cut_out() {
 fn two_steady_speeds_are_not_averaged_and_the_other_one_is_said() {
     let speed_rev_s = |t: f64| if t < 8.0 { 90.0 } else { 70.0 };
     let lines = [(2.0, 0.1), (4.0, 0.05), (6.0, 0.03)];
-    let analysis = analyse(sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &lines }], 14.0, 0.01, 9), &config(2.0));
+    let analysis = analyse(sound(&[rotor(speed_rev_s, &lines)], 14.0, 0.01, 9), &config(2.0));
     assert!((tone(&analysis).speeds[0].speed.rev_s() - 90.0).abs() < 0.05);
     let other = analysis.warnings.iter().find_map(|warning| match warning {
         Warning::OtherSteadySpeed { speed_rev_s, .. } => Some(*speed_rev_s),
@@ -98,8 +94,8 @@ fn a_recording_that_starts_late_keeps_its_clock() {
 #[test]
 fn a_given_band_is_where_it_is_looked_for() {
     let lines = [(2.0, 0.02), (4.0, 0.01), (6.0, 0.01)];
-    let quiet = Rotor { speed_rev_s: &|_| 90.0, lines: &lines };
-    let loud = Rotor { speed_rev_s: &|_| 61.7, lines: &[(2.0, 0.3), (4.0, 0.1), (6.0, 0.1)] };
+    let quiet = rotor(|_| 90.0, &lines);
+    let loud = rotor(|_| 61.7, &[(2.0, 0.3), (4.0, 0.1), (6.0, 0.1)]);
     let samples = sound(&[quiet, loud], 5.0, 0.003, 10);
     let mut config = config(2.0);
     assert!((tone(&analyse(samples.clone(), &config)).speeds[0].speed.rev_s() - 61.7).abs() < 0.1);

@@ -5,7 +5,7 @@ mod testkit;
 
 use hovertone::speed::{CutReason, Outcome};
 use testkit::not_rotors::Dice;
-use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound};
+use testkit::{analyse, config, rotor, sound};
 
 /// Silence, run-up, hover with doublets in between, run-down, silence.
 struct Flight {
@@ -56,17 +56,8 @@ impl Flight {
     fn sound(&self, seed: u64) -> Vec<f32> {
         let speed = |time_s: f64| self.speed_rev_s(time_s);
         let lines = [(1.0, 0.01), (2.0, 0.1), (4.0, 0.06), (6.0, 0.04), (8.0, 0.02)];
-        let tones = sound(&[Rotor { speed_rev_s: &speed, lines: &lines }], self.length_s, 0.0, seed);
-        let hiss = sound(&[], self.length_s, 0.003, seed + 1);
-        tones
-            .iter()
-            .zip(&hiss)
-            .enumerate()
-            .map(|(n, (tone, hiss))| {
-                let share = (self.speed_rev_s(n as f64 / SAMPLE_RATE_HZ) / self.hover_rev_s) as f32;
-                tone * share * share + hiss
-            })
-            .collect()
+        let rotor = rotor(speed, &lines).with_level(|time_s| (speed(time_s) / self.hover_rev_s).powi(2));
+        sound(&[rotor], self.length_s, 0.003, seed + 1)
     }
 }
 

@@ -9,11 +9,11 @@ use hovertone::rotors::{
 };
 use hovertone::sound::Signal;
 use hovertone::speed::{ToneConfig, TrackPoint};
+use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling};
 use hovertone_vehicle::{Layout, Order};
 use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
-use std::f64::consts::TAU;
 
 const SAMPLE_RATE_HZ: f64 = 16_000.0;
 const LENGTH_S: f64 = 5.0;
@@ -51,34 +51,29 @@ fn tracks(gap_s: (f64, f64)) -> Vec<Vec<TrackPoint>> {
     SPEEDS_REV_S.map(|speed| (0..steps).map(|step| point(speed, step)).filter(is_kept).collect()).to_vec()
 }
 
-/// What microphones hear of a vehicle that drifts by 0.3 m in the flight, which is in all distances alike.
+/// The sound at microphones around a vehicle that drifts by up to 0.3 m, alike for all rotors: levels go with 1/distance,
+/// phases with the delay.
 fn heard(rotors: &[PlacedRotor], microphones_m: &[[f64; 3]]) -> Vec<Vec<f32>> {
     let mut random = Pcg64::seed_from_u64(1);
-    let lines: Vec<(usize, f64, f64, f64)> = (0..4)
-        .flat_map(|track| (1..=12).map(move |line| (track, f64::from(2 * line))))
-        .map(|(track, order)| {
-            let (level, phase): (f64, f64) = (random.sample(StandardNormal), random.random_range(0.0..TAU));
-            (track, order, 0.02 * (0.3 * level).exp() / order.sqrt(), phase)
-        })
-        .collect();
+    let mut line = |order: f64| {
+        let level: f64 = random.sample(StandardNormal);
+        Line::new(order, 0.02 * (0.3 * level).exp() / order.sqrt()).with_random_phase(&mut random)
+    };
+    let lines: [Vec<Line>; 4] = std::array::from_fn(|_| (1..=12).map(|number| line(f64::from(2 * number))).collect());
     let channel = |at_m: &[f64; 3]| -> Vec<f32> {
-        let far_m = |rotor: usize| -> f64 {
-            at_m.iter().zip(rotors[rotor].position_m).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
-        };
-        let distances_m: Vec<f64> = ROTORS.iter().map(|&rotor| far_m(rotor)).collect();
         let drift_m = random.random_range(-0.3..0.3);
-        (0..(LENGTH_S * SAMPLE_RATE_HZ) as usize)
-            .map(|sample| {
-                let time_s = sample as f64 / SAMPLE_RATE_HZ;
-                let line = |&(track, order, amplitude, phase): &(usize, f64, f64, f64)| {
-                    let path_m = distances_m[track] + drift_m * time_s / LENGTH_S;
-                    let turns = SPEEDS_REV_S[track] * (time_s - path_m / SOUND_M_S);
-                    amplitude / distances_m[track] * (TAU * order * turns + phase).cos()
-                };
-                let noise: f64 = random.sample(StandardNormal);
-                (lines.iter().map(line).sum::<f64>() + 0.003 * noise) as f32
-            })
-            .collect()
+        let heard_rotor = |track: usize| {
+            let place_m = rotors[ROTORS[track]].position_m;
+            let distance_m: f64 = at_m.iter().zip(place_m).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+            // turns at the emission, `speed · (t - path/c)` with `path = distance + drift t/T`
+            let speed_rev_s = SPEEDS_REV_S[track] * (1.0 - drift_m / LENGTH_S / SOUND_M_S);
+            let lines = lines[track].iter().map(|line| line.clone().times(1.0 / distance_m)).collect();
+            Rotor::steady(speed_rev_s, lines).from_turns(-SPEEDS_REV_S[track] * distance_m / SOUND_M_S)
+        };
+        let rotors: Vec<Rotor<'_>> = (0..4).map(heard_rotor).collect();
+        let mut recording = Recording::of_rotors(&rotors, Sampling::new(SAMPLE_RATE_HZ, LENGTH_S));
+        recording.add_noise(&Noise::white(0.003), &mut random);
+        recording.samples_f32()
     };
     microphones_m.iter().map(channel).collect()
 }

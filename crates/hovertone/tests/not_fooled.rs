@@ -7,7 +7,7 @@ use hovertone::sound::Signal;
 use hovertone::speed::{Config, NoTone, Outcome, ToneConfig, speed_from_source};
 use hovertone_vehicle::presets;
 use testkit::not_rotors::{Dice, KINDS, Kind};
-use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound, tone};
+use testkit::{SAMPLE_RATE_HZ, analyse, config, recording, rotor, sound, tone};
 
 /// Every way in which a user can say which tone: blades, a gear, both, a vehicle.
 fn asked() -> Vec<(String, Config)> {
@@ -69,16 +69,23 @@ fn what_is_no_rotor_is_not_answered_with_a_speed() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// The mean speed and the samples of a hover.
+struct Hover {
+    truth_rev_s: f64,
+    samples: Vec<f32>,
+}
+
 /// A hover of two blades and a gear, its lines 6 dB apart, with a wander of 0.4 % and a hiss of its own. Rms about 0.1.
-fn rotor(seed: u64) -> (f64, Vec<f32>) {
+fn hover(seed: u64) -> Hover {
     let mut dice = Dice::new(1000 + seed);
     let mean_rev_s = dice.between(40.0, 75.0);
     let phase = dice.between(0.0, 6.0);
     let speed_rev_s = move |t: f64| mean_rev_s * (1.0 + 0.004 * (2.1 * t + phase).sin() + 0.003 * (5.3 * t).sin());
     let mut lines: Vec<(f64, f64)> = (1..=8).map(|k| (2.0 * f64::from(k), 0.11 / f64::from(k))).collect();
     lines.extend([(1.0, 0.01), (69.0, 0.05), (138.0, 0.025), (207.0, 0.012)]);
-    let truth = (0..8000).map(|ms| speed_rev_s(f64::from(ms) / 1000.0)).sum::<f64>() / 8000.0;
-    (truth, sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &lines }], 8.0, 0.005, seed))
+    let recording = recording(&[rotor(speed_rev_s, &lines)], 8.0, 0.005, seed);
+    let truth = recording.truth().mean_speed(0, 0.0, 8.0).expect("the whole recording");
+    Hover { truth_rev_s: truth.rev_s(), samples: recording.samples_f32() }
 }
 
 #[test]
@@ -90,7 +97,7 @@ fn beside_a_rotor_it_does_not_change_the_answer() {
         let mut heard = [0; 3];
         for (index, below_db) in [20.0, 12.0, 6.0].into_iter().enumerate() {
             for seed in 0..seeds() {
-                let (truth, rotor) = rotor(seed);
+                let Hover { truth_rev_s: truth, samples: rotor } = hover(seed);
                 let times = 10f32.powf(-below_db as f32 / 20.0);
                 let mixed: Vec<f32> =
                     rotor.iter().zip(kind.sound(seed + 50, 8.0)).map(|(rotor, other)| rotor + times * other).collect();
@@ -135,7 +142,7 @@ fn is_mains_hum(samples: Vec<f32>, config: &Config) -> bool {
 fn mains_hum_is_named_and_a_rotor_at_its_frequency_is_not_mistaken_for_it() {
     let hum: Vec<(f64, f64)> = (1..=12).map(|k| (f64::from(k), 0.1 / f64::from(k))).collect();
     for mains_hz in [49.97, 50.0, 60.02] {
-        let samples = sound(&[Rotor { speed_rev_s: &|_| mains_hz, lines: &hum }], 6.0, 0.005, 3);
+        let samples = sound(&[rotor(|_| mains_hz, &hum)], 6.0, 0.005, 3);
         for blades in 1..=4 {
             assert!(is_mains_hum(samples.clone(), &config(f64::from(blades))), "{mains_hz} Hz, {blades} blades");
         }
@@ -144,24 +151,24 @@ fn mains_hum_is_named_and_a_rotor_at_its_frequency_is_not_mistaken_for_it() {
     for mean_rev_s in [50.0, 60.0, 30.0] {
         let speed_rev_s = |t: f64| mean_rev_s * (1.0 + 0.004 * (2.3 * t).sin() + 0.003 * (0.9 * t).cos());
         let lines = [(1.0, 0.02), (2.0, 0.1), (4.0, 0.05), (6.0, 0.03), (8.0, 0.02)];
-        let samples = sound(&[Rotor { speed_rev_s: &speed_rev_s, lines: &lines }], 8.0, 0.005, 4);
+        let samples = sound(&[rotor(speed_rev_s, &lines)], 8.0, 0.005, 4);
         let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
         assert!((got / mean_rev_s - 1.0).abs() < 2e-3, "{mean_rev_s}: {got}");
     }
     // a still rotor whose blade pass is the third multiple: 60 and 120 Hz are missing
     let lines = [(2.0, 0.1), (4.0, 0.05), (6.0, 0.03)];
-    let still = sound(&[Rotor { speed_rev_s: &|_| 90.0, lines: &lines }], 6.0, 0.005, 5);
+    let still = sound(&[rotor(|_| 90.0, &lines)], 6.0, 0.005, 5);
     assert!((tone(&analyse(still, &config(2.0))).speeds[0].speed.rev_s() - 90.0).abs() < 0.02);
     // a gear mesh at exactly sixty turns
     let mesh = [(2.0, 0.05), (4.0, 0.03), (69.0, 0.08), (138.0, 0.03), (207.0, 0.02)];
-    let still = sound(&[Rotor { speed_rev_s: &|_| 60.0, lines: &mesh }], 6.0, 0.005, 6);
+    let still = sound(&[rotor(|_| 60.0, &mesh)], 6.0, 0.005, 6);
     assert!((tone(&analyse(still, &config(69.0))).speeds[0].speed.rev_s() - 60.0).abs() < 0.01);
 }
 
 #[test]
 fn damage_to_the_recording_does_not_change_the_speed() {
     for seed in 0..seeds() {
-        let (truth, clean) = rotor(seed);
+        let Hover { truth_rev_s: truth, samples: clean } = hover(seed);
         let damaged: [(&str, Vec<f32>); 5] = [
             ("clipped", clean.iter().map(|x| (6.0 * x).clamp(-0.25, 0.25)).collect()),
             ("offset", clean.iter().map(|x| x + 0.7).collect()),

@@ -4,9 +4,9 @@
 mod testkit;
 
 use hovertone::speed::{Config, Outcome};
+use hovertone_sim::prescribed::{Noise, Recording, Sampling};
 use rand::{RngExt, SeedableRng};
-use rand_distr::StandardNormal;
-use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound, tone};
+use testkit::{SAMPLE_RATE_HZ, analyse, config, rotor, sound, tone};
 
 const LENGTH_S: f64 = 5.0;
 /// Falling noise is flat below 20 Hz.
@@ -21,19 +21,15 @@ fn a_blade_pass_far_below_falling_noise_is_read_at_its_own_speed_or_not_at_all()
     let lines = blade_pass();
     let config = Config { wants_all_methods: false, ..config(2.0) };
     let noise_std = 10.0 * lines.iter().map(|(_, amplitude)| amplitude * amplitude / 2.0).sum::<f64>().sqrt();
-    let pole = (-std::f64::consts::TAU * CORNER_HZ / SAMPLE_RATE_HZ).exp();
+    let noise = Noise::falling(noise_std, CORNER_HZ, SAMPLE_RATE_HZ);
     let mut right = 0;
     for seed in 0..12 {
         let mut random = rand_pcg::Pcg64::seed_from_u64(500 + seed);
         let speed_rev_s = random.random_range(50.0..70.0);
-        let mut noise = 0.0;
-        let mut samples = sound(&[Rotor { speed_rev_s: &|_| speed_rev_s, lines: &lines }], LENGTH_S, 0.0, seed);
-        for sample in &mut samples {
-            let kick: f64 = random.sample(StandardNormal);
-            noise = pole * noise + (1.0 - pole * pole).sqrt() * kick;
-            *sample += (noise_std * noise) as f32;
-        }
-        if let Outcome::Ok(tone) = &analyse(samples, &config).outcome {
+        let rotor = rotor(|_| speed_rev_s, &lines);
+        let mut recording = Recording::of_rotors(&[rotor], Sampling::new(SAMPLE_RATE_HZ, LENGTH_S));
+        recording.add_noise(&noise, &mut random);
+        if let Outcome::Ok(tone) = &analyse(recording.samples_f32(), &config).outcome {
             let got = tone.speeds[0].speed.rev_s();
             assert!((got / speed_rev_s - 1.0).abs() < 1e-4, "{seed}: {got} for {speed_rev_s}");
             right += 1;
@@ -49,7 +45,7 @@ fn every_fourth_line_of_a_blade_pass_is_no_other_sound() {
     let mut config = Config { wants_all_methods: false, ..config(69.0) };
     config.tone.blades = Some(2);
     for speed_rev_s in [50.258, 51.124, 52.121] {
-        let rotor = Rotor { speed_rev_s: &|_| speed_rev_s, lines: &lines };
+        let rotor = rotor(|_| speed_rev_s, &lines);
         let got = tone(&analyse(sound(&[rotor], LENGTH_S, 0.01, 1), &config)).speeds[0].speed.rev_s();
         assert!((got / speed_rev_s - 1.0).abs() < 1e-5, "{got} for {speed_rev_s}");
     }

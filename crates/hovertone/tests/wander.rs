@@ -3,29 +3,18 @@
 
 mod testkit;
 
-use hovertone::speed::{Config, Span};
+use hovertone::speed::Config;
+use hovertone_sim::Span;
+use hovertone_sim::prescribed::SineWander;
 use rand::{RngExt, SeedableRng};
-use std::f64::consts::TAU;
-use testkit::{Rotor, SAMPLE_RATE_HZ, analyse, config, sound, tone};
+use testkit::{analyse, config, recording, rotor, tone};
 
 const DRAWS: u64 = 15;
 const LENGTH_S: f64 = 5.0;
-/// Standard deviation of the wander as a share, and how many swings of drawn frequency it is made of.
+/// Standard deviation of the wander as a share, and the number and frequencies of its sines.
 const WANDER_STD_SHARE: f64 = 0.004;
 const SWINGS: usize = 4;
 const SWING_HZ: std::ops::Range<f64> = 0.05..1.2;
-
-/// Mean speed over the spans, as the sound was made: one speed for each sample.
-fn mean_over(spans: &[Span], speed_rev_s: &dyn Fn(f64) -> f64) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for n in 0..(LENGTH_S * SAMPLE_RATE_HZ) as usize {
-        let time_s = n as f64 / SAMPLE_RATE_HZ;
-        if spans.iter().any(|span| span.contains(time_s)) {
-            (sum, count) = (sum + speed_rev_s(time_s), count + 1.0);
-        }
-    }
-    sum / count
-}
 
 #[test]
 fn the_mean_of_a_wandering_rotor_is_known_to_a_few_millionths_and_its_uncertainty_holds() {
@@ -37,16 +26,15 @@ fn the_mean_of_a_wandering_rotor_is_known_to_a_few_millionths_and_its_uncertaint
         for seed in 0..DRAWS {
             let mut random = rand_pcg::Pcg64::seed_from_u64(1000 + seed);
             let mean_rev_s = random.random_range(50.0..70.0);
-            let swings: Vec<(f64, f64)> =
-                (0..SWINGS).map(|_| (TAU * random.random_range(SWING_HZ), random.random_range(0.0..TAU))).collect();
-            let swing = WANDER_STD_SHARE * (2.0 / SWINGS as f64).sqrt();
-            let speed_rev_s = |time_s: f64| {
-                mean_rev_s * (1.0 + swing * swings.iter().map(|(w, phase)| (w * time_s + phase).sin()).sum::<f64>())
-            };
-            let rotor = Rotor { speed_rev_s: &speed_rev_s, lines: &lines };
-            let analysis = analyse(sound(&[rotor], LENGTH_S, 0.05, seed), &config);
+            let wander = SineWander::drawn(WANDER_STD_SHARE, SWINGS, SWING_HZ, &mut random);
+            let rotor = rotor(|time_s| mean_rev_s * (1.0 + wander.at(time_s)), &lines);
+            let recording = recording(&[rotor], LENGTH_S, 0.05, seed);
+            let analysis = analyse(recording.samples_f32(), &config);
             let got = &tone(&analysis).speeds[0];
-            let error_rev_s = got.speed.rev_s() - mean_over(&analysis.hover.segments, &speed_rev_s);
+            let heard: Vec<Span> =
+                analysis.hover.segments.iter().map(|span| Span { from_s: span.from_s, to_s: span.to_s }).collect();
+            let truth = recording.truth().mean_speed_over(0, &heard).expect("a hover within the recording");
+            let error_rev_s = got.speed.rev_s() - truth.rev_s();
             let std_rev_s = got.std_uncertainty_rev_s.expect("an uncertainty");
             assert!(error_rev_s.abs() < 6.0 * std_rev_s, "{name} {seed}: off by {error_rev_s}, u {std_rev_s}");
             covered += u32::from(error_rev_s.abs() <= 2.0 * std_rev_s);

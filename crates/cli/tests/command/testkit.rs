@@ -1,6 +1,6 @@
 //! Running the command, sound for it to hear, and where the real recordings are.
 
-use hovertone_sim::{HoverSettings, HoverSound, RotorSound};
+use hovertone_sim::prescribed::{HoverSettings, HoverSound, Noise, Recording, RotorSound, Sampling, seeded};
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -61,19 +61,12 @@ pub(crate) fn write_hover(path: &Path, settings: HoverSettings) {
     write_wav(path, &samples, rate_hz);
 }
 
-/// White noise, the same at every run: SplitMix64.
+/// White noise of a standard deviation of 0.06, the same at every run.
 pub(crate) fn write_noise(path: &Path, duration_s: f64) {
     let rate_hz = 44_100;
-    let mut state = 1_u64;
-    let samples: Vec<f32> = (0..(duration_s * f64::from(rate_hz)) as usize)
-        .map(|_| {
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((mixed >> 40) as f32 / 8_388_608.0 - 1.0) * 0.1
-        })
-        .collect();
-    write_wav(path, &samples, rate_hz);
+    let mut noise = Recording::of_rotors(&[], Sampling::new(f64::from(rate_hz), duration_s));
+    noise.add_noise(&Noise::white(0.06), &mut seeded(1));
+    write_wav(path, &noise.samples_f32(), rate_hz);
 }
 
 fn write_wav(path: &Path, samples: &[f32], sample_rate: u32) {

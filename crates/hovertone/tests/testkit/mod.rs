@@ -1,48 +1,51 @@
-//! Sound with known truth, made here and not by the simulator: the estimator is examined by a stranger.
+//! Sound with known truth, made by `hovertone_sim::prescribed`: the simulator does not know the estimator, so the estimator
+//! cannot be right by construction.
 #![allow(dead_code, missing_docs, unreachable_pub, clippy::expect_used)] // each test file uses its part
 
 pub mod not_rotors;
 
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Outcome, RotorTone, SpeedAnalysis, ToneConfig, speed_from_source};
+use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling};
 use hovertone_vehicle::Order;
 use rand::SeedableRng;
-use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
 pub const SAMPLE_RATE_HZ: f64 = 44100.0;
 
-/// One rotor: its shaft speed over time and the amplitude of each order that it sounds.
-pub struct Rotor<'a> {
-    pub speed_rev_s: &'a dyn Fn(f64) -> f64,
-    pub lines: &'a [(f64, f64)],
-}
-
-/// Steady blade-pass series of a two-bladed rotor.
+/// Order and amplitude of each line of a rotor with two blades.
 pub const TWO_BLADES: [(f64, f64); 5] = [(1.0, 0.01), (2.0, 0.1), (4.0, 0.05), (6.0, 0.03), (8.0, 0.02)];
 
-/// The rotors' sound in white noise of a standard deviation, phases continuous.
+/// A rotor with this shaft speed and with lines of these orders and amplitudes. Phases are fixed: 0.37 turns times the order,
+/// and the shaft begins at 0.1 turns.
+pub fn rotor<'a>(speed_rev_s: impl Fn(f64) -> f64 + 'a, lines: &[(f64, f64)]) -> Rotor<'a> {
+    let line = |&(order, level): &(f64, f64)| Line::new(order, level).with_phase_rad(TAU * 0.37 * order);
+    Rotor::new(speed_rev_s, lines.iter().map(line).collect()).from_turns(0.1)
+}
+
+/// Rotors in white noise of a standard deviation.
+pub fn recording(rotors: &[Rotor<'_>], length_s: f64, noise_std: f64, seed: u64) -> Recording {
+    let mut recording = Recording::of_rotors(rotors, Sampling::new(SAMPLE_RATE_HZ, length_s));
+    recording.add_noise(&Noise::white(noise_std), &mut Pcg64::seed_from_u64(seed));
+    recording
+}
+
+/// The samples of rotors in white noise of a standard deviation.
 pub fn sound(rotors: &[Rotor<'_>], length_s: f64, noise_std: f64, seed: u64) -> Vec<f32> {
-    let mut rng = rand_pcg::Pcg64::seed_from_u64(seed);
-    let mut turns = vec![0.1; rotors.len()];
-    (0..(length_s * SAMPLE_RATE_HZ) as usize)
-        .map(|n| {
-            let time_s = n as f64 / SAMPLE_RATE_HZ;
-            let mut sample = noise_std * Distribution::<f64>::sample(&StandardNormal, &mut rng);
-            for (rotor, turns) in rotors.iter().zip(&mut turns) {
-                for (order, amplitude) in rotor.lines {
-                    sample += amplitude * (TAU * (order * *turns + 0.37 * order)).cos();
-                }
-                *turns += (rotor.speed_rev_s)(time_s) / SAMPLE_RATE_HZ;
-            }
-            sample as f32
-        })
-        .collect()
+    recording(rotors, length_s, noise_std, seed).samples_f32()
+}
+
+/// Noise alone.
+pub fn noise(noise: &Noise, length_s: f64, seed: u64) -> Vec<f32> {
+    let mut recording = Recording::of_rotors(&[], Sampling::new(SAMPLE_RATE_HZ, length_s));
+    recording.add_noise(noise, &mut Pcg64::seed_from_u64(seed));
+    recording.samples_f32()
 }
 
 /// One steady rotor of two blades.
 pub fn steady(speed_rev_s: f64, length_s: f64, noise_std: f64) -> Vec<f32> {
-    sound(&[Rotor { speed_rev_s: &|_| speed_rev_s, lines: &TWO_BLADES }], length_s, noise_std, 1)
+    sound(&[rotor(|_| speed_rev_s, &TWO_BLADES)], length_s, noise_std, 1)
 }
 
 /// Every method is examined.

@@ -1,6 +1,7 @@
 //! What coils and transistors sound like: mains, motors that beep, switching.
 
-use super::{Dice, add, add_at, falling, sample_count, series};
+use super::{Dice, add, add_at, falling, partial, sample_count, series};
+use hovertone_sim::prescribed::Line;
 
 /// A mains frequency with the drift that a grid shows within a minute.
 fn grid(dice: &mut Dice) -> impl Fn(f64) -> f64 + use<> {
@@ -13,10 +14,10 @@ fn grid(dice: &mut Dice) -> impl Fn(f64) -> f64 + use<> {
 pub(super) fn mains_hum(dice: &mut Dice, length_s: f64) -> Vec<f64> {
     let slope = dice.between(2.0, 9.0);
     let odd_only = dice.between(0.0, 1.0) < 0.4;
-    let partials: Vec<(f64, f64)> = falling(24, slope)
+    let partials: Vec<Line> = falling(24, slope)
         .into_iter()
-        .map(|(k, a)| (k, a * 10f64.powf(dice.between(-10.0, 0.0) / 20.0)))
-        .map(|(k, a)| if odd_only && k % 2.0 == 0.0 { (k, 0.1 * a) } else { (k, a) })
+        .map(|line| line.times(10f64.powf(dice.between(-10.0, 0.0) / 20.0)))
+        .map(|line| if odd_only && line.order % 2.0 == 0.0 { line.times(0.1) } else { line })
         .collect();
     let mut samples = series(length_s, &partials, grid(dice), |_| 1.0);
     let hiss = dice.noise(0.003, samples.len());
@@ -40,8 +41,10 @@ fn add_hiss(dice: &mut Dice, samples: &mut [f64], std_max: f64) {
 /// A core hums at twice the mains frequency and its multiples.
 pub(super) fn transformer(dice: &mut Dice, length_s: f64) -> Vec<f64> {
     let mains_hz = grid(dice);
-    let partials: Vec<(f64, f64)> =
-        falling(8, 4.0).into_iter().map(|(k, a)| (2.0 * k, a * 10f64.powf(dice.between(-9.0, 0.0) / 20.0))).collect();
+    let partials: Vec<Line> = falling(8, 4.0)
+        .into_iter()
+        .map(|line| partial(2.0 * line.order, line.level * 10f64.powf(dice.between(-9.0, 0.0) / 20.0)))
+        .collect();
     let mut samples = series(length_s, &partials, mains_hz, |_| 1.0);
     add_hiss(dice, &mut samples, 0.3);
     samples

@@ -7,6 +7,7 @@ mod voice;
 mod weather;
 
 use super::SAMPLE_RATE_HZ;
+use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling};
 use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use std::f64::consts::TAU;
@@ -70,7 +71,13 @@ impl Dice {
 
     /// White noise of a standard deviation.
     pub fn noise(&mut self, std: f64, count: usize) -> Vec<f64> {
-        (0..count).map(|_| std * self.normal()).collect()
+        self.coloured(&Noise::white(std), count)
+    }
+
+    fn coloured(&mut self, noise: &Noise, count: usize) -> Vec<f64> {
+        let mut recording = Recording::of_rotors(&[], Sampling::of_count(SAMPLE_RATE_HZ, count));
+        recording.add_noise(noise, &mut self.0);
+        recording.samples().to_vec()
     }
 }
 
@@ -78,32 +85,27 @@ pub fn sample_count(length_s: f64) -> usize {
     (length_s * SAMPLE_RATE_HZ) as usize
 }
 
-/// Harmonics `(multiple, amplitude)` of a fundamental that may change, each sample times a level.
+/// Partials of a fundamental that may change, each sample times a level.
 pub fn series(
     length_s: f64,
-    partials: &[(f64, f64)],
+    partials: &[Line],
     fundamental_hz: impl Fn(f64) -> f64,
     level: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
-    let mut turns = 0.0;
-    (0..sample_count(length_s))
-        .map(|n| {
-            let time_s = n as f64 / SAMPLE_RATE_HZ;
-            let hz = fundamental_hz(time_s);
-            turns += hz / SAMPLE_RATE_HZ;
-            let level = level(time_s);
-            if level == 0.0 {
-                return 0.0;
-            }
-            let sounding = partials.iter().filter(|(multiple, _)| multiple * hz < 0.45 * SAMPLE_RATE_HZ);
-            level * sounding.map(|(k, amplitude)| amplitude * (TAU * (k * turns + 0.37 * k * k)).sin()).sum::<f64>()
-        })
-        .collect()
+    let source = Rotor::new(fundamental_hz, partials.to_vec()).with_level(level);
+    let sampling = Sampling::of_count(SAMPLE_RATE_HZ, sample_count(length_s));
+    Recording::of_rotors(&[source], sampling).samples().to_vec()
 }
 
-/// Amplitudes that fall by so many dB per octave.
-pub fn falling(count: u32, db_per_octave: f64) -> Vec<(f64, f64)> {
-    (1..=count).map(f64::from).map(|k| (k, k.powf(-db_per_octave / 6.02))).collect()
+/// A sine at a multiple of the fundamental; its phase grows with the square of the multiple, so that partials do not peak
+/// together.
+pub fn partial(multiple: f64, level: f64) -> Line {
+    Line::new(multiple, level).with_phase_rad(TAU * (0.37 * multiple * multiple - 0.25))
+}
+
+/// Partials whose levels fall by this many dB per octave.
+pub fn falling(count: u32, db_per_octave: f64) -> Vec<Line> {
+    (1..=count).map(f64::from).map(|k| partial(k, k.powf(-db_per_octave / 6.02))).collect()
 }
 
 pub fn add(into: &mut [f64], what: &[f64], times: f64) {
@@ -134,12 +136,6 @@ pub fn resonated(samples: &[f64], hz: f64, width_hz: f64) -> Vec<f64> {
 
 /// Noise that falls by 6 dB per octave above a frequency.
 pub fn red_noise(dice: &mut Dice, corner_hz: f64, length_s: f64) -> Vec<f64> {
-    let share = 1.0 - (-TAU * corner_hz / SAMPLE_RATE_HZ).exp();
-    let mut state = 0.0;
-    (0..sample_count(length_s))
-        .map(|_| {
-            state += share * (dice.normal() - state);
-            state
-        })
-        .collect()
+    let pole = (-TAU * corner_hz / SAMPLE_RATE_HZ).exp();
+    dice.coloured(&Noise::low_passed(1.0, pole, 0.0), sample_count(length_s))
 }

@@ -1,6 +1,6 @@
 //! Music: notes of the tempered scale.
 
-use super::{Dice, add, add_at, falling, resonated, sample_count, series};
+use super::{Dice, add, add_at, falling, partial, resonated, sample_count, series};
 
 fn note_hz(half_tones_from_a: i32) -> f64 {
     440.0 * 2f64.powf(f64::from(half_tones_from_a) / 12.0)
@@ -54,7 +54,7 @@ pub(super) fn percussion(dice: &mut Dice, length_s: f64) -> Vec<f64> {
     let mut beat = 0;
     while time_s < length_s {
         let drum = if beat % 4 == 0 {
-            series(0.25, &[(1.0, 1.0)], |t| 55.0 + 60.0 * (-t / 0.03).exp(), |t| (-t / 0.07).exp())
+            series(0.25, &[partial(1.0, 1.0)], |t| 55.0 + 60.0 * (-t / 0.03).exp(), |t| (-t / 0.07).exp())
         } else {
             let hiss = dice.noise(1.0, sample_count(0.12));
             let mut ring = resonated(&hiss, dice.pick(&[190.0, 3000.0, 8000.0]), 900.0);
