@@ -2,7 +2,7 @@
 
 mod flight_sound_rig;
 
-use flight_sound_rig::{UP, amplitude, distance, divide, render, standing};
+use flight_sound_rig::{UP, amplitude, distance, render, standing};
 use hovertone_sim::{
     BladePassTones, Room, RotorState, SoundSettings, SourceSettings, Surroundings, ToneSettings, WallAbsorption,
 };
@@ -48,15 +48,15 @@ fn a_rotor_that_comes_near_is_higher_by_the_doppler_factor() {
         let (count, last) = (4800, samples.len() - 4800);
         let early = amplitude(samples, first, count, turns);
         let late = amplitude(samples, last, count, turns);
-        let ratio = divide(late, early);
-        let found_hz = doppler_hz + ratio.1.atan2(ratio.0) / TAU / ((last - first) as f64 / RATE);
+        let ratio = late / early;
+        let found_hz = doppler_hz + ratio.arg() / TAU / ((last - first) as f64 / RATE);
         let tolerance_hz = 2.0 * 2.5e-4 / TAU / ((last - first) as f64 / RATE);
         assert!((found_hz - doppler_hz).abs() < tolerance_hz, "{speed_m_s}: {found_hz} {doppler_hz}");
         // Sent at τ = (t - d₀/c)/(1 - v/c); the mean over the window of 1/d, to second order of its width.
         let sent_s = |n: f64| (n / RATE + start_m / C) / (1.0 - speed_m_s / C);
         let d = -place(sent_s(last as f64 + count as f64 / 2.0));
         let width = speed_m_s * count as f64 / RATE / d;
-        assert!((late.0.hypot(late.1) * d - 1.0).abs() < 3e-4 + 0.1 * width * width, "{speed_m_s} m/s at {d} m");
+        assert!((late.norm() * d - 1.0).abs() < 3e-4 + 0.1 * width * width, "{speed_m_s} m/s at {d} m");
     }
 }
 
@@ -89,15 +89,15 @@ fn the_delay_is_the_distance_over_c_at_every_instant() {
         for first in (0..samples.len() - 480).step_by(480) {
             let found = amplitude(samples, first, 480, |n| f64::from(order) * held_turns(sent_s(n)));
             // The first window tells the line's own phase; it is the same in all channels.
-            let own = *reference.get_or_insert((found.0 / found.0.hypot(found.1), found.1 / found.0.hypot(found.1)));
-            let relative = divide(found, own);
-            let phase = relative.1.atan2(relative.0);
+            let own = *reference.get_or_insert(found / found.norm());
+            let relative = found / own;
+            let phase = relative.arg();
             // Straight delays over 1 ms: d'' Δ²/8 with d'' up to v²/d = 100 m/s² is 1e-5 m, 4e-4 rad at 2.2 kHz; ten
             // cycles of a window leave 1e-3 of the double frequency.
             assert!(phase.abs() < 2e-3, "sample {first}: {phase} rad");
             let d = distance(place_held(sent_s(first + 240)), microphone);
             // Over a window of 10 ms the distance changes by 14 cm of at least 0.5 m.
-            assert!((relative.0 * d - 1.0).abs() < 0.02, "sample {first}: {} at {d}", relative.0 * d);
+            assert!((relative.re * d - 1.0).abs() < 0.02, "sample {first}: {} at {d}", relative.re * d);
         }
     }
 }
@@ -111,13 +111,13 @@ fn twice_the_distance_is_6_db_less_and_the_delays_of_channels_differ_by_the_dist
     let found: Vec<_> =
         channels.iter().map(|samples| amplitude(samples, 4800, 4800, |n| 4000.0 * n as f64 / RATE)).collect();
     for (channel, distance_m) in [1.0, 2.0, 4.0, 8.0].into_iter().enumerate() {
-        let ratio = divide(found[channel], found[0]);
-        assert!((ratio.0.hypot(ratio.1) * distance_m - 1.0).abs() < 5e-4);
-        let behind = TAU * 4000.0 * (distance_m - 1.0) / C + ratio.1.atan2(ratio.0);
+        let ratio = found[channel] / found[0];
+        assert!((ratio.norm() * distance_m - 1.0).abs() < 5e-4);
+        let behind = TAU * 4000.0 * (distance_m - 1.0) / C + ratio.arg();
         assert!((behind - TAU * (behind / TAU).round()).abs() < 5e-4, "{behind}");
     }
     // Within 10 cm it gets no louder.
-    assert!((found[4].0.hypot(found[4].1) / found[0].0.hypot(found[0].1) - 10.0).abs() < 0.01);
+    assert!((found[4].norm() / found[0].norm() - 10.0).abs() < 0.01);
 }
 
 /// The sum over images worked out here from the walls, one by one, at a hundred frequencies at once: number, delays and
@@ -133,7 +133,7 @@ fn a_room_adds_six_reflections_with_the_delays_and_levels_of_the_images() {
     let ratio_of = |settings: &SoundSettings, harmonic: u32| {
         let samples = &render(settings, 0.3, 0.001, standing(100.0, rotor))[0];
         let turns = |n: usize| f64::from(harmonic) * 100.0 * n as f64 / RATE;
-        divide(amplitude(samples, 4800, 4800, turns), amplitude(reference, 4800, 4800, turns))
+        amplitude(samples, 4800, 4800, turns) / amplitude(reference, 4800, 4800, turns)
     };
     let images = |walls: &[(usize, f64, f64)]| -> Vec<([f64; 3], f64)> {
         let mirrored = walls.iter().map(|&(axis, at, absorbed)| {
@@ -160,7 +160,7 @@ fn a_room_adds_six_reflections_with_the_delays_and_levels_of_the_images() {
             }
             let found = ratio_of(&within, harmonic);
             // Seven paths at -72 dB each, and the reference.
-            assert!((found.0 - re).hypot(found.1 - im) < 1e-3, "{harmonic}: {found:?} {re} {im}");
+            assert!((found.re - re).hypot(found.im - im) < 1e-3, "{harmonic}: {found:?} {re} {im}");
         }
     }
 }
@@ -186,7 +186,7 @@ fn directivity_is_that_of_the_direction_in_which_the_sound_leaves() {
     settings.microphones[0].position_m = [1.0, 0.0, 1.0];
     let reference = &render(&settings, 0.2, 0.001, flight)[0];
     let turns = |n: usize| 200.0 * n as f64 / RATE;
-    let found = divide(amplitude(tilted, 4800, 4800, turns), amplitude(reference, 4800, 4800, turns));
+    let found = amplitude(tilted, 4800, 4800, turns) / amplitude(reference, 4800, 4800, turns);
     let (mut re, mut im) = (0.0, 0.0);
     // Leaving upwards to the microphone, and downwards to where it is mirrored in the floor.
     for way in [[2.0, 0.0, 1.0], [2.0, 0.0, -3.0]] {
@@ -196,5 +196,5 @@ fn directivity_is_that_of_the_direction_in_which_the_sound_leaves() {
         re += (1.0 - cosine * cosine) / d * (k * (d - 1.0)).cos();
         im -= (1.0 - cosine * cosine) / d * (k * (d - 1.0)).sin();
     }
-    assert!((found.0 - re).hypot(found.1 - im) < 1e-3, "{found:?} {re} {im}");
+    assert!((found.re - re).hypot(found.im - im) < 1e-3, "{found:?} {re} {im}");
 }

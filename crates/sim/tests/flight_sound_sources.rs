@@ -95,8 +95,8 @@ fn noise_is_modulated_at_the_blade_pass() {
     let mean = mean_square(samples);
     let share = |order: f64| {
         let turns = |n: usize| order * 60.0 * (n as f64 / RATE - 1.0 / C);
-        let (re, im) = amplitude(&squares, 0, squares.len(), turns);
-        (re / 2.0 / mean, im / 2.0 / mean)
+        let found = amplitude(&squares, 0, squares.len(), turns);
+        (found.re / 2.0 / mean, found.im / 2.0 / mean)
     };
     // Standard error of the mean of x² cos: √(3/2 · 1.5/N), with Hann's weights 1.5 times N.
     let tolerance = 5.0 * (1.5 * 1.5 * 1.5 / squares.len() as f64).sqrt();
@@ -148,8 +148,8 @@ fn a_rotor_at_rest_is_silent_and_starts_without_a_jump() {
         69.0 * (100.0 * ramp * ramp + 60.0 * (t - 0.4).max(0.0))
     };
     let own = amplitude(samples, samples.len() - 4800, 4800, turns);
-    assert!((own.0.hypot(own.1) - 1.0).abs() < 1e-3);
-    let (cosine, sine) = (own.0 / own.0.hypot(own.1), own.1 / own.0.hypot(own.1));
+    assert!((own.norm() - 1.0).abs() < 1e-3);
+    let (cosine, sine) = (own.re / own.norm(), own.im / own.norm());
     let mut loudest = 0.0_f64;
     for (n, &value) in samples.iter().enumerate().skip(start) {
         let phase = TAU * turns(n).fract();
@@ -310,7 +310,8 @@ fn memory_does_not_grow_with_the_length_and_is_bounded_by_the_room() {
         if step < 500 { early = early.max(held) } else { late = late.max(held) }
     }
     assert!(late <= early + 100, "{early} {late}");
-    // The longest way by one wall, and 4096 samples that were taken; 16 lines of up to 0.1 s; babble over 9 m; two steps and 256 samples of ten terms for four rotors.
+    // The longest path by one wall, and 4096 taken samples; 16 lines of up to 0.1 s; babble over 9 m; two steps and 256
+    // samples of ten terms for four rotors.
     let longest_m = (16.0_f64.powi(2) + 36.0 + 9.0).sqrt();
     let bound =
         longest_m / C * RATE + 16.0 * 4800.0 + 9.0 / C * RATE + 4.0 * 10.0 * (3.0 * 48.0 + 32.0 + 256.0) + 256.0;

@@ -1,4 +1,4 @@
-//! People talking outside: voices from pulses and noise through formants, in syllables, made from nothing recorded.
+//! People talking outside: synthetic voices, from pulses and noise through formants, in syllables.
 
 use super::biquad::Biquad;
 use super::level::rms_pa;
@@ -7,9 +7,10 @@ use crate::seed::{Part, stream};
 use hovertone_vehicle::QuantityError;
 use rand::RngExt;
 use rand_pcg::Pcg64;
+use std::ops::Range;
 
-/// Formants 1 and 2 of the vowels of heed, hid, head, had, hod, hawed, hood, who'd, Hz: means of ten speakers, as read by
-/// B. Nevin (discourse.iapct.org/t/formants/13836) off a study after Peterson and Barney 1952.
+/// Formants 1 and 2 of the vowels of heed, hid, head, had, hod, hawed, hood, who'd, Hz: means of ten speakers, read by B. Nevin
+/// (discourse.iapct.org/t/formants/13836) from a study after Peterson and Barney 1952.
 const VOWELS_HZ: [(f64, f64); 8] = [
     (315.0, 2400.0),
     (425.0, 2100.0),
@@ -23,37 +24,37 @@ const VOWELS_HZ: [(f64, f64); 8] = [
 /// Formant 3, and the bandwidths of all three (Klatt 1980: 50 to 150 Hz).
 const THIRD_FORMANT_HZ: f64 = 2600.0;
 const BANDWIDTHS_HZ: [f64; 3] = [80.0, 100.0, 130.0];
-/// Lengths of syllables and of the gaps between them, uniform: 4 to 5 syllables a second, as speech has.
-const SYLLABLE_S: (f64, f64) = (0.12, 0.28);
-const GAP_S: (f64, f64) = (0.01, 0.05);
-/// One gap in this many is a pause for breath.
+/// Lengths of syllables and of the gaps between them, uniform: 4 to 5 syllables per second, as in speech.
+const SYLLABLE_S: Range<f64> = 0.12..0.28;
+const GAP_S: Range<f64> = 0.01..0.05;
+/// On average one gap in this number is a pause for breath.
 const PAUSE_EVERY: f64 = 8.0;
-const PAUSE_S: (f64, f64) = (0.3, 0.9);
+const PAUSE_S: Range<f64> = 0.3..0.9;
 /// Levels of syllables, uniform.
 const SYLLABLE_SPREAD_DB: f64 = 6.0;
 /// Pitch of a voice, uniform in its logarithm from low male to high female; within a syllable it falls by 10 %.
-const PITCH_HZ: (f64, f64) = (95.0, 230.0);
+const PITCH_HZ: Range<f64> = 95.0..230.0;
 const PITCH_FALL: f64 = 0.1;
-/// Share of a voice's power that is breath.
+/// Share of breath in a voice's power.
 const BREATH_POWER: f64 = 0.05;
 
-/// Babble of a few voices behind one place (a door, a window).
+/// Babble of a few voices that comes from one place (a door, a window).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BabbleSettings {
     /// Level of all voices together at 1 m from the place, mean over a long time.
     pub level_db_spl: f64,
-    /// How many talk at once.
+    /// Number of people who talk at once.
     pub voices: u32,
-    /// Below and above this they are cut off, with 24 dB per octave.
+    /// Pass band; outside of it the voices fall by 24 dB per octave.
     pub band_hz: (f64, f64),
-    /// Where they are heard from; it falls with 1/distance, without reflections.
+    /// Position of the source; its sound falls with 1/distance, without reflections.
     pub position_m: [f64; 3],
 }
 
 impl Default for BabbleSettings {
-    /// Three voices of 55 dB together at the door of the default room: "both about 50 dB(A)" is what a quiet talk has at
-    /// 1 m (van Heusden, Plomp, Pols 1979), and three make 5 dB more. 150 Hz to 3 kHz: a telephone's band, for a door
-    /// that muffles (assumed).
+    /// Three voices of 55 dB together at the door of the default room: a quiet talk has "both about 50 dB(A)" at 1 m
+    /// (van Heusden, Plomp, Pols 1979), and three make 5 dB more. 150 Hz to 3 kHz: a telephone's band, for a door that
+    /// muffles (assumed).
     fn default() -> Self {
         Self { level_db_spl: 55.0, voices: 3, band_hz: (150.0, 3000.0), position_m: [4.0, 2.0, 1.5] }
     }
@@ -78,7 +79,7 @@ pub(crate) struct Babble {
 struct Voice {
     random: Pcg64,
     sample_rate_hz: f64,
-    band_hz: (f64, f64),
+    band_hz: Range<f64>,
     /// Root mean square of the voice over a long time, Pa.
     rms: f64,
     base_pitch_hz: f64,
@@ -102,8 +103,9 @@ struct Syllable {
 impl Babble {
     pub(crate) fn new(settings: &BabbleSettings, sample_rate_hz: f64, seed: u64) -> Self {
         let rms = rms_pa(settings.level_db_spl) / f64::from(settings.voices).sqrt();
-        let voice = |index: u32| Voice::new(rms, settings.band_hz, sample_rate_hz, seed, index);
-        Self { voices: (0..settings.voices).map(voice).collect(), band: band(settings.band_hz, sample_rate_hz) }
+        let (low_hz, high_hz) = settings.band_hz;
+        let voice = |index: u32| Voice::new(rms, low_hz..high_hz, sample_rate_hz, seed, index);
+        Self { voices: (0..settings.voices).map(voice).collect(), band: band(&(low_hz..high_hz), sample_rate_hz) }
     }
 
     /// The next samples at 1 m, Pa.
@@ -118,26 +120,27 @@ impl Babble {
     }
 }
 
-fn band((low_hz, high_hz): (f64, f64), sample_rate_hz: f64) -> [Biquad; 4] {
-    let (low, high) = (Biquad::high_pass(low_hz, sample_rate_hz), Biquad::low_pass(high_hz, sample_rate_hz));
+fn band(band_hz: &Range<f64>, sample_rate_hz: f64) -> [Biquad; 4] {
+    let low = Biquad::high_pass(band_hz.start, sample_rate_hz);
+    let high = Biquad::low_pass(band_hz.end, sample_rate_hz);
     [low, low, high, high]
 }
 
 impl Voice {
-    fn new(rms: f64, band_hz: (f64, f64), sample_rate_hz: f64, seed: u64, index: u32) -> Self {
+    fn new(rms: f64, band_hz: Range<f64>, sample_rate_hz: f64, seed: u64, index: u32) -> Self {
         let mut random = stream(seed, Part::Babble, u64::from(index));
-        let base_pitch_hz = PITCH_HZ.0 * (PITCH_HZ.1 / PITCH_HZ.0).powf(random.random());
+        let base_pitch_hz = PITCH_HZ.start * (PITCH_HZ.end / PITCH_HZ.start).powf(random.random());
         let silence = Syllable { at: 0, voiced: 0, total: 0, gain: 0.0, breath: 0.0, pitch_hz: 100.0, phase: 0.0 };
         let formants = [Biquad::resonance(500.0, 100.0, sample_rate_hz); 3];
         let mut voice = Self { random, sample_rate_hz, band_hz, rms, base_pitch_hz, formants, syllable: silence };
         voice.begin_syllable();
-        // Voices do not start together.
+        // Each voice begins at a random point of its first syllable.
         voice.syllable.at = (voice.random.random::<f64>() * voice.syllable.total as f64) as usize;
         voice
     }
 
-    fn uniform(&mut self, (low, high): (f64, f64)) -> f64 {
-        low + (high - low) * self.random.random::<f64>()
+    fn uniform(&mut self, range: Range<f64>) -> f64 {
+        range.start + (range.end - range.start) * self.random.random::<f64>()
     }
 
     fn begin_syllable(&mut self) {
@@ -151,12 +154,12 @@ impl Voice {
         {
             *filter = Biquad::resonance(hz, width_hz, rate).keeping(filter);
         }
-        let pitch_hz = self.base_pitch_hz * self.uniform((0.9, 1.15));
-        let level_db = self.uniform((-SYLLABLE_SPREAD_DB / 2.0, SYLLABLE_SPREAD_DB / 2.0));
+        let pitch_hz = self.base_pitch_hz * self.uniform(0.9..1.15);
+        let level_db = self.uniform(-SYLLABLE_SPREAD_DB / 2.0..SYLLABLE_SPREAD_DB / 2.0);
         let level = 10_f64.powf(level_db / 20.0) / mean_power_of_levels().sqrt();
 
         // Pulses of height 1 every f_s/f₀ samples have lines of power 2 (f₀/f_s)² at all multiples of f₀; breath is white.
-        let band = band(self.band_hz, rate);
+        let band = band(&self.band_hz, rate);
         let power_gain =
             |hz: f64| -> f64 { self.formants.iter().chain(&band).map(|filter| filter.power_gain(hz, rate)).product() };
         let top_hz = 0.5 * rate.min(16_000.0);
@@ -221,7 +224,7 @@ fn mean_power_of_levels() -> f64 {
 
 /// Share of the time that is within a syllable.
 fn voiced_share() -> f64 {
-    let mean = |(low, high): (f64, f64)| (low + high) / 2.0;
+    let mean = |range: Range<f64>| (range.start + range.end) / 2.0;
     let silent_s = mean(GAP_S) + (mean(PAUSE_S) - mean(GAP_S)) / PAUSE_EVERY;
     mean(SYLLABLE_S) / (mean(SYLLABLE_S) + silent_s)
 }
@@ -256,7 +259,7 @@ mod tests {
         let samples = babble(3, 20.0);
         let (rate, (low_hz, high_hz)) = (48_000.0, BabbleSettings::default().band_hz);
         let mut outside = samples.clone();
-        // An octave beyond the band, steep filters of the test's own.
+        // An octave beyond the band, steep filters of this test.
         let mut below = [Biquad::low_pass(low_hz / 2.0, rate); 3];
         let mut above = [Biquad::high_pass(2.0 * high_hz, rate); 3];
         for value in &mut outside {

@@ -1,4 +1,4 @@
-//! States in, samples out.
+//! The sound of a flight: states in, samples out.
 
 use super::babble::Babble;
 use super::interpolator::{Interpolator, REACH};
@@ -15,21 +15,21 @@ use crate::seed::{Part, stream};
 use hovertone_vehicle::QuantityError;
 use std::collections::VecDeque;
 
-/// Samples finished at once, at most.
+/// Largest number of samples finished at once.
 const BLOCK: usize = 256;
-/// The filters of the microphones have settled after this: it is rendered before the first sample, and dropped.
+/// Time for the filters of the microphones to settle; rendered before the first sample and dropped.
 const SETTLING_S: f64 = 0.1;
-/// Nothing outdoors is heard from further away: it bounds the memory.
+/// Largest distance outdoors; it bounds the memory.
 const DISTANCE_M_MAX: f64 = 1000.0;
-/// Rotors may move at this share of the speed of sound.
+/// Largest speed of a rotor's hub, as a share of the speed of sound.
 const MACH_MAX: f64 = 0.5;
 
-/// The sound as it is made: a fixed amount of memory, whatever the length; what it is depends on the largest distance in
-/// the scene and on the longest step between two states.
+/// The sound of a flight, made state by state. Its memory depends on the largest distance in the scene and on the longest
+/// step between two states, not on the length.
 ///
-/// Before the first state, the rotors are taken to have stood still in the air, turning at the speeds of the first state;
-/// so a sound that begins in hover begins with its full sound. The same settings and states give the same samples, no
-/// matter when they are asked for.
+/// Before the first state, the rotors are assumed to have stayed at their places, turning at the speeds of the first state,
+/// so a recording that begins in hover has its full sound from the first sample. The same settings and states give the
+/// same samples, for any division of the calls.
 ///
 /// ```
 /// use hovertone_sim::{FlightSound, RotorState, SoundSettings, SoundState, SourceSettings};
@@ -53,7 +53,7 @@ pub struct FlightSound {
     interpolator: Interpolator,
     channels: Vec<Channel>,
     babble: Option<Babble>,
-    /// There once the first state is.
+    /// Present after the first state.
     flight: Option<Flight>,
 }
 
@@ -62,13 +62,13 @@ struct Flight {
     origin_s: f64,
     sources: Vec<Source>,
     paths: Vec<Path>,
-    /// States whose sound has not been passed on to the microphones, and the last one that has.
+    /// States whose sound has not yet gone to the microphones, and the last state before them.
     knots: VecDeque<Knot>,
-    /// First sample that the sources have not made.
+    /// First sample that the sources have not yet made.
     synthesised: i64,
-    /// What goes into the diffuse field, from sample `finished` on.
+    /// Sound for the diffuse field, from sample `finished` on.
     diffuse: VecDeque<f32>,
-    /// First sample that has not been handed out.
+    /// First sample that has not yet been handed out.
     finished: i64,
 }
 
@@ -81,7 +81,7 @@ struct Channel {
     received: Received,
     tail: Option<Reverberation>,
     ambient: Option<ColouredNoise>,
-    /// The babble on its way, at 1 m.
+    /// The babble at 1 m, before its delay.
     babble: VecDeque<f32>,
     babble_gain: f32,
     microphone: Microphone,
@@ -98,16 +98,16 @@ impl FlightSound {
         Ok(Self { settings, sample_rate_hz: rate, interpolator, channels, babble, flight: None })
     }
 
-    /// What is simulated.
+    /// The settings.
     pub fn settings(&self) -> &SoundSettings {
         &self.settings
     }
 
-    /// Goes on to that state and appends to `out`, one channel per microphone, the samples that are certain now, full scale
-    /// ±1: those before the state's time, but for a few that wait for the next one (ten samples more than the longest step).
+    /// Goes on to this state and appends the finished samples, full scale ±1, to `out`, one channel per microphone. Finished
+    /// are the samples before the state's time, except the last ones (ten samples more than the longest step).
     ///
-    /// Fails, and leaves everything as it was, on a state that is not a number, goes back in time, has another number of
-    /// rotors, is outside of the room, or has a rotor that moves faster than half the speed of sound.
+    /// Fails and changes nothing if the state is not a number, goes back in time, has another number of rotors, is outside
+    /// of the room, or has a rotor that moves faster than half the speed of sound.
     pub fn push(&mut self, state: &SoundState, out: &mut Vec<Vec<f32>>) -> Result<(), QuantityError> {
         let state = state.checked()?;
         self.check_places(&state)?;
@@ -124,15 +124,14 @@ impl FlightSound {
         Ok(())
     }
 
-    /// The samples that are still missing up to the time of the last state. As many samples come out in all as lie from
-    /// the first state to before the last.
+    /// Appends the remaining samples. In total there are all samples from the first state to before the last state.
     pub fn finish(mut self, out: &mut Vec<Vec<f32>>) {
         out.resize_with(out.len().max(self.channels.len()), Vec::new);
         let Some(knot) = self.flight.as_ref().and_then(|flight| flight.knots.back()) else { return };
         let end = samples_before(knot.at);
         let rotors = knot.rotors.clone();
         let mut at = knot.at;
-        // As if all stood still for a moment: what was sent before reaches its ends.
+        // The last state is held until its sound has arrived everywhere.
         for _ in 0..2 {
             at += 4.0 * REACH as f64;
             self.advance(Knot { at, rotors: rotors.clone() });
@@ -140,7 +139,7 @@ impl FlightSound {
         self.finish_until_known(Some(end), out);
     }
 
-    /// Samples held in all buffers at the moment: does not grow with the length of the sound.
+    /// Number of samples in all buffers; does not grow with the length of the sound.
     pub fn buffered_samples(&self) -> usize {
         let channels: usize = self
             .channels
@@ -192,7 +191,7 @@ impl FlightSound {
         Ok(())
     }
 
-    /// The first state, held for as long as its sound takes to fill the place.
+    /// Holds the first state until its sound has filled the place.
     fn begin(&mut self, state: SoundState) {
         let settings = &self.settings;
         let samples_per_m = self.sample_rate_hz / settings.speed_of_sound_m_s;
@@ -200,7 +199,7 @@ impl FlightSound {
         for (index, microphone) in settings.microphones.iter().enumerate() {
             for mirror in settings.surroundings.ways() {
                 for rotor in 0..state.rotors.len() {
-                    paths.push(Path::new((rotor, index), microphone.position_m, mirror, samples_per_m));
+                    paths.push(Path::new(rotor, index, microphone.position_m, mirror, samples_per_m));
                 }
             }
         }
@@ -234,7 +233,7 @@ impl FlightSound {
         self.fill_tails(-settling);
     }
 
-    /// Makes what the rotors radiate up to that state, and passes on to the microphones what can be read.
+    /// Makes the radiated sound up to this state, and passes the readable part on to the microphones.
     fn advance(&mut self, knot: Knot) {
         let Some(flight) = &mut self.flight else { return };
         let Some(before) = flight.knots.back() else { return };
@@ -264,7 +263,7 @@ impl FlightSound {
         }
     }
 
-    /// Runs the tails up to that sample, without anyone hearing them.
+    /// Runs the tails up to this sample without output.
     fn fill_tails(&mut self, until: i64) {
         let Some(flight) = &mut self.flight else { return };
         let count = (until - flight.finished).clamp(0, flight.diffuse.len() as i64);
@@ -275,7 +274,7 @@ impl FlightSound {
         flight.finished = until;
     }
 
-    /// Hands out the samples that all paths have passed, but none at or after the newest state (or `end`).
+    /// Hands out the samples that all paths have passed, but none at or after the last state (or `end`).
     fn finish_until_known(&mut self, end: Option<i64>, out: &mut [Vec<f32>]) {
         let Some(flight) = &mut self.flight else { return };
         let arrived = flight.paths.iter().map(|path| path.last.at.ceil() as i64).min().unwrap_or(i64::MAX);
@@ -300,8 +299,7 @@ impl FlightSound {
     }
 }
 
-/// How many whole samples lie before that time, counted in samples; a time computed from seconds may miss a whole number
-/// by rounding.
+/// Number of whole samples before a time in samples. A time computed from seconds may miss a whole number by rounding.
 fn samples_before(at: f64) -> i64 {
     (at - 1e-6).ceil() as i64
 }
@@ -322,7 +320,7 @@ impl Channel {
         };
         let (mut babble, mut babble_gain) = (VecDeque::new(), 0.0);
         if let Some(talk) = &settings.babble {
-            // Whole samples: nobody compares the phases of speech.
+            // Whole samples are exact enough for speech.
             let distance_m = norm(difference(talk.position_m, microphone.position_m));
             let delay = distance_m / settings.speed_of_sound_m_s * sample_rate_hz;
             babble.resize(delay.round() as usize, 0.0);
@@ -338,7 +336,7 @@ impl Channel {
         }
     }
 
-    /// Finishes as many samples as were `sent` into the diffuse field; the first `unheard` are dropped.
+    /// Finishes one sample for each of `sent` to the diffuse field; drops the first `unheard` ones.
     fn finish(&mut self, sent: &[f32], talk: &[f32], unheard: usize, out: &mut Vec<f32>) {
         let count = sent.len();
         let mut pressure = [0.0; BLOCK];

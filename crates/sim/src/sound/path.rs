@@ -1,31 +1,31 @@
-//! One way of the sound: from a rotor, straight or by a wall, to a microphone.
+//! One path of the sound: from a rotor, directly or by a wall, to a microphone.
 
 use super::interpolator::TERMS;
 use super::room::Mirror;
 use super::source::{Emission, Stretch};
 use super::state::{RotorState, difference, dot, norm};
 
-/// Nearer than this a rotor gets no louder: its size is no longer small.
+/// At smaller distances a rotor gets no louder: its size is no longer small against the distance.
 const DISTANCE_M_MIN: f64 = 0.1;
-/// Samples that are kept after they were taken, at most: moving the others up costs time.
+/// Largest number of taken samples that stay in the buffer: to remove them costs time.
 const TAKEN_MAX: usize = 4096;
 
-/// What a microphone has received so far, and nobody has taken yet.
+/// Sound received by a microphone and not yet taken.
 pub(crate) struct Received {
-    /// First sample that has not been taken.
+    /// First sample that has not yet been taken.
     base: i64,
-    /// How many of the samples have been taken.
+    /// Number of taken samples in the buffer.
     taken: usize,
     pressure_pa: Vec<f32>,
 }
 
 impl Received {
-    /// Nothing, from that sample on.
+    /// Silence from this sample on.
     pub(crate) fn from(base: i64) -> Self {
         Self { base, taken: 0, pressure_pa: Vec::new() }
     }
 
-    /// Takes the next samples; silence where nothing has arrived.
+    /// Takes the next samples; silence if nothing has arrived.
     pub(crate) fn take(&mut self, samples: &mut [f32]) {
         self.base += samples.len() as i64;
         let count = samples.len().min(self.pressure_pa.len() - self.taken);
@@ -43,7 +43,7 @@ impl Received {
         self.pressure_pa.len()
     }
 
-    /// The samples `first..end`, grown with silence where there are none yet.
+    /// The samples `first..end`; missing ones are filled with silence.
     fn samples(&mut self, first: i64, end: i64) -> &mut [f32] {
         let start = self.base - self.taken as i64;
         let (first, end) = ((first - start) as usize, (end - start) as usize);
@@ -54,7 +54,7 @@ impl Received {
     }
 }
 
-/// What is sent out at one instant of control arrives at this sample (not a whole one), with these factors.
+/// Arrival of the sound from one control instant: at this (fractional) sample, with these factors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Arrival {
     pub(crate) at: f64,
@@ -73,7 +73,8 @@ pub(crate) struct Path {
 
 impl Path {
     pub(crate) fn new(
-        (rotor, microphone): (usize, usize),
+        rotor: usize,
+        microphone: usize,
         microphone_m: [f64; 3],
         mirror: Option<Mirror>,
         samples_per_m: f64,
@@ -82,8 +83,8 @@ impl Path {
         Self { rotor, microphone, microphone_m, mirror, samples_per_m, last }
     }
 
-    /// `delay = d/c`, factor `√(1-α) / d`, and the two terms `sin²θ`, `cos²θ` of the directivity, where d and θ are those
-    /// of the rotor's image in the wall, with its mirrored axis.
+    /// `delay = d/c`, factor `√(1-α) / d`, and the two terms `sin²θ`, `cos²θ` of the directivity, where d and θ belong to
+    /// the rotor's image in the wall, with its mirrored axis.
     pub(crate) fn arrival(&self, state: &RotorState, sent_at: f64) -> Arrival {
         let (place, axis, reflection) = match self.mirror {
             None => (state.position_m, state.axis, 1.0),
@@ -101,8 +102,8 @@ impl Path {
         }
     }
 
-    /// Adds what the rotor sent out during the stretch. Between its ends, arrival over sending goes along a straight line:
-    /// off by the second difference of the distance over 8, for 1 ms and 10 m/s² some 1e-6 m.
+    /// Adds the sound that the rotor sent during the stretch. Between its ends the time of arrival is a straight line over
+    /// the time of sending; the error is the second difference of the distance over 8, some 1e-6 m for 1 ms and 10 m/s².
     pub(crate) fn receive(&mut self, stretch: Stretch, next: Arrival, emission: &Emission, to: &mut Received) {
         let before = std::mem::replace(&mut self.last, next);
         let first = (before.at.ceil() as i64).max(to.base);
@@ -138,7 +139,7 @@ impl Path {
     }
 }
 
-/// For how many samples the nearest source sample moves on by one per sample received; bounded, so that counting in
+/// Number of received samples for which the nearest source sample moves on by one per sample. Bounded, so that counting in
 /// single precision stays exact.
 fn run_length(fraction: f64, drift: f64) -> usize {
     const RUN_MAX: f64 = 4096.0;
@@ -178,7 +179,7 @@ fn add_run(
     let [p0, p1, p2, p3, p4] = in_plane.map(|term| &term[..count]);
     let [a0, a1, a2, a3, a4] = on_axis.map(|term| &term[..count]);
     for n in 0..count {
-        // Through 32 bits: the oldest 64-bit processors have no other conversion for many at once.
+        // By way of 32 bits: the oldest 64-bit processors have no other vector conversion.
         let number = n as i32 as f32;
         let d = fraction.at(number);
         let plane = (((p4[n] * d + p3[n]) * d + p2[n]) * d + p1[n]) * d + p0[n];

@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "a test that cannot go on fails; no test uses all")]
 
 use hovertone_sim::{FlightSound, RotorState, SoundSettings, SoundState};
+use nalgebra::Complex;
 use std::f64::consts::TAU;
 
 pub(crate) const UP: [f64; 3] = [0.0, 0.0, 1.0];
@@ -29,7 +30,7 @@ pub(crate) fn standing(speed_rev_s: f64, position_m: [f64; 3]) -> impl Fn(f64) -
 }
 
 /// Complex amplitude of the tone `Re(a e^(2πi turns(n)))`, by Hann's window over those samples.
-pub(crate) fn amplitude(samples: &[f32], first: usize, count: usize, turns: impl Fn(usize) -> f64) -> (f64, f64) {
+pub(crate) fn amplitude(samples: &[f32], first: usize, count: usize, turns: impl Fn(usize) -> f64) -> Complex<f64> {
     let (mut re, mut im, mut weights) = (0.0, 0.0, 0.0);
     for (n, &value) in samples.iter().enumerate().skip(first).take(count) {
         let weight = 0.5 - 0.5 * (TAU * ((n - first) as f64 + 0.5) / count as f64).cos();
@@ -38,12 +39,7 @@ pub(crate) fn amplitude(samples: &[f32], first: usize, count: usize, turns: impl
         im -= weight * f64::from(value) * sine;
         weights += weight;
     }
-    (2.0 * re / weights, 2.0 * im / weights)
-}
-
-pub(crate) fn divide(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-    let square = b.0 * b.0 + b.1 * b.1;
-    ((a.0 * b.0 + a.1 * b.1) / square, (a.1 * b.0 - a.0 * b.1) / square)
+    Complex::new(2.0 * re / weights, 2.0 * im / weights)
 }
 
 pub(crate) fn mean_square(samples: &[f32]) -> f64 {
