@@ -1,4 +1,4 @@
-//! The vehicle as it flies: parameters, payloads, spread and air put together once, in plain numbers.
+//! The vehicle in flight: parameters, payloads, spread and air, computed once.
 
 use crate::body::{GroundContact, RigidBody};
 use crate::flight_settings::{FlightSettings, Payload};
@@ -8,12 +8,12 @@ use crate::rotor::Rotor;
 use hovertone_vehicle::{FlightParameters, QuantityError};
 use nalgebra::{Matrix3, Vector3};
 
-/// Everything about the vehicle that does not change in flight.
+/// The properties of the vehicle that do not change in flight.
 #[derive(Clone, Debug)]
 pub struct Airframe {
     /// Mass and inertia, payloads included.
     pub body: RigidBody,
-    /// Where the rotors stand about the centre of mass.
+    /// Positions of the rotors about the centre of mass.
     pub hubs: [Hub; 4],
     /// The rotors in this air.
     pub rotors: [Rotor; 4],
@@ -21,7 +21,7 @@ pub struct Airframe {
     pub motors: [Motor; 4],
     /// Linear drag in this air, body axes, N s/m.
     pub drag_n_s_m: Vector3<f64>,
-    /// The ground under it.
+    /// The contact with the ground.
     pub contact: GroundContact,
     /// Whether thrust grows near the ground.
     pub has_ground_effect: bool,
@@ -58,8 +58,8 @@ impl Airframe {
     }
 }
 
-/// Mass, centre of mass from the vehicle's own, and inertia about the centre, with point masses added by Steiner's
-/// theorem.
+/// Mass; centre of mass from the centre of mass without payloads; inertia about the centre. Point masses are added by
+/// Steiner's theorem.
 fn mass_properties(vehicle: &FlightParameters, payloads: &[Payload]) -> (f64, Vector3<f64>, Matrix3<f64>) {
     let own_kg = vehicle.mass_kg.value;
     let mass_kg = own_kg + payloads.iter().map(|payload| payload.mass_kg).sum::<f64>();

@@ -1,4 +1,4 @@
-//! What to fly.
+//! Settings of a flight.
 
 use crate::control::Setpoint;
 use crate::environment::{Air, Gusts};
@@ -17,16 +17,16 @@ const HOVER_HEIGHT_M: f64 = 1.0;
 pub struct Payload {
     /// Its mass.
     pub mass_kg: f64,
-    /// Where, body axes from the vehicle's own centre of mass, m.
+    /// Its position, body axes from the centre of mass of the vehicle without payloads, m.
     pub position_m: [f64; 3],
 }
 
 /// How the rotors and motors differ from the vehicle's numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// C_f of each rotor over the vehicle's.
+    /// C_f of each rotor over the C_f of the vehicle's parameters.
     pub thrust_shares: [f64; 4],
-    /// Gain of each motor over the vehicle's: voltage felt over voltage given.
+    /// Gain of each motor: voltage felt over voltage given.
     pub motor_gains: [f64; 4],
 }
 
@@ -51,12 +51,13 @@ impl Spread {
     }
 }
 
-/// How each motor's gain wanders in flight, for itself: unsteady inflow, regulation of its controller.
+/// The random wander of each motor's gain in flight, independent for each motor: unsteady inflow, regulation of its controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorWander {
-    /// Standard deviation of each gain over its mean. The speed follows by about two thirds of it, as far as the controller lets it.
+    /// Standard deviation of each gain over its mean. The speed wanders by about two thirds of it, since
+    /// the controller counteracts.
     pub gain_std_share: f64,
-    /// Its autocovariance goes with e^(-t/τ).
+    /// Time constant τ of its autocovariance e^(-t/τ).
     pub time_constant_s: f64,
 }
 
@@ -73,12 +74,12 @@ impl MotorWander {
     }
 }
 
-/// How the flight begins.
+/// The beginning of the flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
     /// Hovering, trimmed, at a place.
     Hover(Setpoint),
-    /// Standing on the ground at (x, y) with that heading, motors off.
+    /// Standing on the ground at (x, y) with this heading, motors off.
     Ground {
         /// World axes, m.
         place_m: [f64; 2],
@@ -87,7 +88,7 @@ pub enum Start {
     },
 }
 
-/// The flight: the paper's model, and what goes beyond it, all of that off.
+/// Settings of a flight: the paper's model, and effects beyond it, which are off by default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlightSettings {
     /// The vehicle; numbers may be overridden.
@@ -96,25 +97,25 @@ pub struct FlightSettings {
     pub gravity_m_s2: f64,
     /// Step of the integration.
     pub step_s: f64,
-    /// Where it begins.
+    /// The beginning of the flight.
     pub start: Start,
-    /// Masses added, also off centre: they move the centre of mass and add to the inertia.
+    /// Added masses. Masses off centre move the centre of mass; all add to the inertia.
     pub payloads: Vec<Payload>,
     /// Differences among the rotors; off when absent.
     pub spread: Option<Spread>,
     /// Unsteadiness of each motor; off when absent.
     pub motor_wander: Option<MotorWander>,
-    /// Whether the battery's voltage falls with charge and current; else it is the nominal one.
+    /// Whether the battery's voltage falls with charge and current; otherwise it is the nominal voltage.
     pub battery_sag: bool,
     /// Whether thrust grows near the ground.
     pub ground_effect: bool,
-    /// The air; when absent it is the one in which the vehicle's constants were found.
+    /// The air; when absent, the air in which the vehicle's constants were measured.
     pub air: Option<Air>,
     /// Steady wind: velocity of the air, world axes.
     pub wind_m_s: [f64; 3],
     /// Gusts; off when absent.
     pub gusts: Option<Gusts>,
-    /// Everything random comes from here.
+    /// All random numbers come from this seed.
     pub seed: u64,
 }
 
@@ -138,7 +139,7 @@ impl FlightSettings {
         }
     }
 
-    /// Refuses what cannot be flown, naming it.
+    /// Refuses settings out of bounds, naming them.
     pub(crate) fn check(&self) -> Result<(), QuantityError> {
         let refused = |name, value, must_be| Err(QuantityError { name, value, must_be });
         self.vehicle.check()?;

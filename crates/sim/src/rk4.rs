@@ -1,7 +1,7 @@
-//! The fixed-step integrator of everything that moves.
+//! The fixed-step integrator of the flight.
 
-/// One step of the classical fourth-order Runge-Kutta method over `step_s`; its error over a fixed time goes with the
-/// fourth power of the step. `rate(state)` is the time derivative; what depends on time is held during the step.
+/// One step of the classical fourth-order Runge-Kutta method over `step_s`; its error over a fixed time is proportional to
+/// the fourth power of the step. `rate(state)` is the time derivative; inputs that depend on time are constant in the step.
 pub fn rk4<const N: usize>(state: &[f64; N], step_s: f64, rate: impl Fn(&[f64; N]) -> [f64; N]) -> [f64; N] {
     let moved = |rate: &[f64; N], by_s: f64| -> [f64; N] { std::array::from_fn(|k| state[k] + by_s * rate[k]) };
     let first = rate(state);

@@ -1,9 +1,9 @@
-//! One seed, many independent streams of random numbers: each part of each rotor has its own, so that adding a rotor
-//! or a tone leaves the others as they were.
+//! One seed, many independent streams of random numbers. Each part of each rotor has its own stream, so an additional rotor
+//! or tone changes no other.
 
 use rand_pcg::Pcg64;
 
-/// What a stream is for. The numbers are part of what a seed means: changing one changes every simulated sound.
+/// The purpose of a stream. The numbers are part of the meaning of a seed: a change of one changes every simulated sound.
 #[derive(Clone, Copy)]
 pub(crate) enum Part {
     Wander = 1,
@@ -27,12 +27,12 @@ pub(crate) fn stream(seed: u64, part: Part, index: u64) -> Pcg64 {
     Pcg64::new(u128::from(state) << 64 | u128::from(mixed(state, part, index)), u128::from(state))
 }
 
-/// A seed for something that has streams of its own.
+/// A seed for a part that has streams of its own.
 pub(crate) fn mixed(seed: u64, part: Part, index: u64) -> u64 {
     split_mix(split_mix(split_mix(seed) ^ part as u64) ^ index)
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): neighbouring seeds become unrelated ones.
+/// SplitMix64 (Steele, Lea, Flood 2014): makes unrelated seeds from neighbouring seeds.
 fn split_mix(seed: u64) -> u64 {
     let mut mixed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

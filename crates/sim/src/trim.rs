@@ -1,19 +1,19 @@
-//! Hover, found by solving.
+//! The hover of a vehicle, solved exactly.
 
 use crate::airframe::Airframe;
 use crate::rotor::ground_effect;
 use hovertone_vehicle::QuantityError;
 use nalgebra::{Matrix4, Vector4};
 
-/// The speeds at which the vehicle hovers level in still air, and the voltages that hold them: the paper's v_o (remark
-/// 3), one per rotor, since rotors may differ.
+/// The speeds at which the vehicle hovers level in still air, and the voltages that hold these speeds: the paper's v_o
+/// (remark 3), one for each rotor, since rotors may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HoverTrim {
     /// ω of each rotor, rad/s.
     pub speed_rad_s: [f64; 4],
     /// v_o of each motor, V.
     pub voltage_v: [f64; 4],
-    /// f of each rotor, N; they add up to the weight.
+    /// f of each rotor, N; the sum is the weight.
     pub thrust_n: [f64; 4],
 }
 
@@ -25,8 +25,8 @@ impl HoverTrim {
 }
 
 /// Solves for hover with the centre of mass `height_m` above the ground: thrust equals weight, and no torque about any
-/// axis. These are four equations that are linear in the four ω², so the solution is exact. Fails when a rotor would
-/// have to turn backwards, or when it takes more than `battery_v`.
+/// axis. These are four linear equations for the four ω², so the solution is exact. Fails if a rotor would have to
+/// turn backwards, or if a motor needs more than `battery_v`.
 pub fn hover_trim(airframe: &Airframe, height_m: f64, battery_v: f64) -> Result<HoverTrim, QuantityError> {
     let mut columns = [Vector4::zeros(); 4];
     let mut lift = [0.0; 4];
@@ -35,13 +35,13 @@ pub fn hover_trim(airframe: &Airframe, height_m: f64, battery_v: f64) -> Result<
         let share =
             if airframe.has_ground_effect { ground_effect(rotor.radius_m, height_m + hub.position_m.z) } else { 1.0 };
         lift[k] = share * rotor.thrust_constant_n_s2;
-        // Without a load torque nothing says how yaw is balanced: then as if it went with the thrust.
+        // Without load torques the yaw equation is empty; then a load torque proportional to the thrust is assumed.
         let load = if rotor.torque_constant_n_m_s2 > 0.0 { rotor.torque_constant_n_m_s2 } else { lift[k] };
         columns[k] = Vector4::new(lift[k], hub.position_m.y * lift[k], -hub.position_m.x * lift[k], -hub.spin * load);
     }
     let wanted = Vector4::new(airframe.body.weight_n(), 0.0, 0.0, 0.0);
     let none = QuantityError { name: "hover", value: f64::NAN, must_be: "possible with these rotors" };
-    // Rows of very different size (N, N m): scaled so that the solution keeps its digits.
+    // The rows have very different sizes (N, N m); scaling keeps the digits of the solution.
     let mut matrix = Matrix4::from_columns(&columns);
     for row in 0..4 {
         let size = (0..4).map(|k| matrix[(row, k)].abs()).fold(0.0, f64::max);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Roll, pitch and yaw: the rotation is R_z(yaw) R_y(pitch) R_x(roll), as the authors' code has it. With z up and y to
+/// Roll, pitch and yaw: the rotation is R_z(yaw) R_y(pitch) R_x(roll), as in the authors' code. With z up and y to
 /// the left, positive roll leans right, positive pitch puts the nose down, positive yaw turns left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Euler {
@@ -15,7 +15,7 @@ pub struct Euler {
 }
 
 impl Euler {
-    /// Of a quaternion, scalar first.
+    /// From a quaternion, scalar first.
     pub fn from_attitude(attitude: &[f64; 4]) -> Self {
         let [w, x, y, z] = *attitude;
         Self {
@@ -47,7 +47,7 @@ impl Euler {
     }
 }
 
-/// Rotation matrix, body to world. Takes any length but zero of the quaternion as one.
+/// Rotation matrix, body to world. The quaternion may have any length except zero.
 pub(crate) fn rotation(attitude: &[f64; 4]) -> Matrix3<f64> {
     let [w, x, y, z] = *attitude;
     let twice = 2.0 / (w * w + x * x + y * y + z * z);

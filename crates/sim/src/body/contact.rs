@@ -3,17 +3,16 @@
 use crate::forces::Wrench;
 use nalgebra::{Matrix3, Vector3};
 
-/// How far the springs give under the weight, share of the standing height: 2 mm of 0.1 m.
+/// Compression of the springs under the weight, as a share of the standing height: 2 mm of 0.1 m.
 const SETTLING_SHARE: f64 = 0.02;
-/// Damping of the up-and-down, share of critical: it rests after a few bounces.
+/// Damping of the vertical motion, as a share of the critical damping: the vehicle rests after a few bounces.
 const DAMPING_SHARE: f64 = 0.7;
-/// Plastic on a floor.
+/// Friction coefficient of plastic on a floor.
 const FRICTION: f64 = 0.5;
-/// Slip speed at which friction is half its full size; below, it acts as a stiff damper, so that a step of 1 ms holds.
+/// Slip speed at which friction has half its full size. At lower speeds friction acts as a stiff damper; this keeps steps of 1 ms stable.
 const SLIP_M_S: f64 = 0.02;
 
-/// Flat ground at z = 0 under four feet: springs and dampers along z that only push, friction across. Not in the paper;
-/// it acts only on what is on the ground.
+/// Flat ground at z = 0 under four feet: springs and dampers along z that only push, friction across. Not in the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundContact {
     feet_m: [Vector3<f64>; 4],
@@ -23,8 +22,8 @@ pub struct GroundContact {
 }
 
 impl GroundContact {
-    /// Feet at those places of the body, `standing_height_m` below it, that carry `mass_kg`. The springs give by 2 % of
-    /// that height under the weight.
+    /// Feet at these places of the body, `standing_height_m` below it, for a vehicle of `mass_kg`. The weight compresses
+    /// the springs by 2 % of that height.
     pub fn new(feet_m: [Vector3<f64>; 4], standing_height_m: f64, mass_kg: f64, gravity_m_s2: f64) -> Self {
         let whole_n_m = mass_kg * gravity_m_s2 / (SETTLING_SHARE * standing_height_m);
         let damping_n_s_m = 2.0 * DAMPING_SHARE * (whole_n_m * mass_kg).sqrt() / 4.0;
@@ -32,7 +31,7 @@ impl GroundContact {
         Self { feet_m, stiffness_n_m: whole_n_m / 4.0, damping_n_s_m, reach_m }
     }
 
-    /// Where the centre of mass rests, m above the ground: the feet less what the springs give.
+    /// Height of the centre of mass at rest, m above the ground: the standing height minus the compression of the springs.
     pub fn resting_height_m(&self, weight_n: f64) -> f64 {
         let below_m: f64 = self.feet_m.iter().map(|foot| -foot.z).sum::<f64>() / 4.0;
         below_m - weight_n / (4.0 * self.stiffness_n_m)

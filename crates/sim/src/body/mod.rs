@@ -5,8 +5,8 @@
 //! ```
 //!
 //! World z up; force F and torque τ about the centre of mass in body axes; I any symmetric inertia. The authors' code
-//! takes torques as generalised torques of the Euler angles and has a slip in its Coriolis matrix; neither is repeated
-//! here.
+//! treats torques as generalised torques of the Euler angles and has a mistake in its Coriolis matrix; this module does
+//! neither.
 
 mod attitude;
 mod contact;
@@ -19,10 +19,10 @@ use crate::forces::Wrench;
 use crate::rk4::rk4;
 use nalgebra::{Matrix3, Vector3};
 
-/// Numbers in [`BodyState::to_array`].
+/// Length of [`BodyState::to_array`].
 pub const BODY_NUMBERS: usize = 13;
 
-/// Where the body is and how it moves.
+/// Position, velocity, attitude and rates of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
     /// Centre of mass, world axes, m.
@@ -52,7 +52,7 @@ impl BodyState {
         [x.x, x.y, x.z, v.x, v.y, v.z, q[0], q[1], q[2], q[3], rates.x, rates.y, rates.z]
     }
 
-    /// Back from [`BodyState::to_array`]; the attitude as it is, not normalised.
+    /// The inverse of [`BodyState::to_array`]; does not normalise the attitude.
     pub fn from_array(numbers: &[f64; BODY_NUMBERS]) -> Self {
         let [x, y, z, u, v, w, q0, q1, q2, q3, p, q, r] = *numbers;
         Self {
@@ -63,7 +63,7 @@ impl BodyState {
         }
     }
 
-    /// Body to world; takes any length but zero of the quaternion as one.
+    /// Rotation matrix, body to world. The quaternion may have any length except zero.
     pub fn rotation(&self) -> Matrix3<f64> {
         rotation(&self.attitude)
     }
@@ -84,7 +84,7 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// A body of that mass and inertia about its centre of mass, in a gravity along -z. `None` when the inertia has no
+    /// A body of this mass and of this inertia about its centre of mass, in a gravity along -z. `None` when the inertia has no
     /// inverse or the mass is not above 0.
     pub fn new(mass_kg: f64, inertia_kg_m2: Matrix3<f64>, gravity_m_s2: f64) -> Option<Self> {
         let inverse_inertia = inertia_kg_m2.try_inverse().filter(|_| mass_kg > 0.0)?;
@@ -106,7 +106,7 @@ impl RigidBody {
         self.mass_kg * self.gravity_m_s2
     }
 
-    /// The time derivative under a force and a torque in body axes; laid out as the state's array.
+    /// The time derivative under a force and a torque in body axes, in the order of [`BodyState::to_array`].
     pub fn rate(&self, state: &BodyState, rotation: &Matrix3<f64>, wrench: &Wrench) -> [f64; BODY_NUMBERS] {
         let mut acceleration = rotation * wrench.force_n / self.mass_kg;
         acceleration.z -= self.gravity_m_s2;
@@ -117,7 +117,7 @@ impl RigidBody {
         [v.x, v.y, v.z, a.x, a.y, a.z, q0, q1, q2, q3, turning.x, turning.y, turning.z]
     }
 
-    /// One Runge-Kutta step under what `wrench` says of each state on the way; the attitude comes out normalised.
+    /// One Runge-Kutta step; `wrench` gives force and torque for each intermediate state. The new attitude is normalised.
     pub fn step(&self, state: &BodyState, step_s: f64, wrench: impl Fn(&BodyState) -> Wrench) -> BodyState {
         let next = rk4(&state.to_array(), step_s, |numbers| {
             let state = BodyState::from_array(numbers);
@@ -128,13 +128,13 @@ impl RigidBody {
         next
     }
 
-    /// Kinetic energy of moving and turning, J.
+    /// Kinetic energy of translation and rotation, J.
     pub fn kinetic_energy_j(&self, state: &BodyState) -> f64 {
         let turning = state.rates_rad_s.dot(&(self.inertia_kg_m2 * state.rates_rad_s));
         0.5 * (self.mass_kg * state.velocity_m_s.norm_squared() + turning)
     }
 
-    /// Energy of height, J, from z = 0.
+    /// Potential energy above z = 0, J.
     pub fn potential_energy_j(&self, state: &BodyState) -> f64 {
         self.weight_n() * state.position_m.z
     }

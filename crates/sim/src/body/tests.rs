@@ -56,8 +56,8 @@ fn the_tumbles_error_goes_with_the_fourth_power_of_the_step() {
     assert!((order - 4.0).abs() < 0.15, "order {order}");
 }
 
-/// Without drag, height turns into speed exactly; with drag, what is missing is the work of the drag, and the fall ends
-/// at m g/k with the speed m g/k (1 - exp(-k t/m)).
+/// Without drag, height turns into speed exactly. With drag, the difference is the work of the drag, and the speed of the fall is
+/// m g/k (1 - exp(-k t/m)).
 #[test]
 fn falling_gives_height_for_speed_and_drag_takes_its_share() {
     let body = lopsided(9.8);

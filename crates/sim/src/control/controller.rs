@@ -4,7 +4,7 @@ use super::mixer::mixer;
 use crate::body::{BodyState, Euler};
 use hovertone_vehicle::{ControllerParameters, Layout, LoopGains};
 
-/// What the joystick sends, each normalised to ±1 (remark 1): φ_d = u φ_max and so on. Beyond ±1 it is cut.
+/// The joystick's commands, each normalised to ±1 (remark 1): φ_d = u φ_max and so on. Values beyond ±1 are clamped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Command {
     /// Roll, positive leans and flies right.
@@ -18,7 +18,7 @@ pub struct Command {
 }
 
 impl Command {
-    /// Hands off: the embedded controller hovers.
+    /// No command: the embedded controller hovers.
     pub const HOVER: Self = Self { roll: 0.0, pitch: 0.0, yaw_rate: 0.0, climb: 0.0 };
 
     /// Roll, pitch, yaw rate, climb.
@@ -31,7 +31,7 @@ impl Command {
         Self { roll, pitch, yaw_rate, climb }
     }
 
-    /// Each within ±1; what is no number counts as 0.
+    /// Each clamped to ±1; NaN counts as 0.
     pub fn limited(self) -> Self {
         Self::from_array(self.to_array().map(|part| if part.is_nan() { 0.0 } else { part.clamp(-1.0, 1.0) }))
     }
@@ -43,9 +43,9 @@ impl Command {
 /// Δv = M [k_dφ φ̃' + k_pφ φ̃,  k_dθ θ̃' + k_pθ θ̃,  k_dψ ψ̃'' + k_pψ ψ̃',  k_dz z̃'' + k_pz z̃']
 /// ```
 ///
-/// What is desired counts as constant between commands, so that a step of it gives no spike. The two rates' derivatives
-/// are filtered differences, as they are on board; the angles' are the gyroscope's. Each loop is limited by
-/// l tanh(u/l), as in the authors' code; for small errors that is the linear eq 1.
+/// The desired values count as constant between commands, so that a step of a command gives no spike. The derivatives of
+/// the two rates are filtered differences, as on board; the derivatives of the angles are the gyroscope's rates. Each loop
+/// is limited by l tanh(u/l), as in the authors' code; for small errors this is the linear eq 1.
 #[derive(Clone, Debug)]
 pub struct Controller {
     parameters: ControllerParameters,
@@ -83,7 +83,7 @@ fn asked_v(gains: &LoopGains, error: f64, error_rate: f64) -> f64 {
     gains.limit_v * ((gains.proportional * error + gains.derivative * error_rate) / gains.limit_v).tanh()
 }
 
-/// Difference over time, behind a first-order filter; 0 on its first value.
+/// Rate of change through a first-order filter; 0 at the first value.
 #[derive(Clone, Copy, Debug)]
 struct Change {
     period_s: f64,
@@ -138,7 +138,7 @@ mod tests {
         }
     }
 
-    /// Steady accelerations: once the filters have settled, each derivative term stands against its own by k_d.
+    /// Steady accelerations: once the filters have settled, each derivative term opposes its own acceleration by k_d.
     #[test]
     fn the_derivative_terms_of_the_rates_are_against_their_change() {
         let after = |climb_m_s2: f64, yaw_rad_s2: f64| {

@@ -4,8 +4,8 @@ use crate::forces::torque_signs;
 use hovertone_vehicle::Layout;
 
 /// Rows are rotors 1 to 4, columns roll, pitch, yaw rate and vertical rate: Δv = M u. For the X layout it is the
-/// paper's matrix; for the other one the rows lose the axis that their arm does not reach. A row has the signs of the
-/// torques that more thrust of that rotor makes, and 1 for the climb.
+/// paper's matrix; for the plus layout each row has a 0 for the axis along its arm. A row has the signs of the torques
+/// from more thrust of that rotor, and 1 for the climb.
 pub fn mixer(layout: Layout) -> [[f64; 4]; 4] {
     torque_signs(layout).map(|[roll, pitch, yaw]| [roll, pitch, yaw, 1.0])
 }
@@ -23,7 +23,7 @@ mod tests {
         assert_eq!(mixer(Layout::X), paper);
     }
 
-    /// More of one command gives more of its own torque, or of thrust for the climb, and nothing of the other three.
+    /// More of one command gives more of its own torque, or of thrust for the climb, and no change of the other three.
     #[test]
     fn each_command_makes_its_own_torque_and_only_that() {
         for layout in [Layout::X, Layout::Plus] {

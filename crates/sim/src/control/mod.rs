@@ -1,5 +1,5 @@
-//! First subsystem, eq 1: from commands to voltages. The embedded controller is the paper's; the [`Pilot`] that holds a
-//! place stands outside it, where the paper has a person or another computer.
+//! First subsystem, eq 1: from commands to voltages. The embedded controller is the paper's. The [`Pilot`], which
+//! holds a place, is outside of it; in the paper this is a person or another computer.
 
 mod controller;
 mod mixer;

@@ -1,16 +1,16 @@
 //! The outer loop: holds a place, a height and a heading through the four commands, as the paper's height control and a
-//! person's thumbs do. No part of the paper's model.
+//! person with a joystick do. Not a part of the paper's model.
 
 use super::controller::Command;
 use crate::body::{BodyState, Euler};
 use hovertone_vehicle::ControllerParameters;
 
-/// The integrals only count below this speed: on the way somewhere there is nothing to learn of wind and battery.
+/// The integrals grow only below this speed: while the vehicle flies to another place, its error says nothing about wind and battery.
 const SETTLED_M_S: f64 = 0.1;
-/// The integrals' gains, over what the bandwidth would make them in a loop of three equal poles.
+/// Gains of the integrals, as a share of the gains in a loop of three equal poles.
 const INTEGRAL_SHARE: f64 = 0.2;
 
-/// Where to be.
+/// The place and heading to hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Setpoint {
     /// World axes, m.
@@ -24,18 +24,17 @@ pub struct Setpoint {
 pub struct PilotGains {
     /// Bandwidth of the horizontal loop, rad/s: k_p is its square, k_d twice it, k_i a fifth of its cube.
     pub position_rad_s: f64,
-    /// Vertical rate asked for per height missing, 1/s; its integral gets a fifth of the square.
+    /// Commanded vertical rate per error of height, 1/s; the gain of its integral is a fifth of the square.
     pub height_1_s: f64,
-    /// Yaw rate asked for per heading missing, 1/s.
+    /// Commanded yaw rate per error of heading, 1/s.
     pub heading_1_s: f64,
-    /// Overdrive of the attitude: tilt asked for beyond the wanted one per tilt that is missing. A quick thumb on a
-    /// sluggish drone.
+    /// Overdrive of the attitude: commanded tilt beyond the wanted tilt, per error of tilt. It makes a sluggish drone quick.
     pub overdrive: f64,
-    /// Tilt taken back per rate of tilt, s: the damping of that overdrive.
+    /// Reduction of the commanded tilt per rate of tilt, s: the damping of that overdrive.
     pub damping_s: f64,
 }
 
-/// Tilt and vertical rate in which commands are measured, and what the loops have summed up.
+/// The outer loop: its gains, the scales of the commands, and its integrals.
 #[derive(Clone, Copy, Debug)]
 pub struct Pilot {
     gains: PilotGains,
@@ -50,7 +49,7 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// A pilot of a vehicle with that embedded controller.
+    /// A pilot of a vehicle with this embedded controller.
     pub fn new(gains: PilotGains, controller: &ControllerParameters, gravity_m_s2: f64, setpoint: Setpoint) -> Self {
         Self {
             gains,
@@ -65,17 +64,17 @@ impl Pilot {
         }
     }
 
-    /// Where it flies to.
+    /// The present setpoint.
     pub fn setpoint(&self) -> Setpoint {
         self.setpoint
     }
 
-    /// Fly somewhere else; what it has learnt of the wind it keeps.
+    /// Sets another setpoint; keeps the integrals, which hold the effect of the wind.
     pub fn fly_to(&mut self, setpoint: Setpoint) {
         self.setpoint = setpoint;
     }
 
-    /// The commands for now; to be called once per controller period.
+    /// The present commands. Call it once per controller period.
     pub fn command(&mut self, state: &BodyState) -> Command {
         let (gains, wanted) = (self.gains, self.setpoint);
         let omega = gains.position_rad_s;

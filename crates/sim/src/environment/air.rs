@@ -8,7 +8,7 @@ const DRY_J_KG_K: f64 = 287.05;
 const VAPOUR_J_KG_K: f64 = 461.5;
 const ZERO_CELSIUS_K: f64 = 273.15;
 
-/// The air as a weather station has it.
+/// The air, as a weather station reports it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Air {
     /// Temperature.
@@ -57,10 +57,10 @@ mod tests {
             Air { temperature_c, pressure_hpa, humidity_percent }.density_kg_m3()
         };
         assert!((Air::STANDARD.density_kg_m3() - 1.225).abs() < 5e-5);
-        // Dry air at 20 °C and 0 °C of any table, and moist air lighter than dry.
+        // Dry air at 20 °C and 0 °C from tables; moist air is lighter than dry air.
         assert!((density(20.0, 1013.25, 0.0) - 1.2041).abs() < 1e-4);
         assert!((density(0.0, 1013.25, 0.0) - 1.2922).abs() < 2e-4);
-        // Vitória, 25 °C, 75 %, as in PHYSICS section 3.
+        // Vitória: 25 °C, relative humidity 75 %.
         assert!((density(25.0, 1013.25, 75.0) - 1.173).abs() < 2e-3);
         assert!(density(25.0, 1013.25, 100.0) < density(25.0, 1013.25, 0.0));
     }

@@ -1,12 +1,12 @@
-//! The battery giving way under load.
+//! The battery: its voltage falls under load and with the charge used.
 
 use hovertone_vehicle::BatteryParameters;
 
 /// Coulombs in an ampere hour.
 const A_H: f64 = 3600.0;
 
-/// Open-circuit voltage falling along a straight line with the charge used, behind one resistance. The controllers chop
-/// the battery without loss: at a duty d the motor has d V and the battery gives d times the motor's current.
+/// The open-circuit voltage falls linearly with the charge used; one resistance is in series. The controllers chop the
+/// battery's voltage without loss: at a duty d the motor gets d V and the battery gives d times the motor's current.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Battery {
     nominal_v: f64,
@@ -45,15 +45,15 @@ impl Battery {
         (back / load).max(0.0)
     }
 
-    /// What a controller that counts on the nominal voltage has to ask for, so that the full battery gives `volts`
-    /// while it is loaded with `load_w`: V² - E V + R P = 0.
+    /// The demand, from a controller that assumes the nominal voltage, with which the full battery gives `volts` under a
+    /// load of `load_w`: V² - E V + R P = 0.
     pub(crate) fn demand_v(&self, volts: f64, load_w: f64) -> f64 {
         let open_v = self.full_v;
         let under_load_v = 0.5 * (open_v + (open_v * open_v - 4.0 * self.resistance_ohm * load_w).max(0.0).sqrt());
         volts * self.nominal_v / under_load_v
     }
 
-    /// Share of the nominal voltage that a demand in volts means, 0 to 1: the controllers do not know the sag.
+    /// Duty for a demand in volts, 0 to 1: the demand over the nominal voltage, since the controllers do not know the sag.
     pub(crate) fn duty(&self, demand_v: f64) -> f64 {
         demand_v / self.nominal_v
     }

@@ -1,4 +1,4 @@
-//! What the flight meets: air, wind and the battery's state. All of it is beyond the paper and off unless it is set.
+//! Air, wind and the battery's state. All of it goes beyond the paper and is off by default.
 
 mod air;
 mod battery;

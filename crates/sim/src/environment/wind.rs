@@ -15,8 +15,8 @@ const FEET_PER_M: f64 = 1.0 / 0.3048;
 /// u: σ √(2 T) / (1 + T s)      v, w: σ √T (1 + √3 T s) / (1 + T s)²      T = L/V, white noise of unit density in
 /// ```
 ///
-/// The model freezes the turbulence and flies through it; in hover it is the wind that carries it past, so V is the
-/// wind's speed, or one assumed in still air.
+/// The model is a frozen field of turbulence through which the vehicle flies. In hover the wind carries the field past the
+/// vehicle, so V is the speed of the wind, or an assumed speed in still air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gusts {
     /// σ of u, v, w, m/s.
@@ -88,7 +88,7 @@ impl Wind {
         self.steady_m_s + along * u.value() + across * v.value() + Vector3::z() * w.value()
     }
 
-    /// One step on.
+    /// Goes on by one step.
     pub fn step(&mut self) {
         if let Some((_, filters)) = &mut self.gusts {
             filters.iter_mut().for_each(GustFilter::step);

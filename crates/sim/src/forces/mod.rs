@@ -6,7 +6,7 @@
 use hovertone_vehicle::{FlightParameters, Layout};
 use nalgebra::Vector3;
 
-/// Where a rotor stands on the body, and how it turns.
+/// Position and sense of rotation of a rotor on the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hub {
     /// From the centre of mass, body axes, m.
@@ -55,8 +55,8 @@ pub fn rotor_wrench(hubs: &[Hub; 4], thrust_n: &[f64; 4], load_torque_n_m: &[f64
     Wrench { force_n: Vector3::new(0.0, 0.0, force), torque_n_m: torque }
 }
 
-/// What the turning rotors do to the body: -Ω × h - dh/dt, with h = Σ spin · momentum · ω along z. Together with the
-/// body's own momentum, h is conserved when nothing acts from outside.
+/// Gyroscopic torque of the rotors on the body: -Ω × h - dh/dt, with h = Σ spin · momentum · ω along z. The sum of h and
+/// the body's own angular momentum is conserved when no torque acts from outside.
 pub fn gyroscopic_torque_n_m(
     hubs: &[Hub; 4],
     rates_rad_s: &Vector3<f64>,
@@ -92,7 +92,7 @@ mod tests {
     }
 
     /// The authors' matrix for the X layout, rows k1 [1 1 -1 -1], k1 [-1 1 1 -1], k2 [1 -1 1 -1], with the lever k1/√2
-    /// that their remark 2 asks for.
+    /// of their remark 2.
     #[test]
     fn one_rotor_at_a_time_gives_the_authors_columns() {
         let hubs = ardrone(Layout::X);

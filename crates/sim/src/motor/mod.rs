@@ -1,14 +1,14 @@
 //! Second subsystem, eq 2: from voltage to rotor speed.
 //!
-//! A DC motor (the paper's model of the brushless one) drives a rotor through a gear of ratio r, ω_m = r ω. Of the
-//! rotor's speed, with k = k_m = k_b as SI has it and the load τ_l = C_τ ω² (eq 4) at the rotor:
+//! A DC motor (the paper's model of the brushless one) drives a rotor through a gear of ratio r, ω_m = r ω. For the
+//! rotor's speed, with k = k_m = k_b (in SI units) and the load τ_l = C_τ ω² (eq 4) at the rotor:
 //!
 //! ```text
 //! c ω' + a ω + b ω² = g v,   a = r (R B/k + k),   b = R C_τ/(r k),   c = r R J/k
 //! ```
 //!
-//! which is a Riccati equation of constant coefficients, solved exactly in [`Motor::speed_after`]. g is 1, or a
-//! motor's own gain when they are spread. The rotor's speed is taken against the body, whose own rates are left out.
+//! a Riccati equation with constant coefficients; [`Motor::speed_after`] solves it exactly. g is 1, or a motor's own gain
+//! when motors differ. The rotor's speed is relative to the body; the rates of the body are neglected.
 
 use hovertone_vehicle::MotorParameters;
 
@@ -28,7 +28,7 @@ pub struct Motor {
     resistance_ohm: f64,
 }
 
-/// A linear first-order response: how a small step of the voltage ends up, and how fast.
+/// A linear first-order response to a small step of the voltage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FirstOrder {
     /// Time to 63 % of the step.
@@ -38,7 +38,7 @@ pub struct FirstOrder {
 }
 
 impl Motor {
-    /// The motor with a rotor of that C_τ in N m s², and a gain g.
+    /// The motor with a rotor of this C_τ in N m s², and a gain g.
     pub fn new(parameters: &MotorParameters, torque_constant_n_m_s2: f64, gain: f64) -> Self {
         let (r, k) = (parameters.gear_ratio.value, parameters.constant_v_s_rad.value);
         let resistance_ohm = parameters.resistance_ohm.value;
@@ -63,21 +63,22 @@ impl Motor {
         (self.linear_v_s_rad + self.load_v_s2_rad2 * speed_rad_s) * speed_rad_s / self.gain
     }
 
-    /// The speed that a voltage ends up at.
+    /// The final speed at a constant voltage.
     pub fn steady_speed_rad_s(&self, voltage_v: f64) -> f64 {
         let volts = self.gain * voltage_v;
         2.0 * volts / (self.linear_v_s_rad + self.discriminant_v_s_rad(volts))
     }
 
-    /// Exact solution of eq 2 at constant voltage: the speed `time_s` after it was `start_rad_s`.
+    /// Exact solution of eq 2 at constant voltage: the speed `time_s` after the speed was `start_rad_s`.
     ///
-    /// With ω₊ and ω₋ the roots of b ω² + a ω = g v and D = √(a² + 4 b g v), (ω - ω₊)/(ω - ω₋) falls as exp(-D t/c):
-    /// the tanh of the Riccati equation when it starts below the end, its coth above, and the exponential for b = 0.
+    /// With ω₊ and ω₋ the roots of b ω² + a ω = g v and D = √(a² + 4 b g v), (ω - ω₊)/(ω - ω₋) falls as exp(-D t/c). This is
+    /// the tanh solution of the Riccati equation for a start below the final speed, the coth solution above it, and the
+    /// exponential for b = 0.
     pub fn speed_after(&self, start_rad_s: f64, voltage_v: f64, time_s: f64) -> f64 {
         let d = self.discriminant_v_s_rad(self.gain * voltage_v);
         let end_rad_s = self.steady_speed_rad_s(voltage_v);
         let fall = (-d * time_s / self.inertia_v_s2_rad).exp();
-        // ω₋ = -(a + D)/2b is written with b in the numerator, so that b = 0 needs no case of its own.
+        // ω₋ = -(a + D)/2b is written with b in the numerator, so that b = 0 is no special case.
         let other = 0.5 * (self.linear_v_s_rad + d);
         let share = (start_rad_s - end_rad_s) / (self.load_v_s2_rad2 * start_rad_s + other) * fall;
         (end_rad_s + other * share) / (1.0 - self.load_v_s2_rad2 * share)

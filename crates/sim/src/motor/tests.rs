@@ -46,7 +46,7 @@ fn steps_at_one_millisecond_follow_the_riccati_solution() {
     assert!(worst_closed < 1e-11, "closed form off by {worst_closed}");
 }
 
-/// Below 0.3 % of the speed, the square of the step is all that the linear form leaves out: b Δω²/(a + 2 b ω) at most.
+/// For steps below 0.3 % of the speed, the linear form neglects only the square of the step: b Δω²/(a + 2 b ω) at most.
 #[test]
 fn small_steps_follow_the_linearised_form() {
     let motor = ardrone();

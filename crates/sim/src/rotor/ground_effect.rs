@@ -1,11 +1,11 @@
-//! More thrust near the ground.
+//! Ground effect: more thrust near the ground.
 
-/// Below this height in radii the formula is held at its value there: it grows without bound at a quarter.
+/// Below this height in radii the factor keeps its value at this height: the formula grows without bound towards a quarter.
 const LOWEST_RADII: f64 = 0.5;
 
 /// Thrust near the ground over thrust far from it at the same speed, 1/(1 - (R/4z)²), for a disc of `radius_m` at
 /// `height_m` above flat ground; Cheeseman and Bennett 1955, for an isolated rotor in hover. Rotors that stand close
-/// have more than that; the load torque is left as it is. Held at 1.33 below half a radius.
+/// together have a larger effect. The load torque does not change. Below half a radius the factor stays at 1.33.
 pub fn ground_effect(radius_m: f64, height_m: f64) -> f64 {
     let share = radius_m / (4.0 * height_m.max(LOWEST_RADII * radius_m));
     1.0 / (1.0 - share * share)

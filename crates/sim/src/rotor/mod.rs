@@ -4,7 +4,7 @@ mod ground_effect;
 
 pub use ground_effect::ground_effect;
 
-/// One rotor in the air it is in.
+/// One rotor in the present air.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rotor {
     /// C_f, N s²: the vehicle's, times the rotor's own share and the density's.
@@ -45,7 +45,7 @@ mod tests {
         for load in &crate::paper::LOADS {
             let weight_n = load.mass_kg * crate::paper::GRAVITY_M_S2;
             let ratio = 4.0 * rotor.thrust_n(load.speed().rad_s()) / weight_n;
-            // Thrust goes with the square: 0.2 % of the speed is 0.4 % of it.
+            // Thrust is proportional to the square of the speed: 0.2 % of the speed is 0.4 % of the thrust.
             assert!((ratio - 1.0).abs() < 0.004, "{}: {ratio}", load.name);
         }
         assert!((rotor.load_torque_n_m(378.07) - 0.030_46).abs() < 1e-5);

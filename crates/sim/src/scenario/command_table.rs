@@ -3,7 +3,7 @@
 use super::ScenarioError;
 use super::maneuver::Axis;
 
-/// Commands over time; a row holds until the next.
+/// Commands over time; each row holds until the next row.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct CommandTable {
     times_s: Vec<f64>,
@@ -12,7 +12,7 @@ pub(crate) struct CommandTable {
 }
 
 impl CommandTable {
-    /// Reads a table. Blank lines and lines that begin with `#` are skipped.
+    /// Reads a table. Skips blank lines and lines that begin with `#`.
     pub(crate) fn parse(file: &str, text: &str) -> Result<Self, ScenarioError> {
         let fault = |line: usize, what: String| ScenarioError::CommandTable { file: file.to_owned(), line, what };
         let is_content = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
@@ -65,7 +65,7 @@ impl CommandTable {
         self.times_s.last().copied().unwrap_or(0.0)
     }
 
-    /// The commands at a time from the start of the table; before its first row, the pilot's.
+    /// The commands at a time from the start of the table; before its first row, no commands (the pilot flies).
     pub(crate) fn at(&self, time_s: f64) -> [Option<f64>; 4] {
         let after = self.times_s.partition_point(|row_s| *row_s <= time_s);
         after.checked_sub(1).map_or([None; 4], |row| self.rows[row])

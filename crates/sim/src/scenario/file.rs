@@ -1,7 +1,7 @@
-//! The scenario file as it is written. Data only: what it means is [`ScenarioFile::resolve`]'s.
+//! The scenario file as written. Data only; [`ScenarioFile::resolve`] interprets it.
 //!
-//! Every key may be left out; the defaults are the paper's flight in a free field. A section that is there switches on
-//! what it describes. Unknown keys are refused.
+//! Every key is optional; the defaults are the paper's flight in a free field. The presence of a section switches its
+//! effect on. Unknown keys are refused.
 
 use super::maneuver::Maneuver;
 use super::sections::{
@@ -10,50 +10,50 @@ use super::sections::{
 };
 use serde::{Deserialize, Serialize};
 
-/// A flight, and what hears it.
+/// A flight and its microphones.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ScenarioFile {
-    /// Length of the flight. Absent: that of the maneuvers, or 10 s of hover. Longer than the maneuvers: it hovers on.
-    /// Shorter: it is cut.
+    /// Length of the flight. Absent: the length of the maneuvers, or 10 s of hover without maneuvers. Longer than the
+    /// maneuvers: the vehicle hovers after them. Shorter: the maneuvers are cut.
     pub duration_s: Option<f64>,
-    /// Everything random comes from here: gusts, jitter, drawn spread, levels and phases of lines, noise.
+    /// All random numbers come from this seed: gusts, jitter, spread, levels and phases of lines, noise.
     pub seed: u64,
     /// Rows of `truth.csv` per second; a whole number of steps must lie between two.
     pub truth_rate_hz: f64,
-    /// What flies.
+    /// The vehicle.
     pub vehicle: VehicleSection,
-    /// Masses on it.
+    /// Masses on the vehicle.
     #[serde(rename = "payload")]
     pub payloads: Vec<PayloadSection>,
-    /// How the flight is computed, how it begins, and which effects are on.
+    /// Computation, beginning and effects of the flight.
     pub flight: FlightSection,
-    /// Who flies it.
+    /// The pilot.
     pub pilot: PilotSection,
-    /// What it flies, one after the other.
+    /// The maneuvers, one after the other.
     #[serde(rename = "maneuver")]
     pub maneuvers: Vec<Maneuver>,
-    /// How rotors and motors differ; alike where absent.
+    /// Differences among rotors and motors; all alike if absent.
     pub spread: Option<SpreadSection>,
-    /// Unsteadiness of each motor for itself; none where absent.
+    /// Unsteadiness of each motor, independent for each; none if absent.
     pub motor_wander: Option<MotorWanderSection>,
-    /// The air; where absent, the one in which the vehicle's constants were found, and 20 °C for the speed of sound.
+    /// The air; if absent, the air in which the vehicle's constants were measured, and 20 °C for the speed of sound.
     pub air: Option<AirSection>,
-    /// Steady wind; none where absent.
+    /// Steady wind; none if absent.
     pub wind: Option<WindSection>,
-    /// Dryden gusts; none where absent.
+    /// Dryden gusts; none if absent.
     pub gusts: Option<GustSection>,
     /// Format of the recording and strength of the sources.
     pub sound: SoundSection,
-    /// A room, for the reflections; where absent, `ground` or a free field.
+    /// A room, for the reflections; if absent, `ground` or a free field.
     pub room: Option<RoomSection>,
-    /// A level ground that reflects; not beside a room.
+    /// A level ground that reflects; not together with a room.
     pub ground: Option<GroundSection>,
-    /// Noise of the place; none where absent.
+    /// Noise of the place; none if absent.
     pub ambient: Option<AmbientSection>,
-    /// People talking outside; none where absent.
+    /// People talking outside; none if absent.
     pub people: Option<PeopleSection>,
-    /// The microphones, one channel each; where there is none, one 2 m up by the wall, as in the paper's figure 1.
+    /// The microphones, one channel each; if absent, one microphone 2 m above the floor by the wall, as in the paper's figure 1.
     #[serde(rename = "microphone")]
     pub microphones: Vec<MicrophoneSection>,
 }
@@ -85,7 +85,7 @@ impl Default for ScenarioFile {
 }
 
 impl ScenarioFile {
-    /// The names of the command tables that [`resolve`](Self::resolve) needs the text of, as they are written.
+    /// Names, as written, of the command tables whose text [`resolve`](Self::resolve) needs.
     pub fn command_files(&self) -> impl Iterator<Item = &str> {
         self.maneuvers.iter().filter_map(|maneuver| match maneuver {
             Maneuver::Csv { file, .. } => Some(file.as_str()),
@@ -94,19 +94,19 @@ impl ScenarioFile {
     }
 }
 
-/// How the flight is computed and how it begins.
+/// Computation, beginning and effects of the flight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct FlightSection {
     /// Gravity.
     pub gravity_m_s2: f64,
-    /// Step of the integration, and of the states that the sound is made of.
+    /// Step of the integration and of the states for the sound.
     pub step_s: f64,
-    /// Where it hovers first, of the centre of mass; on the ground, x and y count.
+    /// First position of the centre of mass; on the ground only x and y count.
     pub start_position_m: [f64; 3],
-    /// Where the nose points first, from the world's x to the left.
+    /// First heading of the nose, from the world's x to the left.
     pub start_yaw_deg: f64,
-    /// Whether it stands on the ground with its motors off first; else it hovers, trimmed.
+    /// Whether the flight begins on the ground with motors off; otherwise it begins in trimmed hover.
     pub starts_on_ground: bool,
     /// Whether the battery's voltage falls with charge and current.
     pub battery_sag: bool,
@@ -128,14 +128,14 @@ impl Default for FlightSection {
     }
 }
 
-/// Who flies.
+/// The pilot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PilotSection {
-    /// Whether the pilot holds place, height and heading; else the commands are those of the maneuvers alone, over a
-    /// hover with hands off.
+    /// Whether the pilot holds place, height and heading. Otherwise the commands come from the maneuvers alone, and no
+    /// command means the embedded controller's hover.
     pub holds_place: bool,
-    /// Unsteadiness on top of all commands.
+    /// Unsteadiness that is added to all commands.
     pub jitter: Option<JitterSection>,
 }
 

@@ -1,12 +1,12 @@
-//! What is flown, one maneuver after the other.
+//! The maneuvers of a flight.
 
 use serde::{Deserialize, Serialize};
 
-/// A piece of the flight. While one axis is driven by a maneuver, the pilot keeps flying the others.
+/// A part of the flight. While a maneuver drives one axis, the pilot flies the others.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Maneuver {
-    /// Stay where it is. The truth's means are over these.
+    /// Stays at its place. The truth's means are over these parts.
     Hover {
         /// How long.
         duration_s: f64,
@@ -42,7 +42,7 @@ pub enum Maneuver {
         /// How long.
         duration_s: f64,
     },
-    /// Around a square, back to where it was: ahead, left, back, right, the nose where it was.
+    /// Around a square and back to the start: ahead, left, back, right, with constant heading.
     Square {
         /// Length of a side.
         side_m: f64,
@@ -53,15 +53,15 @@ pub enum Maneuver {
     FlyTo {
         /// Where.
         position_m: [f64; 3],
-        /// Where the nose points then; as before where absent.
+        /// Heading there; as before if absent.
         #[serde(default)]
         yaw_deg: Option<f64>,
         /// How long.
         duration_s: f64,
     },
-    /// Motors on, and up.
+    /// Motors on, then up.
     TakeOff {
-        /// How high, of the centre of mass.
+        /// Height of the centre of mass at the end.
         height_m: f64,
         /// How long.
         duration_s: f64,
@@ -72,11 +72,11 @@ pub enum Maneuver {
         duration_s: f64,
     },
     /// Commands from a table: CSV with a column `time_s`, counted from the maneuver's start, and one or more of `roll`,
-    /// `pitch`, `yaw_rate`, `climb`, of ±1. A row holds until the next. The pilot flies the axes that have no column.
+    /// `pitch`, `yaw_rate`, `climb`, of ±1. Each row holds until the next row. The pilot flies the axes without a column.
     Csv {
-        /// Where the table is.
+        /// Path of the table.
         file: String,
-        /// How long; to the last row where absent.
+        /// How long; to the last row if absent.
         #[serde(default)]
         duration_s: Option<f64>,
     },

@@ -1,4 +1,4 @@
-//! Scenarios: a flight and what hears it, from a file, and the run of it.
+//! Scenarios: a flight and its microphones, described in a file, and the run of it.
 //!
 //! ```text
 //! ScenarioFile (serde) ── resolve ──▶ Scenario ──▶ ScenarioRun ──▶ samples, one channel per microphone
@@ -6,7 +6,7 @@
 //!        └── handed in by the caller     └─ schedule  └──────────────▶ ScenarioTruth: exact means over the hovers
 //! ```
 //!
-//! Data and its meaning only: reading and writing files is the caller's. Nothing is stored, whatever the length.
+//! The caller reads and writes files. Memory does not grow with the length of the flight.
 
 mod command_table;
 mod file;
@@ -39,14 +39,14 @@ use crate::flight_settings::FlightSettings;
 use crate::sound::SoundSettings;
 use hovertone_vehicle::QuantityError;
 
-/// A scenario, settled.
+/// A resolved scenario.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
     /// The flight model's settings.
     pub flight: FlightSettings,
     /// The sound's settings.
     pub sound: SoundSettings,
-    /// What is flown.
+    /// The maneuvers in time.
     pub schedule: Schedule,
     /// Whether a pilot holds the place.
     pub holds_place: bool,
@@ -56,7 +56,7 @@ pub struct Scenario {
     pub step_count: u64,
     /// Steps between two rows of the truth.
     pub steps_per_row: u64,
-    /// How samples are stored.
+    /// Format of the samples in a file.
     pub sample_format: SampleFormat,
 }
 
@@ -67,17 +67,17 @@ impl Scenario {
     }
 }
 
-/// What is wrong with a scenario.
+/// A fault of a scenario.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScenarioError {
     /// A preset that does not exist or has no flight parameters.
     #[error("there is no vehicle preset {name:?} with flight parameters")]
     UnknownPreset {
-        /// What was asked for.
+        /// The name in the file.
         name: String,
     },
-    /// Something that cannot be guessed.
+    /// A missing value without a default.
     #[error("{what} is missing: {hint}")]
     Missing {
         /// What.
@@ -85,17 +85,17 @@ pub enum ScenarioError {
         /// Where to write it.
         hint: &'static str,
     },
-    /// A number that means nothing.
+    /// A number out of its range.
     #[error("{name} = {value}, {must_be}")]
     OutOfRange {
         /// Which number.
         name: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
-        /// What is allowed.
+        /// The allowed values.
         must_be: &'static str,
     },
-    /// Things that exclude each other.
+    /// Settings that exclude each other.
     #[error("{what}: {hint}")]
     Contradiction {
         /// What.

@@ -6,33 +6,33 @@ use super::sections::{AmbientSection, GustSection, JitterSection, PayloadSection
 use crate::paper::{GRAVITY_M_S2, LOADS, PaperLoad, TRIAL_S};
 use crate::seed::{Part, mixed};
 
-/// Unsteadiness of the embedded controller's vertical speed, of the 1 m/s that a command of 1 means.
+/// Standard deviation of the error of the embedded controller's vertical speed; a command of 1 means 1 m/s.
 ///
-/// The paper's STD of 44 to 48 rpm, 1.23 to 1.29 % of the speed, needs a cause; a drone that bobs is the plainest. 1.25 % of
-/// speed is 2.5 % of thrust, 0.25 m/s² up and down, and with a time constant of 0.3 s (assumed) 7.9 cm/s and
-/// about 2 cm: what an ultrasonic altimeter makes of its centimetres. The cause is assumed, its size is from the paper's
-/// STD alone, not from what the estimator makes of it.
+/// The paper's STD of 44 to 48 rpm, 1.23 to 1.29 % of the speed, needs a cause; the simplest is a drone that moves up and
+/// down. 1.25 % of speed is 2.5 % of thrust and 0.25 m/s² of acceleration; with a time constant of 0.3 s (assumed) this is
+/// 7.9 cm/s and about 2 cm, a plausible error of an ultrasonic altimeter. The cause is assumed; its size comes from the
+/// paper's STD alone, not from results of the estimator.
 const CLIMB_JITTER_STD: f64 = 0.079;
-/// A thumb's on the others: 0.75 degrees of tilt, 5 degrees a second of turn.
+/// The same for the other commands, from an unsteady thumb: 0.75 degrees of tilt, 5 degrees per second of turn.
 const THUMB_JITTER_STD: f64 = 0.05;
 const JITTER_TIME_CONSTANT_S: f64 = 0.3;
-/// The rotors' own wash on its way back through the room: a few per cent of its some 5 m/s, in eddies of the size of the
-/// vehicle and more (assumed).
+/// The rotors' own wash, which returns through the room: a few per cent of its 5 m/s, in eddies of at least the size of the
+/// vehicle (assumed).
 const WASH_STD_M_S: f64 = 0.1;
 const WASH_LENGTH_M: f64 = 1.0;
 const WASH_SPEED_M_S: f64 = 1.0;
-/// A hull hangs about the rotors' plane, a little below the centre of mass.
+/// A hull has its centre near the rotors' plane, a little below the centre of mass.
 const HULL_POSITION_M: [f64; 3] = [0.0, 0.0, -0.01];
 
 impl ScenarioFile {
     /// An AR.Drone hovers with a load for ten seconds 1 m above the floor of figure 1's room, with people talking
-    /// outside and the microphone 2 m up. All rotors and motors are alike, so that the paper's one speed per load is the
-    /// speed of all.
+    /// outside and the microphone 2 m up. All rotors and motors are alike, so that all have the paper's one speed
+    /// per load.
     pub fn paper_trial(load: &PaperLoad, trial: u32, seed: u64) -> Self {
         let vehicle_kg = LOADS[0].mass_kg;
         let hull_kg = load.mass_kg - vehicle_kg;
         let hull = PayloadSection { mass_kg: hull_kg, position_m: HULL_POSITION_M };
-        // A load is told from the others by its mass: a trial stays the same when loads are added or reordered.
+        // The seed depends on the mass of the load: a trial stays the same when loads are added or reordered.
         let load_seed = mixed(seed, Part::Trial, load.mass_kg.to_bits());
         let jitter = JitterSection {
             roll_std: THUMB_JITTER_STD,

@@ -1,4 +1,4 @@
-//! Hovers drawn at random, for examining an estimator on more than one.
+//! Random hovers, for exams of an estimator on many of them.
 
 use super::file::{FlightSection, PilotSection, ScenarioFile};
 use super::maneuver::Maneuver;
@@ -12,11 +12,11 @@ use rand::RngExt;
 use rand_pcg::Pcg64;
 
 impl ScenarioFile {
-    /// A hover of that length, everything else drawn from the seed; all draws are uniform:
+    /// A hover of this length with everything else drawn from the seed. All distributions are uniform:
     ///
-    /// - one of the vehicles that can fly, with up to 15 % of its mass as a payload hung 2 cm below its centre;
-    /// - each rotor's C_f and each motor's gain up to `spread_share` off; with equal lift that makes the speeds differ by
-    ///   up to the same share from slowest to fastest;
+    /// - one of the vehicles with flight parameters, with a payload of up to 15 % of its mass 2 cm below its centre;
+    /// - each rotor's C_f and each motor's gain up to `spread_share` off; with equal lift the speeds differ by up to the
+    ///   same share from slowest to fastest;
     /// - gravity from 9.78 to 9.83 m/s², vertical rate unsteady by 1 to 4 cm/s, the other commands by up to 0.05, gusts
     ///   of 5 to 20 cm/s;
     /// - half of the time in the laboratory with people talking, else on open ground; a microphone 1 to 3.5 m away and
@@ -42,12 +42,12 @@ impl ScenarioFile {
             time_constant_s: uniform(random, 0.1, 0.5),
         };
         let (distance_m, angle) = (uniform(random, 1.0, 3.5), uniform(random, 0.0, std::f64::consts::TAU));
-        // the room is 6 m wide: what would stand in the wall stands before it
+        // the room is 6 m wide: a position behind the wall moves before it
         let position_m =
             [distance_m * angle.cos(), (distance_m * angle.sin()).clamp(-2.8, 2.8), uniform(random, 0.5, 2.5)];
         let is_indoors = uniform(random, 0.0, 1.0) < 0.5;
         Self {
-            // the draw's own numbers and the scenario's come from different streams
+            // the draws above and the scenario use different streams
             seed: mixed(seed, Part::Scenario, 1) >> 1,
             vehicle: VehicleSection { preset: vehicle.id.to_owned(), ..VehicleSection::default() },
             payloads: vec![payload],
@@ -81,7 +81,7 @@ impl ScenarioFile {
         }
     }
 
-    /// Mass of the vehicle with its payloads; none where the preset cannot fly.
+    /// Mass of the vehicle with its payloads; none if the preset has no flight parameters.
     pub fn mass_kg(&self) -> Option<f64> {
         let preset = hovertone_vehicle::find_flight_parameters(&self.vehicle.preset)?;
         let own_kg = self.vehicle.mass_kg.unwrap_or(preset.mass_kg.value);

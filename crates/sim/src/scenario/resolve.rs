@@ -1,4 +1,4 @@
-//! What a scenario file means: settings of the flight, of the sound, and a schedule.
+//! From a scenario file to the settings of the flight, of the sound, and a schedule.
 
 use super::file::ScenarioFile;
 use super::maneuver::Maneuver;
@@ -15,20 +15,20 @@ use crate::sound::{
 use hovertone_vehicle::{FlightParameters, RotorSpeed, Sourced, find_flight_parameters, find_preset};
 use std::collections::BTreeMap;
 
-/// Where a number of the file comes from.
+/// Source of a number from the file.
 const SOURCE: &str = "the scenario file";
-/// A WAV file counts its bytes in 32 bits; what is not samples is far below a kilobyte.
+/// A WAV file counts its bytes in 32 bits; its header is far below a kilobyte.
 const SOUND_BYTES_MAX: f64 = 4_294_966_272.0;
-/// Longer flights are not what this is for: a day.
+/// Longest flight: a day.
 const DURATION_S_MAX: f64 = 86_400.0;
 
 impl ScenarioFile {
-    /// Settles everything. `tables` has the text of every file of [`command_files`](Self::command_files), by the name as
-    /// it is written.
+    /// Resolves the file. `tables` has the text of every file of [`command_files`](Self::command_files), by its name as
+    /// written.
     ///
     /// # Errors
-    /// On a preset that cannot fly, a table with a fault, maneuvers that cannot follow each other, and numbers out of
-    /// bounds; those of the flight and of the sound are found when they are put together
+    /// On a preset without flight parameters, a faulty table, maneuvers that cannot follow each other, and numbers out of
+    /// bounds. Numbers of the flight and of the sound are checked later
     /// ([`ScenarioRun::new`](super::ScenarioRun::new)).
     pub fn resolve(&self, tables: &BTreeMap<String, String>) -> Result<Scenario, ScenarioError> {
         let vehicle = vehicle_of(&self.vehicle)?;
@@ -214,7 +214,7 @@ impl ScenarioFile {
     }
 }
 
-/// Speed of the vehicle's own hover without payload: that at which the levels of its sound hold.
+/// Speed of the vehicle's hover without payload, the reference speed of the levels of its sound.
 fn bare_hover_speed(flight: &FlightSettings) -> RotorSpeed {
     let (mass_kg, constant) = (flight.vehicle.mass_kg.value, flight.vehicle.rotor.thrust_constant_n_s2.value);
     RotorSpeed::from_rad_s((mass_kg * flight.gravity_m_s2 / (4.0 * constant)).sqrt())
@@ -277,8 +277,8 @@ fn microphone_of(section: &MicrophoneSection) -> MicrophoneSettings {
 }
 
 impl SampleFormat {
-    /// A sample of ±1 as a whole number of that many bits. Samples of a sound of this format are such numbers already,
-    /// over 2^(bits-1); what rounding is left is that of the product.
+    /// A sample of ±1 as a whole number of this format. Samples of a sound of this format are already such numbers over
+    /// 2^(bits-1), so only the product is rounded.
     pub fn whole_number(bits: u32, sample: f32) -> i32 {
         let steps = 2_f64.powi(bits.clamp(2, 24) as i32 - 1);
         (f64::from(sample) * steps).round().clamp(-steps, steps - 1.0) as i32

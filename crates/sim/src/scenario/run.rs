@@ -1,4 +1,4 @@
-//! A scenario as it runs: commands, flight and sound step by step.
+//! The run of a scenario: commands, flight and sound, step by step.
 
 use super::jitter::Jitter;
 use super::truth::{Means, ScenarioTruth, SpanTruth};
@@ -8,7 +8,7 @@ use crate::flight::{Flight, FlightState};
 use crate::flight_settings::Start;
 use crate::sound::{FlightSound, RotorState, SoundState};
 
-/// A run, in a fixed amount of memory but for one entry per hover.
+/// A run. Its memory grows only by one entry per hover.
 ///
 /// ```
 /// use hovertone_sim::scenario::{ScenarioFile, ScenarioRun};
@@ -31,9 +31,9 @@ pub struct ScenarioRun {
     pilot: Pilot,
     jitter: Option<Jitter>,
     command: Command,
-    /// None where nobody listens.
+    /// None for a silent run.
     sound: Option<FlightSound>,
-    /// Steps flown; none before the first state was given out.
+    /// Steps flown; none before the first state.
     steps: Option<u64>,
     state: FlightState,
     was_hover: bool,
@@ -44,14 +44,13 @@ pub struct ScenarioRun {
 }
 
 impl ScenarioRun {
-    /// Puts vehicle and sound together. Fails on a number that is out of bounds, naming it, and when the vehicle cannot
-    /// hover.
+    /// Builds vehicle and sound. Fails on a number out of bounds, naming it, and if the vehicle cannot hover.
     pub fn new(scenario: Scenario) -> Result<Self, ScenarioError> {
         let sound = FlightSound::new(scenario.sound.clone())?;
         Ok(Self { sound: Some(sound), ..Self::silent(scenario)? })
     }
 
-    /// The same flight with nobody to hear it: no samples come out, and it takes a hundredth of the time.
+    /// The same flight without sound: no samples, in a hundredth of the time.
     pub fn silent(scenario: Scenario) -> Result<Self, ScenarioError> {
         let mut flight = Flight::new(scenario.flight.clone())?;
         let first = scenario.schedule.at(0.0);
@@ -60,7 +59,7 @@ impl ScenarioRun {
         let period_s = scenario.flight.vehicle.controller.period_s.value;
         let jitter = scenario.jitter.map(|jitter| Jitter::new(&jitter, period_s, scenario.flight.seed));
         if let (Some(jitter), Start::Hover(_)) = (&jitter, scenario.flight.start) {
-            // as if it had hovered before: a controller that is suddenly asked for another climb than it has would kick all rotors
+            // begin with the commanded climb, as after a longer hover: a sudden change of command would kick all rotors
             let mut body = flight.body();
             body.velocity_m_s.z +=
                 jitter.now().limited().climb * scenario.flight.vehicle.controller.climb_m_s_max.value;
@@ -84,26 +83,26 @@ impl ScenarioRun {
         })
     }
 
-    /// What is run.
+    /// The scenario.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
     }
 
-    /// How much of the flight is done, 0 to 1.
+    /// Progress of the flight, 0 to 1.
     pub fn share_done(&self) -> f64 {
         self.steps.unwrap_or(0) as f64 / self.scenario.step_count as f64
     }
 
-    /// Time of the newest state.
+    /// Time of the last state.
     pub fn time_s(&self) -> f64 {
         self.state.time_s
     }
 
-    /// One step on: appends the samples that are certain now to `channels`, one for each microphone, and to `rows` the
-    /// state if a row of the truth is due. `false`, and nothing done, at the end.
+    /// Goes on by one step. Appends the finished samples to `channels`, one for each microphone, and the state to `rows` if
+    /// a row of the truth is due. Returns `false` and does nothing at the end.
     ///
     /// # Errors
-    /// Where the sound cannot follow: out of the room, too far away.
+    /// If the vehicle leaves the room or flies too far away.
     pub fn advance(
         &mut self,
         channels: &mut Vec<Vec<f32>>,
@@ -127,7 +126,7 @@ impl ScenarioRun {
         Ok(true)
     }
 
-    /// The last samples, and the truth about what was flown so far.
+    /// Appends the last samples and returns the truth about the flight so far.
     pub fn finish(mut self, channels: &mut Vec<Vec<f32>>) -> ScenarioTruth {
         self.end_hover();
         if let Some(sound) = self.sound.take() {

@@ -1,4 +1,4 @@
-//! Maneuvers laid out in time: what is wanted at every instant.
+//! The maneuvers in time: setpoint and commands at every instant.
 
 use super::ScenarioError;
 use super::command_table::CommandTable;
@@ -6,15 +6,15 @@ use super::maneuver::{Axis, Maneuver};
 use crate::control::Setpoint;
 use std::collections::BTreeMap;
 
-/// Length of a flight without maneuvers, the paper's trial.
+/// Length of a flight without maneuvers: the paper's trial.
 const HOVER_S: f64 = 10.0;
 
-/// What is wanted at one instant.
+/// Setpoint and commands at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instruction {
-    /// Where the pilot is to be.
+    /// The pilot's setpoint.
     pub setpoint: Setpoint,
-    /// Commands that are not the pilot's: roll, pitch, yaw rate, climb.
+    /// Commands that replace the pilot's: roll, pitch, yaw rate, climb.
     pub driven: [Option<f64>; 4],
     /// Whether the motors run.
     pub motors_on: bool,
@@ -49,7 +49,7 @@ enum Drive {
 }
 
 impl Schedule {
-    /// Lays out the maneuvers from `start` on; `tables` has the text of every command file.
+    /// Places the maneuvers in time, beginning at `start`; `tables` has the text of every command file.
     pub(super) fn new(
         maneuvers: &[Maneuver],
         start: Setpoint,
@@ -65,12 +65,12 @@ impl Schedule {
         Ok(Self { legs, rest })
     }
 
-    /// End of the last maneuver; where there is none, a trial's length.
+    /// End of the last maneuver; the length of a trial without maneuvers.
     pub fn end_s(&self) -> f64 {
         self.legs.last().map_or(HOVER_S, |leg| leg.to_s)
     }
 
-    /// What is wanted at a time.
+    /// Setpoint and commands at a time.
     pub fn at(&self, time_s: f64) -> Instruction {
         let index = self.legs.partition_point(|leg| leg.to_s <= time_s);
         let Some(leg) = self.legs.get(index) else { return self.rest };
@@ -89,7 +89,7 @@ impl Schedule {
     }
 }
 
-/// The schedule as it grows.
+/// A schedule under construction.
 struct Layout {
     legs: Vec<Leg>,
     now_s: f64,

@@ -1,9 +1,9 @@
-//! The sections of a scenario file that describe things: vehicle, air, sound, place, microphones.
+//! Sections of a scenario file: vehicle, air, sound, place, microphones.
 
 use hovertone_vehicle::Layout;
 use serde::{Deserialize, Serialize};
 
-/// What flies: a preset, and the numbers of it that are otherwise.
+/// The vehicle: a preset, and the numbers that replace the preset's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct VehicleSection {
@@ -13,7 +13,7 @@ pub struct VehicleSection {
     pub mass_kg: Option<f64>,
     /// Ixx, Iyy, Izz about the centre of mass.
     pub inertia_kg_m2: Option<[f64; 3]>,
-    /// Where the rotors stand: "x" or "plus".
+    /// Layout of the rotors: "x" or "plus".
     pub layout: Option<LayoutName>,
     /// Centre to rotor shaft.
     pub arm_length_m: Option<f64>,
@@ -23,7 +23,7 @@ pub struct VehicleSection {
     pub thrust_constant_per_rotor_n_s2: Option<f64>,
     /// C_τ of one rotor.
     pub torque_constant_per_rotor_n_m_s2: Option<f64>,
-    /// Density of the air that both constants belong to.
+    /// Density of the air in which both constants were measured.
     pub air_density_kg_m3: Option<f64>,
     /// R of a motor.
     pub motor_resistance_ohm: Option<f64>,
@@ -31,7 +31,7 @@ pub struct VehicleSection {
     pub motor_constant_v_s_rad: Option<f64>,
     /// B_m of a motor.
     pub motor_viscous_n_m_s: Option<f64>,
-    /// J_m, all that turns, felt at the motor's shaft.
+    /// J_m: inertia of all turning parts at the motor's shaft.
     pub motor_inertia_kg_m2: Option<f64>,
     /// Voltage that limits the motors.
     pub battery_voltage_v: Option<f64>,
@@ -65,7 +65,7 @@ impl Default for VehicleSection {
     }
 }
 
-/// How a layout is written.
+/// Name of a layout in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LayoutName {
@@ -90,13 +90,13 @@ impl From<LayoutName> for Layout {
 pub struct PayloadSection {
     /// Its mass.
     pub mass_kg: f64,
-    /// Where, body axes from the vehicle's own centre of mass.
+    /// Its position, body axes from the centre of mass of the vehicle without payloads.
     #[serde(default)]
     pub position_m: [f64; 3],
 }
 
-/// Standard deviations of an unsteadiness on the four commands, of ±1: a thumb's, or what the embedded controller's own
-/// sensors make it believe. Smooth: critically damped, second order, so that a vertical rate of `std` m/s means
+/// Standard deviations of an unsteadiness on the four commands (±1), from the pilot's thumbs or from errors of the embedded
+/// controller's sensors. The process is smooth (critically damped, second order), so a vertical rate of `std` m/s means
 /// accelerations of `std / time_constant_s`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -109,7 +109,7 @@ pub struct JitterSection {
     pub yaw_rate_std: f64,
     /// On the vertical rate.
     pub climb_std: f64,
-    /// How long it lasts: its autocovariance goes with (1 + t/τ) e^(-t/τ).
+    /// Time constant τ of its autocovariance (1 + t/τ) e^(-t/τ).
     pub time_constant_s: f64,
 }
 
@@ -119,27 +119,27 @@ impl Default for JitterSection {
     }
 }
 
-/// How rotors and motors differ: said one by one, or drawn from the seed.
+/// Differences among rotors and motors: given one by one, or drawn from the seed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpreadSection {
-    /// C_f of each rotor over the vehicle's.
+    /// C_f of each rotor over the vehicle's C_f.
     pub thrust_shares: Option<[f64; 4]>,
-    /// Voltage that each motor feels over the one that it is given.
+    /// Gain of each motor: voltage felt over voltage given.
     pub motor_gains: Option<[f64; 4]>,
-    /// Standard deviation of C_f, where the shares are not said.
+    /// Standard deviation of C_f, if the shares are not given.
     pub thrust_std_share: f64,
-    /// Standard deviation of the motors' gains, where they are not said.
+    /// Standard deviation of the motors' gains, if they are not given.
     pub motor_gain_std_share: f64,
 }
 
-/// How each motor's gain wanders in flight, for itself.
+/// The random wander of each motor's gain in flight, independent for each motor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotorWanderSection {
-    /// Standard deviation of each gain over its mean. 0.3 % makes speeds wander by 0.2 %, as those of quadrotors do that hover in a room.
+    /// Standard deviation of each gain over its mean. With 0.3 % the speeds wander by 0.2 %, as for real quadrotors that hover in a room.
     pub gain_std_share: f64,
-    /// Its autocovariance goes with e^(-t/τ).
+    /// Time constant τ of its autocovariance e^(-t/τ).
     pub time_constant_s: f64,
 }
 
@@ -149,7 +149,7 @@ impl Default for MotorWanderSection {
     }
 }
 
-/// The air as a weather station has it.
+/// The air, as a weather station reports it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AirSection {
@@ -176,11 +176,11 @@ pub struct WindSection {
     pub velocity_m_s: [f64; 3],
 }
 
-/// Dryden gusts: by the wind outdoors, or by their own numbers.
+/// Dryden gusts, from the wind outdoors or from their own numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GustSection {
-    /// Wind at 6 m above the ground, from which MIL-F-8785C has all the others at the height of the start.
+    /// Wind at 6 m above the ground; MIL-F-8785C gives the other numbers for the height of the start.
     pub wind_at_6_m_m_s: Option<f64>,
     /// Standard deviation along, across and up.
     pub std_m_s: Option<[f64; 3]>,
@@ -196,7 +196,7 @@ pub struct GustSection {
 pub struct SoundSection {
     /// Samples per second.
     pub sample_rate_hz: u32,
-    /// How a sample is stored.
+    /// Format of a sample.
     pub sample_format: SampleFormat,
     /// Level of a rotor's line of level 1 at 1 m, at its hover speed.
     pub tone_level_db_spl: f64,
@@ -207,7 +207,7 @@ pub struct SoundSection {
 }
 
 impl Default for SoundSection {
-    /// Those of [`SourceSettings::for_vehicle`](crate::SourceSettings::for_vehicle), and a sound card's rate.
+    /// The levels of [`SourceSettings::for_vehicle`](crate::SourceSettings::for_vehicle), at 48 kHz.
     fn default() -> Self {
         Self {
             sample_rate_hz: 48_000,
@@ -219,7 +219,7 @@ impl Default for SoundSection {
     }
 }
 
-/// How a sample is stored.
+/// Format of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SampleFormat {
@@ -247,11 +247,11 @@ impl SampleFormat {
     }
 }
 
-/// A room; every key's default is that of [`Room`](crate::Room).
+/// A room; defaults as in [`Room`](crate::Room).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RoomSection {
-    /// The corner with the smallest coordinates; z is that of the floor.
+    /// The corner with the smallest coordinates; its z is the floor.
     pub corner_m: Option<[f64; 3]>,
     /// Length along x, along y, and height.
     pub size_m: Option<[f64; 3]>,
@@ -261,7 +261,7 @@ pub struct RoomSection {
     pub floor_absorption: Option<f64>,
     /// Absorption of the ceiling.
     pub ceiling_absorption: Option<f64>,
-    /// Time in which the tail falls by 60 dB; 0 for first reflections only.
+    /// Reverberation time: the tail falls by 60 dB in it; 0 for first reflections only.
     pub reverberation_s: Option<f64>,
 }
 
@@ -269,7 +269,7 @@ pub struct RoomSection {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GroundSection {
-    /// Share of the sound energy that it keeps.
+    /// Share of the sound energy that it absorbs.
     pub absorption: f64,
 }
 
@@ -280,7 +280,7 @@ impl Default for GroundSection {
     }
 }
 
-/// Noise of the place; the default is that of [`AmbientSettings`](crate::AmbientSettings).
+/// Noise of the place; default as in [`AmbientSettings`](crate::AmbientSettings).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AmbientSection {
@@ -288,28 +288,28 @@ pub struct AmbientSection {
     pub level_db_spl: Option<f64>,
 }
 
-/// People talking; every key's default is that of [`BabbleSettings`](crate::BabbleSettings).
+/// People talking; defaults as in [`BabbleSettings`](crate::BabbleSettings).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PeopleSection {
     /// Level of all voices together at 1 m.
     pub level_db_spl: Option<f64>,
-    /// How many talk at once.
+    /// Number of people who talk at once.
     pub voices: Option<u32>,
-    /// Where they are heard from.
+    /// Position of the source.
     pub position_m: Option<[f64; 3]>,
 }
 
-/// A microphone; what is not said is that of [`MicrophoneSettings::at`](crate::MicrophoneSettings::at).
+/// A microphone; defaults as in [`MicrophoneSettings::at`](crate::MicrophoneSettings::at).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MicrophoneSection {
-    /// Where.
+    /// Its position.
     pub position_m: [f64; 3],
-    /// Whether it is without filters, noise and, unless the sample format is one of whole numbers, rounding.
+    /// Whether it has no filters and no noise, and no rounding unless the sample format is a whole number.
     #[serde(default)]
     pub ideal: bool,
-    /// Level of the sine whose peaks are at full scale.
+    /// Level of a sine with peaks at full scale.
     #[serde(default)]
     pub full_scale_db_spl: Option<f64>,
     /// Its own noise.

@@ -98,7 +98,7 @@ fn a_hover_with_an_unsteady_hand_begins_in_full_swing() {
         ));
         (spread(&rows[..20]), spread(&rows[20..]))
     };
-    // a controller that is suddenly asked for another climb than it has kicks all rotors: 40 rad/s with the first seed
+    // a sudden change of the commanded climb kicks all rotors: 40 rad/s with the first seed
     for (first, rest) in (1..6).map(of_seed) {
         assert!(first < 0.8 * rest, "{first} {rest}");
     }

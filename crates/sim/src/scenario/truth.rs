@@ -1,4 +1,4 @@
-//! The truth about a flight in a few numbers: what an estimate from its sound should find.
+//! The truth about a flight in a few numbers, for comparison with an estimate from its sound.
 
 use crate::flight::FlightState;
 use serde::Serialize;
@@ -9,15 +9,15 @@ const ROTOR_COUNT: f64 = 4.0;
 /// Exact means over the flight's hovers.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScenarioTruth {
-    /// All that is lifted.
+    /// Mass of the vehicle with payloads.
     pub mass_kg: f64,
     /// Gravity.
     pub gravity_m_s2: f64,
-    /// C_f of each rotor as flown: the vehicle's, by its spread, in this air.
+    /// C_f of each rotor in this flight, with its spread and in its air.
     pub rotor_thrust_constants_n_s2: [f64; 4],
     /// Speeds of the exact hover in still air.
     pub trim_speed_rad_s: [f64; 4],
-    /// All hovers together; absent where there is none.
+    /// All hovers together; absent without a hover.
     pub hover: Option<SpanTruth>,
     /// Each hover.
     pub hovers: Vec<SpanTruth>,
@@ -25,14 +25,14 @@ pub struct ScenarioTruth {
     pub flight: SpanTruth,
 }
 
-/// Means over a stretch of time, of the speeds as the sound has them: straight lines between the steps.
+/// Means over a span of time. As in the sound, speeds are straight lines between the steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SpanTruth {
-    /// Start of the first stretch.
+    /// Start of the first span.
     pub from_s: f64,
-    /// End of the last stretch.
+    /// End of the last span.
     pub to_s: f64,
-    /// Time in all: less than from start to end where hovers are apart.
+    /// Total time of the spans, without the time between them.
     pub duration_s: f64,
     /// Mean speed of each rotor's shaft.
     pub mean_speed_rad_s: [f64; 4],
@@ -40,11 +40,11 @@ pub struct SpanTruth {
     pub std_speed_rad_s: [f64; 4],
     /// Mean of each rotor's squared speed.
     pub mean_square_rad2_s2: [f64; 4],
-    /// Mean of the sum of the squared speeds: what carries the weight.
+    /// Mean of the sum of the squared speeds; in hover it is proportional to the weight.
     pub mean_sum_of_squares_rad2_s2: f64,
-    /// By hover balance, C = m g / mean(Σω²): that of one rotor times their number. What a perfect ear would find; it
-    /// differs from the constants as flown by what was climbed (Δv/(g T)) and leant, and where unlike rotors share
-    /// unlike loads.
+    /// Thrust constant of the whole vehicle by hover balance, C = m g / mean(Σω²) times the number of rotors: the result of a
+    /// perfect estimator. It differs from the constants of the flight if the vehicle climbed (by Δv/(g T)) or tilted, and if
+    /// unlike rotors carry unlike loads.
     pub thrust_constant_total_n_s2: f64,
     /// The same for one rotor.
     pub thrust_constant_per_rotor_n_s2: f64,
@@ -52,7 +52,7 @@ pub struct SpanTruth {
     pub climb_rate_change_m_s: f64,
 }
 
-/// Sums on the way to the means.
+/// The sums for the means.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Means {
     from_s: Option<f64>,
@@ -64,7 +64,7 @@ pub(super) struct Means {
 }
 
 impl Means {
-    /// One more step; speeds go straight from one state to the next: ∫ω² = h (a² + a b + b²)/3.
+    /// Adds one step, with speeds that are straight from one state to the next: ∫ω² = h (a² + a b + b²)/3.
     pub(super) fn add(&mut self, before: &FlightState, after: &FlightState) {
         let step_s = after.time_s - before.time_s;
         self.from_s.get_or_insert(before.time_s);
@@ -78,7 +78,7 @@ impl Means {
         self.climb_rate_change_m_s += after.velocity_m_s[2] - before.velocity_m_s[2];
     }
 
-    /// The means; none where nothing was added.
+    /// The means; none without steps.
     pub(super) fn span(&self, weight_n: f64) -> Option<SpanTruth> {
         let from_s = self.from_s?;
         let mean_speed_rad_s = self.turns_rad.map(|turns| turns / self.duration_s);

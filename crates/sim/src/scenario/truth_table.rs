@@ -5,7 +5,7 @@ use crate::flight::FlightState;
 /// Columns of `truth.csv`.
 const COUNT: usize = 42;
 
-/// Names of the cells of [`truth_cells`], with their units. Rotors are counted as the vehicle's layout has them.
+/// Names of the cells of [`truth_cells`], with their units. Rotors are in the order of the vehicle's layout.
 pub const TRUTH_COLUMNS: [&str; COUNT] = [
     "time_s",
     "command_roll",

@@ -11,14 +11,14 @@ pub(crate) struct Biquad {
 }
 
 impl Biquad {
-    /// Butterworth high-pass with -3 dB at that frequency, by the bilinear transform.
+    /// Butterworth high-pass with -3 dB at this frequency, by the bilinear transform.
     pub(crate) fn high_pass(corner_hz: f64, sample_rate_hz: f64) -> Self {
         let (cosine, alpha) = Self::corner(corner_hz, sample_rate_hz);
         let side = (1.0 + cosine) / 2.0;
         Self::new([side, -2.0 * side, side], cosine, alpha)
     }
 
-    /// Butterworth low-pass with -3 dB at that frequency, by the bilinear transform.
+    /// Butterworth low-pass with -3 dB at this frequency, by the bilinear transform.
     pub(crate) fn low_pass(corner_hz: f64, sample_rate_hz: f64) -> Self {
         let (cosine, alpha) = Self::corner(corner_hz, sample_rate_hz);
         let side = (1.0 - cosine) / 2.0;
@@ -43,7 +43,7 @@ impl Biquad {
         Self { b: b.map(|value| value * scale), a, state: [0.0; 2] }
     }
 
-    /// The same filter in the state of another.
+    /// This filter with the state of another filter.
     pub(crate) fn keeping(self, other: &Self) -> Self {
         Self { state: other.state, ..self }
     }

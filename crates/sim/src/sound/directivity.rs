@@ -1,4 +1,4 @@
-//! Where a rotor's sound goes.
+//! Directivity of a rotor's sound.
 
 use super::settings::{Bound, checked};
 use hovertone_vehicle::QuantityError;
@@ -6,15 +6,15 @@ use hovertone_vehicle::QuantityError;
 /// Amplitude against the angle θ from the rotor's axis: `D(θ) = in_plane sin²θ + on_axis cos²θ`, the same above and below
 /// and all around.
 ///
-/// One form for three kinds of sound, so that a rotor needs two signals (one for each term), whatever it is made of:
+/// All kinds of sound have this one form, so that a rotor needs only two signals, one for each term:
 /// - Blade pass: Gutin's steady loading noise goes with `J_mB(m B M sin θ)`, which at the low tip Mach numbers of a small
 ///   drone is `∝ (sin θ)^(mB)`: sin²θ for the first line of two blades, with a null on the axis. Higher harmonics and
 ///   more blades are narrower than that; real rotors fill the null by unsteady loading.
 /// - Broadband: fluctuating lift is a dipole along the axis. Its |cos θ| beside a plane that is not silent is close to this
 ///   form: with -6 dB in the plane, 0.79 of the amplitude at 45° against 0.75 here.
-///   TU Delft's 112-microphone measurement of a hovering quadcopter (Yupa Villanueva et al.) has just that: "dipole-like",
+///   TU Delft's 112-microphone measurement of a hovering quadcopter (Yupa Villanueva et al.) agrees: "dipole-like",
 ///   lowest near the rotor plane, higher away from it.
-/// - Gear and motor: radiated by body and arms; no measurement was found, so alike in all directions.
+/// - Gear and motor: radiated by body and arms. No measurement was found; the same in all directions is assumed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Directivity {
     /// Amplitude towards the plane of the disc, as a share of the set level. 0 for a null.
@@ -31,7 +31,7 @@ impl Directivity {
     /// Broadband noise: full on the axis; -6 dB in the plane (assumed; TU Delft's abstract gives no number).
     pub const BROADBAND: Self = Self { in_plane: 0.5, on_axis: 1.0 };
 
-    /// Root of the mean of D² over the sphere: what feeds the diffuse field. `∫sin⁴ = 8/15`, `∫cos⁴ = 3/15`,
+    /// Root of the mean of D² over the sphere, for the diffuse field. `∫sin⁴ = 8/15`, `∫cos⁴ = 3/15`,
     /// `∫sin²cos² = 2/15` of the sphere.
     pub(crate) fn diffuse(&self) -> f64 {
         let (plane, axis) = (self.in_plane, self.on_axis);

@@ -1,20 +1,20 @@
-//! A signal between its samples, at a cost per reading of five multiplications.
+//! A signal between its samples, at a cost of five multiplications per value.
 //!
 //! Farrow's structure: the taps of a windowed sinc, as polynomials of the fraction d of a sample,
 //! `h_m(d) = Σ_k c_{k,m} d^k`. The sums over the taps, `u_k[n] = Σ_m c_{k,m} x[n+m]`, do not depend on d: they are made once
-//! per signal, and each of the many paths that read it only needs `x(n + d) = Σ_k u_k[n] d^k`.
+//! per signal, and each of its many paths only needs `x(n + d) = Σ_k u_k[n] d^k`.
 
 use super::phasors::LANES;
 use std::f64::consts::PI;
 
-/// Samples needed on each side of the one that is nearest.
+/// Samples needed on each side of the nearest sample.
 pub(crate) const REACH: usize = 8;
 /// Terms of the polynomials.
 pub(crate) const TERMS: usize = 5;
 /// Kaiser's window: ripples of 85 dB, for a band up to a third of the sample rate.
 const WINDOW_BETA: f64 = 8.6;
 
-/// The taps. Measured (the test below): the worst error of a sine, at any fraction, against its true value is -80 dB up to
+/// The taps. The worst error of a sine at any fraction (the test below) is -80 dB up to
 /// 0.21 of the sample rate (10 kHz at 48 kHz), -74 dB up to 0.25 (12 kHz), -62 dB up to 1/3 (16 kHz).
 pub(crate) struct Interpolator {
     /// `c_{k,m}` for m = 0…REACH; `c_{k,-m} = (-1)^k c_{k,m}`.
@@ -30,7 +30,7 @@ impl Interpolator {
         });
         let mut taps: [[f32; REACH + 1]; TERMS] =
             std::array::from_fn(|term| polynomials.map(|coefficients| coefficients[term] as f32));
-        // Middle tap: even in d; what the nodes leave of odd terms is rounding.
+        // Middle tap: even in d; its odd terms are only rounding.
         (taps[1][0], taps[3][0]) = (0.0, 0.0);
         Self { taps }
     }
@@ -53,7 +53,7 @@ impl Interpolator {
             return;
         }
         for tile in 0..count.div_ceil(LANES) {
-            // The last goes over some of those before: the same values again.
+            // The last chunk overlaps the one before and computes the same values again.
             let start = (tile * LANES).min(count - LANES);
             self.tile(&signal[start..start + 2 * REACH + LANES], &mut sums);
             for (term, sum) in terms.iter_mut().zip(&sums) {
@@ -107,7 +107,7 @@ fn bessel_i0(x: f64) -> f64 {
     sum
 }
 
-/// Coefficients of the polynomial through those points: Newton's divided differences, multiplied out.
+/// Coefficients of the polynomial through these points: Newton's divided differences, multiplied out.
 fn polynomial(nodes: [f64; TERMS], values: [f64; TERMS]) -> [f64; TERMS] {
     let mut differences = values;
     for order in 1..TERMS {

@@ -10,7 +10,7 @@ pub(crate) fn rms_pa(level_db_spl: f64) -> f64 {
     REFERENCE_PRESSURE_PA * 10_f64.powf(level_db_spl / 20.0)
 }
 
-/// Amplitude of the sine that has that level.
+/// Amplitude of a sine of this level.
 pub(crate) fn amplitude_pa(level_db_spl: f64) -> f64 {
     SQRT_2 * rms_pa(level_db_spl)
 }

@@ -1,4 +1,4 @@
-//! The lines of one rotor: sums of multiples of its shaft, in phase with it at every sample but for a slow unsteadiness.
+//! The lines of one rotor: multiples of its shaft, in phase with it at every sample except for a slow unsteadiness.
 
 use super::level::amplitude_pa;
 use super::phasors::{CHUNK, LANES, Phasors};
@@ -8,9 +8,9 @@ use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-/// Samples between two draws of the unsteadiness; straight between them. Part of what a seed means.
+/// Samples between two draws of the unsteadiness; straight between them. Part of the meaning of a seed.
 pub(crate) const UNSTEADY_STEP: i64 = 256;
-/// Lines fade out from this share of the sample rate up to half of it, as under a recorder's anti-alias filter.
+/// Lines fade out from this share of the sample rate up to half of it, as behind a recorder's anti-alias filter.
 const FADE_FROM: f64 = 0.46;
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -55,7 +55,7 @@ impl SlowNormal {
 /// below) for each sideband, (above, below) of the pinion; motor.
 pub(crate) struct LineBank {
     lines: Vec<Line>,
-    /// Amplitudes of the chunk at hand.
+    /// Amplitudes of the present chunk.
     amplitudes: Vec<Complex>,
     blade_count: u32,
     blade_lines: usize,
@@ -164,8 +164,8 @@ impl LineBank {
         }
     }
 
-    /// Sums the lines over a chunk that begins `step_share` of the way to the next step, at those turns. What comes out
-    /// is the blade-pass lines in `blades`, all others in `mechanical`.
+    /// Sums the lines at these turns, over a chunk that begins at a share `step_share` of the way to the next step: the
+    /// blade-pass lines into `blades`, all others into `mechanical`.
     pub(crate) fn sum(
         &mut self,
         turns: &[f64; CHUNK],
@@ -218,8 +218,8 @@ impl LineBank {
         }
     }
 
-    /// Horner's scheme per family, in registers: each line costs one complex multiplication and addition. The cosine of
-    /// the blade pass, its lines, and all others.
+    /// Horner's scheme per family, in registers: each line costs one complex multiplication and addition. Returns the cosine
+    /// of the blade pass, the sum of its lines, and the sum of all others.
     fn tile(&self, start: usize) -> (Lanes, Lanes, Lanes) {
         let shaft = LanePhasor::at(&self.shaft, start);
         let (first, rest) = self.amplitudes.split_at(1);
@@ -292,7 +292,7 @@ impl LanePhasor {
         product
     }
 
-    /// To a whole power, by squaring: the error is the power times the phasor's.
+    /// To a whole power, by squaring: the error is the power times the phasor's error.
     fn power(&self, exponent: u32) -> Self {
         let (mut result, mut square, mut left) = (Self::ONE, *self, exponent);
         while left > 0 {
@@ -305,7 +305,7 @@ impl LanePhasor {
         result
     }
 
-    /// `Σ c_h z^h`, h = 1…: odd and even powers apart, so that one sum need not wait for the other.
+    /// `Σ c_h z^h`, h = 1…, with separate sums of odd and even powers, which run in parallel.
     #[inline(always)]
     fn series(lines: &[Complex], z: &Self) -> Self {
         let square = z.times(z);

@@ -12,15 +12,15 @@ use rand_pcg::Pcg64;
 /// One microphone: one channel of the sound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MicrophoneSettings {
-    /// Its place in the world. It hears alike from all directions.
+    /// Its place in the world. It is equally sensitive in all directions.
     pub position_m: [f64; 3],
-    /// Where it is 3 dB down at the low end (second order); `None` for no limit.
+    /// Lower -3 dB frequency (second order); `None` for no limit.
     pub high_pass_hz: Option<f64>,
-    /// Where it is 3 dB down at the high end (second order); `None` for no limit.
+    /// Upper -3 dB frequency (second order); `None` for no limit.
     pub low_pass_hz: Option<f64>,
-    /// Its own white noise, as the level of a sound that would be as loud; `None` for none.
+    /// Its own white noise, as an equivalent sound level; `None` for none.
     pub self_noise_db_spl: Option<f64>,
-    /// Level of the sine whose peaks are at full scale, ±1; what is louder is clipped.
+    /// Level of a sine with peaks at full scale, ±1; louder sound is clipped.
     pub full_scale_db_spl: f64,
     /// Bits of a sample, 2 to 24; samples are then whole multiples of `2^(1-bits)`, rounded without dither, at most
     /// `1 - 2^(1-bits)`. `None` for no rounding.
@@ -33,7 +33,7 @@ impl MicrophoneSettings {
     /// - 100 Hz and 16 kHz: "defined roll-off below about 100 Hz and above 16 kHz" (forensicspot.com, MEMS microphone).
     /// - Own noise 29 dB: 65 dB under 94 dB, a usual signal-to-noise ratio of such microphones (more than 60 dB: sistc.com).
     ///   Taken as white over the whole band, not A-weighted.
-    /// - Full scale 100 dB: a camera that has set its gain to a drone in the room (assumed). Fixed digital ones have 120 dB
+    /// - Full scale 100 dB: a camera with its gain set for a drone in the room (assumed). Fixed digital microphones have 120 dB
     ///   (Analog Devices' application note, at dataweek.co.za).
     /// - 16 bits.
     pub fn at(position_m: [f64; 3]) -> Self {
@@ -95,7 +95,7 @@ pub(crate) struct Microphone {
 impl Microphone {
     pub(crate) fn new(settings: &MicrophoneSettings, sample_rate_hz: f64, seed: u64, index: u64) -> Self {
         let gain = 1.0 / amplitude_pa(settings.full_scale_db_spl);
-        // A corner that the sample rate cannot have is the recorder's own limit.
+        // A corner above half the sample rate has no effect beyond the recorder's own limit.
         let low_pass_hz = settings.low_pass_hz.filter(|hz| *hz < 0.49 * sample_rate_hz);
         Self {
             gain,
@@ -107,7 +107,7 @@ impl Microphone {
         }
     }
 
-    /// One sample of the recording for one of the pressure, Pa.
+    /// From one sample of the pressure, Pa, to one sample of the recording.
     pub(crate) fn sample(&mut self, pressure_pa: f32) -> f32 {
         let mut value = self.gain * f64::from(pressure_pa);
         if let Some(filter) = &mut self.high_pass {

@@ -1,8 +1,8 @@
 //! Sine and cosine of many phases at once.
 
-/// Samples that are made at once, at most; a multiple of [`LANES`].
+/// Largest number of samples made at once; a multiple of [`LANES`].
 pub(crate) const CHUNK: usize = 64;
-/// Samples that share an instruction (two registers of the oldest 64-bit processors).
+/// Samples per vector instruction (two registers of the oldest 64-bit processors).
 pub(crate) const LANES: usize = 8;
 
 /// `e^(2πi x)` of a chunk of phases, by components.
@@ -17,10 +17,10 @@ impl Phasors {
         Self { re: [1.0; CHUNK], im: [0.0; CHUNK] }
     }
 
-    /// Phasors at `order` times the given turns. The whole turns are taken off in double precision, so that no error
-    /// grows with time; what is left is good to 3e-7.
+    /// Phasors at `order` times the given turns. The whole turns are removed in double precision, so that no error
+    /// grows with time; the rest has an error of 3e-7.
     ///
-    /// Only the first `count` are set, and what fills their last tile.
+    /// Sets the first `count` phasors, and the rest of their last tile.
     pub(crate) fn set(&mut self, order: f64, turns: &[f64; CHUNK], count: usize) {
         // Adding and subtracting this rounds to the nearest whole number, as long as the numbers are below 2^51.
         const ROUND: f64 = 6_755_399_441_055_744.0;

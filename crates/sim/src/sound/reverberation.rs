@@ -6,8 +6,8 @@ use rand::RngExt;
 
 /// Delay lines; their echoes are mixed by Hadamard's matrix, which keeps the energy.
 const LINES: usize = 16;
-/// Shortest and longest delay: longer than the first reflections of a room, short against its tail. Together 0.8 s, so
-/// some 0.8 resonances per hertz, three within the width 2.2/T60 of each at T60 = 0.6 s: Schroeder's criterion.
+/// Shortest and longest delay: longer than the first reflections of a room, short against its tail. Their sum is 0.8 s,
+/// which gives 0.8 resonances per hertz: three within the width 2.2/T60 of each at T60 = 0.6 s (Schroeder's criterion).
 const DELAY_S: (f64, f64) = (0.02, 0.1);
 
 pub(crate) struct Reverberation {
@@ -24,7 +24,7 @@ struct DelayLine {
 }
 
 impl Reverberation {
-    /// A tail that falls by 60 dB in that time and whose power for a steady noise is `power` times the noise's.
+    /// A tail that falls by 60 dB in this time, with `power` times the power of a steady noise at the input.
     pub(crate) fn new(reverberation_s: f64, power: f64, sample_rate_hz: f64, seed: u64, microphone: u64) -> Self {
         let mut random = stream(seed, Part::Reverberation, microphone);
         let line = |number: usize| {
@@ -46,7 +46,7 @@ impl Reverberation {
         tail
     }
 
-    /// Energy of the response to a click, up to -90 dB, is the gain for the power of white noise.
+    /// Energy of the response to a click, down to -90 dB: the gain for the power of white noise.
     fn calibrate(&mut self, reverberation_s: f64, power: f64, sample_rate_hz: f64) {
         let mut energy = 0.0;
         let mut click = [0.0; CHUNK];
@@ -63,7 +63,7 @@ impl Reverberation {
         }
     }
 
-    /// Adds the tail of `sent` to `heard`, sample by sample; the network takes them up to a chunk at a time.
+    /// Adds the tail of `sent` to `heard`, up to a chunk at a time.
     pub(crate) fn add(&mut self, sent: &[f32], heard: &mut [f32]) {
         for (sent, heard) in sent.chunks(CHUNK).zip(heard.chunks_mut(CHUNK)) {
             let count = sent.len();

@@ -1,12 +1,12 @@
-//! What stands around: nothing, a ground, or a room.
+//! The surroundings: free field, a ground, or a room.
 
 use super::settings::{Bound, checked};
 use hovertone_vehicle::QuantityError;
 
-/// Share of the sound energy that a surface keeps: its absorption coefficient α; the pressure reflected is `√(1 - α)`
-/// of the pressure that arrives.
+/// Absorption coefficient α of each surface: the absorbed share of the sound energy. The reflected pressure is `√(1 - α)`
+/// of the incoming pressure.
 ///
-/// One number for all frequencies. Tables give (at 1 kHz, by octaves from 125 Hz to 4 kHz they vary by a factor of 2 and
+/// One number for all frequencies. Values from tables at 1 kHz (from 125 Hz to 4 kHz they vary by a factor of 2 and
 /// more): concrete or tile 0.02, linoleum on concrete 0.03, painted block 0.07, window glass 0.12, wood 0.07
 /// (sengpielaudio.com/calculator-RT60Coeff.htm; Barron, Industrial Noise Control and Acoustics, appendix D).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,23 +28,23 @@ pub struct WallAbsorption {
 /// A box, its edges along the axes of the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room {
-    /// The corner with the smallest coordinates; z is that of the floor.
+    /// The corner with the smallest coordinates; its z is the floor.
     pub corner_m: [f64; 3],
     /// Length along x, along y, and height.
     pub size_m: [f64; 3],
-    /// What the six surfaces absorb.
+    /// Absorption of the six surfaces.
     pub absorption: WallAbsorption,
-    /// Time in which the exponential tail falls by 60 dB; `None` for no tail, first reflections only.
-    /// [`sabine_reverberation_s`](Self::sabine_reverberation_s) is what the surfaces alone would give.
+    /// Reverberation time: the exponential tail falls by 60 dB in it; `None` for first reflections only.
+    /// [`sabine_reverberation_s`](Self::sabine_reverberation_s) gives the time for the surfaces alone.
     pub reverberation_s: Option<f64>,
 }
 
-/// Where the flight takes place.
+/// The place of the flight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surroundings {
     /// No reflections at all.
     FreeField,
-    /// A level ground at z = 0 that absorbs this share, and nothing else.
+    /// A level ground at z = 0 and nothing else.
     Ground {
         /// Absorption coefficient of the ground.
         absorption: f64,
@@ -53,12 +53,12 @@ pub enum Surroundings {
     Room(Room),
 }
 
-/// A surface that sound comes back from: the plane where coordinate `axis` is `at_m`.
+/// A reflecting surface: the plane where coordinate `axis` is `at_m`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mirror {
     pub(crate) axis: usize,
     pub(crate) at_m: f64,
-    /// Pressure back for pressure in.
+    /// Reflected pressure over incoming pressure.
     pub(crate) reflection: f64,
 }
 
@@ -75,8 +75,8 @@ impl Mirror {
 }
 
 impl Default for Room {
-    /// A laboratory of ordinary size about the origin of the flight, for the paper's figure 1, which has no scale: 8 x 6 x
-    /// 3 m, walls of plaster with windows and shelves (0.1), linoleum on concrete (0.03), a plain ceiling (0.05). The
+    /// A laboratory of ordinary size about the origin of the flight, for the paper's figure 1, which has no scale: 8 x 6 x 3
+    /// m, walls of plaster with windows and shelves (0.1), linoleum on concrete (0.03), a plain ceiling (0.05). The
     /// tail is Sabine's for these surfaces, 1.9 s, shortened to 0.6 s by furniture and people (assumed).
     fn default() -> Self {
         Self {
@@ -115,15 +115,15 @@ impl Room {
         self.size_m.iter().product()
     }
 
-    /// Reverberation time of the bare surfaces, `T60 = 0.161 V / Σ S α` (Sabine); infinite where nothing absorbs.
+    /// Reverberation time of the bare surfaces, `T60 = 0.161 V / Σ S α` (Sabine); infinite if nothing absorbs.
     pub fn sabine_reverberation_s(&self) -> f64 {
         let absorbing: f64 = self.surfaces().iter().map(|&(axis, _, absorption)| self.area_m2(axis) * absorption).sum();
         0.161 * self.volume_m3() / absorbing
     }
 
     /// Mean square of the tail over the mean square at 1 m in the free field: `16 π (1 - ᾱ)² / A`, with Sabine's
-    /// `A = 0.161 V / T60` and `ᾱ = A / S`. It is the diffuse field `4 W (1 - ᾱ) / A` (Beranek) without its first
-    /// reflection, which the images make.
+    /// `A = 0.161 V / T60` and `ᾱ = A / S`. It is the diffuse field `4 W (1 - ᾱ) / A` (Beranek) without the first
+    /// reflection, which comes from the mirror images.
     pub(crate) fn tail_power(&self, reverberation_s: f64) -> f64 {
         let absorbing_m2 = 0.161 * self.volume_m3() / reverberation_s;
         let mean_absorption = (absorbing_m2 / self.total_area_m2()).min(1.0);
@@ -154,7 +154,7 @@ impl Surroundings {
         }
     }
 
-    /// Every way from a rotor to a microphone: straight, and by each surface that reflects.
+    /// Every path from a rotor to a microphone: direct, and by each reflecting surface.
     pub(crate) fn ways(&self) -> Vec<Option<Mirror>> {
         let surfaces = match self {
             Self::FreeField => Vec::new(),

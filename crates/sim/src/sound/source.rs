@@ -1,4 +1,4 @@
-//! What one rotor radiates: two signals, one for each term of the directivity, ready to be read between samples.
+//! The radiated sound of one rotor: two signals, one for each term of the directivity, readable between samples.
 
 use super::interpolator::{Interpolator, REACH, TERMS};
 use super::level::rms_pa;
@@ -9,10 +9,10 @@ use super::settings::SourceSettings;
 use crate::seed::{Part, stream};
 use std::f64::consts::TAU;
 
-/// Samples that are forgotten together, at least.
+/// Smallest number of samples that are removed together.
 const FORGET_AT_ONCE: i64 = 256;
 
-/// One control step: speeds at its ends go along a straight line between them. Times count in samples.
+/// One control step; the speed is straight between its ends. Times are in samples.
 #[derive(Clone, Copy)]
 pub(crate) struct Stretch {
     pub(crate) from: f64,
@@ -38,7 +38,7 @@ pub(crate) struct Source {
     raw_on_axis: Vec<f32>,
     emission: Emission,
     scratch: Scratch,
-    /// At the end of the last chunk.
+    /// Gains at the end of the last chunk.
     loudness: Loudness,
 }
 
@@ -49,8 +49,8 @@ struct Scratch {
 }
 
 impl Source {
-    /// A rotor whose first sample is number `start`, turned so that it has made no turns at time 0 if it goes on at that
-    /// speed.
+    /// A rotor whose first sample is number `start`. Its first turn is such that the turns are 0 at time 0 if the speed stays
+    /// the same.
     pub(crate) fn new(
         settings: &SourceSettings,
         sample_rate_hz: f64,
@@ -87,15 +87,15 @@ impl Source {
         &self.emission
     }
 
-    /// First sample that cannot be read yet.
+    /// First sample that cannot yet be read.
     pub(crate) fn readable_end(&self) -> i64 {
         self.emission.base + self.emission.in_plane[0].len() as i64
     }
 
-    /// Forgets what is before that sample, once it is enough to be worth it.
+    /// Removes the samples before this one, once there are enough of them.
     pub(crate) fn forget_before(&mut self, sample: i64) {
         let count = (sample - self.emission.base).clamp(0, self.emission.in_plane[0].len() as i64);
-        // What is left has to be moved: seldom, then.
+        // To remove samples means to move the rest, so it is done seldom.
         if count < FORGET_AT_ONCE {
             return;
         }
@@ -109,8 +109,8 @@ impl Source {
         2 * (TERMS * self.emission.in_plane[0].len() + self.raw_in_plane.len())
     }
 
-    /// Makes samples `first..end`, all within the stretch, over which the speed goes from one to the other; adds this
-    /// rotor's share of the diffuse field to `diffuse`, which begins at `first`.
+    /// Makes samples `first..end`, all within the stretch; adds this rotor's share of the diffuse field to `diffuse`, which
+    /// begins at `first`.
     pub(crate) fn extend(
         &mut self,
         stretch: Stretch,
@@ -136,7 +136,7 @@ impl Source {
             let ends = [speed(offset), speed(offset + count as f64)];
             if ends[0] > 0.0 || ends[1] > 0.0 {
                 let turns = std::array::from_fn(|sample| {
-                    // Through 32 bits, which are converted many at once.
+                    // By way of 32 bits, for vector conversion.
                     let u = offset + f64::from(sample as i32);
                     self.turns + (speed_rev_s[0] * u + 0.5 * slope_rev_s * u * u) / self.sample_rate_hz
                 });
@@ -158,7 +158,7 @@ impl Source {
         }
     }
 
-    /// One chunk, from one speed (rev/s) to the other.
+    /// Makes one chunk, from one speed (rev/s) to another.
     fn radiate(
         &mut self,
         turns: &[f64; CHUNK],
@@ -213,7 +213,7 @@ impl Source {
     }
 }
 
-/// Factors on the amplitudes at one speed: half the exponents of the powers.
+/// Factors on the amplitudes at one speed, with half the exponents of the powers.
 #[derive(Clone, Copy)]
 struct Loudness {
     rev_s: f64,
@@ -235,7 +235,7 @@ impl Loudness {
     }
 }
 
-/// A factor that goes along a straight line.
+/// A factor that changes along a straight line.
 struct Ramp {
     from: f32,
     step: f32,

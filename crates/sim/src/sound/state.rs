@@ -1,4 +1,4 @@
-//! What the sound is told about the flight.
+//! The state of the flight that the sound needs.
 
 use super::settings::{Bound, checked};
 use hovertone_vehicle::QuantityError;
@@ -6,26 +6,26 @@ use hovertone_vehicle::QuantityError;
 /// One rotor at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotorState {
-    /// Shaft speed of the rotor, rad/s, 0 or more whatever the sense of rotation.
+    /// Shaft speed of the rotor, rad/s, 0 or more for both senses of rotation.
     pub speed_rad_s: f64,
     /// The hub in the world, z up.
     pub position_m: [f64; 3],
-    /// Unit vector of the thrust in the world; its length is not looked at.
+    /// Direction of the thrust in the world; any length except 0.
     pub axis: [f64; 3],
 }
 
-/// All rotors at one instant. Between two states speeds, delays and gains go along straight lines, so the turns of each
-/// rotor are the trapezoidal sums of its speeds.
+/// All rotors at one instant. Between two states speeds, delays and gains are straight lines, so the turns of each rotor
+/// are the trapezoidal sums of its speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundState {
-    /// Seconds; that of the first state is the time of the first sample.
+    /// Seconds; the time of the first state is the time of the first sample.
     pub time_s: f64,
     /// The rotors, always in the same order.
     pub rotors: Vec<RotorState>,
 }
 
 impl SoundState {
-    /// Whether the state makes sense by itself; axes come back with length 1.
+    /// Checks the state by itself; returns it with axes of length 1.
     pub(crate) fn checked(&self) -> Result<Self, QuantityError> {
         checked("time_s", self.time_s, Bound::Finite)?;
         let mut state = self.clone();
