@@ -19,9 +19,9 @@ pub mod speed {
         Warning,
     };
     pub use hovertone_rotor_speed::{
-        BudgetConfig, Config, Error, HoverConfig, HoverPart, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig,
-        SpectrogramConfig, Surveyed, ToneConfig, passes_of_speed, speed_from_passes, speed_from_source,
-        speed_from_survey, survey_from_passes,
+        BudgetConfig, Config, Error, HoverConfig, HoverPart, HoverRotors, RidgeConfig, RotorsConfig, SampleConfig,
+        SpanConfig, SpectrogramConfig, Surveyed, ToneConfig, passes_of_speed, rotors_from_survey, speed_from_passes,
+        speed_from_source, speed_from_survey, survey_from_passes,
     };
 }
 

@@ -11,7 +11,6 @@ pub mod by_microphones;
 pub mod by_spin_up;
 pub mod condition;
 mod posterior;
-mod rotor_turns;
 mod settings;
 mod speed_curve;
 

@@ -1,10 +1,10 @@
 //! What one microphone hears of every rotor's lines: complex amplitudes in blocks, those of all rotors solved for together.
 
 use crate::by_microphones::MicrophonesConfig;
-use crate::rotor_turns::RotorTurns;
+use crate::speed_curve::SpeedCurve;
 use hovertone_analysis::TrackPoint;
 use hovertone_rotor_speed::{ToneConfig, lines_between_speeds};
-use hovertone_signal::line_solver::{INFLATION_MAX, inverse};
+use hovertone_signal::line_solver::{INFLATION_MAX, SolvedLines};
 use hovertone_signal::passes::{Passes, Piece, Progress};
 use hovertone_signal::spectrogram::hann_weights;
 use hovertone_signal::{SignalError, SignalSource};
@@ -86,7 +86,7 @@ pub fn microphone_lines_from_source(
 struct LineReader {
     sample_rate_hz: f64,
     speeds_rev_s: Vec<f64>,
-    turns: Vec<RotorTurns>,
+    curves: Vec<SpeedCurve>,
     next_s: f64,
     pending: Vec<f32>,
     banks: Vec<LineBank>,
@@ -163,7 +163,7 @@ impl LineReader {
         });
         Self {
             sample_rate_hz,
-            turns: tracks.iter().map(|track| RotorTurns::of(track)).collect(),
+            curves: tracks.iter().map(|track| SpeedCurve::through(track)).collect(),
             next_s: 0.0,
             pending: Vec::new(),
             banks: banks.collect(),
@@ -182,8 +182,8 @@ impl LineReader {
     fn take(&mut self, samples: &[f32; CHUNK]) {
         let (start_s, length_s) = (self.next_s, CHUNK as f64 / self.sample_rate_hz);
         self.next_s += length_s;
-        let from: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(start_s)).collect();
-        let to: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(start_s + length_s)).collect();
+        let from: Option<Vec<f64>> = self.curves.iter_mut().map(|curve| curve.turns_at(start_s)).collect();
+        let to: Option<Vec<f64>> = self.curves.iter_mut().map(|curve| curve.turns_at(start_s + length_s)).collect();
         let (Some(from_turns), Some(to)) = (from, to) else {
             // where a rotor is not followed nothing is known of its phase: the blocks are lost
             self.banks.iter_mut().for_each(|bank| bank.block = None);
@@ -285,13 +285,12 @@ impl BlockSums {
                 let product = pair.map_or(C::default(), |pair| pair.2);
                 if a < b { product } else { product.conj() }
             };
-            let matrix = group.iter().map(|&a| group.iter().map(|&b| entry(a, b)).collect()).collect();
-            let Some(inverse) = inverse(matrix) else { continue };
+            let products: Vec<C> = group.iter().map(|&atom| self.sound[atom]).collect();
+            let gram = |row: usize, column: usize| entry(group[row], group[column]);
+            let Some(lines) = SolvedLines::from_normal_equations(gram, &products) else { continue };
             for (row, &atom) in group.iter().enumerate() {
-                let amplitude =
-                    group.iter().zip(&inverse[row]).map(|(&other, weight)| weight * self.sound[other]).sum();
-                let inflation = inverse[row][row].re * self.weights;
-                solved[atom] = (inflation <= INFLATION_MAX).then_some((amplitude, inflation));
+                let inflation = lines.variance(row) * self.weights;
+                solved[atom] = (inflation <= INFLATION_MAX).then_some((lines.amplitudes()[row], inflation));
             }
         }
         solved

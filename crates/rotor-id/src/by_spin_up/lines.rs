@@ -1,7 +1,7 @@
 //! The lines of several rotors in one frame, all solved for together.
 
 use super::frames::{Frame, leakage};
-use hovertone_signal::line_solver::inverse;
+use hovertone_signal::line_solver::SolvedLines;
 use realfft::num_complex::Complex;
 
 /// On the diagonal: lines in one place share their power instead of none having any.
@@ -73,22 +73,18 @@ impl Lines {
         let lines_hz: Vec<f64> =
             speeds_rev_s.iter().flat_map(|speed| self.orders.iter().map(move |order| order * speed)).collect();
         let sound: Vec<C> = lines_hz.iter().map(|&hz| frame.at(hz)).collect();
-        let entry =
+        let gram =
             |a: usize, b: usize| C::new(leakage(lines_hz[a] - lines_hz[b]) + if a == b { RIDGE } else { 0.0 }, 0.0);
-        let lines = 0..lines_hz.len();
-        let inverse = inverse(lines.clone().map(|a| lines.clone().map(|b| entry(a, b)).collect()).collect())?;
-        let amplitude =
-            |line: usize| -> C { inverse[line].iter().zip(&sound).map(|(inverse, sound)| inverse * sound).sum() };
-        let all: Vec<C> = lines.map(amplitude).collect();
+        let lines = SolvedLines::from_normal_equations(gram, &sound)?;
         let power = |rotor: usize| -> f64 {
             (0..count)
                 .map(|order| {
                     let line = rotor * count + order;
-                    all[line].norm_sqr() / inverse[line][line].re / self.noise[order]
+                    lines.amplitudes()[line].norm_sqr() / lines.variance(line) / self.noise[order]
                 })
                 .sum()
         };
         let powers = (0..speeds_rev_s.len()).map(power).collect();
-        Some(Solved { amplitudes: all.chunks(count).map(<[C]>::to_vec).collect(), powers })
+        Some(Solved { amplitudes: lines.amplitudes().chunks(count).map(<[C]>::to_vec).collect(), powers })
     }
 }

@@ -1,6 +1,6 @@
 //! The amplitudes of all rotors' lines in one block of sound, those of one order solved for together.
 
-use hovertone_signal::line_solver::{INFLATION_MAX, inverse};
+use hovertone_signal::line_solver::{INFLATION_MAX, SolvedLines};
 use realfft::num_complex::Complex;
 use std::cmp::Ordering;
 use std::f64::consts::{PI, TAU};
@@ -91,23 +91,19 @@ impl LineSums {
                 Ordering::Equal => C::new(self.weights, 0.0),
                 Ordering::Greater => pairs[b][a].conj(),
             };
-            let matrix: Vec<Vec<C>> =
-                (0..self.rotors).map(|a| (0..self.rotors).map(|b| entry(a, b)).collect()).collect();
-            let inverse = inverse(matrix);
-            let amplitude = |inverse: &[Vec<C>], rotor: usize| -> C {
-                (0..self.rotors).map(|other| inverse[rotor][other] * self.sound[other][2 * order - 1]).sum()
-            };
+            let products: Vec<C> = self.sound.iter().map(|halves| halves[2 * order - 1]).collect();
+            let solved = SolvedLines::from_normal_equations(entry, &products);
             for rotor in 0..self.rotors {
-                let line = inverse.as_ref().and_then(|inverse| {
-                    let inflation = inverse[rotor][rotor].re * self.weights;
+                let line = solved.as_ref().and_then(|solved| {
+                    let inflation = solved.variance(rotor) * self.weights;
+                    let power_of = |rotor: usize| solved.amplitudes()[rotor].norm_sqr();
                     let others = (0..self.rotors).filter(|other| *other != rotor);
-                    let loudest = others.map(|other| amplitude(inverse, other).norm_sqr()).fold(0.0, f64::max);
+                    let loudest = others.map(power_of).fold(0.0, f64::max);
                     let leaked = SWELL_SHARE.powi(2) * (inflation - 1.0).max(0.0) * loudest;
                     // of noise alone: between this line and its neighbours
                     let beside = |half: usize| (self.sound[rotor][half] / self.weights).norm_sqr();
                     let noise = inflation * (beside(2 * order - 2) + beside(2 * order)) / 2.0 + leaked;
-                    let power = amplitude(inverse, rotor).norm_sqr();
-                    (inflation <= INFLATION_MAX).then_some((2.0 * power, 2.0 * noise))
+                    (inflation <= INFLATION_MAX).then_some((2.0 * power_of(rotor), 2.0 * noise))
                 });
                 block.lines[rotor].push(line);
             }

@@ -7,7 +7,7 @@
 
 mod lines;
 
-use crate::rotor_turns::RotorTurns;
+use crate::speed_curve::SpeedCurve;
 use hovertone_analysis::{Outcome, RotorCondition, RotorEstimate, ShaftLine, SpeedAnalysis};
 use hovertone_rotor_speed::{ToneConfig, blades_known};
 use hovertone_signal::SignalError;
@@ -44,7 +44,7 @@ pub fn conditions_from_analysis(
 struct ConditionReader {
     sample_rate_hz: f64,
     blades: u32,
-    turns: Vec<RotorTurns>,
+    curves: Vec<SpeedCurve>,
     order_max: u32,
     next_s: f64,
     block: Option<LineSums>,
@@ -59,7 +59,7 @@ impl ConditionReader {
         Self {
             sample_rate_hz,
             blades,
-            turns: rotors.iter().map(|rotor| RotorTurns::of(&rotor.track)).collect(),
+            curves: rotors.iter().map(|rotor| SpeedCurve::through(&rotor.track)).collect(),
             order_max: (BLADE_PASS_LINES * blades).min(below_nyquist),
             next_s: 0.0,
             block: None,
@@ -71,7 +71,7 @@ impl ConditionReader {
     fn finish(mut self) -> Vec<Option<RotorCondition>> {
         self.end_block();
         let blades = self.blades;
-        let mut conditions: Vec<Option<RotorCondition>> = (0..self.turns.len())
+        let mut conditions: Vec<Option<RotorCondition>> = (0..self.curves.len())
             .map(|rotor| {
                 let level = |order: u32| LineLevel::of(&self.blocks, rotor, order);
                 let blade_pass = level(blades).filter(LineLevel::is_heard)?;
@@ -120,10 +120,10 @@ impl StretchListener for ConditionReader {
                 self.end_block();
             }
             // where a rotor is not followed nothing is known of its phase: the block ends
-            let turns: Option<Vec<f64>> = self.turns.iter_mut().map(|turns| turns.at(time_s)).collect();
+            let turns: Option<Vec<f64>> = self.curves.iter_mut().map(|curve| curve.turns_at(time_s)).collect();
             match turns {
                 Some(turns) => {
-                    let (rotors, order_max) = (self.turns.len(), self.order_max);
+                    let (rotors, order_max) = (self.curves.len(), self.order_max);
                     let block = self.block.get_or_insert_with(|| LineSums::new(time_s, BLOCK_S, rotors, order_max));
                     block.add(f64::from(sample), time_s, &turns);
                 }

@@ -97,8 +97,8 @@ fn slower_shaft(
     }))
 }
 
-/// Two passes: the rotors are located in a wide band of speeds, and then each is followed by itself.
-fn rotors_from_hover(
+/// Two passes, whatever was decided: the rotors are located in a wide band of speeds, and then each is followed by itself.
+pub(crate) fn rotors_from_hover(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
     hover: &Hover,

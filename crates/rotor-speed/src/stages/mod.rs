@@ -11,7 +11,7 @@ mod stop;
 mod survey;
 
 pub(crate) use candidates::{Candidates, candidates_from_survey};
-pub(crate) use decision::{Decision, decision_from_lines};
+pub(crate) use decision::{Decision, decision_from_lines, rotors_from_hover};
 pub(crate) use hover::hover_from_candidate;
 pub(crate) use lines::{Lines, lines_from_hover};
 pub(crate) use speeds::speeds_from_decision;
