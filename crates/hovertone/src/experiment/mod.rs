@@ -1,5 +1,30 @@
 //! The experiment file: what was flown, with which masses, and how it is to be analysed. Data only: where the recordings
 //! are and how they are read is the caller's.
+//!
+//! ```
+//! use hovertone::experiment::ExperimentFile;
+//!
+//! let file: ExperimentFile = toml::from_str(
+//!     r#"
+//!     [vehicle]
+//!     preset = "ardrone"
+//!     mass_kg = 0.413
+//!
+//!     [[load]]
+//!     name = "no hull"
+//!     recordings = ["no_hull/*.mov"]
+//!
+//!     [[load]]
+//!     name = "small hull"
+//!     added_mass_kg = 0.031
+//!     recordings = ["small_hull/*.mov"]
+//!     "#,
+//! )?;
+//! let experiment = file.resolve(None)?;
+//! assert_eq!(experiment.config.tone.order.lines_per_turn(), 69.0); // the gear mesh of the preset
+//! assert!((experiment.loads[1].force.newtons() - 0.444 * 9.80665).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod resolve;
 #[cfg(test)]
