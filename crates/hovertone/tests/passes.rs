@@ -87,7 +87,7 @@ fn passes_of(samples: Vec<f32>, config: &Config) -> (u32, Seen) {
 #[test]
 fn one_rotor_takes_two_passes_by_any_method() {
     for method in [Method::Harmonic, Method::MaximumTrace, Method::Gaussian] {
-        let config = Config { method, wants_all_methods: true, ..blade_pass() };
+        let config = Config { method, all_methods: true, ..blade_pass() };
         let (passes, seen) = passes_of(steady(67.3, 5.0, 0.01), &config);
         assert_eq!((passes, passes_of_speed(&config)), (2, 2));
         seen.assert_counts(2);

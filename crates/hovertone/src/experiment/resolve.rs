@@ -79,7 +79,7 @@ impl ExperimentFile {
                 ..BudgetConfig::default()
             },
             method: Method::for_rotors(rotor_count),
-            wants_all_methods: true,
+            all_methods: true,
             ..Config::for_tone(self.resolve_tone(preset)?)
         };
         config.check()?;
