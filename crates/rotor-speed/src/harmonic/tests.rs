@@ -1,4 +1,4 @@
-//! Against the Cramér-Rao bound, with the truth known at every instant. `cargo xtask bench accuracy` does it with many more draws.
+//! Against the Cramér-Rao bound, with the truth known at every instant. `hovertone-bench accuracy` does it with many more draws.
 
 use crate::harmonic::HarmonicTracer;
 use hovertone_signal::channels::ChannelBand;
