@@ -13,7 +13,7 @@ use hovertone_signal::channels::TICKS_PER_HOP;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 
-/// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
+/// Two lines closer than this in a frame cannot be told apart: order · Δf · T ≥ 1.25, measured with frames under a Hann window.
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
 /// A rotor of a quarter of another one's power is a faint one.
 const FAINT_SHARE: f64 = 0.25;
