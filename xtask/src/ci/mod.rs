@@ -148,13 +148,20 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    /// A crate with three tests that run, one of the documentation, one that has nothing to test, an exam and a measurement.
-    const FILES: [(&str, &str); 7] = [
+    /// A library with three tests that run, one of which has nothing to test, one of the documentation, an exam and a measurement; and a
+    /// program with a test.
+    const FILES: [(&str, &str); 9] = [
         ("Cargo.toml", "[workspace]\nmembers = [\"crates/*\"]\nresolver = \"3\""),
-        ("Cargo.lock", "version = 4\n\n[[package]]\nname = \"tested\"\nversion = \"0.1.0\"\n"),
+        (
+            "Cargo.lock",
+            "version = 4\n\n[[package]]\nname = \"program\"\nversion = \"0.1.0\"\n\n\
+             [[package]]\nname = \"tested\"\nversion = \"0.1.0\"\n",
+        ),
         ("ARCHITECTURE.md", ""),
         ("xtask/src/main.rs", ""),
         ("crates/tested/Cargo.toml", "[package]\nname = \"tested\"\nversion = \"0.1.0\"\nedition = \"2024\""),
+        ("crates/program/Cargo.toml", "[package]\nname = \"program\"\nversion = \"0.1.0\"\nedition = \"2024\""),
+        ("crates/program/src/main.rs", "fn main() {}\n#[test]\nfn inside() {}"),
         ("crates/tested/src/lib.rs", "//! ```\n//! assert!(true);\n//! ```\n#[test]\nfn inside() {}"),
         (
             "crates/tested/tests/outside.rs",
@@ -181,11 +188,16 @@ mod tests {
             fs::write(path, text).unwrap();
         }
         let quick = log(root.path(), Extent::Quick);
-        assert_eq!((quick.passed, quick.ignored, quick.skipped.len()), (4, 2, 1));
+        assert_eq!((quick.passed, quick.ignored, quick.skipped.len()), (5, 2, 1));
         let all = log(root.path(), Extent::All);
-        assert_eq!((all.passed, all.ignored, all.skipped.len()), (5, 0, 1));
+        assert_eq!((all.passed, all.ignored, all.skipped.len()), (6, 0, 1));
         let programs: Vec<&str> = all.slowest(9).iter().map(|program| program.name.as_str()).collect();
-        for name in ["tested (unittests src/lib.rs)", "outside (tests/outside.rs)", "documentation of tested"] {
+        for name in [
+            "program (unittests src/main.rs)",
+            "tested (unittests src/lib.rs)",
+            "outside (tests/outside.rs)",
+            "documentation of tested",
+        ] {
             assert!(programs.contains(&name), "{programs:?}");
         }
     }
