@@ -25,7 +25,7 @@ pub(crate) enum Extent {
 
 pub(crate) fn run(root: &Path, extent: Extent) -> Result<(), String> {
     let mut steps = Steps::default();
-    let mut log = TestLog::default();
+    let mut log = TestLog::shown();
     steps.run("tidy", || tidy::run(root))?;
     steps.run("format", || cargo(root, &["fmt", "--all", "--check"], &[]))?;
     let clippy = ["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"];
@@ -53,14 +53,14 @@ fn tests(root: &Path, extent: Extent, log: &mut TestLog) -> Result<(), String> {
     if extent == Extent::All {
         options.push("--include-ignored");
         for name in ignored::never_run(&tests)? {
-            println!("left out: {name}, ignored for another reason than \"exam: …\"");
+            log.add(&format!("left out: {name}, ignored for another reason than \"exam: …\""));
             options.extend(["--skip", name]);
         }
     }
     cargo_test(root, &["--tests"], &options, log)
 }
 
-/// Runs tests, shows their output and adds it to the log.
+/// Runs tests and adds their output to the log.
 fn cargo_test(root: &Path, which: &[&str], options: &[&str], log: &mut TestLog) -> Result<(), String> {
     // Cargo names the program on one stream, the program reports on the other: read as one, they are in order.
     let (reader, writer) = std::io::pipe().map_err(|error| format!("no pipe for the output of cargo test: {error}"))?;
@@ -78,7 +78,6 @@ fn cargo_test(root: &Path, which: &[&str], options: &[&str], log: &mut TestLog) 
         .map_err(|error| format!("cargo test could not start: {error}"))?;
     for line in BufReader::new(reader).lines() {
         let line = line.map_err(|error| format!("cargo test's output could not be read: {error}"))?;
-        println!("{line}");
         log.add(&line);
     }
     let status = child.wait().map_err(|error| format!("cargo test did not end: {error}"))?;
@@ -172,6 +171,7 @@ mod tests {
     ];
 
     fn log(root: &Path, extent: Extent) -> TestLog {
+        // Not shown: the run that runs this test counts the lines that it shows.
         let mut log = TestLog::default();
         tests(root, extent, &mut log).unwrap();
         cargo_test(root, &["--doc"], &["--show-output"], &mut log).unwrap();

@@ -6,6 +6,8 @@ pub(super) struct TestLog {
     pub(super) ignored: u32,
     /// The lines `skipped: …` of tests that found nothing to test, as without recordings.
     pub(super) skipped: Vec<String>,
+    /// Are lines printed as they come?
+    is_shown: bool,
     programs: Vec<TestProgram>,
     /// The program whose output is being read.
     running: Option<String>,
@@ -17,7 +19,15 @@ pub(super) struct TestProgram {
 }
 
 impl TestLog {
+    /// A log that prints the lines as they come.
+    pub(super) fn shown() -> Self {
+        Self { is_shown: true, ..Self::default() }
+    }
+
     pub(super) fn add(&mut self, line: &str) {
+        if self.is_shown {
+            println!("{line}");
+        }
         if let Some(result) = line.strip_prefix("test result: ") {
             self.passed += count_before("passed", result);
             self.ignored += count_before("ignored", result);
