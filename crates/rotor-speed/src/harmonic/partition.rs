@@ -1,52 +1,61 @@
-//! How long a block may be: as long as one straight line of speed explains what is heard.
+//! Chunk → blocks: a block is as long as one straight line of speed explains the sound.
 //!
-//! A rotor that holds its speed for seconds is measured best in one block, because uncertainty falls with the length to the
-//! power of 1.5; one that wanders, or whose sound loses its phase in a room, needs short ones. Blocks from half a hop (0.04 s)
-//! to the whole quantum are fitted, each level twice as long as the one before, and the level with the greatest evidence
-//! is taken: the sum over its blocks of the likelihood, less what noise alone would give and five standard deviations of it.
+//! A longer block knows its speed better, because the uncertainty falls with the length to the power 1.5. But where the speed wanders,
+//! or a room disturbs the phases, one straight line explains a short block alone. So a chunk is divided into blocks of nearly equal
+//! length: a *partition*. Block lengths from half a hop (0.04 s) to the whole chunk are tried, each twice the last, and the partition
+//! with the greatest evidence is taken: the sum over its blocks of the log likelihood, less the expectation and five standard
+//! deviations of the value that noise alone gives.
 
-use super::block::{BlockFit, Cells, best_on_grid, step_to_summit};
-use super::line::Line;
-use super::map::FRAME_HOPS;
-use super::path::SpeedPath;
+use super::block::{BlockFit, BlockSlices, Expansion, HALF_HOP_TICKS, SpeedLine, best_on_grid, step_to_summit};
+use super::demodulation::Line;
+use super::speed_map::FRAME_HOPS;
+use super::speed_path::{SpeedPath, SpeedPoint};
 use hovertone_signal::channels::TICKS_PER_HOP;
+use std::ops::Range;
 
-/// What a block must explain beyond the noise to pay for its own parameters, in standard deviations of what noise gives.
+/// Likelihood that a block must add beyond noise to pay for its own parameters, in standard deviations of the likelihood of noise.
+/// *Decision.*
 const PENALTY_STDS: f64 = 5.0;
-/// Phase errors below this do not count against a block, each time it is doubled: lines nearby that are not among the rotor's
-/// own shake the phase of short blocks by as much.
+/// Phase error, rad, that does not count against a block, for each time that its length doubles: lines that do not belong to the
+/// rotor disturb the phases of short blocks by as much. *Decision.*
 const PHASE_TOLERANCE_RAD: f64 = 0.07;
-/// Levels without a better one after which longer blocks are not tried.
-const WORSE_LEVELS_MAX: u32 = 2;
-/// The speed of a block is looked for this far from the first guess, in resolution cells of the highest line.
+/// Number of partitions in sequence without greater evidence that ends the search. *Numeric.*
+const WORSE_PARTITIONS_MAX: u32 = 2;
+/// Half width of the search for the speed of a block around the first guess, in resolution cells of the highest line. *Numeric.*
 const FIRST_GUESS_CELLS: f64 = 3.0;
-/// And this far from what shorter blocks say.
+/// The same around the guess from shorter blocks. *Numeric.*
 const NEXT_GUESS_CELLS: f64 = 2.0;
-/// Points in a resolution cell when one line of speed is looked for in all blocks together.
+/// Grid points in a resolution cell, in the search for one line of speed through all blocks. *Numeric.*
 const STRAIGHT_GRID_PER_CELL: f64 = 4.0;
+/// Largest number of steps of Newton's method in that search. *Numeric.*
 const STRAIGHT_STEPS: u32 = 4;
-/// How fast a hovering rotor changes its speed, as a share per second.
-const SLOPE_STD_SHARE_PER_S: f64 = 0.1;
+/// Distance of the two points of a block from its middle, as a share of its length: just inside its ends, so that the points of
+/// neighbouring blocks keep their order in time. *Numeric.*
+const END_POINT_SHARE: f64 = 0.49;
+/// Smallest determinant of the normal equations of a straight line, relative to the square of its weights: below, the times do not
+/// determine a slope. *Numeric.*
+const DETERMINANT_MIN: f64 = 1e-12;
 
-/// The blocks of one level.
+/// A division of a chunk into blocks of nearly equal length.
 #[derive(Clone, Debug)]
-pub(crate) struct Level {
+pub(crate) struct Partition {
+    /// The blocks in order of time.
     pub(crate) blocks: Vec<BlockFit>,
     evidence: f64,
 }
 
-/// What a block of so many lines must reach to count as heard.
+/// Smallest likelihood of a block with a number of lines that stands out of the noise.
 pub(crate) fn likelihood_min(lines: usize) -> f64 {
-    // amplitude and phase of each line, and speed and slope: noise gives one for each pair, with a variance of one
+    // Noise gives 1, with variance 1, for each pair of parameters: amplitude and phase of each line, speed and slope.
     let pairs = lines as f64 + 1.0;
     pairs + PENALTY_STDS * pairs.sqrt()
 }
 
-impl Level {
+impl Partition {
     fn new(blocks: Vec<BlockFit>, lines: &[Line]) -> Self {
-        let explained: f64 = blocks.iter().map(|block| block.in_phase).sum();
-        // what noise gives: for each block and strong line a half (its phase), for each weak one 1 (amplitude too), and 1 for
-        // speed and slope, each with as much variance
+        let explained: f64 = blocks.iter().map(|block| block.phase_likelihood).sum();
+        // In each block, noise gives 1/2 for a strong line (phase), 1 for a weak line (amplitude and phase), and 1 for speed and
+        // slope, each with an equal variance.
         let strong = lines.iter().filter(|line| line.is_strong).count() as f64;
         let free = blocks.len() as f64 * (lines.len() as f64 - strong / 2.0 + 1.0);
         let tolerated = PHASE_TOLERANCE_RAD.powi(2) * explained * (blocks.len() as f64).log2();
@@ -58,242 +67,259 @@ impl Level {
         self.blocks.iter().map(|block| block.likelihood).sum()
     }
 
-    /// The same, less what noise gives.
+    /// Likelihood of all blocks, less the expectation for noise.
     pub(crate) fn likelihood_over_noise(&self, lines: usize) -> f64 {
         self.blocks.iter().map(|block| (block.likelihood - lines as f64 - 1.0).max(0.0)).sum()
     }
 
-    /// Share of the blocks that stand out of the noise by so many times what they must.
+    /// Share of the blocks whose likelihood is `times` the likelihood that stands out of the noise, or more.
     pub(crate) fn heard_share(&self, lines: usize, times: f64) -> f64 {
         let heard = self.blocks.iter().filter(|block| block.likelihood >= times * likelihood_min(lines)).count();
         heard as f64 / self.blocks.len().max(1) as f64
     }
 
-    /// Times and speeds near both ends of every block that reaches a likelihood.
-    pub(crate) fn points(&self, threshold: f64, tick_s: f64) -> Vec<(f64, f64)> {
+    /// Speeds near both ends of each block whose likelihood reaches the threshold.
+    pub(crate) fn points(&self, threshold: f64, tick_s: f64) -> Vec<SpeedPoint> {
         let heard = self.blocks.iter().filter(|block| block.likelihood >= threshold);
         heard
             .flat_map(|block| {
-                let reach_s = 0.49 * (block.tick_to - block.tick_from) as f64 * tick_s;
+                let reach_s = END_POINT_SHARE * (block.tick_to - block.tick_from) as f64 * tick_s;
                 let middle_s = block.middle_s(tick_s);
-                [middle_s - reach_s, middle_s + reach_s].map(|time_s| (time_s, block.speed_at(time_s, tick_s)))
+                [middle_s - reach_s, middle_s + reach_s]
+                    .map(|time_s| SpeedPoint { time_s, speed_rev_s: block.speed_at(time_s, tick_s) })
             })
             .collect()
     }
 
-    /// Whichever explains more.
+    /// This partition, or the other one if its evidence is greater.
     pub(crate) fn or_better(self, other: Self) -> Self {
         if other.evidence > self.evidence { other } else { self }
     }
 }
 
-/// Blocks of one hop each around a first guess of the path.
-pub(crate) fn first_level(lines: &[Line], path: &SpeedPath) -> Level {
-    let guess = |from: usize, to: usize| guess_from_path(path, from, to);
-    level(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), FIRST_GUESS_CELLS, guess)
+/// Blocks of one hop each, around a first guess of the path.
+pub(crate) fn first_partition(lines: &[Line], path: &SpeedPath) -> Partition {
+    let guess = |ticks: Range<usize>| guess_from_path(path, ticks);
+    partition(lines, path, path.ticks().div_ceil(TICKS_PER_HOP), FIRST_GUESS_CELLS, guess)
 }
 
-/// The level with the greatest evidence, from a path that is already good and blocks of a hop around a rougher one.
+/// The partition with the greatest evidence, from a good path and from `coarse`: blocks of a hop around a rougher path.
 ///
-/// Where one block for all explains more than those did, it is halved for as long as that helps; where not, blocks of a hop are
-/// doubled for as long as that helps.
-pub(crate) fn best_level(lines: &[Line], path: &SpeedPath, coarse: &Level) -> Level {
-    let whole = level(lines, path, 1, NEXT_GUESS_CELLS, |from, to| guess_from_blocks(&coarse.blocks, path, from, to));
+/// Where one block for the whole chunk has greater evidence than `coarse`, block lengths are halved from there; otherwise they are
+/// doubled from one hop. Either ends where the evidence no longer rises.
+pub(crate) fn best_partition(lines: &[Line], path: &SpeedPath, coarse: &Partition) -> Partition {
+    let whole = partition(lines, path, 1, NEXT_GUESS_CELLS, |ticks| guess_from_blocks(&coarse.blocks, path, ticks));
     if whole.evidence > coarse.evidence {
-        return best_of(whole, |above| Some(halved(lines, path, above)));
+        return best_of(whole, |longer| Some(halved(lines, path, longer)));
     }
-    doubled_level(lines, path)
+    doubled_partition(lines, path)
 }
 
-/// The level with the greatest evidence, from blocks of a hop around a good path upwards.
-pub(crate) fn doubled_level(lines: &[Line], path: &SpeedPath) -> Level {
+/// The partition with the greatest evidence, from blocks of half a hop and of a hop around a good path upwards.
+pub(crate) fn doubled_partition(lines: &[Line], path: &SpeedPath) -> Partition {
     let hops = path.ticks().div_ceil(TICKS_PER_HOP);
-    let single = level(lines, path, hops, 0.0, |from, to| guess_from_path(path, from, to));
-    let half_hops = level(lines, path, 2 * hops, 0.0, |from, to| guess_from_blocks(&single.blocks, path, from, to));
-    let doubled = |below: &Level| {
-        let count = below.blocks.len().div_ceil(2);
-        let guess = |from: usize, to: usize| guess_from_blocks(&below.blocks, path, from, to);
-        (below.blocks.len() > 1).then(|| level(lines, path, count, 0.0, guess))
+    let single = partition(lines, path, hops, 0.0, |ticks| guess_from_path(path, ticks));
+    let half_hops = partition(lines, path, 2 * hops, 0.0, |ticks| guess_from_blocks(&single.blocks, path, ticks));
+    let doubled = |shorter: &Partition| {
+        let count = shorter.blocks.len().div_ceil(2);
+        let guess = |ticks: Range<usize>| guess_from_blocks(&shorter.blocks, path, ticks);
+        (shorter.blocks.len() > 1).then(|| partition(lines, path, count, 0.0, guess))
     };
     best_of(single, doubled).or_better(half_hops)
 }
 
-/// The best of a level and of those that follow it, each from the one before, until some are worse.
-fn best_of(first: Level, next: impl Fn(&Level) -> Option<Level>) -> Level {
+/// The best of a partition and its successors, each made from the last, until several in sequence are worse.
+fn best_of(first: Partition, next: impl Fn(&Partition) -> Option<Partition>) -> Partition {
     let (mut best, mut last, mut worse) = (first.clone(), first, 0);
-    while worse < WORSE_LEVELS_MAX
-        && let Some(level) = next(&last)
+    while worse < WORSE_PARTITIONS_MAX
+        && let Some(partition) = next(&last)
     {
-        worse = if level.evidence > best.evidence { 0 } else { worse + 1 };
+        worse = if partition.evidence > best.evidence { 0 } else { worse + 1 };
         if worse == 0 {
-            best = level.clone();
+            best = partition.clone();
         }
-        last = level;
+        last = partition;
     }
     best
 }
 
-/// One straight line of speed through the whole quantum, where single blocks are too weak to be heard: the sum of the
-/// likelihoods of all blocks, each with phases of its own, as a function of one speed and one slope. The blocks are doubled
-/// until there is one; each time the line is known well enough for the next, which resolves twice as finely.
-pub(crate) fn straight_level(lines: &[Line], path: &SpeedPath) -> Level {
+/// A block, and the time of its middle from the middle of the chunk.
+struct TimedBlock {
+    t: f64,
+    slices: BlockSlices,
+}
+
+/// One block for the whole chunk, where single blocks are too weak to be heard.
+///
+/// Its line of speed is the maximum of the sum of the likelihoods of shorter blocks, each with phases of its own, over one speed and one
+/// slope. The block length is doubled until one block is left: each length determines the line well enough for the next, which resolves
+/// it twice as finely.
+pub(crate) fn straight_partition(lines: &[Line], path: &SpeedPath) -> Partition {
     let ticks = path.ticks();
     let middle_s = ticks as f64 / 2.0 * path.tick_s;
-    let (mut speed, mut slope) = guess_from_path(path, 0, ticks);
+    let mut line = guess_from_path(path, 0..ticks);
     let mut count = ticks.div_ceil(FRAME_HOPS * TICKS_PER_HOP);
     let mut reach_cells = FIRST_GUESS_CELLS;
     loop {
-        let blocks: Vec<(f64, Cells)> = (0..count)
-            .map(|index| (border(ticks, index, count), border(ticks, index + 1, count)))
-            .filter(|(from, to)| from < to)
-            .map(|(from, to)| {
-                let t = (from + to) as f64 / 2.0 * path.tick_s - middle_s;
-                (t, Cells::new(lines, path, (from, to), (speed + slope * t, slope)))
+        let blocks: Vec<TimedBlock> = block_ticks(ticks, count)
+            .map(|ticks| {
+                let t = (ticks.start + ticks.end) as f64 / 2.0 * path.tick_s - middle_s;
+                let guess = SpeedLine { speed_rev_s: line.speed_rev_s + line.slope_rev_s2 * t, ..line };
+                TimedBlock { t, slices: BlockSlices::new(lines, path, ticks, guess) }
             })
             .collect();
-        let Some(cell) = blocks.first().map(|(_, cells)| cells.cell_rev_s()) else { break };
-        let highest = best_on_grid(blocks.iter().map(|(_, cells)| cells), reach_cells, STRAIGHT_GRID_PER_CELL);
-        let (offset, bend) = climbed(&blocks, highest, cell);
-        (speed, slope) = (speed + offset, slope + bend);
+        let Some(cell) = blocks.first().map(|block| block.slices.cell_rev_s()) else { break };
+        let highest = best_on_grid(blocks.iter().map(|block| &block.slices), reach_cells, STRAIGHT_GRID_PER_CELL);
+        let climbed = climbed(&blocks, highest, cell);
+        line.speed_rev_s += climbed.speed_rev_s;
+        line.slope_rev_s2 += climbed.slope_rev_s2;
         if count == 1 {
             break;
         }
         count = count.div_ceil(2);
         reach_cells = NEXT_GUESS_CELLS;
     }
-    // a weak line may have been led astray with its slope: the one without is looked for as well
-    let sloping = level(lines, path, 1, 0.0, |_, _| (speed, slope));
-    let flat = level(lines, path, 1, FIRST_GUESS_CELLS, |_, _| (speed, 0.0));
+    // noise may have led the slope of a weak line astray: the best line without a slope is tried as well
+    let sloping = partition(lines, path, 1, 0.0, |_| line);
+    let flat = partition(lines, path, 1, FIRST_GUESS_CELLS, |_| SpeedLine { slope_rev_s2: 0.0, ..line });
     if flat.likelihood() > sloping.likelihood() { flat } else { sloping }
 }
 
-/// Newton's method on the sum of all blocks, from a point of the grid; steps that do not climb are not taken.
-fn climbed(blocks: &[(f64, Cells)], offset: f64, cell: f64) -> (f64, f64) {
-    let expansion = |offset: f64, bend: f64| {
-        let (mut value, mut g, mut h) = (0.0, [0.0; 2], [0.0; 3]);
-        for (t, cells) in blocks {
-            let (of_block, gradient, second) = cells.expansion(offset + bend * t, bend);
-            value += of_block;
-            g[0] += gradient[0];
-            g[1] += gradient[0] * t + gradient[1];
-            h[0] += second[0];
-            h[1] += second[0] * t + second[1];
-            h[2] += second[0] * t * t + 2.0 * second[1] * t + second[2];
+/// Newton's method on the summed likelihood of blocks, from a difference of speed. It ends at a step that does not climb. Returns the
+/// differences of speed and slope from the guess.
+fn climbed(blocks: &[TimedBlock], d_speed: f64, cell_rev_s: f64) -> SpeedLine {
+    let expansion = |place: SpeedLine| {
+        let mut sum = Expansion { value: 0.0, gradient: [0.0; 2], second: [0.0; 3] };
+        for TimedBlock { t, slices } in blocks {
+            let Expansion { value, gradient, second } =
+                slices.expansion(place.speed_rev_s + place.slope_rev_s2 * t, place.slope_rev_s2);
+            sum.value += value;
+            sum.gradient[0] += gradient[0];
+            sum.gradient[1] += gradient[0] * t + gradient[1];
+            sum.second[0] += second[0];
+            sum.second[1] += second[0] * t + second[1];
+            sum.second[2] += second[0] * t * t + 2.0 * second[1] * t + second[2];
         }
-        (value, g, h)
+        sum
     };
-    let mut place = (offset, 0.0);
-    let (mut value, mut g, mut h) = expansion(place.0, place.1);
+    let mut place = SpeedLine { speed_rev_s: d_speed, slope_rev_s2: 0.0 };
+    let mut here = expansion(place);
     for _ in 0..STRAIGHT_STEPS {
-        let Some(step) = step_to_summit(g, h).filter(|step| step.0.abs() <= cell) else { break };
-        let next = expansion(place.0 + step.0, place.1 + step.1);
-        if next.0 <= value {
+        let Some(step) = step_to_summit(here.gradient, here.second).filter(|step| step.0.abs() <= cell_rev_s) else {
+            break;
+        };
+        let next_place =
+            SpeedLine { speed_rev_s: place.speed_rev_s + step.0, slope_rev_s2: place.slope_rev_s2 + step.1 };
+        let next = expansion(next_place);
+        if next.value <= here.value {
             break;
         }
-        place = (place.0 + step.0, place.1 + step.1);
-        (value, g, h) = next;
+        (place, here) = (next_place, next);
     }
     place
 }
 
-/// J of each line, over all blocks of a level.
-pub(crate) fn line_likelihoods(lines: &[Line], path: &SpeedPath, level: &Level) -> Vec<f64> {
+/// J of each line, summed over all blocks of a partition.
+pub(crate) fn line_likelihoods(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Vec<f64> {
     let mut sums = vec![0.0; lines.len()];
-    for block in &level.blocks {
-        let cells = Cells::new(lines, path, (block.tick_from, block.tick_to), (block.speed_rev_s, block.slope_rev_s2));
-        sums.iter_mut().zip(cells.line_likelihoods()).for_each(|(sum, likelihood)| *sum += likelihood);
+    for block in &partition.blocks {
+        let slices = BlockSlices::new(lines, path, block.ticks(), block.speed_line());
+        sums.iter_mut().zip(slices.line_likelihoods()).for_each(|(sum, likelihood)| *sum += likelihood);
     }
     sums
 }
 
-/// Blocks from the middle of each to the middle of the next, where both stand out of the noise: a block knows its speed best in its
-/// middle, and these have theirs where the others end.
-pub(crate) fn blocks_between(lines: &[Line], path: &SpeedPath, level: &Level) -> Vec<BlockFit> {
+/// Blocks from the middle of each block to the middle of the next, where both stand out of the noise. A block knows its speed best in
+/// its middle, and the middle of these blocks lies where the others meet.
+pub(crate) fn blocks_between(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Vec<BlockFit> {
     let threshold = likelihood_min(lines.len());
-    let pairs = level.blocks.windows(2).filter(|pair| pair.iter().all(|block| block.likelihood >= threshold));
+    let pairs = partition.blocks.windows(2).filter(|pair| pair.iter().all(|block| block.likelihood >= threshold));
     pairs
         .map(|pair| {
-            let ticks = ((pair[0].tick_from + pair[0].tick_to) / 2, (pair[1].tick_from + pair[1].tick_to) / 2);
-            let middle_s = (ticks.0 + ticks.1) as f64 / 2.0 * path.tick_s;
+            let ticks = (pair[0].tick_from + pair[0].tick_to) / 2..(pair[1].tick_from + pair[1].tick_to) / 2;
+            let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * path.tick_s;
             let speeds = [0, 1].map(|index: usize| pair[index].speed_at(middle_s, path.tick_s));
             let apart_s = pair[1].middle_s(path.tick_s) - pair[0].middle_s(path.tick_s);
-            let guess = ((speeds[0] + speeds[1]) / 2.0, (pair[1].speed_rev_s - pair[0].speed_rev_s) / apart_s);
-            Cells::new(lines, path, ticks, guess).fit(ticks, 0.0, slope_std(guess.0))
+            let guess = SpeedLine {
+                speed_rev_s: (speeds[0] + speeds[1]) / 2.0,
+                slope_rev_s2: (pair[1].speed_rev_s - pair[0].speed_rev_s) / apart_s,
+            };
+            BlockSlices::new(lines, path, ticks, guess).fit(0.0)
         })
         .collect()
 }
 
-/// The same blocks once more, around themselves.
-pub(crate) fn polished(lines: &[Line], path: &SpeedPath, level: &Level) -> Level {
-    let blocks = level
+/// The same blocks, fitted again from their own speeds.
+pub(crate) fn polished(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Partition {
+    let blocks = partition
         .blocks
         .iter()
-        .map(|block| {
-            let ticks = (block.tick_from, block.tick_to);
-            let guess = (block.speed_rev_s, block.slope_rev_s2);
-            Cells::new(lines, path, ticks, guess).fit(ticks, 0.0, slope_std(block.speed_rev_s))
-        })
+        .map(|block| BlockSlices::new(lines, path, block.ticks(), block.speed_line()).fit(0.0))
         .collect();
-    Level::new(blocks, lines)
+    Partition::new(blocks, lines)
 }
 
-/// The next finer level, from what this one says.
-pub(crate) fn halved(lines: &[Line], path: &SpeedPath, above: &Level) -> Level {
-    let count = (2 * above.blocks.len()).min(path.ticks().div_ceil(TICKS_PER_HOP / 2));
-    let line_at = |from: usize, to: usize| {
-        let middle_s = (from + to) as f64 / 2.0 * path.tick_s;
-        let of_block = |block: &&BlockFit| (block.middle_s(path.tick_s) - middle_s).abs();
-        let nearest = above.blocks.iter().min_by(|a, b| of_block(a).total_cmp(&of_block(b)));
+/// Blocks of half the length, from the speeds of the longer ones.
+pub(crate) fn halved(lines: &[Line], path: &SpeedPath, longer: &Partition) -> Partition {
+    let count = (2 * longer.blocks.len()).min(path.ticks().div_ceil(HALF_HOP_TICKS));
+    let guess = |ticks: Range<usize>| {
+        let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * path.tick_s;
+        let distance = |block: &&BlockFit| (block.middle_s(path.tick_s) - middle_s).abs();
+        let nearest = longer.blocks.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         nearest.map_or_else(
-            || guess_from_path(path, from, to),
-            |block| (block.speed_at(middle_s, path.tick_s), block.slope_rev_s2),
+            || guess_from_path(path, ticks),
+            |block| SpeedLine { speed_rev_s: block.speed_at(middle_s, path.tick_s), ..block.speed_line() },
         )
     };
-    level(lines, path, count, 0.0, line_at)
+    partition(lines, path, count, 0.0, guess)
 }
 
-fn level(
+/// A partition into `count` blocks, each fitted around its guess on a grid of `grid_cells` resolution cells to either side.
+fn partition(
     lines: &[Line],
     path: &SpeedPath,
     count: usize,
     grid_cells: f64,
-    guess: impl Fn(usize, usize) -> (f64, f64),
-) -> Level {
-    let blocks = (0..count)
-        .map(|index| (border(path.ticks(), index, count), border(path.ticks(), index + 1, count)))
-        .filter(|(from, to)| from < to)
-        .map(|(from, to)| {
-            let guess = guess(from, to);
-            Cells::new(lines, path, (from, to), guess).fit((from, to), grid_cells, slope_std(guess.0))
-        })
+    guess: impl Fn(Range<usize>) -> SpeedLine,
+) -> Partition {
+    let blocks = block_ticks(path.ticks(), count)
+        .map(|ticks| BlockSlices::new(lines, path, ticks.clone(), guess(ticks)).fit(grid_cells))
         .collect();
-    Level::new(blocks, lines)
+    Partition::new(blocks, lines)
 }
 
-/// Start of a block among so many: between half hops, so that blocks of all levels hold the same ones.
+/// The ticks of each of `count` blocks; empty blocks are left out.
+fn block_ticks(ticks: usize, count: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..count)
+        .map(move |index| border(ticks, index, count)..border(ticks, index + 1, count))
+        .filter(|ticks| !ticks.is_empty())
+}
+
+/// First tick of a block. Borders lie between half hops, so that blocks of all lengths consist of the same half hops.
 fn border(ticks: usize, index: usize, count: usize) -> usize {
-    let half_hop = TICKS_PER_HOP / 2;
-    let halves = ticks.div_ceil(half_hop);
-    if index == count { ticks } else { (index * halves + count / 2) / count * half_hop }
+    let halves = ticks.div_ceil(HALF_HOP_TICKS);
+    if index == count { ticks } else { (index * halves + count / 2) / count * HALF_HOP_TICKS }
 }
 
-fn slope_std(speed_rev_s: f64) -> f64 {
-    SLOPE_STD_SHARE_PER_S * speed_rev_s
-}
-
-fn guess_from_path(path: &SpeedPath, from: usize, to: usize) -> (f64, f64) {
-    let speed = (path.speed_rev_s(from) + path.speed_rev_s(to)) / 2.0;
-    (speed, (path.speed_rev_s(to) - path.speed_rev_s(from)) / ((to - from) as f64 * path.tick_s))
-}
-
-/// The straight line through shorter blocks, each counting for what it knows.
-fn guess_from_blocks(blocks: &[BlockFit], path: &SpeedPath, from: usize, to: usize) -> (f64, f64) {
-    let tick_s = path.tick_s;
-    let middle_s = (from + to) as f64 / 2.0 * tick_s;
-    let within: Vec<&BlockFit> = blocks.iter().filter(|block| block.tick_to > from && block.tick_from < to).collect();
-    if let [only] = within[..] {
-        return (only.speed_at(middle_s, tick_s), only.slope_rev_s2);
+/// The straight line between the ends of a part of the path.
+fn guess_from_path(path: &SpeedPath, ticks: Range<usize>) -> SpeedLine {
+    let (from, to) = (ticks.start, ticks.end);
+    SpeedLine {
+        speed_rev_s: (path.speed_rev_s(from) + path.speed_rev_s(to)) / 2.0,
+        slope_rev_s2: (path.speed_rev_s(to) - path.speed_rev_s(from)) / ((to - from) as f64 * path.tick_s),
     }
+}
+
+/// The straight line through the speeds of shorter blocks: least squares, weighted by their information.
+fn guess_from_blocks(blocks: &[BlockFit], path: &SpeedPath, ticks: Range<usize>) -> SpeedLine {
+    let tick_s = path.tick_s;
+    let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * tick_s;
+    let within: Vec<&BlockFit> =
+        blocks.iter().filter(|block| block.tick_to > ticks.start && block.tick_from < ticks.end).collect();
+    if let [only] = within[..] {
+        return SpeedLine { speed_rev_s: only.speed_at(middle_s, tick_s), ..only.speed_line() };
+    }
+    // sums of weight w, time t and speed n
     let (mut w, mut wt, mut wtt, mut wn, mut wnt) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for block in within {
         let (weight, t) = (block.information, block.middle_s(tick_s) - middle_s);
@@ -304,9 +330,9 @@ fn guess_from_blocks(blocks: &[BlockFit], path: &SpeedPath, from: usize, to: usi
         wnt += weight * t * block.speed_rev_s;
     }
     let determinant = w * wtt - wt * wt;
-    if determinant > 1e-12 * w * w {
-        ((wtt * wn - wt * wnt) / determinant, (w * wnt - wt * wn) / determinant)
+    if determinant > DETERMINANT_MIN * w * w {
+        SpeedLine { speed_rev_s: (wtt * wn - wt * wnt) / determinant, slope_rev_s2: (w * wnt - wt * wn) / determinant }
     } else {
-        guess_from_path(path, from, to)
+        guess_from_path(path, ticks)
     }
 }

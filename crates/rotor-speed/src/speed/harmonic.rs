@@ -1,6 +1,6 @@
 //! Blocks of the harmonic likelihood → shaft speed over a stretch of time, and its track.
 
-use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, joined_variance_turns2};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, joined_variance_turns2};
 use hovertone_analysis::{HarmonicSpeed, Method, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
@@ -194,7 +194,7 @@ fn turns_variance(run: &[Part], is_edge: &impl Fn(f64) -> bool) -> f64 {
     if run.len() == 1 {
         // of a part of a block less is known than of all of it
         let longer = first.block.span.length_s() / first.span.length_s();
-        return (first.block.std_uncertainty_rev_s * longer.powf(1.5) * first.span.length_s()).powi(2);
+        return (first.block.std_uncertainty_rev_s * longer.powf(LENGTH_POWER) * first.span.length_s()).powi(2);
     }
     let ends = [(first, first.span.from_s), (last, last.span.to_s)].map(|(part, end_s)| EndBlock {
         length_s: part.block.span.length_s(),
