@@ -6,10 +6,12 @@
 //! |---|---|
 //! | stretch | sound without gaps |
 //! | chunk | up to 10 s of a stretch, analysed at once (`chunks`) |
-//! | block | part of a chunk in which one straight line of speed explains the sound (`block`); a *partition* divides a chunk into blocks (`partition`) |
+//! | block | part of a chunk in which one straight line of speed explains the sound (`block`) |
 //! | frame | 0.17 s: two hops (`speed_map`) |
 //! | hop | half a frame of the filter bank (`hovertone_signal::channels`) |
 //! | tick | an eighth of a hop |
+//!
+//! A *partition* is the division of a chunk into blocks (`partition`).
 //!
 //! In each chunk, a map of all lines gives a rough path of the speed (`speed_map`). The lines are demodulated along it
 //! (`demodulation`). Blocks as long as straight lines of speed explain the sound give speed, slope and the uncertainty due to noise

@@ -1,6 +1,6 @@
 //! What a block shows at its most likely speed: how well this speed is known, and whether the lines keep their phase.
 
-use super::BlockSlices;
+use super::slices::BlockSlices;
 use crate::harmonic::phasors::OrderPhasors;
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
