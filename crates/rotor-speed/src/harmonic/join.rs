@@ -18,8 +18,8 @@ const FADED_S: f64 = 0.014;
 /// Largest ratio of variances at which shorter blocks replace longer ones: the noise at the ends of the blocks is known, but the
 /// curvature of the speed there is known on average alone. Best of three values tried on wandering simulated rotors. *Decision.*
 const FINER_RATIO: f64 = 2.5;
-/// Smallest number of degrees of freedom of the scatter of the steps. With one or two steps, the 95 % quantile of Student's t
-/// distribution with two degrees of freedom asks for this value. *Numeric.*
+/// Smallest number of degrees of freedom of the scatter of the steps. For two steps, √(2 / 0.4) = 2.2 is the ratio of the 95 % limits of
+/// Student's t distribution with two degrees of freedom (4.3) and of the normal distribution (1.96). *Numeric.*
 const STEPS_FREEDOM_MIN: f64 = 0.4;
 /// Half width of the search for a step, in standard deviations of the step. *Numeric.*
 const REACH_STDS: f64 = 6.0;
@@ -235,7 +235,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_step_is_read_from_lines_that_agree_and_from_no_others() {
+    fn a_step_is_found_from_lines_that_agree_and_from_no_others() {
         let step = 1.7e-3;
         let orders = [69.0, 138.0, 207.0];
         let at = |order: f64, turns: f64| StepLine {

@@ -76,7 +76,7 @@ fn blade_pass() -> Vec<TestLine> {
 }
 
 #[test]
-fn a_steady_rotor_is_read_at_the_bound_and_knows_it() {
+fn a_steady_rotor_reaches_the_bound_and_states_it() {
     for (name, lines) in [("mesh", mesh()), ("blade pass", blade_pass())] {
         for snr_db in [-20.0, 0.0, 20.0] {
             let draws: Vec<Draw> = (0..24).map(|seed| draw(seed, &lines, snr_db, 5.0)).collect();

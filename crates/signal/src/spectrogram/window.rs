@@ -3,14 +3,14 @@
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Cosine terms a_k of the Hann window, w[n] = Σ a_k cos(2πkn/N). *Physics.*
+/// Cosine terms a_k of the Hann window, `w[n] = Σ a_k cos(2πkn/N)`. *Physics.*
 const HANN_TERMS: [f64; 2] = [0.5, -0.5];
 /// Cosine terms of the Hamming window. *Physics.*
 const HAMMING_TERMS: [f64; 2] = [0.54, -0.46];
 /// Cosine terms of the Blackman window. *Physics.*
 pub(super) const BLACKMAN_TERMS: [f64; 3] = [0.42, -0.5, 0.08];
 
-/// Weights w[n] = 0.5 − 0.5 cos(2π (n + ½) / N), n = 0 … N − 1: a Hann window symmetric about the middle of its N samples.
+/// Weights `w[n] = 0.5 − 0.5 cos(2π (n + ½) / N)`, n = 0 … N − 1: a Hann window symmetric about the middle of its N samples.
 pub fn hann_weights(length: usize) -> impl Iterator<Item = f64> {
     (0..length).map(move |n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos())
 }
@@ -31,7 +31,7 @@ pub enum Window {
 }
 
 impl Window {
-    /// The weights w[0] … w[N − 1] of a frame of N = `sample_count` samples.
+    /// The weights `w[0] … w[N − 1]` of a frame of N = `sample_count` samples.
     pub fn values(self, sample_count: usize) -> Vec<f64> {
         let cosine = |terms: &[f64]| {
             (0..sample_count)
