@@ -1,4 +1,4 @@
-//! The stages of the chain. Each is one function from one typed value to the next; the settings that it needs come from [`Config`].
+//! The stages of the chain: each is one function from one typed value to the next, with its settings from [`Config`].
 //!
 //! [`Config`]: crate::Config
 

@@ -1,6 +1,6 @@
-//! One quantum of sound → the blocks of each rotor.
+//! One chunk of sound → the blocks of each rotor.
 
-use super::RoughQuantum;
+use super::RoughChunk;
 use super::atoms::ChannelAtoms;
 use super::grid::OffsetGrid;
 use super::hearing::{
@@ -18,10 +18,10 @@ use super::search::found_tracks;
 use super::separation::{RESOLVED_CELLS, SeparatedRotor};
 use super::spectra::{FRAME_TICKS, Spectra, frame_middle_ticks};
 use crate::harmonic::block::BlockFit;
-use crate::harmonic::coherence::{Level, blocks_between, doubled_level, likelihood_min};
+use crate::harmonic::chunks::Chunk;
 use crate::harmonic::join::joined;
-use crate::harmonic::path::SpeedPath;
-use crate::harmonic::quanta::Quantum;
+use crate::harmonic::partition::{Partition, blocks_between, doubled_partition, likelihood_min};
+use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::channels::ChannelBand;
 use rustfft::FftPlanner;
 
@@ -46,7 +46,7 @@ const HEARD_MARGIN: f64 = 3.0;
 /// What was heard of one rotor.
 pub(super) struct HeardRotor {
     pub(super) line_count: usize,
-    pub(super) level: Level,
+    pub(super) level: Partition,
     pub(super) between: Vec<BlockFit>,
     /// Its path as the search has it, and as the blocks that stand out of the noise have it.
     pub(super) traced: SpeedPath,
@@ -93,27 +93,27 @@ pub(super) fn resolution_rev_s(bands: &[ChannelBand]) -> f64 {
     RESOLVED_CELLS / finest
 }
 
-/// Where the rotors of a quantum are, roughly: speeds in each frame, in no order; and how these change. A search along what they share,
+/// Where the rotors of a chunk are, roughly: speeds in each frame, in no order; and how these change. A search along what they share,
 /// if they bob, and else along no path at all, so wide that it misses none.
 pub(super) fn rough_tracks(
-    quantum: &Quantum<'_>,
+    chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
     limits_rev_s: (f64, f64),
     count: usize,
     planner: &mut FftPlanner<f32>,
 ) -> (Vec<Vec<f64>>, Pace) {
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
-    let motion = common_motion(quantum, atoms, limits_rev_s, count, planner);
+    let motion = common_motion(chunk, atoms, limits_rev_s, count, planner);
     let pace = if motion.is_some() { Pace::Bobbing } else { Pace::Steady };
-    let Some(common) = motion.or_else(|| path_through([middle_rev_s], quantum)) else { return (Vec::new(), pace) };
+    let Some(common) = motion.or_else(|| path_through([middle_rev_s], chunk)) else { return (Vec::new(), pace) };
     let frame_s = Pace::Steady.frame_s_of_order(FIRST_FRAME_HZ_S2, middle_rev_s);
-    let spectra = Spectra::along(quantum, &quantum.series, &common, (frame_s, FIRST_FRAMES_APART), planner);
+    let spectra = Spectra::along(chunk, &chunk.series, &common, (frame_s, FIRST_FRAMES_APART), planner);
     let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
     let line_weights = line_weights(&spectra, &grid, count);
     let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE, echo_share: 0.0 };
     let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS), trust);
-    let frames = quantum.ticks / FRAME_TICKS;
-    let paths: Vec<SpeedPath> = tracks.iter().filter_map(|track| spectra.path_at(track, quantum)).collect();
+    let frames = chunk.ticks / FRAME_TICKS;
+    let paths: Vec<SpeedPath> = tracks.iter().filter_map(|track| spectra.path_at(track, chunk)).collect();
     (tracks_of(&paths, frames), pace)
 }
 
@@ -124,15 +124,15 @@ pub(super) fn band_of_tracks<'a>(tracks: impl Iterator<Item = &'a Vec<f64>>, lim
     if low < high { (low.max(limits_rev_s.0), high.min(limits_rev_s.1)) } else { limits_rev_s }
 }
 
-/// The rotors of a quantum, in no order, from what is roughly known of them.
-pub(super) fn rotors_of_quantum(
-    quantum: &Quantum<'_>,
+/// The rotors of a chunk, in no order, from what is roughly known of them.
+pub(super) fn rotors_of_chunk(
+    chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
-    rough: &RoughQuantum,
+    rough: &RoughChunk,
     planner: &mut FftPlanner<f32>,
 ) -> Vec<HeardRotor> {
-    let (tick_s, ticks) = (quantum.tick_s, quantum.ticks);
-    let Some((mut hearing, spectra)) = Hearing::new(quantum, atoms, rough, planner) else { return Vec::new() };
+    let (tick_s, ticks) = (chunk.tick_s, chunk.ticks);
+    let Some((mut hearing, spectra)) = Hearing::new(chunk, atoms, rough, planner) else { return Vec::new() };
     let mut frame_hz_s2 = COMMON_SEARCH.frame_hz_s2;
     let close_rev_s = CLOSE_CELLS * hearing.cell_rev_s(frame_hz_s2);
     let are_close = |tracks: &[Vec<f64>]| share_close(tracks, close_rev_s) > CLOSE_SHARE;
@@ -175,7 +175,7 @@ pub(super) fn rotors_of_quantum(
         .into_iter()
         .zip(rotors)
         .map(|(path, SeparatedRotor { lines, levels, worths, faint_worths, .. })| {
-            let level = joined(&lines, &path, &doubled_level(&lines, &path));
+            let level = joined(&lines, &path, &doubled_partition(&lines, &path));
             let between = blocks_between(&lines, &path, &level);
             let points = level.points(likelihood_min(lines.len()), tick_s);
             let traced = path;

@@ -1,32 +1,41 @@
-//! The noise around a line: how much of it falls into one sample of a channel.
+//! The noise around a line: its variance in one sample of the channel.
 
-use super::frame::FrameTransform;
+use super::frame_transform::FrameTransform;
 use hovertone_signal::statistics::median;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
-/// Share of a channel's bins, around its middle, that count: the outermost are the band-pass' own slopes.
+/// Share of the bins of a channel, around its middle, that count: the outer bins lie on the slopes of the band-pass filter.
+/// *Numeric.*
 const MIDDLE_SHARE: f64 = 0.8;
-/// Frames of the noise spectrum, in hops of the bank: 0.34 s, so that a wandering line covers few bins.
+/// Length of the frames of the noise spectrum, in hops of the filter bank: 0.34 s, so that a line of varying frequency covers
+/// few bins. *Numeric.*
 const FRAME_HOPS: usize = 4;
 
-/// Measures the floor of one channel.
-pub(crate) struct FloorMeter {
+/// Independent frames that each further frame adds: Hann frames that overlap by half share part of their sound (Welch, IEEE
+/// Trans. Audio and Electroacoustics 15, 1967). *Numeric.*
+const INDEPENDENT_PER_FRAME: f64 = 0.9;
+
+/// Measures the noise floor of one channel.
+pub(crate) struct NoiseMeter {
     frames: FrameTransform,
+    /// Sum of the power spectra of all frames.
     power: Vec<f64>,
+    /// Scratch for the bins that count.
     middle: Vec<f64>,
 }
 
-impl FloorMeter {
+impl NoiseMeter {
     pub(crate) fn new(hop_samples: usize, planner: &mut FftPlanner<f32>) -> Self {
         let length = FRAME_HOPS * hop_samples;
         Self { frames: FrameTransform::new(length, 1, planner), power: vec![0.0; length], middle: Vec::new() }
     }
 
-    /// Variance of the noise in one complex sample, `E |e|²`: the median over the channel's bins of the mean power
-    /// spectrum, so that the lines themselves, of this rotor and others, do not count. `None` of less than one frame.
+    /// Variance of the noise in one complex sample, `E |e|²`: the median over the bins of the mean power spectrum (Welch 1967). The
+    /// median leaves out the lines of this rotor and of others. `None` for less than one frame.
     ///
-    /// The median of a mean of M exponential values lies 1 / 3M below their mean; that is corrected for.
+    /// The median of a mean of M independent exponential values is 1 − 1 / 3M of its expectation, and ln 2 for M = 1; the result
+    /// is corrected for that.
     pub(crate) fn noise_variance(&mut self, series: &[Complex<f32>]) -> Option<f64> {
         let length = self.frames.length();
         self.power.fill(0.0);
@@ -42,9 +51,8 @@ impl FloorMeter {
         self.middle.extend_from_slice(&self.power[..half]);
         self.middle.extend_from_slice(&self.power[length - half..]);
         let middle = median(&self.middle).filter(|_| frames > 0)? / f64::from(frames);
-        // neighbouring frames share half of their sound: two are worth 1.9
-        let worth = 1.0 + 0.9 * f64::from(frames - 1);
-        let median_of_mean = if frames == 1 { std::f64::consts::LN_2 } else { 1.0 - 1.0 / (3.0 * worth) };
+        let independent = 1.0 + INDEPENDENT_PER_FRAME * f64::from(frames - 1);
+        let median_of_mean = if frames == 1 { std::f64::consts::LN_2 } else { 1.0 - 1.0 / (3.0 * independent) };
         Some(middle / self.frames.energy / median_of_mean)
     }
 }
@@ -59,7 +67,7 @@ mod tests {
     fn the_floor_is_the_noise_whatever_lines_stand_on_it() {
         let mut rng = rand_pcg::Pcg64::seed_from_u64(3);
         let hop_samples = 48;
-        let mut meter = FloorMeter::new(hop_samples, &mut FftPlanner::new());
+        let mut meter = NoiseMeter::new(hop_samples, &mut FftPlanner::new());
         for (frames, tolerance) in [(60, 0.05), (6, 0.2)] {
             let series: Vec<Complex<f32>> = (0..frames * 2 * hop_samples)
                 .map(|n| {

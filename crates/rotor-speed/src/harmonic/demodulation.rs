@@ -1,50 +1,77 @@
-//! A channel, turned back by the shaft's angle: one sum for each tick.
+//! Demodulation: a channel times the conjugate of the line that a path of speed predicts, one sum for each tick.
+//!
+//! Where the path is right, the product is constant: amplitude and phase of the line, and noise.
 
-use super::path::SpeedPath;
 use super::phasors::small_turn;
+use super::speed_path::{PathTick, SpeedPath};
+use hovertone_signal::channels::Channel;
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// One line of a quantum, turned back by a path: one sum for each tick.
+/// One line of a rotor over a chunk, demodulated along a path.
 pub(crate) struct Line {
     pub(crate) order: f64,
-    /// Whether it is the first of its family.
+    /// Whether the line is the first of its family.
     pub(crate) is_first: bool,
-    /// Whether it stands out of the noise in every half hop.
+    /// Whether the line stands out of the noise in every half hop.
     pub(crate) is_strong: bool,
+    /// Noise variance of one channel sample.
     pub(crate) noise_variance: f64,
-    /// Where other lines of the same rotor are heard with it; an empty range where they were taken away.
-    pub(crate) company_hz: Range<f64>,
+    /// The band of the channel: other lines of the same rotor in it leak into this line. Empty where they were subtracted.
+    pub(crate) leakage_band_hz: Range<f64>,
     pub(crate) samples_per_tick: f64,
+    /// Sum of the demodulated samples of each tick.
     pub(crate) ticks: Vec<Complex<f64>>,
 }
 
-/// After so many ticks the phase is taken from the path again, before the roundings of its recurrence add up to anything.
+/// Order of a line, and centre frequency and sample rate of the channel in which it is heard.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LinePlace {
+    pub(crate) order: f64,
+    pub(crate) centre_hz: f64,
+    pub(crate) rate_hz: f64,
+}
+
+impl LinePlace {
+    /// The line for which a channel was made.
+    pub(crate) fn of_channel(channel: &Channel) -> Self {
+        Self { order: channel.order, centre_hz: channel.centre_hz, rate_hz: channel.rate_hz }
+    }
+}
+
+/// Ticks after which the phase is computed from the path again, before the rounding errors of the recurrence add up. *Numeric.*
 const EXACT_EVERY_TICKS: usize = 64;
 
-/// `exp(j 2π (o turns(t) − f t))` at the samples of a channel around f: a line of order o and amplitude 1, as the channel shows it.
+/// `exp(j 2π (o θ(t) − f t))` at the samples of a channel with centre frequency f, where θ(t) is the angle of the path in turns: a
+/// line of order o, amplitude 1 and phase 0, as the channel shows it.
 ///
-/// The phase advances by a step that itself advances, by the same within each tick: all by multiplication.
+/// The speed is linear in each tick, so that the phase is quadratic: the phasor advances by a step, and the step by a constant
+/// factor, all by multiplication.
 pub(crate) struct LinePhasors<'a> {
     path: &'a SpeedPath,
     order: f64,
     centre_hz: f64,
+    /// Time between samples.
     step_s: f64,
     samples_per_tick: usize,
     tick: usize,
     samples_left: usize,
+    /// Phasor of the next sample.
     turn: Complex<f64>,
+    /// Factor from the next sample to the one after it.
     step: Complex<f64>,
+    /// Factor from one step to the next.
     step_of_step: Complex<f64>,
-    /// Half of the second difference of the phase, for each rev/s that the speed gains in a tick; and that of this tick.
+    /// Half of the second difference of the phase, for each rev/s that the speed changes in a tick.
     bend_per_rev_s: f64,
+    /// Half of the second difference of the phase in this tick, rad.
     bend: f64,
 }
 
 impl<'a> LinePhasors<'a> {
     pub(crate) fn new(
-        (order, centre_hz, rate_hz): (f64, f64, f64),
+        LinePlace { order, centre_hz, rate_hz }: LinePlace,
         path: &'a SpeedPath,
         samples_per_tick: usize,
     ) -> Self {
@@ -66,7 +93,7 @@ impl<'a> LinePhasors<'a> {
     }
 
     fn begin_tick(&mut self) {
-        let (turns, from, to) = self.path.tick(self.tick);
+        let PathTick { turns, speed_from_rev_s: from, speed_to_rev_s: to } = self.path.tick(self.tick);
         let bend = self.bend_per_rev_s * (to - from);
         if self.tick.is_multiple_of(EXACT_EVERY_TICKS) {
             let cycles = self.order * turns - self.centre_hz * self.tick as f64 * self.path.tick_s;
@@ -81,11 +108,11 @@ impl<'a> LinePhasors<'a> {
         self.samples_left = self.samples_per_tick;
     }
 
-    /// The sum of all samples of the next tick, turned back.
-    fn tick_turned_back(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
+    /// Sum of the demodulated samples of the next tick.
+    fn tick_sum(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
         self.begin_tick();
         let wide = |z: &Complex<f32>| Complex::new(f64::from(z.re), f64::from(z.im));
-        // two samples at a time, so that the products of one need not wait for those of the other
+        // two samples at a time, because the processor computes independent products in parallel
         let (mut even, mut odd) = (self.turn, self.turn * self.step);
         let bend = self.step_of_step;
         let mut even_step = self.step * self.step * bend;
@@ -105,7 +132,7 @@ impl<'a> LinePhasors<'a> {
             even_sum += even.conj() * wide(last);
             (even, odd) = (odd, even * even_step);
         }
-        // odd / even, whose magnitudes are 1 but for what rounding adds; without the second factor that would double at every tick
+        // odd / even: both magnitudes are 1 up to rounding errors; without the second factor these errors would double in each tick
         self.step = odd * even.conj() * (2.0 - even.norm_sqr());
         (self.turn, self.samples_left) = (even, 0);
         even_sum + odd_sum
@@ -130,15 +157,15 @@ impl Iterator for LinePhasors<'_> {
     }
 }
 
-/// Turns a channel back by the shaft's angle times its order and adds up each tick.
+/// Demodulates the samples of a channel along a path: one sum for each tick.
 pub(crate) fn demodulated(
     series: &[Complex<f32>],
-    place: (f64, f64, f64),
+    place: LinePlace,
     samples_per_tick: usize,
     path: &SpeedPath,
 ) -> Vec<Complex<f64>> {
     let mut phasors = LinePhasors::new(place, path, samples_per_tick);
-    series.chunks_exact(samples_per_tick).take(path.ticks()).map(|samples| phasors.tick_turned_back(samples)).collect()
+    series.chunks_exact(samples_per_tick).take(path.ticks()).map(|samples| phasors.tick_sum(samples)).collect()
 }
 
 #[cfg(test)]
@@ -151,18 +178,19 @@ mod tests {
         let speeds: Vec<f64> = (0..=1000).map(|tick| 60.0 + (f64::from(tick) * 0.05).sin()).collect();
         let path = SpeedPath::from_borders(tick_s, speeds);
         let rate_hz = samples_per_tick as f64 / tick_s;
-        let phasors: Vec<_> = LinePhasors::new((order, centre_hz, rate_hz), &path, samples_per_tick).collect();
+        let place = LinePlace { order, centre_hz, rate_hz };
+        let phasors: Vec<_> = LinePhasors::new(place, &path, samples_per_tick).collect();
         assert_eq!(phasors.len(), 1000 * samples_per_tick);
         for (sample, phasor) in phasors.iter().enumerate() {
             let (tick, within) = (sample / samples_per_tick, (sample % samples_per_tick) as f64 / rate_hz);
-            let (turns, from, to) = path.tick(tick);
+            let PathTick { turns, speed_from_rev_s: from, speed_to_rev_s: to } = path.tick(tick);
             let turned = turns + from * within + (to - from) / tick_s * within * within / 2.0;
             let cycles = order * turned - centre_hz * (tick as f64 * tick_s + within);
             let error = (phasor - Complex::from_polar(1.0, TAU * cycles.fract())).norm();
             assert!(error < 1e-8, "sample {sample}: {error}");
         }
         for odd_or_even in [samples_per_tick, samples_per_tick - 1] {
-            let place = (order, centre_hz, odd_or_even as f64 / tick_s);
+            let place = LinePlace { rate_hz: odd_or_even as f64 / tick_s, ..place };
             let phasors: Vec<_> = LinePhasors::new(place, &path, odd_or_even).collect();
             let narrow = |z: &Complex<f64>| Complex::new(z.re as f32, z.im as f32);
             let series: Vec<Complex<f32>> = phasors.iter().map(narrow).collect();

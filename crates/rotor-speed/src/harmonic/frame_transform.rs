@@ -1,11 +1,11 @@
-//! The spectrum of a frame of one channel, under a Hann window.
+//! The complex spectrum of a frame of one channel, under a Hann window (Harris, Proc. IEEE 66, 1978).
 
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 use std::sync::Arc;
 
-/// Transforms frames of one length.
+/// Fourier transform of frames of one length.
 pub(crate) struct FrameTransform {
     plan: Arc<dyn Fft<f32>>,
     window: Vec<f32>,
@@ -16,7 +16,7 @@ pub(crate) struct FrameTransform {
 }
 
 impl FrameTransform {
-    /// Frames of `length` samples, filled up with zeros to `zero_pad_factor` times that.
+    /// Frames of `length` samples, padded with zeros to `zero_pad_factor` times the length.
     pub(crate) fn new(length: usize, zero_pad_factor: usize, planner: &mut FftPlanner<f32>) -> Self {
         let plan = planner.plan_fft_forward(zero_pad_factor * length);
         let window: Vec<f32> = hann_weights(length).map(|weight| weight as f32).collect();
@@ -29,12 +29,12 @@ impl FrameTransform {
         }
     }
 
-    /// Samples of a frame.
+    /// Samples of a frame, without padding.
     pub(crate) fn length(&self) -> usize {
         self.window.len()
     }
 
-    /// The spectrum of the frame that `series` begins with, frequency 0 first.
+    /// Spectrum of the first frame of `series`: frequency 0 first, then rising, then the negative frequencies.
     pub(crate) fn spectrum(&mut self, series: &[Complex<f32>]) -> &[Complex<f32>] {
         for ((into, z), weight) in self.frame.iter_mut().zip(series).zip(&self.window) {
             *into = z * weight;
