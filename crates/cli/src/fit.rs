@@ -9,8 +9,8 @@ use crate::thrust_args::FitArguments;
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
     ForcePoint, Gravity, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
-    figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit, torque_constant_n_m_s2,
-    warnings_of_points,
+    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
+    torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_json, fitted_table_text, flight_plan_text};
@@ -109,10 +109,12 @@ fn fitted_table(
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
     let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
     let air = plan.diameter_m.zip(plan.density_kg_m3);
-    // of several rotors torques add up by their directions, which no table tells
+    // torques of several rotors add up with their directions, which are not in the table
     let has_torque = plan.rotor_count == 1;
-    let torques: Vec<(RotorSpeed, f64)> =
-        group.rows.iter().filter_map(|row| Some((RotorSpeed::from_rad_s(row.speed_rad_s), row.torque_n_m?))).collect();
+    let torque = |row: &StandRow| {
+        Some(TorqueReading { speed: RotorSpeed::from_rad_s(row.speed_rad_s), torque_n_m: row.torque_n_m? })
+    };
+    let torques: Vec<TorqueReading> = group.rows.iter().filter_map(torque).collect();
     let coefficients =
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
     let mut warnings = warnings_of_points(&points, &fit, is_weighed.then_some(plan.gravity.m_s2));
