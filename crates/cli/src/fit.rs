@@ -1,10 +1,10 @@
 //! `hovertone fit`: the thrust constant from tables, and the plan of a campaign.
 
+use crate::args::FitArguments;
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
-use crate::thrust_args::FitArguments;
 
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
@@ -18,12 +18,12 @@ use hovertone_vehicle::{Estimate, RotorSpeed};
 use std::fs;
 use std::path::Path;
 
-/// A quarter of its mass is what most multirotors carry safely.
+/// Most multirotors safely carry a quarter of their mass.
 const ADDED_MASS_SHARE: f64 = 0.25;
-/// Rotors of most multirotors.
+/// Number of rotors of most multirotors.
 const ROTORS_OF_MOST: u32 = 4;
 
-/// What the arguments mean.
+/// The meaning of the arguments.
 struct Plan {
     gravity: Gravity,
     rotor_count: u32,
@@ -154,7 +154,7 @@ fn fitted_table(
     })
 }
 
-/// Masses are weighed by the same gravity, whose uncertainty does not average out.
+/// The uncertainty of gravity is common to all masses and does not average out.
 fn with_gravity(constant: Estimate, gravity: Gravity, is_weighed: bool) -> Estimate {
     let shared = if is_weighed { constant.value * gravity.std_m_s2 / gravity.m_s2 } else { 0.0 };
     Estimate { std_uncertainty: constant.std_uncertainty.map(|std| std.hypot(shared)), ..constant }
@@ -171,7 +171,7 @@ fn point_of(row: &StandRow, plan: &Plan) -> ForcePoint {
     }
 }
 
-/// Of one rotor at the largest thrust: there the offsets of the stand matter least.
+/// Figure of merit of one rotor at the largest thrust, where an offset of the stand matters least.
 fn merit_of(group: &StandGroup, points: &[ForcePoint], plan: &Plan) -> Option<f64> {
     let rotors = f64::from(plan.rotor_count);
     let rows = group.rows.iter().zip(points).filter_map(|(row, point)| Some((point.force_n, row.power_w?)));
