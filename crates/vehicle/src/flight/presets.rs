@@ -41,6 +41,7 @@ const LIPO_EMPTY: &str = "estimated: lithium polymer at the end of its flat part
 const TUNED: &str = "estimated: tuned here on the linearised model, no source";
 const STANDS: &str = "estimated: not found";
 
+/// Motor of the AR.Drone. *Physics.*
 const ARDRONE_MOTOR: MotorParameters = MotorParameters {
     resistance_ohm: of(0.6029, AURORA),
     constant_v_s_rad: of(
@@ -56,6 +57,7 @@ const ARDRONE_MOTOR: MotorParameters = MotorParameters {
     gear_ratio: of(8.625, "Pizetta et al., preprints201808.0313 v1, remark 4, after the manufacturer"),
 };
 
+/// Battery of the AR.Drone. *Physics.*
 const ARDRONE_BATTERY: BatteryParameters = BatteryParameters {
     voltage_v: of(11.1, "LeonardoFagundesJr/UAV_DelayedControl, @ArDrone/sDynamicModel.m: limit of the battery"),
     full_v: of(12.6, LIPO_FULL),
@@ -64,6 +66,7 @@ const ARDRONE_BATTERY: BatteryParameters = BatteryParameters {
     resistance_ohm: of(0.08, "estimated: 20 milliohm per cell and as much again in leads"),
 };
 
+/// Controller of the AR.Drone, with the gains of the authors' code. *Physics.*
 const ARDRONE_CONTROLLER: ControllerParameters = ControllerParameters {
     period_s: of(0.005, "estimated: 200 runs per second"),
     derivative_filter_s: of(1.0 / 30.0, "LeonardoFagundesJr/UAV_DelayedControl: the sampling time of its differences"),
@@ -76,6 +79,7 @@ const ARDRONE_CONTROLLER: ControllerParameters = ControllerParameters {
     climb_m_s_max: of(1.0, AURORA_LIMITS),
 };
 
+/// Rotor of the AR.Drone. *Physics.*
 const ARDRONE_ROTOR: RotorParameters = RotorParameters {
     thrust_constant_n_s2: of(
         7.0775e-6,
@@ -89,7 +93,7 @@ const ARDRONE_ROTOR: RotorParameters = RotorParameters {
     air_density_kg_m3: of(1.225, DENSITY),
 };
 
-/// The AR.Drone of the authors' simulator. The preset of the second AR.Drone differs in mass and rotor constants.
+/// The AR.Drone of the authors' simulator. The preset of the second AR.Drone differs in mass and rotor constants. *Physics.*
 const ARDRONE: FlightParameters = FlightParameters {
     id: "ardrone",
     mass_kg: of(0.413, "Pizetta et al., preprints201808.0313 v1, section 4: without hull, with the 2000 mAh battery"),
