@@ -1,10 +1,10 @@
 //! From the sound of a hovering multirotor to the speed of its rotors and its thrust constant.
 //!
-//! Pure: no files, clock, threads, environment or printing. Sound comes in through [`sound::SignalSource`].
+//! Pure functions: no files, clock, threads, environment or printing. Sound comes in through [`sound::SignalSource`].
 
 pub mod experiment;
 
-/// Sound: a source of samples, and how far an analysis has come in it.
+/// Sound: a source of samples, and the progress of the passes over it.
 pub mod sound {
     pub use hovertone_signal::passes::{Passes, Progress};
     pub use hovertone_signal::spectrogram::{Frame, Stft, Window};
@@ -25,14 +25,14 @@ pub mod speed {
     };
 }
 
-/// Tone families of a recording whose tone nobody has named, and the shaft speeds that each can mean.
+/// Tone families of a recording without a known order, and the shaft speeds that each can belong to.
 pub mod tones {
     pub use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
     pub use hovertone_rotor_speed::{Discovery, DiscoveryConfig, FoundSpeed, tones_from_passes, tones_from_source};
     pub use hovertone_vehicle::KnownRotor;
 }
 
-/// Which track is which rotor, and the condition of each rotor.
+/// Which track belongs to which rotor, and the condition of each rotor.
 pub mod rotors {
     pub use hovertone_analysis::{
         LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorCondition, RotorLabel, RotorLabels, ShaftLine,
@@ -54,7 +54,7 @@ pub mod thrust {
     pub use hovertone_thrust::*;
 }
 
-/// What a multirotor is: presets with sources, quantities, physical constants.
+/// Facts about multirotors: presets with sources, quantities, physical constants.
 pub mod vehicle {
     pub use hovertone_vehicle::*;
 }
