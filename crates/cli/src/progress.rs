@@ -1,4 +1,4 @@
-//! How far the listening has come, on stderr, when somebody is looking.
+//! Progress of the analysis on stderr, if it is a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
@@ -9,13 +9,13 @@ const STEPS: u64 = 1000;
 const TICK: Duration = Duration::from_millis(120);
 const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {eta} left";
 
-/// A bar over all recordings together.
+/// One bar for all recordings.
 pub(crate) struct Progress {
     bar: ProgressBar,
 }
 
 impl Progress {
-    /// A bar for so many recordings, hidden unless it is wanted and stderr is a terminal.
+    /// A bar for the given number of recordings. It is hidden unless it is wanted and stderr is a terminal.
     pub(crate) fn new(verb: &str, recording_count: usize, is_wanted: bool) -> Self {
         let is_seen = is_wanted && io::stderr().is_terminal();
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
@@ -31,25 +31,25 @@ impl Progress {
         Self { bar }
     }
 
-    /// The part of the bar that belongs to one recording.
+    /// The part of the bar for one recording.
     pub(crate) fn recording(&self) -> Share<'_> {
         Share { bar: &self.bar, steps_done: 0 }
     }
 
-    /// Takes the bar away, so that nothing is written through it.
+    /// Removes the bar before other output.
     pub(crate) fn finish(self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// The part of the bar that belongs to one recording. It fills up by itself when the recording is done with.
+/// The part of the bar for one recording. It becomes full when the recording is finished.
 pub(crate) struct Share<'a> {
     bar: &'a ProgressBar,
     steps_done: u64,
 }
 
 impl Share<'_> {
-    /// Sets how much of the recording is done; never goes back.
+    /// Sets the finished share of the recording; it never decreases.
     pub(crate) fn set(&mut self, share: f64) {
         let steps = (share.clamp(0.0, 1.0) * STEPS as f64) as u64;
         if steps > self.steps_done {

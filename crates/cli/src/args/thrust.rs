@@ -1,6 +1,6 @@
-//! What was typed for the commands that know forces: identify, fit, weigh, export, compare.
+//! Arguments of the commands about forces: identify, fit, weigh, export, compare.
 
-use crate::args::{HearingArguments, ToneArguments, method_parser};
+use super::groups::{HearingArguments, ToneArguments, method_parser};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;

@@ -1,32 +1,36 @@
-//! What must be known for a thrust constant beside its loads.
+//! What a thrust constant needs beside its loads.
 
-use crate::budget::UncertaintyInputs;
+mod uncertainty_inputs;
+
+pub use uncertainty_inputs::UncertaintyInputs;
+
 use hovertone_vehicle::CLOCK_PPM;
 use serde::Serialize;
 
-/// What a constant needs to be known beside its loads.
+/// What a thrust constant needs beside its loads.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ThrustSettings {
-    /// Rotors of the vehicle.
+    /// Number of rotors of the vehicle.
     pub rotor_count: u32,
     /// Diameter of its propellers, where known.
     pub propeller_diameter_m: Option<f64>,
     /// Density of the air, where known.
     pub air_density_kg_m3: Option<f64>,
-    /// How far the recorder's clock may be off, in millionths: a half width.
+    /// Half width of the error of the recorder's clock, in millionths.
     pub clock_ppm: f64,
-    /// Whether the speeds are those of a single ridge, which follows the loudest rotor.
+    /// Whether the speeds come from a single ridge, which follows the loudest rotor.
     pub follows_loudest: bool,
-    /// Where they are not: how far, as a share, their mean may be from that of all rotors, since not all were told apart.
+    /// Without a single ridge: standard deviation of the difference between the speed and the mean of all rotors, as a share.
+    /// It is above 0 where not all rotors were separated.
     pub unresolved_std_share: f64,
-    /// Whether somebody weighed the vehicle: a preset's or a model's mass is that of another specimen.
+    /// Whether this vehicle was weighed. The mass of a preset or of a model belongs to another specimen.
     pub is_weighed: bool,
-    /// How large the effects may be that nobody measured.
+    /// Limits of the effects that were not measured.
     pub uncertainty: UncertaintyInputs,
 }
 
 impl ThrustSettings {
-    /// Of a vehicle with so many rotors, all else by default.
+    /// Settings for a vehicle with `rotor_count` rotors; everything else is the default.
     pub fn for_rotors(rotor_count: u32) -> Self {
         Self {
             rotor_count,

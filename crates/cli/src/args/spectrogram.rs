@@ -1,6 +1,6 @@
-//! What was typed for `spectrogram`.
+//! Arguments of `spectrogram`.
 
-use crate::args::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
 use clap::Args;
 use std::path::PathBuf;
 

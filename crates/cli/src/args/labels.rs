@@ -1,6 +1,6 @@
-//! What was typed of which rotor is which.
+//! Arguments about the labels of the rotors.
 
-use crate::args::finite;
+use super::groups::finite;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
