@@ -9,6 +9,8 @@ use crate::settings::LabelsConfig;
 use hovertone_analysis::{LabelSource, NotTold, RotorLabel, RotorLabels};
 use hovertone_signal::statistics::log_sum_exp;
 
+/// Fewest tracks that are compared: differences between rotors need two. *Numeric.*
+pub(crate) const TRACKS_MIN: usize = 2;
 /// Smallest posterior probability of "related" at which labels are given: the more probable hypothesis is taken. *Decision.*
 const RELATED_MIN: f64 = 0.5;
 /// Distance between the best offset and a limit of the search, in steps, below which a better offset may lie beyond the limit. *Decision.*
