@@ -13,8 +13,8 @@ pub struct LabelsConfig {
     pub offset_s_high: Option<f64>,
     /// Step of the offset, in s: a fifth of the 0.1 s in which a small multirotor's motors respond.
     pub offset_step_s: f64,
-    /// Most log rows that are compared, summed over all offsets. A hover of one minute in a log of twelve minutes needs this number,
-    /// which takes one core about one minute.
+    /// Most log rows that are compared, summed over all offsets. A hover of one minute in a log of twelve minutes needs about
+    /// this number, which takes one core about one minute.
     pub comparisons_max: usize,
     /// Smallest overlap of log and hover, as a share of the shorter of the two.
     pub overlap_share_min: f64,

@@ -48,8 +48,8 @@ impl<'a> BodyRateModel<'a> {
         Self { rows, levers }
     }
 
-    /// The sums for one noise. Time is a nuisance because of steady torques from outside, such as wind. The mean of the tracks is, because
-    /// it turns a vehicle whose centre of mass is off the middle, or whose rotors differ.
+    /// The sums for one noise. Time is a nuisance because of steady torques from outside, such as wind. The mean of the tracks is
+    /// one because the common thrust turns a vehicle whose centre of mass is off the middle, or whose rotors differ.
     fn regression_sums(&self, matched: &MatchedRows, noise: DriftingNoise) -> RegressionSums {
         let filter = WhiteningFilter::new(matched, noise);
         let white: Vec<Vec<f64>> =

@@ -35,7 +35,7 @@ trait AssignmentModel {
     fn ln_likelihood_ratios(&self, rows: &MatchedRows, assignments: &[Vec<usize>]) -> Vec<f64>;
 }
 
-/// The labels of tracks, from a log of the same flight. `rotor_count` rotors turn, and `tracks` are those that were separated.
+/// The labels of tracks, from a log of the same flight. `rotor_count` rotors turn; `tracks` holds a track of each separated rotor.
 ///
 /// Every assignment of tracks to rotors is compared, at every offset of the log's clock, with the hypothesis "this log has no relation to
 /// these tracks", which has a prior probability of one half. Both hypotheses are linear regressions:

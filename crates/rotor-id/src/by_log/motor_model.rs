@@ -115,7 +115,7 @@ impl WhiteTracks {
     }
 
     /// The sums with the motors behind one lag. Time is a nuisance because batteries run down and motors warm up, each at its own rate;
-    /// the means are because no two motors respond alike to a common command.
+    /// the two means are nuisances because no two motors respond alike to a common command.
     fn regression_sums(&self, filter: &WhiteningFilter<'_>, rows: &MatchedRows, lagged: &[Vec<f64>]) -> RegressionSums {
         let motors: Vec<Vec<f64>> =
             lagged.iter().map(|motor| filter.white(rows.rows.iter().map(|&row| motor[row]))).collect();

@@ -21,7 +21,7 @@ pub(super) struct NuisanceBasis {
 }
 
 impl NuisanceBasis {
-    /// The basis of white series (Gram-Schmidt); a series that depends linearly on those before it adds no direction.
+    /// The basis of white series (Gram-Schmidt); a series that depends linearly on the earlier ones adds no direction.
     pub(super) fn from_white(series: impl IntoIterator<Item = Vec<f64>>) -> Self {
         let mut basis = Self { directions: Vec::new(), ln_determinant: 0.0 };
         for series in series {

@@ -91,7 +91,8 @@ impl LevelModel {
         self.ln_density(&placed) - self.ln_density(&unrelated)
     }
 
-    /// Logarithm of the normal density of all levels. The loudness correlates the levels of one rotor, and the gain those at one microphone.
+    /// Logarithm of the normal density of all levels. The loudness correlates the levels of one rotor; the gain correlates the levels at
+    /// one microphone.
     fn ln_density(&self, expected: &dyn Fn(usize, usize) -> ExpectedLevel) -> f64 {
         let microphones = self.places.first().map_or(0, Vec::len);
         let at: Vec<(usize, usize)> = (0..self.tracks.len())
@@ -150,7 +151,7 @@ fn levels_of_track_db(lines: &[LinePowers], track: usize) -> Vec<Vec<f64>> {
 }
 
 /// Level of a rotor at a microphone: `−20 log₁₀ d + D/2` with the variance `(D/2)²` plus that of the position. The amplitude has the
-/// directivity `sin² + 0.1 cos²` of the angle from the axis, of which D is the level.
+/// directivity `sin² + 0.1 cos²` of the angle from the axis; D is its level.
 fn expected_level(rotor_m: [f64; 3], microphone_m: [f64; 3], config: &MicrophonesConfig) -> ExpectedLevel {
     let far_m = distance_m(rotor_m, microphone_m).hypot(config.position_std_m);
     let axis_share = ((microphone_m[2] - rotor_m[2]) / far_m).powi(2);

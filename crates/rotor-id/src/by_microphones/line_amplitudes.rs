@@ -23,7 +23,7 @@ pub struct MicrophoneLines {
 
 /// Amplitudes of the lines of rotors with known speeds, in one audio channel; one pass.
 ///
-/// `tracks` are those of the separated rotors, `tone` gives the orders of their lines. All lines of all rotors, with the sidebands of a gear
+/// `tracks` holds the tracks of the separated rotors, `tone` gives the orders of their lines. All lines of all rotors, with the sidebands of a gear
 /// mesh, are solved together by least squares in blocks of at most [`MicrophonesConfig::block_s`], along the rotors' turns, for at most
 /// [`MicrophonesConfig::listen_s_max`]. Analyse all audio channels of a recording with the same tracks.
 ///

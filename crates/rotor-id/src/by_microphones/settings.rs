@@ -21,8 +21,8 @@ pub struct MicrophonesConfig {
     /// Standard deviation of what body, arms, rotor wash and the rotor's own directivity change in the levels of all its lines at a
     /// microphone, in dB. Rotors on one frame differ by some decibels at one distance. Near a rotor's axis the directivity adds to this.
     pub level_std_db: f64,
-    /// Prior standard deviation of the levels of single lines about their mean, in dB. Echoes as strong as the sound make the amplitude
-    /// Rayleigh distributed, whose level has 10 / ln 10 · π / √6 = 5.6 dB.
+    /// Prior standard deviation of the levels of single lines about their mean, in dB. If echoes dominate, the amplitude has a
+    /// Rayleigh distribution, whose level has a standard deviation of 10 / ln 10 · π / √6 = 5.6 dB.
     pub line_level_std_db: f64,
     /// Scatter of the phases of single lines over which the likelihood is averaged, in rad (1/√κ of a von Mises distribution): echoes of a
     /// third of the sound from body and frame; echoes as strong as the sound; lines nearly lost in echoes.

@@ -11,7 +11,8 @@ use std::sync::Arc;
 pub(super) const FRAME_S: f64 = 0.4;
 /// Time between the middles of two frames, in s: a Hann window overlaps by three quarters. *Numeric.*
 pub(super) const HOP_S: f64 = 0.1;
-/// Zero padding: the spectrum has this number of bins per resolution cell, and straight lines between them an error below 0.3 %. *Numeric.*
+/// Zero padding: the spectrum has at least this number of bins per resolution cell; linear interpolation between them is off by 0.3 % at
+/// most. *Numeric.*
 const BINS_PER_CELL: usize = 8;
 /// Width of the bands in which the noise is taken as flat, in Hz. *Numeric.*
 const NOISE_BAND_HZ: f64 = 250.0;
@@ -37,7 +38,7 @@ pub(super) struct FrameCollector {
     pub(super) frames: Vec<Frame>,
 }
 
-/// Spectrum of one frame: amplitudes of complex exponentials, half of those of sines, with the phases at the middle of the frame.
+/// Spectrum of one frame: amplitudes of complex exponentials, half the amplitudes of sines, with the phases at the middle of the frame.
 pub(super) struct Frame {
     pub(super) middle_s: f64,
     bin_hz: f64,

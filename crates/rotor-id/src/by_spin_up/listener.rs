@@ -19,9 +19,9 @@ const SPAN_S_MAX: f64 = 2.0 * SPIN_UP_S_MAX;
 /// Distance in resolution cells of the lines of the two nearest rotors, from which on their order is used. *Decision.*
 const APART_CELLS: f64 = 1.5;
 /// Most orders that are used. *Decision.*
-const LINES_MAX: usize = 10;
+const ORDERS_MAX: usize = 10;
 /// Fewest orders that are used. *Decision.*
-const LINES_MIN: usize = 2;
+const ORDERS_MIN: usize = 2;
 /// Highest order of the blade pass that is used: higher lines smear within a frame. *Decision.*
 const BLADE_ORDER_MAX: f64 = 40.0;
 /// Highest multiple of a gear mesh that is used, for the same reason. *Decision.*
@@ -79,7 +79,7 @@ impl SpinUpListener {
         let order_max = if base_order > BLADES_MAX { MESH_LINES * base_order } else { BLADE_ORDER_MAX };
         let order_max = order_max.min(SAMPLE_RATE_SHARE * sample_rate_hz / fastest_rev_s.max(f64::MIN_POSITIVE));
         let orders = separating_orders(base_order, order_max, apart_rev_s);
-        if orders.len() < LINES_MIN {
+        if orders.len() < ORDERS_MIN {
             return Err(NotTold::RotorsTooClose { apart_rev_s });
         }
         let high_hz = FREQUENCY_MARGIN * fastest_rev_s * orders.last().copied().unwrap_or(order_max);
@@ -135,6 +135,6 @@ fn separating_orders(base_order: f64, order_max: f64, apart_rev_s: f64) -> Vec<f
         .map(|multiple| base_order * f64::from(multiple))
         .take_while(|order| *order <= order_max)
         .filter(|order| order * apart_rev_s * FRAME_S >= APART_CELLS)
-        .take(LINES_MAX)
+        .take(ORDERS_MAX)
         .collect()
 }

@@ -139,7 +139,7 @@ fn spin_up_of_rotors(
     Ok(listener.finish())
 }
 
-/// Number of passes of [`speed_after_spin_up`]: those of the speed, two for the first separation, and one for each of the two searches of
+/// Number of passes of [`speed_after_spin_up`]: the passes of the speed, two for the first separation, and one for each of the two searches of
 /// the starts.
 pub fn passes_of_spin_up(config: &Config) -> u32 {
     passes_of_speed(config) + 2 + 2

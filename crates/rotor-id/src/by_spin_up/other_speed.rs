@@ -16,7 +16,7 @@ const GUARD_CELLS: f64 = 2.5;
 /// Power over that of the noise above which a line is audible. *Decision.*
 const AUDIBLE_OVER_NOISE: f64 = 10.0;
 /// Fewest lines of a speed that lie apart from the known rotors. *Decision.*
-const LINES_MIN: usize = 4;
+const APART_LINES_MIN: usize = 4;
 /// Smallest share of these lines that are audible. *Decision.*
 const AUDIBLE_SHARE_MIN: f64 = 0.75;
 /// Smallest power of a series, as a share of the faintest rotor's power in the hover. *Decision.*
@@ -102,7 +102,7 @@ impl OtherSpeedSearch<'_> {
             }
         }
         let of_all = power * self.lines.orders.len() as f64 / f64::from(apart.max(1) as u32);
-        apart >= LINES_MIN
+        apart >= APART_LINES_MIN
             && audible as f64 >= AUDIBLE_SHARE_MIN * apart as f64
             && of_all >= POWER_SHARE_MIN * self.faintest_power
     }
