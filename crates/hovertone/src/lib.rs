@@ -208,7 +208,7 @@ pub mod rotors {
         microphone_lines_from_source,
     };
     pub use hovertone_rotor_id::by_spin_up::{
-        RotorBegin, SpinUp, labels_from_spin_up, passes_of_spin_up, speed_after_spin_up, spin_up_from_analysis,
+        RotorStart, SpinUp, labels_from_spin_up, passes_of_spin_up, speed_after_spin_up, spin_up_from_analysis,
     };
     pub use hovertone_rotor_id::condition::conditions_from_analysis;
 }

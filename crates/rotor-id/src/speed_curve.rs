@@ -4,7 +4,7 @@ use hovertone_analysis::{Span, TrackPoint};
 use hovertone_signal::statistics::{mean, median};
 use std::f64::consts::TAU;
 
-/// Points further apart than this many median steps have a gap between them. *Decision.*
+/// Distance of two points of a track, in median steps, above which a gap lies between them: one missing point is no gap. *Decision.*
 const GAP_STEPS: f64 = 2.5;
 
 /// The speed of one rotor over time: linear between the points of its track, unknown in gaps and outside.
@@ -13,12 +13,12 @@ pub(crate) struct SpeedCurve {
     speed_rev_s: Vec<f64>,
     /// Turns of the shaft since the first point.
     turns: Vec<f64>,
-    /// ∫ (ω² − ω₀²) dt since the first point, ω₀ the mean speed.
+    /// `∫ (ω² − ω₀²) dt` since the first point, ω₀ the mean speed. Subtracting ω₀² keeps the sum small.
     excess_rad2_s: Vec<f64>,
-    /// Number of gaps before each point.
+    /// Number of the stretch between gaps in which each point lies, from 0.
     stretch: Vec<usize>,
     mean_rad_s: f64,
-    /// First point at or after the last time that [`SpeedCurve::turns_at`] was asked for.
+    /// First point at or after the time of the last call of [`SpeedCurve::turns_at`].
     next: usize,
 }
 
@@ -26,11 +26,14 @@ pub(crate) struct SpeedCurve {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CurvePoint {
     pub(crate) speed_rad_s: f64,
+    /// `∫ (ω² − ω₀²) dt` since the first point of the track, ω₀ the mean speed.
     pub(crate) excess_rad2_s: f64,
+    /// Number of the stretch between gaps, from 0.
     pub(crate) stretch: usize,
 }
 
 impl SpeedCurve {
+    /// The curve through the points of a track, in any sequence. Points that are not finite, and all but the first of one time, are left out.
     pub(crate) fn through(track: &[TrackPoint]) -> Self {
         let mut points: Vec<(f64, f64)> = track
             .iter()
@@ -87,8 +90,8 @@ impl SpeedCurve {
         })
     }
 
-    /// Turns of the shaft since the first point, at a time no earlier than the last one asked for; `None` in a gap and outside. The cost
-    /// per call does not grow with the track, so that it can be asked for every audio sample.
+    /// Turns of the shaft since the first point; `None` in a gap and outside. `time_s` must not decrease from call to call: then the cost
+    /// per call does not grow with the length of the track, which allows a call for every audio sample.
     pub(crate) fn turns_at(&mut self, time_s: f64) -> Option<f64> {
         while self.time_s.get(self.next).is_some_and(|&point_s| point_s < time_s) {
             self.next += 1;

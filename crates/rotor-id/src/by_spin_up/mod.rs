@@ -1,17 +1,20 @@
-//! In which order motors were started at the beginning of a recording: who starts them knows it, and so whose each track is.
+//! Labels from the sequence in which the motors were started at the beginning of a recording: who starts them knows it.
 //!
 //! ```text
-//! sound before and into the hover ─▶ spectra of frames (frames) ─▶ level of each rotor, all rotors solved for together (lines),
-//!                                                                                    │   their speeds followed back in time
-//! tracks of the hover ───────────────────────────────────────────────────────────────┘
-//! labels ◀── names in the order of the starts ◀── when each begins (onset), unless something turns at other speeds (other_speed)
+//! sound before and in the hover ─▶ spectra of short frames (listener, frames)
+//!                                          │
+//! tracks of the hover ─────────────────────┼─▶ speed and power of each rotor, all rotors solved together (joint_lines), followed back
+//!                                          │   in time (start_search)
+//!                                          ▼
+//! labels ◀── sequence of the starts ◀── onset of each rotor's power (onset), unless lines of another speed are present (other_speed)
 //! ```
 
 mod frames;
-mod lines;
+mod joint_lines;
+mod listener;
 mod onset;
 mod other_speed;
-mod reader;
+mod start_search;
 
 use crate::settings::LabelsConfig;
 use frames::FRAME_S;
@@ -22,46 +25,46 @@ use hovertone_rotor_speed::{
 };
 use hovertone_signal::SignalError;
 use hovertone_signal::passes::Passes;
-use reader::{SPIN_UP_S_MAX, SpinUpReader, SpinUpWanted};
+use listener::{SPIN_UP_S_MAX, SpinUpListener, SpinUpRequest};
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Normal};
 
-/// So long after the last motor's start all turn steadily.
+/// Time after the last start from which on all rotors turn steadily, in s. *Decision.*
 const SETTLED_S: f64 = 1.0;
 
-/// When each rotor began to turn at the speed that it has in the hover.
+/// The starts of the rotors of a hover.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpinUp {
-    /// Of each rotor, in their order; empty where it is not told.
-    pub begins: Vec<RotorBegin>,
-    /// Why it is not told.
+    /// The start of each rotor, in the sequence of the rotors; empty if one is unknown.
+    pub starts: Vec<RotorStart>,
+    /// Why the starts are unknown.
     pub not_told: Option<NotTold>,
 }
 
-/// When a rotor began.
+/// The time at which a rotor reaches about the speed of the hover.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct RotorBegin {
-    /// On the recording's clock; where it was there before the recording, the recording's start.
+pub struct RotorStart {
+    /// On the recording's clock; the start of the recording if the rotor turns already by then.
     pub time_s: f64,
-    /// Its standard uncertainty: of the sound, and of how long motors take to run up.
+    /// Standard uncertainty, from the sound and from the unknown time that the motor needs to run up.
     pub std_uncertainty_s: f64,
 }
 
 impl SpinUp {
     fn not_told(reason: NotTold) -> Self {
-        Self { begins: Vec::new(), not_told: Some(reason) }
+        Self { starts: Vec::new(), not_told: Some(reason) }
     }
 
-    /// From when on all rotors turn.
+    /// Time from which on all rotors turn steadily.
     fn settled_s(&self) -> f64 {
-        self.begins.iter().map(|begin| begin.time_s).fold(f64::NEG_INFINITY, f64::max) + SETTLED_S
+        self.starts.iter().map(|start| start.time_s).fold(f64::NEG_INFINITY, f64::max) + SETTLED_S
     }
 }
 
-/// Labels of `tracks` rotors from the order in which they were started: `names` in that order, each with its number from 1.
+/// The labels of `tracks` rotors, from the sequence of their starts: `names` in this sequence, each with its number from 1.
 ///
-/// The starts are ordered beyond doubt, or nothing is told: neighbours must be further apart than a frame, and the probability of
-/// the order, of Gaussian errors, above `probability_min`.
+/// All rotors have a label or none has. Neighbours in the sequence must lie further apart than a frame, and the product of the
+/// probabilities that each is later than the one before, for normal errors, must reach `probability_min`.
 pub fn labels_from_spin_up(
     spin_up: &SpinUp,
     tracks: usize,
@@ -72,14 +75,14 @@ pub fn labels_from_spin_up(
     if let Some(reason) = &spin_up.not_told {
         return not_told(reason.clone());
     }
-    if tracks != names.len() || tracks != spin_up.begins.len() {
+    if tracks != names.len() || tracks != spin_up.starts.len() {
         return not_told(NotTold::TooFewTracks { tracks, needed: names.len() });
     }
-    let mut order: Vec<usize> = (0..tracks).collect();
-    order.sort_by(|&a, &b| spin_up.begins[a].time_s.total_cmp(&spin_up.begins[b].time_s));
+    let mut sequence: Vec<usize> = (0..tracks).collect();
+    sequence.sort_by(|&a, &b| spin_up.starts[a].time_s.total_cmp(&spin_up.starts[b].time_s));
     let (mut probability, mut nearest_s) = (1.0, f64::INFINITY);
-    for pair in order.windows(2) {
-        let [earlier, later] = [spin_up.begins[pair[0]], spin_up.begins[pair[1]]];
+    for pair in sequence.windows(2) {
+        let [earlier, later] = [spin_up.starts[pair[0]], spin_up.starts[pair[1]]];
         let apart_s = later.time_s - earlier.time_s;
         let std_s = earlier.std_uncertainty_s.hypot(later.std_uncertainty_s).max(f64::MIN_POSITIVE);
         probability *= Normal::standard().cdf(apart_s / std_s);
@@ -90,7 +93,7 @@ pub fn labels_from_spin_up(
         return RotorLabels { probability: Some(probability), ..not_told(reason) };
     }
     let mut rotors = vec![None; tracks];
-    for (&track, (number, name)) in order.iter().zip(names) {
+    for (&track, (number, name)) in sequence.iter().zip(names) {
         rotors[track] = Some(RotorLabel { number: *number, name: name.clone(), probability });
     }
     RotorLabels {
@@ -103,7 +106,7 @@ pub fn labels_from_spin_up(
     }
 }
 
-/// When each rotor of a finished analysis began to turn; one pass. `rotor_count` rotors turn, and all must have been separated.
+/// The starts of the rotors of a finished analysis; one pass. `rotor_count` rotors turn, and all must have been separated.
 ///
 /// # Errors
 /// A source that fails.
@@ -117,34 +120,35 @@ pub fn spin_up_from_analysis(
         Outcome::Ok(found) => &found.rotors,
         Outcome::NoRotorTone { .. } => &[],
     };
-    let wanted = SpinUpWanted { sample_rate_hz: passes.sample_rate_hz(), heard: analysis.heard, rotor_count, tone };
-    spin_up_of_rotors(passes, &wanted, &analysis.hover, rotors)
+    let request =
+        SpinUpRequest { sample_rate_hz: passes.sample_rate_hz(), recording: analysis.heard, rotor_count, tone };
+    spin_up_of_rotors(passes, &request, &analysis.hover, rotors)
 }
 
 fn spin_up_of_rotors(
     passes: &mut Passes<'_>,
-    wanted: &SpinUpWanted<'_>,
+    request: &SpinUpRequest<'_>,
     hover: &Hover,
     rotors: &[RotorEstimate],
 ) -> Result<SpinUp, SignalError> {
-    let mut reader = match SpinUpReader::new(wanted, hover, rotors) {
-        Ok(reader) => reader,
+    let mut listener = match SpinUpListener::new(request, hover, rotors) {
+        Ok(listener) => listener,
         Err(reason) => return Ok(SpinUp::not_told(reason)),
     };
-    passes.listen(&Hover::whole(reader.span).spans_s(), &mut reader)?;
-    Ok(reader.finish())
+    passes.listen(&Hover::whole(listener.span).spans_s(), &mut listener)?;
+    Ok(listener.finish())
 }
 
-/// Passes that [`speed_after_spin_up`] makes: those of the speed, two for the rotors before, and one for each search of the starts.
+/// Number of passes of [`speed_after_spin_up`]: the passes of the speed, two for the first separation, and one for each of the two searches of
+/// the starts.
 pub fn passes_of_spin_up(config: &Config) -> u32 {
     passes_of_speed(config) + 2 + 2
 }
 
-/// The speeds of a recording that begins before its rotors turn, and when each of them began.
+/// The speeds of a recording that begins before its rotors turn, and the start of each rotor.
 ///
-/// Rotors are separated in the later half of the hover, where all turn, and followed back to their starts. The speeds are those of the
-/// hover after the last start, in which the rotors are separated and followed back once more. Where the starts are not found, the speeds
-/// are those of the whole hover.
+/// The rotors are separated in the later half of the hover, where all turn, and followed back to their starts. The hover after the last
+/// start gives the speeds; its rotors are separated and followed back once more. If a start is unknown, the whole hover gives the speeds.
 ///
 /// # Errors
 /// As [`hovertone_rotor_speed::speed_from_source`].
@@ -159,13 +163,13 @@ pub fn speed_after_spin_up(passes: &mut Passes<'_>, config: &Config) -> Result<(
         let spin_up = spin_up_from_analysis(passes, &analysis, rotor_count, &config.tone)?;
         return Ok((analysis, spin_up));
     }
-    let wanted = SpinUpWanted {
+    let request = SpinUpRequest {
         sample_rate_hz: passes.sample_rate_hz(),
-        heard: surveyed.heard(),
+        recording: surveyed.heard(),
         rotor_count,
         tone: &config.tone,
     };
-    let first = spin_up_of_rotors(passes, &wanted, &hover, &rotors)?;
+    let first = spin_up_of_rotors(passes, &request, &hover, &rotors)?;
     if first.not_told.is_some() {
         return Ok((speed_from_survey(passes, &surveyed, config)?, first));
     }
@@ -179,29 +183,29 @@ pub fn speed_after_spin_up(passes: &mut Passes<'_>, config: &Config) -> Result<(
 mod tests {
     use super::*;
 
-    fn told(times_s: &[f64], std_uncertainty_s: f64) -> RotorLabels {
-        let begins = times_s.iter().map(|&time_s| RotorBegin { time_s, std_uncertainty_s }).collect();
+    fn labels(times_s: &[f64], std_uncertainty_s: f64) -> RotorLabels {
+        let starts = times_s.iter().map(|&time_s| RotorStart { time_s, std_uncertainty_s }).collect();
         let names: Vec<(usize, String)> = [3, 1, 2].map(|number| (number, format!("motor {number}"))).into();
-        labels_from_spin_up(&SpinUp { begins, not_told: None }, 3, &names, &LabelsConfig::default())
+        labels_from_spin_up(&SpinUp { starts, not_told: None }, 3, &names, &LabelsConfig::default())
     }
 
     #[test]
-    fn names_go_by_the_order_of_the_begins() {
-        let labels = told(&[5.0, 1.0, 3.0], 0.1);
+    fn names_follow_the_sequence_of_the_starts() {
+        let labels = labels(&[5.0, 1.0, 3.0], 0.1);
         let numbers: Vec<usize> = labels.rotors.iter().flatten().map(|label| label.number).collect();
         assert_eq!((numbers, labels.not_told), (vec![2, 3, 1], None));
         assert!(labels.probability.unwrap() > 0.9999 && labels.offset_s.is_none());
     }
 
     #[test]
-    fn begins_that_could_be_in_another_order_tell_nothing_of_any_rotor() {
+    fn no_rotor_has_a_label_if_the_sequence_is_uncertain() {
         // within a frame of each other; or too uncertain: two of 0.6 s, 1 s apart: P = Φ(1 / 0.85) = 0.88
         for (times_s, std_s) in [([5.0, 1.0, 1.3], 0.01), ([1.0, 2.0, 5.0], 0.6)] {
-            let labels = told(&times_s, std_s);
+            let labels = labels(&times_s, std_s);
             assert_eq!(labels.rotors, vec![None; 3]);
             assert!(matches!(labels.not_told, Some(NotTold::StartedTogether { .. })), "{labels:?}");
         }
-        let fewer = told(&[1.0, 3.0], 0.1);
+        let fewer = labels(&[1.0, 3.0], 0.1);
         assert!(matches!(fewer.not_told, Some(NotTold::TooFewTracks { tracks: 3, needed: 3 })), "{fewer:?}");
     }
 }

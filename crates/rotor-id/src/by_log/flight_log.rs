@@ -1,4 +1,4 @@
-//! What was recorded in the same flight by something else than a microphone.
+//! A log of a flight: commands or speeds of the motors, or body rates.
 
 use hovertone_analysis::LabelSource;
 use hovertone_vehicle::RotorPlace;
@@ -8,41 +8,41 @@ use hovertone_vehicle::RotorPlace;
 pub struct FlightLog {
     /// Times of the rows, increasing.
     pub(super) time_s: Vec<f64>,
-    pub(super) signals: LogSignals,
+    signals: LogSignals,
 }
 
-/// What its rows hold.
+/// The series of a log, one value for each row.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LogSignals {
-    /// A series for each motor.
+    /// One series for each motor.
     Motors {
-        /// What they are series of.
+        /// The quantity.
         signal: MotorSignal,
         /// Names of the motors.
         names: Vec<String>,
-        /// `values[motor][row]`: rad/s of the rotor's shaft for a speed, any unit that grows with the speed for a command.
+        /// `values[motor][row]`: the speed of the rotor's shaft in rad/s; or the command, in any unit that grows with the speed.
         values: Vec<Vec<f64>>,
     },
-    /// The rates at which the body turns.
+    /// Angular velocity of the vehicle about its axes.
     BodyRates {
-        /// Where each rotor stands on it.
+        /// Place of each rotor on the vehicle.
         places: Vec<RotorPlace>,
-        /// Roll, pitch and yaw rate of each row, about x forward, y left and z up.
+        /// Roll, pitch and yaw rate of each row, about the axes x forward, y left and z up.
         rates_rad_s: [Vec<f64>; 3],
     },
 }
 
-/// What is known of each motor.
+/// The quantity that a log holds for each motor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotorSignal {
-    /// A command or PWM: its changes count, its level does not, because no two motors are alike.
+    /// A command or PWM. Its changes are compared, its mean is not: motors differ in the speed that a command gives.
     Command,
-    /// A measured speed.
+    /// A measured speed. Its changes and its mean are compared.
     Speed,
 }
 
-/// A log that means nothing.
+/// Why a log is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogError {
@@ -57,9 +57,9 @@ pub enum LogError {
     /// Names for another number of motors than there are series.
     #[error("{names} names for {series} motors")]
     UnequalNames {
-        /// How many names.
+        /// Number of names.
         names: usize,
-        /// How many series.
+        /// Number of series.
         series: usize,
     },
     /// Times that do not increase.
@@ -79,10 +79,10 @@ pub enum LogError {
 }
 
 impl FlightLog {
-    /// A log. A row in which something is missing is to be left out of it: that is a gap.
+    /// Checks the series of a log. Leave out a row in which a value is missing: the times then show a gap.
     ///
     /// # Errors
-    /// Series of different lengths, times that do not increase, values that are not finite.
+    /// Series of different lengths, another number of names than of series, times that do not increase, values that are not finite.
     pub fn new(time_s: Vec<f64>, signals: LogSignals) -> Result<Self, LogError> {
         let log = Self { time_s, signals };
         if let LogSignals::Motors { names, values, .. } = &log.signals
@@ -108,7 +108,7 @@ impl FlightLog {
         Ok(log)
     }
 
-    /// What it holds.
+    /// The series.
     pub fn signals(&self) -> &LogSignals {
         &self.signals
     }

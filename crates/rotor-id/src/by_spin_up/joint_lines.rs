@@ -1,43 +1,46 @@
-//! The lines of several rotors in one frame, all solved for together.
+//! The lines of several rotors in one frame, solved together.
 
 use super::frames::{Frame, leakage};
 use hovertone_signal::line_solver::SolvedLines;
 use realfft::num_complex::Complex;
 
-/// On the diagonal: lines in one place share their power instead of none having any.
+/// Ridge on the diagonal of the normal equations: two lines at one frequency share their power. *Numeric.*
 const RIDGE: f64 = 1e-3;
-/// A search around a speed: so many steps to either side.
+/// Number of steps to either side in the search of a speed. *Numeric.*
 const SEARCH_STEPS: i32 = 6;
-/// Speeds are searched, and solved for, so often in turn.
+/// Rounds in which amplitudes are solved and then speeds are searched. *Numeric.*
 const ROUNDS: usize = 2;
 
 type C = Complex<f64>;
 
-/// The orders that are heard, and the power of noise at each rotor's lines: what powers are counted in.
-pub(super) struct Lines {
+/// The lines in use.
+pub(super) struct JointLines {
     pub(super) orders: Vec<f64>,
-    /// For each order.
+    /// Power of the noise at the line of each order: the unit of all powers.
     pub(super) noise: Vec<f64>,
 }
 
-/// Amplitudes in a frame: `amplitudes[rotor][order]`.
+/// Amplitudes and powers of the rotors in a frame.
 struct Solved {
+    /// `amplitudes[rotor][order]`.
     amplitudes: Vec<Vec<C>>,
+    /// For each rotor.
     powers: Vec<f64>,
 }
 
-impl Lines {
-    /// Power of each rotor's lines over that of noise, summed over the orders: what the sound loses if the rotor is left out, and
-    /// those of noise alone are about as many as there are orders. A rotor in another's place has little.
+impl JointLines {
+    /// Power of each rotor's lines over that of the noise, summed over the orders: the power that the sound loses without the rotor. A rotor
+    /// at the speed of another one has little of it. Noise alone gives about the number of orders.
     pub(super) fn powers(&self, frame: &Frame, speeds_rev_s: &[f64]) -> Vec<f64> {
-        self.solved(frame, speeds_rev_s).map_or_else(|| vec![0.0; speeds_rev_s.len()], |solved| solved.powers)
+        self.solve(frame, speeds_rev_s).map_or_else(|| vec![0.0; speeds_rev_s.len()], |solved| solved.powers)
     }
 
-    /// Speeds of those rotors that are followed, near where they are expected, by the lines that the others leave.
-    pub(super) fn followed(&self, frame: &Frame, expected_rev_s: &[f64], reach_share: &[f64]) -> Vec<f64> {
+    /// Speeds near the expected ones: each maximises the power of its rotor in the sound without the other rotors, in turn, as in RELAX (Li
+    /// and Stoica 1996). `reach_share` is the largest change of each speed; at 0 the speed stays.
+    pub(super) fn speeds_near(&self, frame: &Frame, expected_rev_s: &[f64], reach_share: &[f64]) -> Vec<f64> {
         let mut speeds = expected_rev_s.to_vec();
         for _ in 0..ROUNDS {
-            let Some(solved) = self.solved(frame, &speeds) else { break };
+            let Some(solved) = self.solve(frame, &speeds) else { break };
             for rotor in 0..speeds.len() {
                 if reach_share[rotor] <= 0.0 {
                     continue;
@@ -46,7 +49,7 @@ impl Lines {
                 let candidates = (-SEARCH_STEPS..=SEARCH_STEPS).map(|k| expected_rev_s[rotor] + step * f64::from(k));
                 let power = |speed: &f64| -> f64 {
                     let line = |(order, noise): (&f64, &f64)| {
-                        self.left_at(frame, order * speed, rotor, &speeds, &solved).norm_sqr() / noise
+                        self.without_others(frame, order * speed, rotor, &speeds, &solved).norm_sqr() / noise
                     };
                     self.orders.iter().zip(&self.noise).map(line).sum()
                 };
@@ -57,18 +60,18 @@ impl Lines {
         speeds
     }
 
-    /// The spectrum at a frequency without all rotors but one.
-    fn left_at(&self, frame: &Frame, hz: f64, rotor: usize, speeds_rev_s: &[f64], solved: &Solved) -> C {
-        let mut left = frame.at(hz);
+    /// The spectrum at a frequency, minus the lines of all rotors but one.
+    fn without_others(&self, frame: &Frame, hz: f64, rotor: usize, speeds_rev_s: &[f64], solved: &Solved) -> C {
+        let mut rest = frame.at(hz);
         for (other, speed) in speeds_rev_s.iter().enumerate().filter(|(other, _)| *other != rotor) {
             for (order, amplitude) in self.orders.iter().zip(&solved.amplitudes[other]) {
-                left -= amplitude * leakage(hz - order * speed);
+                rest -= amplitude * leakage(hz - order * speed);
             }
         }
-        left
+        rest
     }
 
-    fn solved(&self, frame: &Frame, speeds_rev_s: &[f64]) -> Option<Solved> {
+    fn solve(&self, frame: &Frame, speeds_rev_s: &[f64]) -> Option<Solved> {
         let count = self.orders.len();
         let lines_hz: Vec<f64> =
             speeds_rev_s.iter().flat_map(|speed| self.orders.iter().map(move |order| order * speed)).collect();

@@ -1,48 +1,47 @@
-//! Rows of a log, and what the tracks say at their times.
+//! Rows of a log, averaged to the rate of the tracks, and the tracks' values at their times.
 
-use super::log::FlightLog;
+use super::flight_log::FlightLog;
 use crate::speed_curve::{CurvePoint, SpeedCurve};
 use hovertone_analysis::Span;
 use hovertone_signal::statistics::median;
 
-/// Rows this many typical steps apart have a gap between them.
+/// Distance of two rows, in median steps, above which a gap lies between them: up to three missing rows are no gap. *Decision.*
 const GAP_STEPS: f64 = 4.0;
 
-/// A log, averaged to rows that are no closer than the points of a track.
+/// The rows of a log, averaged so that they are no closer than the points of a track.
 pub(super) struct LogRows {
     pub(super) time_s: Vec<f64>,
     /// `series[which][row]`.
     pub(super) series: Vec<Vec<f64>>,
-    /// Gaps before each row.
+    /// Number of the stretch between gaps in which each row lies, from 0.
     pub(super) stretch: Vec<usize>,
 }
 
-/// The rows of which all tracks know something, at one offset of the clocks.
-pub(super) struct HeardRows {
-    /// Which rows of the log.
+/// The rows at which every track has a value, at one offset of the clocks.
+pub(super) struct MatchedRows {
+    /// Indices of the rows in the log.
     pub(super) rows: Vec<usize>,
-    /// On the log's clock.
+    /// Times of the rows, on the log's clock.
     pub(super) time_s: Vec<f64>,
-    /// A new run begins after every gap, of the log or of any track.
+    /// Number of the run in which each row lies, from 0: a new run begins after every gap of the log or of a track.
     pub(super) run: Vec<usize>,
     /// `points[track][row]`.
     pub(super) points: Vec<Vec<CurvePoint>>,
 }
 
-impl HeardRows {
+impl MatchedRows {
     pub(super) fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// Runs that are not joined to each other.
     pub(super) fn run_count(&self) -> usize {
         self.run.last().map_or(0, |last| last + 1)
     }
 }
 
 impl LogRows {
-    /// The rows of a log, in each of which neighbours are averaged that lie within `row_s`.
-    pub(super) fn of(log: &FlightLog, row_s: f64) -> Self {
+    /// The means of neighbouring rows that lie within `row_s`; no mean crosses a gap.
+    pub(super) fn from_log(log: &FlightLog, row_s: f64) -> Self {
         let times = &log.time_s;
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let step_s = median(&steps).unwrap_or(0.0);
@@ -75,12 +74,16 @@ impl LogRows {
         Some(Span { from_s: *self.time_s.first()?, to_s: *self.time_s.last()? })
     }
 
-    /// What the curves say at the rows' times.
-    pub(super) fn heard_at(&self, offset_s: f64, curves: &[SpeedCurve], hover: Span) -> HeardRows {
+    /// The rows within the hover at which all curves have a value, with these values. `offset_s` is added to the log's times.
+    pub(super) fn matched_at(&self, offset_s: f64, curves: &[SpeedCurve], hover: Span) -> MatchedRows {
         let from = self.time_s.partition_point(|time_s| time_s + offset_s < hover.from_s);
-        let mut heard =
-            HeardRows { rows: Vec::new(), time_s: Vec::new(), run: Vec::new(), points: vec![Vec::new(); curves.len()] };
-        let mut before: Option<Vec<usize>> = None;
+        let mut matched = MatchedRows {
+            rows: Vec::new(),
+            time_s: Vec::new(),
+            run: Vec::new(),
+            points: vec![Vec::new(); curves.len()],
+        };
+        let mut stretches_before: Option<Vec<usize>> = None;
         for row in from..self.time_s.len() {
             let time_s = self.time_s[row] + offset_s;
             if time_s > hover.to_s {
@@ -89,17 +92,17 @@ impl LogRows {
             let Some(points) = curves.iter().map(|curve| curve.at(time_s)).collect::<Option<Vec<CurvePoint>>>() else {
                 continue;
             };
-            let place: Vec<usize> = points.iter().map(|point| point.stretch).chain([self.stretch[row]]).collect();
-            let run = match (&before, heard.run.last()) {
-                (Some(before), Some(&run)) => run + usize::from(*before != place),
+            let stretches: Vec<usize> = points.iter().map(|point| point.stretch).chain([self.stretch[row]]).collect();
+            let run = match (&stretches_before, matched.run.last()) {
+                (Some(before), Some(&run)) => run + usize::from(*before != stretches),
                 _ => 0,
             };
-            heard.rows.push(row);
-            heard.time_s.push(self.time_s[row]);
-            heard.run.push(run);
-            heard.points.iter_mut().zip(points).for_each(|(all, point)| all.push(point));
-            before = Some(place);
+            matched.rows.push(row);
+            matched.time_s.push(self.time_s[row]);
+            matched.run.push(run);
+            matched.points.iter_mut().zip(points).for_each(|(all, point)| all.push(point));
+            stretches_before = Some(stretches);
         }
-        heard
+        matched
     }
 }
