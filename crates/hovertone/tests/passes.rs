@@ -152,7 +152,7 @@ fn starts_of_the_motors_take_eight_passes_in_all() {
     let mut passes = Passes::planned(&mut source, passes_of_spin_up(&config), &mut on_progress).unwrap();
     let (_, spin_up) = speed_after_spin_up(&mut passes, &config).unwrap();
     assert_eq!(spin_up.not_told, None);
-    assert_eq!(spin_up.begins.len(), 4);
+    assert_eq!(spin_up.starts.len(), 4);
     assert_eq!((source.passes, passes_of_spin_up(&config)), (8, 8));
     seen.assert_counts(8);
 }
