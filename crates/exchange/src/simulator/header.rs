@@ -3,12 +3,12 @@
 use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
 
-/// Significant digits of exported numbers: more than any uncertainty needs.
+/// A number with eight significant digits, more than any uncertainty needs.
 pub(super) fn number(value: f64) -> String {
     if (0.1..1e5).contains(&value.abs()) { plain(value) } else { format!("{value:.7e}") }
 }
 
-/// A number without an exponent, where people usually write it that way.
+/// A number with up to eight decimals and without an exponent, for quantities that people write that way.
 pub(super) fn plain(value: f64) -> String {
     let text = format!("{value:.8}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

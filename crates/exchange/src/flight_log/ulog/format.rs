@@ -81,7 +81,7 @@ impl Field {
     fn parse(text: &str) -> Option<Self> {
         let (declared, name) = text.split_once(' ')?;
         let (type_name, length) = match declared.split_once('[') {
-            // an empty type adds nothing to the length, so its nesting would never stop at the limit of the length
+            // arrays of length 0 are refused: they take no room, so the limit of a message's length would not bound their number
             Some((type_name, length)) => {
                 (type_name, Some(length.strip_suffix(']')?.parse().ok().filter(|length| *length > 0)?))
             }
