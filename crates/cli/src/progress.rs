@@ -12,6 +12,8 @@ const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {eta} left";
 /// One bar for all recordings.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    message: String,
+    is_single: bool,
 }
 
 impl Progress {
@@ -24,16 +26,17 @@ impl Progress {
             bar.set_style(style);
         }
         let things = if recording_count == 1 { "recording" } else { "recordings" };
-        bar.set_message(format!("{verb} {recording_count} {things}"));
+        let message = format!("{verb} {recording_count} {things}");
+        bar.set_message(message.clone());
         if is_seen {
             bar.enable_steady_tick(TICK);
         }
-        Self { bar }
+        Self { bar, message, is_single: recording_count == 1 }
     }
 
     /// The part of the bar for one recording.
     pub(crate) fn recording(&self) -> Share<'_> {
-        Share { bar: &self.bar, steps_done: 0 }
+        Share { progress: self, steps_done: 0, shown: None }
     }
 
     /// Removes the bar before other output.
@@ -44,16 +47,26 @@ impl Progress {
 
 /// The part of the bar for one recording. It becomes full when the recording is finished.
 pub(crate) struct Share<'a> {
-    bar: &'a ProgressBar,
+    progress: &'a Progress,
     steps_done: u64,
+    /// The pass that the message names, and the number of passes.
+    shown: Option<(u32, u32)>,
 }
 
 impl Share<'_> {
+    /// Names the pass over the sound beside the bar of a single recording.
+    pub(crate) fn name_pass(&mut self, pass: u32, pass_count: u32) {
+        if self.progress.is_single && self.shown != Some((pass, pass_count)) {
+            self.shown = Some((pass, pass_count));
+            self.progress.bar.set_message(format!("{}, pass {pass} of {pass_count}", self.progress.message));
+        }
+    }
+
     /// Sets the finished share of the recording; it never decreases.
     pub(crate) fn set(&mut self, share: f64) {
         let steps = (share.clamp(0.0, 1.0) * STEPS as f64) as u64;
         if steps > self.steps_done {
-            self.bar.inc(steps - self.steps_done);
+            self.progress.bar.inc(steps - self.steps_done);
             self.steps_done = steps;
         }
     }

@@ -171,6 +171,7 @@ fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Resu
         let length_s = if progress.pass == 1 { declared_s } else { Some(heard_s) };
         heard_s = heard_s.max(time_s);
         let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
+        share.name_pass(progress.pass, progress.pass_count);
         share.set((f64::from(progress.pass - 1) + of_pass) / f64::from(progress.pass_count));
     };
     let Requests { condition, spin_up } = job.requests;
