@@ -4,16 +4,20 @@
 
 mod ci;
 mod tidy;
+mod tree;
 mod validate;
 
+use ci::Extent;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const HELP: &str = "cargo xtask <task>
 
-  ci      all that continuous integration checks: tidy, format, clippy, tests, documentation
-  tidy    rules of the house that no compiler knows
-  validate  what is exported, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
+  ci           tidy, format, clippy, tests, documentation; without the exams
+  ci --all     the same, with the exams, which are tests marked #[ignore = \"exam: …\"]: continuous integration runs this
+  tidy         rules of the house that no compiler knows: each fault with file, line and what to do
+  tidy --list  the number of faults of each rule, and in which files
+  validate     what is exported, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
 
 Exams and benchmarks: cargo run --release -p hovertone-bench
 ";
@@ -22,8 +26,10 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words.as_slice() {
-        ["ci"] => ci::run(&root()),
+        ["ci"] => ci::run(&root(), Extent::Quick),
+        ["ci", "--all"] => ci::run(&root(), Extent::All),
         ["tidy"] => tidy::run(&root()),
+        ["tidy", "--list"] => tidy::list(&root()),
         ["validate"] => validate::run(&root()),
         _ => Err(HELP.to_owned()),
     };

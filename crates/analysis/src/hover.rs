@@ -1,22 +1,22 @@
-//! The stretches of a recording that are used, and why the rest is not.
+//! The used stretches of a recording, and the reasons for the cuts between them.
 
 use crate::Span;
 use serde::Serialize;
 use std::fmt;
 use std::ops::Range;
 
-/// A stretch that was not used, and why.
+/// A stretch that is not used.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Cut {
-    /// When.
+    /// Stretch of time.
     #[serde(flatten)]
     pub span: Span,
-    /// Why.
+    /// Reason for the cut.
     #[serde(flatten)]
     pub reason: CutReason,
 }
 
-/// Why a stretch is not hover.
+/// Reason why a stretch is not hover.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -25,20 +25,20 @@ pub enum CutReason {
     Silence,
     /// Much louder than the hover: handling, wind, speech at the microphone.
     HandlingNoise,
-    /// The rotors run up.
+    /// The rotors speed up.
     TakeOff,
-    /// The rotors run down.
+    /// The rotors slow down.
     Landing,
-    /// The speed moves by clearly more than the hover's own wander: doublets, climbs, fast yaw.
+    /// The speed changes by much more than its usual wander in this hover: doublets, climbs, fast yaw.
     Manoeuvre,
-    /// The rotors turn, but not at the hover's speed: idling, another load.
+    /// The rotors turn at another speed than in the hover: idling, another load.
     OtherSpeed {
-        /// Shaft speed that is heard there.
+        /// Shaft speed in this stretch.
         speed_rev_s: f64,
     },
     /// No rotor is heard.
     NoTone,
-    /// Between hover and not: the edge of a change.
+    /// The transition between hover and another stretch.
     Edge,
     /// Steady, but too short to use.
     TooShort,
@@ -62,22 +62,22 @@ impl fmt::Display for CutReason {
     }
 }
 
-/// The steady stretches of a recording and what lies between them.
+/// The steady stretches of a recording and the cuts between them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Hover {
-    /// What is used.
+    /// Used stretches.
     pub segments: Vec<Span>,
-    /// What is not.
+    /// Stretches that are not used.
     pub cuts: Vec<Cut>,
 }
 
 impl Hover {
-    /// All of a span, because the user says so.
+    /// A hover over a whole span, chosen by the user.
     pub fn whole(span: Span) -> Self {
         Self { segments: vec![span], cuts: Vec::new() }
     }
 
-    /// The later half of what is used, of its first so many seconds at most.
+    /// The later half of the used time; of more than `length_s_max` only that much from the start counts.
     pub fn later_half(&self, length_s_max: f64) -> Self {
         let length_s = self.length_s().min(length_s_max);
         let (mut segments, mut passed_s) = (Vec::new(), 0.0);
@@ -92,7 +92,7 @@ impl Hover {
         Self { segments, cuts: Vec::new() }
     }
 
-    /// What is used from a time on; before it the rotors run up.
+    /// The hover without the time before `time_s`, which becomes a cut for the take-off.
     pub fn after_take_off(self, time_s: f64) -> Self {
         let Self { segments, mut cuts } = self;
         let mut kept = Vec::new();
@@ -110,12 +110,12 @@ impl Hover {
         Self { segments: kept, cuts }
     }
 
-    /// The stretches as ranges of seconds, as passes over the sound take them.
+    /// The stretches as ranges of seconds, the input of passes over the sound.
     pub fn spans_s(&self) -> Vec<Range<f64>> {
         self.segments.iter().map(|segment| segment.from_s..segment.to_s).collect()
     }
 
-    /// How much is used.
+    /// Total used time.
     pub fn length_s(&self) -> f64 {
         self.segments.iter().map(Span::length_s).sum()
     }

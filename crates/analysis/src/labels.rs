@@ -1,12 +1,12 @@
-//! What is known of which rotor is which, and why not more.
+//! Labels: which track belongs to which rotor, and the reasons for missing labels.
 
 use serde::Serialize;
 use std::fmt;
 
-/// Most rotors that can be labelled: the number of assignments grows with the factorial. *Decision.*
+/// Largest number of rotors with labels. The number of assignments is its factorial. *Decision.*
 pub const LABELLED_ROTORS_MAX: usize = 6;
 
-/// Where labels come from.
+/// Source of the labels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
@@ -15,16 +15,16 @@ pub enum LabelSource {
     MotorSpeeds,
     /// Commands or PWM of the motors in a log.
     MotorCommands,
-    /// Rates at which the body turns, in a log.
+    /// Body rates in a log.
     BodyRates,
-    /// Levels and delays at several microphones whose places are known.
+    /// Levels and delays at several microphones at known positions.
     Microphones,
     /// The order in which the motors were started.
     SpinUp,
 }
 
 impl LabelSource {
-    /// For people.
+    /// Description for people.
     pub fn words(self) -> &'static str {
         match self {
             Self::MotorSpeeds => "the speeds of the motors",
@@ -36,141 +36,141 @@ impl LabelSource {
     }
 }
 
-/// Which rotor a track is.
+/// The rotor of a track.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorLabel {
-    /// Number of the motor or place, counted from 1, in the order of the log's motors or of the frame's places.
+    /// Number of the motor or place, counted from 1, in the order of the motors of the log or of the places of the frame.
     pub number: usize,
-    /// Its name: "motor 3", "front left".
+    /// Name: "motor 3", "front left".
     pub name: String,
-    /// How probable it is that the track is this rotor's.
+    /// Probability that the track belongs to this rotor.
     pub probability: f64,
 }
 
-/// Which rotors the tracks are.
+/// The rotors of all tracks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorLabels {
-    /// What tells it.
+    /// Source of the labels.
     pub source: LabelSource,
-    /// What is to be added to the log's times to have the recording's; absent where nothing is told.
+    /// Time of the recording minus time of the log; absent where no label is known.
     pub offset_s: Option<f64>,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of the offset.
     pub offset_std_s: Option<f64>,
-    /// Probability of the most probable assignment of all tracks; the rest is for the others, and for the log, or the positions,
-    /// having nothing to do with the tracks.
+    /// Probability of the most probable assignment of all tracks. The remainder is for other assignments, and for a log or positions that
+    /// do not belong to the tracks.
     pub probability: Option<f64>,
-    /// For each track, in their order; absent where it is not told.
+    /// The label of each track, in the order of the tracks; absent where it is unknown.
     pub rotors: Vec<Option<RotorLabel>>,
-    /// Why some are not told.
+    /// Reason for missing labels.
     pub not_told: Option<NotTold>,
 }
 
-/// Why labels are not told.
+/// Reason for missing labels.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NotTold {
-    /// The log knows another number of rotors.
+    /// The log has another number of rotors.
     OtherCount {
-        /// Rotors that turn.
+        /// Number of running rotors.
         rotors: usize,
-        /// Rotors of the log.
+        /// Number of rotors in the log.
         of_log: usize,
     },
-    /// Too many to weigh every assignment.
+    /// Too many rotors to compare all assignments.
     TooManyRotors {
-        /// Rotors that turn.
+        /// Number of running rotors.
         rotors: usize,
     },
-    /// Not enough rotors are told apart.
+    /// Too few rotors are separated.
     TooFewTracks {
-        /// Those that are.
+        /// Number of separated rotors.
         tracks: usize,
-        /// Those that are needed.
+        /// Needed number.
         needed: usize,
     },
-    /// More offsets than can be tried.
+    /// The range of offsets is too wide.
     TooManyOffsets {
-        /// The smallest.
+        /// Smallest offset.
         low_s: f64,
-        /// The largest.
+        /// Largest offset.
         high_s: f64,
     },
-    /// Log and hover share too little time.
+    /// Log and hover overlap too little.
     NoOverlap,
-    /// Nothing in the log moves with the tracks.
+    /// The signals of the log do not follow the tracks.
     NothingInCommon {
-        /// Probability that it has to do with them at all.
+        /// Probability that log and tracks belong together.
         probability: f64,
     },
-    /// The best offset is the smallest or largest that was tried.
+    /// The best offset lies at a limit of the search.
     OffsetAtLimit {
-        /// Where.
+        /// The offset.
         offset_s: f64,
     },
-    /// Rotors begin at one time, or nearly.
+    /// Rotors start at nearly the same time.
     StartedTogether {
-        /// The shortest time between two.
+        /// Shortest time between two starts.
         apart_s: f64,
     },
-    /// From the hover back to where they begin some rotors are not heard all the time, or at speeds that jump.
+    /// Some rotors cannot be followed from the hover back to their start: they are inaudible in between, or their speed jumps.
     NotFollowed {
-        /// How many.
+        /// Number of these rotors.
         tracks: usize,
     },
-    /// Before it turns as in the hover, a rotor turns at another speed.
+    /// A rotor turns at another speed before it reaches the speed of the hover.
     OtherSpeedBefore {
-        /// Which.
+        /// That speed.
         speed_rev_s: f64,
     },
-    /// Rotors whose speeds are too close to each other for short frames.
+    /// The speeds of two rotors are too close for short frames.
     RotorsTooClose {
-        /// How close.
+        /// Difference of the speeds.
         apart_rev_s: f64,
     },
-    /// The hover begins too late.
+    /// The hover begins too long after the start of the recording.
     SpinUpTooLong {
-        /// How long after the recording.
+        /// Time between start of the recording and hover.
         before_hover_s: f64,
     },
-    /// Several assignments fit.
+    /// Several assignments fit the log.
     SeveralFit {
-        /// Tracks that have no label.
+        /// Number of tracks without a label.
         tracks: usize,
     },
-    /// The recording has another number of channels than there are microphones.
+    /// The numbers of channels and microphones differ.
     OtherChannels {
-        /// Channels.
+        /// Number of channels.
         channels: usize,
-        /// Microphones.
+        /// Number of microphones.
         microphones: usize,
     },
-    /// No rotors, or more than there are places for.
+    /// No separated rotors, or more than places.
     OtherPlaces {
-        /// Rotors that are told apart.
+        /// Number of separated rotors.
         tracks: usize,
-        /// Places of rotors.
+        /// Number of places.
         places: usize,
     },
     /// A microphone hears no line of any rotor for long enough.
     NothingHeard {
-        /// Which, counted from 1.
+        /// Number of the microphone, counted from 1.
         microphone: usize,
     },
-    /// Levels and delays are not those of rotors and microphones at these places.
+    /// Levels and delays do not fit these positions of rotors and microphones.
     OtherArray {
-        /// Probability that they are.
+        /// Probability that they fit.
         probability: f64,
     },
     /// Several assignments fit levels and delays.
     SeveralPlacesFit {
-        /// Tracks that have no label.
+        /// Number of tracks without a label.
         tracks: usize,
     },
 }
 
 impl NotTold {
-    /// What to do about it.
+    /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::OtherCount { .. } => "say how many rotors turn with --rotors, and give the log of the same flight",
@@ -268,7 +268,7 @@ impl fmt::Display for NotTold {
 }
 
 impl RotorLabels {
-    /// No label at all.
+    /// Labels that are all missing.
     pub fn not_told(source: LabelSource, tracks: usize, reason: NotTold) -> Self {
         Self {
             source,

@@ -1,8 +1,8 @@
-//! What was heard of the rotors of a multirotor, as plain data: speeds and tracks, rotors one by one, the hover and what was cut away,
-//! tone families, labels, warnings; or "no rotor tone" and why.
+//! The result of an analysis as plain data: speeds, tracks and rotors, the hover and its cuts, tone families, labels, warnings; or the
+//! reason for "no rotor tone".
 //!
-//! No arithmetic of sound stands here: `hovertone-rotor-speed` and `hovertone-rotor-id` fill these types in, everything behind them reads
-//! them.
+//! There is no signal processing in this crate. `hovertone-rotor-speed` and `hovertone-rotor-id` produce these types; all later crates
+//! read them.
 
 mod condition;
 mod hover;

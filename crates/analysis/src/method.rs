@@ -1,28 +1,28 @@
-//! The estimators: a closed list.
+//! The methods of estimating the speed.
 
 use serde::{Deserialize, Serialize};
 
-/// How the speed is read from the sound.
+/// Method of estimating the shaft speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Method {
-    /// The maximum of the likelihood of all lines together, each weighed by the noise around it.
+    /// Maximum of the likelihood of all lines together, each with the noise around it.
     #[default]
     Harmonic,
-    /// The same for each of several rotors, told apart; their mean is the speed, and their mean square what carries the weight.
+    /// The same for several rotors, which are separated. The speed is their mean; the thrust follows from their mean square.
     Separated,
-    /// The loudest frequency of each frame (paper, section 4.1).
+    /// Maximum Trace: the loudest frequency of each frame (paper, section 4.1).
     MaximumTrace,
-    /// The centre of the Gaussian through all that reaches a share of the loudest (paper, section 4.2).
+    /// Gaussian approximation: the centre of a Gaussian through all bins above a share of the loudest one (paper, section 4.2).
     Gaussian,
 }
 
 impl Method {
-    /// All methods: ours, then the paper's in its order.
+    /// All methods: the two of this project, then the two of the paper in its order.
     pub const ALL: [Self; 4] = [Self::Separated, Self::Harmonic, Self::MaximumTrace, Self::Gaussian];
 
-    /// What is recommended for so many rotors at once: they are told apart.
+    /// The recommended method for a number of rotors: several are separated.
     pub fn for_rotors(count: u32) -> Self {
         if count > 1 { Self::Separated } else { Self::default() }
     }
@@ -37,7 +37,7 @@ impl Method {
         }
     }
 
-    /// Whether it reads ridges.
+    /// Whether the method uses ridges.
     pub fn reads_ridges(self) -> bool {
         matches!(self, Self::MaximumTrace | Self::Gaussian)
     }

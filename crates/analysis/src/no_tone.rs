@@ -1,78 +1,78 @@
-//! Why no rotor tone was found.
+//! Reasons why no rotor tone was found.
 
 use serde::Serialize;
 use std::fmt;
 
-/// Why no rotor tone was found.
+/// Reason why no rotor tone was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoTone {
-    /// The span that was asked for lies outside the recording.
+    /// The requested span lies outside the recording.
     OutsideRecording,
-    /// The recording is too short to look for anything.
+    /// The recording is too short for an analysis.
     TooShort {
-        /// How long it is.
+        /// Length of the recording.
         heard_s: f64,
     },
-    /// Nothing sounds.
+    /// The recording is silent.
     Silence,
-    /// Nothing resembles a rotor's series of lines.
+    /// No series of lines resembles a rotor.
     NoSeries,
     /// No stretch is steady for long enough.
     NoHover,
-    /// The hover holds no frame of the length that was asked for with a tone in it.
+    /// The hover has no frame of the requested length with a tone.
     NoFrame {
         /// Length of a frame.
         window_s: f64,
         /// Length of the hover.
         hover_s: f64,
     },
-    /// What looks like a rotor series is not made of lines.
+    /// The candidate series consists of something other than lines.
     NotALine {
-        /// Where the strongest candidate is.
+        /// Tone of the strongest candidate.
         tone_hz: f64,
         /// Share of its frames that show a line.
         line_share: f64,
-        /// Share that is asked for.
+        /// Required share.
         line_share_min: f64,
     },
-    /// Mains hum, and nothing else that resembles a rotor.
+    /// The only candidate is mains hum.
     MainsHum {
-        /// Frequency of the mains as heard.
+        /// Measured mains frequency.
         mains_hz: f64,
     },
-    /// Tones come and go, and none is held for long while others sound for longer.
+    /// No tone lasts for long, while others sound for longer.
     NotHeld {
-        /// The tone that is heard most.
+        /// The tone with the longest total time.
         tone_hz: f64,
-        /// How long it is held at most.
+        /// Longest continuous time of that tone.
         held_s: f64,
     },
-    /// The lines belong to something that turns more slowly, or to an instrument.
+    /// The lines belong to a slower shaft or to an instrument.
     ForeignSeries {
-        /// Distance of its lines.
+        /// Distance between the lines.
         fundamental_hz: f64,
-        /// Where the strongest candidate is.
+        /// Tone of the strongest candidate.
         tone_hz: f64,
     },
-    /// The tone lies where the recording holds nothing.
+    /// The tone lies above the bandwidth of the recording.
     BandCutByCodec {
-        /// Where the tone would be.
+        /// Expected frequency of the tone.
         tone_hz: f64,
-        /// Where the recording ends.
+        /// Upper end of the bandwidth.
         above_hz: f64,
     },
-    /// A weak steady tone, with lines between those that the rotor can make.
+    /// A weak steady tone, with lines between the lines that this rotor can have.
     SlowerShaft {
-        /// How many of them.
+        /// Number of the lines between.
         line_count: usize,
-        /// How fast a shaft would turn that makes them all, if they are of one strength.
+        /// Speed of a shaft that has all these lines, if they have equal levels.
         speed_rev_s: Option<f64>,
     },
-    /// A line that comes and goes, without any of its harmonics.
+    /// An intermittent line without harmonics.
     LonelyLine {
-        /// Where it is.
+        /// Its frequency.
         tone_hz: f64,
         /// Share of its frames that show a line.
         line_share: f64,

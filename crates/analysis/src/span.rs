@@ -12,7 +12,7 @@ pub struct Span {
 }
 
 impl Span {
-    /// How long it lasts.
+    /// Length.
     pub fn length_s(&self) -> f64 {
         self.to_s - self.from_s
     }
@@ -22,13 +22,13 @@ impl Span {
         (self.from_s + self.to_s) / 2.0
     }
 
-    /// What it shares with another; of no or negative length where they do not meet.
+    /// The common part of two spans; its length is 0 or negative where they do not meet.
     #[must_use]
     pub fn overlap(&self, other: Self) -> Self {
         Self { from_s: self.from_s.max(other.from_s), to_s: self.to_s.min(other.to_s) }
     }
 
-    /// Whether the time lies in it.
+    /// Whether the span contains a time.
     pub fn contains(&self, time_s: f64) -> bool {
         (self.from_s..self.to_s).contains(&time_s)
     }

@@ -1,56 +1,56 @@
-//! The answer for one recording.
+//! The result for one recording.
 
 use crate::{Band, Hover, Method, NoTone, Ridge, RotorEstimate, Span, SpeedEstimate, TrackPoint, Warning};
 use serde::Serialize;
 
-/// What a recording says of its rotors.
+/// The result for one recording.
 #[derive(Clone, Debug, Serialize)]
 pub struct SpeedAnalysis {
-    /// What was listened to, on the recording's clock.
+    /// The analysed span, on the clock of the recording.
     pub heard: Span,
-    /// What was used of it, and what was cut away and why.
+    /// The used stretches, and the reasons for the cuts.
     pub hover: Hover,
-    /// The speeds, or why there are none.
+    /// The speeds, or the reason why there are none.
     pub outcome: Outcome,
-    /// What weakens the result.
+    /// Warnings about the result.
     pub warnings: Vec<Warning>,
 }
 
-/// The answer: speeds, or that there is no rotor tone.
+/// Speeds, or no rotor tone.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "status", rename_all = "snake_case")]
 #[allow(clippy::large_enum_variant)] // one per recording, never in a hot collection
 pub enum Outcome {
-    /// A rotor was heard.
+    /// A rotor tone was found.
     Ok(RotorTone),
-    /// No rotor was heard, and why.
+    /// No rotor tone was found.
     NoRotorTone {
-        /// Why.
+        /// Reason.
         reason: NoTone,
     },
 }
 
-/// A rotor's tone and the speeds it means.
+/// The tone of the rotors and their speeds.
 #[derive(Clone, Debug, Serialize)]
 pub struct RotorTone {
-    /// Where the ridges were looked for.
+    /// Bands of the ridges.
     pub bands: Vec<Band>,
     /// Length of the frames.
     pub window_s: f64,
     /// One ridge for each band.
     pub ridges: Vec<Ridge>,
-    /// Mean over all of the hover, one for each method in the order of [`Method::ALL`].
+    /// Mean over the hover by each method, in the order of [`Method::ALL`].
     pub speeds: Vec<SpeedEstimate>,
-    /// Speed of each frame, by the configured method: of several rotors their mean, where all are told apart.
+    /// Speed of each frame by the configured method; of several separated rotors their mean.
     pub track: Vec<TrackPoint>,
-    /// The rotors one by one, fastest first; empty where they are not told apart.
+    /// The separated rotors, fastest first; empty where they are not separated.
     pub rotors: Vec<RotorEstimate>,
-    /// The paper's samples, each with one speed for each method.
+    /// The samples of the paper, each with a speed for each method.
     pub samples: Vec<SampleSpeeds>,
 }
 
 impl RotorTone {
-    /// The mean over the hover by one method; by that of a single rotor where several were to be told apart and not even their mean is known.
+    /// The mean over the hover by a method. Where [`Method::Separated`] has no result, the result of [`Method::Harmonic`].
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
         speed_by(&self.speeds, method)
     }
@@ -59,14 +59,14 @@ impl RotorTone {
 /// One sample of a hover.
 #[derive(Clone, Debug, Serialize)]
 pub struct SampleSpeeds {
-    /// When.
+    /// Stretch of time.
     pub span: Span,
-    /// Its speed by each method in the order of [`Method::ALL`].
+    /// Its speed by each method, in the order of [`Method::ALL`].
     pub speeds: Vec<SpeedEstimate>,
 }
 
 impl SampleSpeeds {
-    /// The sample's speed by one method; by that of a single rotor where several were to be told apart and not even their mean is known.
+    /// The speed by a method. Where [`Method::Separated`] has no result, the result of [`Method::Harmonic`].
     pub fn speed(&self, method: Method) -> Option<&SpeedEstimate> {
         speed_by(&self.speeds, method)
     }

@@ -1,62 +1,62 @@
-//! Tone families of a recording, and the shaft speeds that each can mean.
+//! Tone families of a recording, and the shaft speeds that each can belong to.
 
 use crate::Span;
 use hovertone_vehicle::{Gear, Order, RotorSpeed};
 use serde::Serialize;
 use std::fmt;
 
-/// Rotors of one vehicle turn at speeds this near: 22 % apart at most in measured flights. *Physics.*
+/// Largest relative difference between the speeds of rotors of one vehicle. Measured flights have up to 22 %. *Physics.*
 const SAME_VEHICLE_SHARE: f64 = 0.25;
 
 /// A line of a family.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SeenHarmonic {
-    /// Number: 1 for the fundamental.
+    /// Number of the harmonic: 1 for the fundamental.
     pub number: u32,
-    /// Where it is.
+    /// Frequency.
     pub hz: f64,
-    /// Mean level over the floor, over the time in which the family is present.
+    /// Mean level over the noise floor while the family is present.
     pub level_db: f64,
 }
 
-/// A series of lines at multiples of one frequency, present together.
+/// A series of lines at multiples of one frequency that sound at the same time.
 #[derive(Clone, Debug, Serialize)]
 pub struct ToneFamily {
-    /// Frequency that all its lines are multiples of, the median over time.
+    /// Fundamental frequency, the median over time.
     pub fundamental_hz: f64,
-    /// Standard deviation of that over time.
+    /// Standard deviation of the fundamental over time.
     pub spread_hz: Option<f64>,
-    /// The lines that stand out of the floor.
+    /// The lines above the noise floor.
     pub harmonics: Vec<SeenHarmonic>,
-    /// Level of its strongest line over the floor.
+    /// Level of its strongest line over the noise floor.
     pub level_db: f64,
-    /// Share of the recording in which it is present.
+    /// Share of the recording in which the family is present.
     pub time_share: f64,
-    /// From when to when it is present, gaps included.
+    /// From its first to its last presence, including gaps.
     #[serde(flatten)]
     pub span: Span,
-    /// What it can mean, most plausible first; those ruled out have plausibility 0.
+    /// Its possible readings, most plausible first; excluded readings have the plausibility 0.
     pub readings: Vec<Reading>,
-    /// Whether one shaft speed has nearly all belief.
+    /// Whether one shaft speed has nearly all of the plausibility.
     pub is_settled: bool,
-    /// What may be said against a rotor.
+    /// A doubt that it belongs to a rotor.
     pub remark: Option<Remark>,
 }
 
-/// What may be said against a family being a rotor's.
+/// A doubt that a family belongs to a rotor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Remark {
-    /// Its fundamental is that of the mains.
+    /// Its fundamental is the mains frequency.
     NearMains,
-    /// It sounds for a small part of the time only, as a beep or a call does.
+    /// It sounds for a small part of the time only, like a beep or a call.
     Brief,
-    /// It has one line only.
+    /// It has a single line.
     SingleLine,
 }
 
 impl Remark {
-    /// In words.
+    /// Description for people.
     pub fn text(self) -> &'static str {
         match self {
             Self::NearMains => "mains hum?",
@@ -67,42 +67,42 @@ impl Remark {
 }
 
 impl ToneFamily {
-    /// Whether another family is so near in frequency that both can be rotors of one vehicle, or one rotor that drifted.
+    /// Whether two families are so close in frequency that they can be two rotors of one vehicle, or one rotor that drifted.
     pub fn is_near(&self, other: &Self) -> bool {
         let tone_hz = |family: &Self| family.readings.first().map_or(family.fundamental_hz, |reading| reading.tone_hz);
         let pairs = [(self.fundamental_hz, other.fundamental_hz), (tone_hz(self), tone_hz(other))];
         pairs.into_iter().any(|(a, b)| (a / b - 1.0).abs() < SAME_VEHICLE_SHARE)
     }
 
-    /// The readings that are worth a look, most plausible first.
+    /// The readings with at least the given plausibility, most plausible first.
     pub fn plausible_readings(&self, plausible_min: f64) -> Vec<&Reading> {
         self.readings.iter().filter(|reading| reading.plausibility >= plausible_min).collect()
     }
 }
 
-/// What makes the tone of a reading.
+/// Source of the tone of a reading.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Meaning {
-    /// The family is a blade pass; the number of blades is not heard.
+    /// The family is a blade pass; its lines do not show the number of blades.
     BladePass {
         /// Blades of the propeller.
         blades: u32,
     },
-    /// The family has the lines of the shaft; every b-th, the blade pass, stands out.
+    /// The family consists of the lines of the shaft; every b-th line, the blade pass, is louder.
     ShaftLines {
         /// Blades of the propeller.
         blades: u32,
-        /// How far the blade pass stands over the lines between.
+        /// Level of the blade pass over the lines between.
         contrast_db: f64,
     },
-    /// The family is a blade pass, and the mesh of a known gear is heard at its order of the same shaft.
+    /// The family is a blade pass, and the mesh of a known gear is audible at its order of the same shaft.
     BladePassAndMesh {
         /// Blades of the propeller.
         blades: u32,
         /// The gear.
         gear: Gear,
-        /// Mean level of the mesh over the places beside it.
+        /// Mean level of the mesh over its surroundings.
         mesh_db: f64,
     },
     /// The family itself is the mesh of a known gear.
@@ -113,7 +113,7 @@ pub enum Meaning {
 }
 
 impl Meaning {
-    /// Blades of the propeller, where the reading says something about them.
+    /// Blades of the propeller, where the reading contains them.
     pub fn blades(&self) -> Option<u32> {
         match *self {
             Self::BladePass { blades } | Self::ShaftLines { blades, .. } | Self::BladePassAndMesh { blades, .. } => {
@@ -123,7 +123,7 @@ impl Meaning {
         }
     }
 
-    /// The gear between motor and rotor, where there is one.
+    /// The gear between motor and rotor, if there is one.
     pub fn gear(&self) -> Option<Gear> {
         match *self {
             Self::BladePassAndMesh { gear, .. } | Self::Mesh { gear } => Some(gear),
@@ -145,28 +145,27 @@ impl fmt::Display for Meaning {
     }
 }
 
-/// One thing that a family can mean.
+/// One possible reading of a family.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Reading {
-    /// Lines of the tone per turn of the shaft.
+    /// Order of the tone.
     pub order: Order,
-    /// The tone: shaft speed = `tone_hz / order`.
+    /// Frequency of the tone; the shaft speed is `tone_hz / order`.
     pub tone_hz: f64,
-    /// What makes it.
+    /// Source of the tone.
     pub meaning: Meaning,
     /// Shaft speed.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
-    /// Speed of the motor: the rotor's, or faster by the gear.
+    /// Speed of the motor: the speed of the rotor times the gear ratio.
     #[serde(rename = "motor_speed_rad_s")]
     pub motor_speed: RotorSpeed,
-    /// Speed of the blades' tips over that of sound, where the diameter is known.
+    /// Speed of the blade tips over the speed of sound, where the diameter is known.
     pub tip_mach: Option<f64>,
     /// C_T = T/(ρ n² D⁴) of a hover (propeller convention), where diameter, mass and rotors are known.
     pub thrust_coefficient: Option<f64>,
-    /// Share of belief, 0 to 1; all readings of a family sum to 1 (to less where only rare ones are
-    /// left). 0 for what is ruled out.
+    /// Plausibility from 0 to 1. The readings of a family sum to 1, or to less where only rare ones are left. 0 for excluded readings.
     pub plausibility: f64,
-    /// What speaks for or against it.
+    /// Reasons for or against the reading.
     pub why: String,
 }

@@ -1,30 +1,30 @@
-//! The terms of a speed's uncertainty.
+//! The terms of the uncertainty of a speed.
 
 use serde::Serialize;
 
-/// Where an uncertainty comes from.
+/// Source of an uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum UncertaintySource {
-    /// Noise, and what the method makes of it.
+    /// Noise, and errors of the method.
     Sound,
-    /// The sampling clock of the recorder: `n Δ / √3` for a clock that is off by up to ±Δ.
+    /// Clock of the recorder: n Δ / √3 for a relative error of the clock within ±Δ.
     Clock,
-    /// A vehicle that moves along the line to the microphone by up to ±v all the time: `n v / (c √3)`.
+    /// Doppler effect of a vehicle with a constant radial speed within ±v: n v / (c √3).
     Doppler,
-    /// A hover that is up to ±d nearer to the microphone at the end of a stretch T than at its beginning: `n d / (c T √3)`.
+    /// Doppler effect of a vehicle whose distance changes by up to ±d over a stretch T: n d / (c T √3).
     Drift,
-    /// The mean of all rotors is not that of those that were heard apart: one ridge stands for all of them, and their mean lies about it as
-    /// their speeds scatter; or some of them were not told from others.
+    /// Difference between the mean of all rotors and the mean of the heard ones: a single ridge stands for all rotors, or not all rotors
+    /// were separated.
     Rotors,
 }
 
 /// One term of the uncertainty of a speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct UncertaintyTerm {
-    /// Where it comes from.
+    /// Source of the term.
     pub source: UncertaintySource,
-    /// Standard uncertainty (GUM, type B terms from rectangular distributions).
+    /// Standard uncertainty (JCGM 100:2008; type B terms have rectangular distributions).
     pub std_uncertainty_rev_s: f64,
 }

@@ -1,9 +1,9 @@
-//! What weakens a speed, with what to do about it. Values, not print-outs.
+//! Warnings about a speed, each with a hint. They are values; nothing here prints.
 
 use serde::Serialize;
 use std::fmt;
 
-/// Something in the sound that weakens a speed.
+/// A reason to doubt a speed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -19,65 +19,65 @@ pub enum Warning {
     HarmonicLeftOut {
         /// Number of the harmonic.
         harmonic: u32,
-        /// Why.
+        /// Reason.
         reason: String,
     },
-    /// A codec or the recorder left nothing of the high frequencies.
+    /// A codec or the recorder removed the high frequencies.
     BandCutByCodec {
-        /// Where the recording ends.
+        /// Upper end of the bandwidth.
         above_hz: f64,
     },
-    /// Most harmonics were left out, or the tone itself was: what remains may not be the rotor's.
+    /// Most harmonics were left out, or the tone itself was. The remaining ones may not belong to the rotor.
     FewHarmonicsAgree {
-        /// Harmonics that are used.
+        /// Number of used harmonics.
         used: usize,
-        /// Harmonics that were followed.
+        /// Number of followed harmonics.
         of: usize,
     },
-    /// Another steady speed was heard for at least half as long as the one that is reported.
+    /// Another steady speed was heard for at least half as long as the reported one.
     OtherSteadySpeed {
         /// The other shaft speed.
         speed_rev_s: f64,
-        /// When it is heard.
+        /// Its start.
         from_s: f64,
-        /// Until when.
+        /// Its end.
         to_s: f64,
     },
     /// The hover is shorter than one sample.
     HoverShorterThanSample {
         /// Length of the hover.
         hover_s: f64,
-        /// Length of a sample as set.
+        /// Configured length of a sample.
         length_s: f64,
     },
-    /// Many frames have no point.
+    /// Many frames have no point on the ridge.
     ManyGaps {
-        /// Share of the frames without a point on the ridge.
+        /// Share of the frames without a point.
         gap_share: f64,
     },
-    /// Some samples rest on few frames.
+    /// Some samples have few frames.
     FewFrames {
-        /// Fewest frames of a sample.
+        /// Smallest number of frames in a sample.
         frame_count: usize,
     },
-    /// Some rotors could not be told apart.
+    /// Some rotors could not be separated.
     RotorsNotApart {
-        /// Rotors that are, each by itself; 0 where no more than half are.
+        /// Number of separated rotors; 0 where at most half of them are.
         resolved: usize,
-        /// Rotors that there are.
+        /// Number of rotors.
         of: u32,
-        /// Whether the mean of all of them is known all the same.
+        /// Whether the mean of all rotors is still known.
         has_mean: bool,
     },
     /// The ridge jumps between lines.
     SeveralLines {
-        /// Spread of the ridge as a share of its mean.
+        /// Relative standard deviation of the ridge.
         spread_share: f64,
     },
 }
 
 impl Warning {
-    /// What to do about it.
+    /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",

@@ -6,6 +6,7 @@ mod accuracy;
 mod cost;
 mod labels;
 mod rotors;
+mod rotors_report;
 mod roundtrip;
 mod speed;
 mod workspace;

@@ -1,9 +1,9 @@
-//! `hovertone compare`: simulators' models against what was heard.
+//! `hovertone compare`: models of simulators against the measured constant.
 
+use crate::args::CompareArguments;
 use crate::export::identified;
 use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
-use crate::thrust_args::CompareArguments;
 use hovertone_exchange::{SimulatorModel, model_from_text};
 use hovertone_report::{ComparedModel, models_json, models_text};
 use std::fs;
@@ -26,7 +26,7 @@ fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
     Ok(ComparedModel { file: path.display().to_string(), model: read_model(path)? })
 }
 
-/// Reads a simulator's model.
+/// Reads the model of a simulator.
 pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
     let text = fs::read_to_string(path)
         .map_err(|error| Failure::failed(format!("the model cannot be read: {error}"), "check its name", path))?;

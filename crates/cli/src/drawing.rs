@@ -1,4 +1,4 @@
-//! Recordings read once more, for their pictures and for the sound of the page.
+//! Another pass over the recordings, for their pictures and for the sound of the page.
 
 use crate::failure::Failure;
 use crate::recording::{Hearing, Job};
@@ -10,13 +10,14 @@ use hovertone_page::{SoundClip, clip_from_source};
 use hovertone_report::SpeedRecord;
 use rayon::prelude::*;
 
-/// What a recording looks and sounds like.
+/// Pictures and sound of a recording.
 pub(crate) struct Drawing {
     pub(crate) pictures: Pictures,
     pub(crate) sound: Option<SoundClip>,
 }
 
-/// Draws all recordings, in parallel; in the order of the jobs. One that cannot be read again has no drawing: its record says why.
+/// Draws all recordings in parallel, in the order of the jobs. A recording that cannot be read again has no drawing; its record has the
+/// reason.
 pub(crate) fn draw_all(
     jobs: &[Job],
     records: &[&SpeedRecord],
@@ -27,7 +28,7 @@ pub(crate) fn draw_all(
     jobs.par_iter().zip(records).map(draw).collect()
 }
 
-/// Reads a recording again: its pictures, and as much of its sound as is wanted.
+/// Reads a recording again for its pictures and for the wanted part of its sound.
 pub(crate) fn drawing_of(
     job: &Job,
     record: &SpeedRecord,
@@ -48,7 +49,7 @@ pub(crate) fn drawing_of(
         .map_err(|error| unreadable(&error))?;
     let sound = sound_s_max.map(|sound_s_max| {
         let Span { from_s, to_s } = analysis.heard;
-        // of a long recording the hover is heard, not the walk to the drone
+        // the sound of a long recording starts with the hover, not with the walk to the drone
         let begins_late = to_s - from_s > sound_s_max;
         let from_s = segments.first().filter(|_| begins_late).map_or(from_s, |segment| segment.from_s);
         clip_from_source(&mut recording, Span { from_s, to_s: to_s.min(from_s + sound_s_max) })
@@ -57,7 +58,7 @@ pub(crate) fn drawing_of(
     Ok(Drawing { pictures, sound })
 }
 
-/// A record with its drawing, as the figures want it.
+/// A record with its drawing, as input of the figures.
 pub(crate) fn trial_of<'a>(
     load: &'a str,
     record: &'a SpeedRecord,

@@ -1,8 +1,8 @@
-//! `hovertone export`: lines to paste into a simulator's model.
+//! `hovertone export`: lines to paste into the model of a simulator.
 
+use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
-use crate::thrust_args::ExportArguments;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_exchange::{IdentifiedRotor, export_text, identified_from_results};
 use std::fs;
@@ -30,7 +30,7 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
         ("torque_constant_n_m_s2", arguments.torque_constant_n_m_s2, f64::MIN_POSITIVE..=f64::MAX, "a number above 0"),
         ("hover_command", arguments.hover_command, f64::MIN_POSITIVE..=1.0, "above 0 and at most 1"),
         ("diameter_m", arguments.diameter_m, diameter, "from 0.01 to 10"),
-        // from the highest mountain in summer to the pole in winter
+        // densities from the highest mountain in summer to a pole in winter
         ("air_density_kg_m3", arguments.air_density_kg_m3, 0.3..=1.8, "from 0.3 to 1.8"),
     ] {
         if let Some(value) = value.filter(|value| !allowed.contains(value)) {

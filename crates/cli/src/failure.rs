@@ -1,15 +1,15 @@
-//! How a run ends.
+//! Endings of a run and their exit codes.
 
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// How a run that could be made ended.
+/// Ending of a run that was possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Ending {
-    /// All was done.
+    /// Everything was done.
     Done,
-    /// Done, but something is missing: no rotor tone, or only the beginning of a recording.
+    /// Done with a gap: no rotor tone, or only the beginning of a recording.
     Incomplete,
     /// A file could not be read; the others were done.
     FilesFailed,
@@ -25,14 +25,14 @@ impl Ending {
     }
 }
 
-/// Why a run could not be made: what happened and why, what to do, and where.
+/// Reason why a run was impossible: what happened and why, what to do, and which file.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or the experiment file means nothing.
+    /// The command line or a file of the user has no meaning.
     Usage { what: String, hint: String, path: Option<PathBuf> },
-    /// Something could not be read or written.
+    /// A file could not be read or written.
     Failed { what: String, hint: String, path: Option<PathBuf> },
-    /// Whoever read our output has had enough.
+    /// The reader of stdout closed it.
     StdoutClosed,
 }
 
@@ -49,7 +49,7 @@ impl Failure {
         Self::failed(format!("cannot write: {error}"), "choose another place, or check your rights and the disk", path)
     }
 
-    /// For what cannot happen, but must not be a panic if it does.
+    /// For errors that should be impossible, in place of a panic.
     pub(crate) fn internal(error: impl std::fmt::Display) -> Self {
         let hint = "this is a bug of hovertone: please report it".to_owned();
         Self::Failed { what: error.to_string(), hint, path: None }

@@ -1,4 +1,4 @@
-//! Names and patterns to files, and files to hashes.
+//! From names and patterns to files, and from files to hashes.
 
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
@@ -6,11 +6,11 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Bytes that are hashed at once.
+/// Bytes per step of the hash.
 const CHUNK: usize = 1 << 20;
 
-/// The files that a name or pattern means, in order of their names. A name that exists is never taken for a pattern.
-/// Empty where a pattern matches nothing; a name without wild cards is given back as it is.
+/// The files that a name or pattern matches, sorted by name. An existing name is never read as a pattern. Empty where a pattern matches
+/// nothing; a name without wild cards is returned unchanged.
 pub(crate) fn files_of(name: &Path) -> Vec<PathBuf> {
     let text = name.to_string_lossy();
     if name.exists() || !is_pattern(&text) {
@@ -22,12 +22,12 @@ pub(crate) fn files_of(name: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Whether a name holds wild cards.
+/// Whether a name has wild cards.
 pub(crate) fn is_pattern(name: &str) -> bool {
     name.contains(['*', '?', '['])
 }
 
-/// SHA-256 of a file, in hexadecimal, without holding more than a piece of it.
+/// SHA-256 of a file in hexadecimal, read in pieces.
 pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
     let mut file = File::open(path)?;
     let mut hasher = Sha256::new();

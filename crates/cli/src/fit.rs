@@ -1,16 +1,16 @@
 //! `hovertone fit`: the thrust constant from tables, and the plan of a campaign.
 
+use crate::args::FitArguments;
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
-use crate::thrust_args::FitArguments;
 
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
     ForcePoint, Gravity, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
-    figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit, torque_constant_n_m_s2,
-    warnings_of_points,
+    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
+    torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_json, fitted_table_text, flight_plan_text};
@@ -18,12 +18,12 @@ use hovertone_vehicle::{Estimate, RotorSpeed};
 use std::fs;
 use std::path::Path;
 
-/// A quarter of its mass is what most multirotors carry safely.
+/// Most multirotors safely carry a quarter of their mass.
 const ADDED_MASS_SHARE: f64 = 0.25;
-/// Rotors of most multirotors.
+/// Number of rotors of most multirotors.
 const ROTORS_OF_MOST: u32 = 4;
 
-/// What the arguments mean.
+/// The meaning of the arguments.
 struct Plan {
     gravity: Gravity,
     rotor_count: u32,
@@ -109,10 +109,12 @@ fn fitted_table(
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
     let per_rotor = total.scaled(1.0 / f64::from(plan.rotor_count));
     let air = plan.diameter_m.zip(plan.density_kg_m3);
-    // of several rotors torques add up by their directions, which no table tells
+    // torques of several rotors add up with their directions, which are not in the table
     let has_torque = plan.rotor_count == 1;
-    let torques: Vec<(RotorSpeed, f64)> =
-        group.rows.iter().filter_map(|row| Some((RotorSpeed::from_rad_s(row.speed_rad_s), row.torque_n_m?))).collect();
+    let torque = |row: &StandRow| {
+        Some(TorqueReading { speed: RotorSpeed::from_rad_s(row.speed_rad_s), torque_n_m: row.torque_n_m? })
+    };
+    let torques: Vec<TorqueReading> = group.rows.iter().filter_map(torque).collect();
     let coefficients =
         air.map(|(diameter_m, density)| ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, density));
     let mut warnings = warnings_of_points(&points, &fit, is_weighed.then_some(plan.gravity.m_s2));
@@ -152,7 +154,7 @@ fn fitted_table(
     })
 }
 
-/// Masses are weighed by the same gravity, whose uncertainty does not average out.
+/// The uncertainty of gravity is common to all masses and does not average out.
 fn with_gravity(constant: Estimate, gravity: Gravity, is_weighed: bool) -> Estimate {
     let shared = if is_weighed { constant.value * gravity.std_m_s2 / gravity.m_s2 } else { 0.0 };
     Estimate { std_uncertainty: constant.std_uncertainty.map(|std| std.hypot(shared)), ..constant }
@@ -169,7 +171,7 @@ fn point_of(row: &StandRow, plan: &Plan) -> ForcePoint {
     }
 }
 
-/// Of one rotor at the largest thrust: there the offsets of the stand matter least.
+/// Figure of merit of one rotor at the largest thrust, where an offset of the stand matters least.
 fn merit_of(group: &StandGroup, points: &[ForcePoint], plan: &Plan) -> Option<f64> {
     let rotors = f64::from(plan.rotor_count);
     let rows = group.rows.iter().zip(points).filter_map(|(row, point)| Some((point.force_n, row.power_w?)));

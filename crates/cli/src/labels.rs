@@ -1,7 +1,7 @@
 //! Which rotor is which, by a log of the same flight or by the order in which the motors were started.
 
+use crate::args::{BodyAxes, FrameLayout, LabelArguments};
 use crate::failure::Failure;
-use crate::label_args::{BodyAxes, FrameLayout, LabelArguments};
 use crate::recording::Heard;
 use crate::spin_up::names_of;
 use hovertone::rotors::{
@@ -14,13 +14,13 @@ use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
 use std::fs;
 use std::path::Path;
 
-/// What the arguments mean.
+/// The meaning of the arguments.
 pub(crate) enum LabelPlan {
     /// A log.
     Log {
-        /// What it holds, the most telling first.
+        /// Its signals, the most informative first.
         logs: Vec<FlightLog>,
-        /// What is wrong with it.
+        /// Defects of the log.
         notes: Vec<String>,
         config: LabelsConfig,
     },
@@ -28,11 +28,12 @@ pub(crate) enum LabelPlan {
     SpinUp(Vec<(usize, String)>),
 }
 
-/// Reads the log, or the order of the starts, where there is one.
+/// Reads the log, or the order of the starts, where the arguments have one. `recordings` and `rotors` are their numbers.
 pub(crate) fn resolve(
     arguments: &LabelArguments,
     vehicle: Option<&Vehicle>,
-    (recordings, rotors): (usize, u32),
+    recordings: usize,
+    rotors: u32,
 ) -> Result<Option<LabelPlan>, Failure> {
     let (what, told) = match (&arguments.log, &arguments.spin_up) {
         (None, None) => return Ok(None),
@@ -66,7 +67,7 @@ pub(crate) fn resolve(
     Ok(Some(LabelPlan::Log { logs, notes, config }))
 }
 
-/// Measured speeds say most, then commands, then what the rotors do to the body.
+/// The signals of a log in the order of their information: measured speeds, commands, rates of the body.
 fn logs_of(
     logged: LoggedFlight,
     arguments: &LabelArguments,
@@ -93,7 +94,7 @@ fn logs_of(
                 let signals = LogSignals::BodyRates { places: places.to_vec(), rates_rad_s };
                 logs.push(FlightLog::new(time_s, signals).map_err(failed)?);
             }
-            // motors are enough
+            // speeds or commands are enough
             _ if !logs.is_empty() => {}
             (None, _) => {
                 return Err(Failure::usage(
@@ -112,7 +113,7 @@ fn logs_of(
     Ok(logs)
 }
 
-/// Those of the format, where it says them.
+/// The axes of the format where it defines them, else the axes of the arguments.
 fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option<BodyAxes>, Failure> {
     let of_format = of_format.map(|axes| match axes {
         RateAxes::ForwardLeftUp => BodyAxes::Flu,
@@ -127,7 +128,7 @@ fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option
     }
 }
 
-/// Only the proportions of the arms count.
+/// Positions of the rotors with arms of 1 m: only their proportions matter.
 fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[RotorPlace; 4]> {
     let known = || Some(vehicle?.flight_parameters()?.layout.value);
     let layout = layout.map(|layout| match layout {
@@ -137,7 +138,7 @@ fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[
     Some(layout.or_else(known)?.places(1.0))
 }
 
-/// Labels the rotors of a recording; what is not told is said.
+/// Labels the rotors of a recording, with a notice where a label is missing.
 pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
     let Heard { record, config: heard_with, spin_up } = heard;
     if record.speed().is_none() {
@@ -162,7 +163,7 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
     record.labels = labels;
 }
 
-/// The first that tells all; else that which tells most.
+/// The first set of labels that is complete; else the set with the most labels.
 fn best_of(all: impl Iterator<Item = RotorLabels>) -> Option<RotorLabels> {
     let told = |labels: &RotorLabels| labels.rotors.iter().flatten().count();
     let mut best: Option<RotorLabels> = None;

@@ -1,7 +1,7 @@
 //! `hovertone`: hears a multirotor hover and tells its rotor speeds and its thrust constant.
 //!
-//! Each command goes the same way: what was typed (`args`), what it means (the command's `resolve`), the run. Data goes
-//! to stdout and to files, everything for people to stderr.
+//! Each command has three steps: the command line as typed (`args`), its meaning (`resolve` of the command), the run. Data goes to stdout
+//! and to files, all messages for people to stderr.
 
 mod args;
 mod compare;
@@ -12,7 +12,7 @@ mod failure;
 mod files;
 mod fit;
 mod identify;
-mod label_args;
+mod jobs;
 mod labels;
 mod microphones;
 mod nearest;
@@ -21,13 +21,12 @@ mod place;
 mod progress;
 mod recording;
 mod report_folder;
+mod settings;
 mod simulate;
 mod spectrogram;
-mod spectrogram_args;
 mod speed;
 mod spin_up;
 mod terminal;
-mod thrust_args;
 mod toml_file;
 mod tones;
 mod typed;

@@ -1,7 +1,7 @@
-//! Which rotor is which, by several microphones whose places are known.
+//! Which rotor is which, by several microphones at known positions.
 
+use crate::args::LabelArguments;
 use crate::failure::Failure;
-use crate::label_args::LabelArguments;
 use crate::progress::{Progress, Share};
 use crate::recording::{Heard, Hearing, Job};
 use crate::toml_file::TomlFile;
@@ -18,7 +18,7 @@ use std::path::Path;
 
 const SEE_EXAMPLE: &str = "docs/formats.md shows a file of microphones";
 
-/// The file as it is written.
+/// The file of microphones.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MicrophonesFile {
@@ -44,17 +44,18 @@ struct RotorSection {
     position_m: [f64; 3],
 }
 
-/// What the file means.
+/// The meaning of the file.
 pub(crate) struct ArrayPlan {
     array: MicrophoneArray,
     config: MicrophonesConfig,
 }
 
-/// Reads the file, where there is one, and counts the channels of the recordings.
+/// Reads the file, where the arguments name one, and compares the number of microphones with the channels of the recordings.
 pub(crate) fn resolve(
     arguments: &LabelArguments,
     vehicle: Option<&Vehicle>,
-    (jobs, hearing): (&[Job], Hearing),
+    jobs: &[Job],
+    hearing: Hearing,
     rotors: u32,
 ) -> Result<Option<ArrayPlan>, Failure> {
     let Some(path) = &arguments.microphones else { return Ok(None) };
@@ -99,7 +100,7 @@ pub(crate) fn resolve(
     Ok(Some(ArrayPlan { array, config }))
 }
 
-/// The rotors of a vehicle whose frame is known.
+/// The rotors of a vehicle with known frame.
 fn places_of(vehicle: &Vehicle) -> Option<Vec<PlacedRotor>> {
     let known = vehicle.flight_parameters()?;
     let placed = known
@@ -110,7 +111,7 @@ fn places_of(vehicle: &Vehicle) -> Option<Vec<PlacedRotor>> {
     Some(placed.to_vec())
 }
 
-/// One microphone for each channel. What cannot be opened is said when it is heard.
+/// Refuses a recording whose number of channels is not the number of microphones. A recording that cannot be opened fails later.
 fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Result<(), Failure> {
     let options = OpenOptions { audio_track: hearing.audio_track, ..OpenOptions::default() };
     let Ok(recording) = Recording::open(&job.path, &options) else { return Ok(()) };
@@ -126,7 +127,7 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
     })
 }
 
-/// Labels the rotors of all recordings, whose channels are heard once more; what is not told is said.
+/// Labels the rotors of all recordings in another pass over each channel, with a notice where a label is missing.
 pub(crate) fn label_all(all: &mut [Heard], jobs: &[Job], plan: &ArrayPlan, wants_progress: bool) {
     let progress = Progress::new("comparing the microphones of", all.len(), wants_progress);
     for (heard, job) in all.iter_mut().zip(jobs) {

@@ -1,9 +1,9 @@
 //! "Did you mean …?"
 
-/// Names less alike than this are not what was meant.
+/// Names with a lower similarity are not suggested.
 const LIKENESS_MIN: f64 = 0.5;
 
-/// The name most like the one that was typed, if any is like it at all.
+/// The known name with the highest similarity to the typed one, if any is similar.
 pub(crate) fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let typed = typed.to_lowercase();
     let likeness = |name: &str| strsim::normalized_damerau_levenshtein(&typed, &name.to_lowercase());

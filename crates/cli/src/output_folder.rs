@@ -1,11 +1,11 @@
-//! Folders that a command writes: that they may be written to, and tables in them.
+//! Folders that a command writes: the check before writing, and tables in them.
 
 use crate::failure::Failure;
 use std::fs;
 use std::path::Path;
 
-/// Makes the folder, and refuses one that holds anything but what an earlier run of the same kind wrote: that is one
-/// whose file `marked` begins with `mark`.
+/// Makes the folder. A folder with files is refused unless an earlier run of the same command wrote it, which the beginning `mark` of the
+/// file `marked` shows.
 pub(crate) fn prepare(folder: &Path, kind: &str, marked: &str, mark: &str) -> Result<(), Failure> {
     let is_empty = match fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_none(),
@@ -22,7 +22,7 @@ pub(crate) fn prepare(folder: &Path, kind: &str, marked: &str, mark: &str) -> Re
     fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))
 }
 
-/// Why a table cannot be written.
+/// The failure for a table that cannot be written.
 pub(crate) fn cannot_write_csv(error: &csv::Error, path: &Path) -> Failure {
     Failure::failed(format!("cannot write: {error}"), "choose another place, or check your rights and the disk", path)
 }

@@ -1,7 +1,7 @@
-//! Where it was flown: gravity and air from what was typed.
+//! Gravity and air from the arguments about the place.
 
+use crate::args::{AirArguments, PlaceArguments};
 use crate::failure::Failure;
-use crate::thrust_args::{AirArguments, PlaceArguments};
 use hovertone::thrust::{Air, Gravity};
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 
@@ -27,7 +27,7 @@ pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
     }
 }
 
-/// Density of the air, where anything of it was said.
+/// Density of the air, where an argument says anything about it.
 pub(crate) fn air_density_kg_m3(air: &AirArguments, place: &PlaceArguments) -> Result<Option<f64>, Failure> {
     if let Some(diameter_m) = air.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
         return Err(Failure::usage(format!("diameter_m = {diameter_m}, allowed 0.01 to 10"), SEE_HELP));

@@ -1,4 +1,4 @@
-//! How far the listening has come, on stderr, when somebody is looking.
+//! Progress of the analysis on stderr, if it is a terminal.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
@@ -9,13 +9,15 @@ const STEPS: u64 = 1000;
 const TICK: Duration = Duration::from_millis(120);
 const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {eta} left";
 
-/// A bar over all recordings together.
+/// One bar for all recordings.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    message: String,
+    is_single: bool,
 }
 
 impl Progress {
-    /// A bar for so many recordings, hidden unless it is wanted and stderr is a terminal.
+    /// A bar for the given number of recordings. It is hidden unless it is wanted and stderr is a terminal.
     pub(crate) fn new(verb: &str, recording_count: usize, is_wanted: bool) -> Self {
         let is_seen = is_wanted && io::stderr().is_terminal();
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
@@ -24,36 +26,47 @@ impl Progress {
             bar.set_style(style);
         }
         let things = if recording_count == 1 { "recording" } else { "recordings" };
-        bar.set_message(format!("{verb} {recording_count} {things}"));
+        let message = format!("{verb} {recording_count} {things}");
+        bar.set_message(message.clone());
         if is_seen {
             bar.enable_steady_tick(TICK);
         }
-        Self { bar }
+        Self { bar, message, is_single: recording_count == 1 }
     }
 
-    /// The part of the bar that belongs to one recording.
+    /// The part of the bar for one recording.
     pub(crate) fn recording(&self) -> Share<'_> {
-        Share { bar: &self.bar, steps_done: 0 }
+        Share { progress: self, steps_done: 0, shown: None }
     }
 
-    /// Takes the bar away, so that nothing is written through it.
+    /// Removes the bar before other output.
     pub(crate) fn finish(self) {
         self.bar.finish_and_clear();
     }
 }
 
-/// The part of the bar that belongs to one recording. It fills up by itself when the recording is done with.
+/// The part of the bar for one recording. It becomes full when the recording is finished.
 pub(crate) struct Share<'a> {
-    bar: &'a ProgressBar,
+    progress: &'a Progress,
     steps_done: u64,
+    /// The pass that the message names, and the number of passes.
+    shown: Option<(u32, u32)>,
 }
 
 impl Share<'_> {
-    /// Sets how much of the recording is done; never goes back.
+    /// Names the pass over the sound beside the bar of a single recording.
+    pub(crate) fn name_pass(&mut self, pass: u32, pass_count: u32) {
+        if self.progress.is_single && self.shown != Some((pass, pass_count)) {
+            self.shown = Some((pass, pass_count));
+            self.progress.bar.set_message(format!("{}, pass {pass} of {pass_count}", self.progress.message));
+        }
+    }
+
+    /// Sets the finished share of the recording; it never decreases.
     pub(crate) fn set(&mut self, share: f64) {
         let steps = (share.clamp(0.0, 1.0) * STEPS as f64) as u64;
         if steps > self.steps_done {
-            self.bar.inc(steps - self.steps_done);
+            self.progress.bar.inc(steps - self.steps_done);
             self.steps_done = steps;
         }
     }

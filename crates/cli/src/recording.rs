@@ -1,4 +1,4 @@
-//! Recordings to answers: the one place that knows how files are decoded.
+//! From recordings to records. No other file of the command line decodes sound.
 
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
@@ -13,54 +13,54 @@ use serde::Serialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// What to hear of every file.
+/// How every file is opened, and what its output needs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Hearing {
-    /// The audio track, counted from 1; the first that is not silent where absent.
+    /// Number of the audio track, counted from 1; the first that is not silent where absent.
     pub(crate) audio_track: Option<usize>,
-    /// The channel, counted from 1; the mean of all where absent.
+    /// Number of the channel, counted from 1; the mean of all channels where absent.
     pub(crate) channel: Option<usize>,
-    /// Whether the output will name the hash of the file.
+    /// Whether the output contains the hash of the file.
     pub(crate) wants_hash: bool,
-    /// Whether the samples of the hover are used, so that their warnings matter.
+    /// Whether the samples of the hover are used, and with them their warnings.
     pub(crate) wants_samples: bool,
 }
 
-/// One recording to hear.
+/// One recording to analyse.
 #[derive(Clone, Debug)]
 pub(crate) struct Job {
-    /// Where it is.
+    /// Path of the file.
     pub(crate) path: PathBuf,
-    /// What it is called.
+    /// Name in the output.
     pub(crate) name: String,
-    /// How it is analysed.
+    /// Settings of the analysis.
     pub(crate) config: Config,
-    /// How the tone is found, where nobody says which it is; the order of `config` then means nothing.
+    /// The search for the tone, where its order is unknown; the order in `config` is then a placeholder.
     pub(crate) discovery: Option<Discovery>,
-    /// Analyses of the rotors that follow the speed.
+    /// Analyses of the rotors after the speed.
     pub(crate) requests: Requests,
 }
 
-/// Analyses of the rotors that follow the speed, each with passes of its own.
+/// Analyses of the rotors after the speed. Each needs more passes over the sound.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Requests {
     /// The condition of each rotor.
     pub(crate) condition: bool,
-    /// When each rotor began to turn.
+    /// The start of each rotor.
     pub(crate) spin_up: bool,
 }
 
-/// A recording that was heard.
+/// A recording that was analysed.
 pub(crate) struct Heard {
-    /// The answer.
+    /// The result.
     pub(crate) record: SpeedRecord,
-    /// The settings behind it: those of the job, with the tone that was found.
+    /// The settings of the analysis: the settings of the job with the tone that was found.
     pub(crate) config: Config,
-    /// When each rotor began to turn, where that is wanted.
+    /// The start of each rotor, where it was requested.
     pub(crate) spin_up: Option<SpinUp>,
 }
 
-/// Hears all recordings, in parallel; the answers are in the order of the jobs.
+/// Analyses all recordings in parallel; the results are in the order of the jobs.
 pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<Heard> {
     jobs.par_iter()
         .map(|job| {
@@ -73,12 +73,12 @@ pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> V
         .collect()
 }
 
-/// The same, where only the records matter.
+/// Analyses all recordings and keeps only the records.
 pub(crate) fn records_of(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<SpeedRecord> {
     hear_all(jobs, hearing, progress).into_iter().map(|heard| heard.record).collect()
 }
 
-/// Why a recording could not be heard, and what is known of it all the same.
+/// Reason why a recording was not analysed, with its facts where they are known.
 struct NotHeard {
     reason: String,
     facts: Option<RecordingFacts>,
@@ -130,12 +130,12 @@ fn record_of(job: &Job, config: &Config, answer: Answer, recording: Option<Recor
     }
 }
 
-/// Settings as they are written out. They can all be written.
+/// Settings as JSON. Serialisation of settings does not fail.
 fn written(settings: &impl Serialize) -> Value {
     serde_json::to_value(settings).unwrap_or_default()
 }
 
-/// What only somebody who knows what was typed can say.
+/// A reason that follows from the typed name: a folder, or a pattern without files.
 fn wrong_kind(path: &Path) -> Option<String> {
     if path.is_dir() {
         return Some("this is a folder, not a recording; name the recordings in it, as in FOLDER/*.wav".to_owned());
@@ -144,7 +144,7 @@ fn wrong_kind(path: &Path) -> Option<String> {
         .then(|| "no file matches this pattern; check the folder and the ending of its files".to_owned())
 }
 
-/// What was taken for granted where nobody said which tone is the rotor's.
+/// The notice which reading of the tone was used, where the arguments did not name the order.
 fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     let reading = record.found_reading().filter(|_| record.speed().is_some())?;
     let text = format!(
@@ -154,7 +154,7 @@ fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     Some(Notice::new(text, "check the blades and say --blades N; `hovertone tones` shows the other readings"))
 }
 
-/// What the passes over a recording give.
+/// Results of the passes over a recording.
 struct Analysed {
     analysis: SpeedAnalysis,
     config: Config,
@@ -167,10 +167,11 @@ fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Resu
     let mut heard_s: f64 = 0.0;
     let mut on_progress = |progress: hovertone::sound::Progress| {
         let time_s = progress.time_s - start_s;
-        // after the first pass the length is known better than from the header
+        // after the first pass the length is known exactly; the header only estimates it
         let length_s = if progress.pass == 1 { declared_s } else { Some(heard_s) };
         heard_s = heard_s.max(time_s);
         let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
+        share.name_pass(progress.pass, progress.pass_count);
         share.set((f64::from(progress.pass - 1) + of_pass) / f64::from(progress.pass_count));
     };
     let Requests { condition, spin_up } = job.requests;

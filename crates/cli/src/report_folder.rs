@@ -1,4 +1,4 @@
-//! The folder of results: the report, and beside it everything in it as files of their own.
+//! The folder of results: the report, and its tables and figures as separate files.
 
 use crate::drawing::{draw_all, trial_of};
 use crate::failure::Failure;
@@ -18,18 +18,18 @@ use std::path::Path;
 
 const FIGURES: &str = "figures";
 
-/// What stands in the report beside the identification.
+/// Content of the report beside the identification.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Extras<'a> {
-    /// Tables in place of a method's own.
+    /// Tables that replace the table of a method.
     pub(crate) compared: &'a [(Method, TextTable)],
-    /// More tables.
+    /// Additional tables.
     pub(crate) more_tables: &'a [TitledTable],
-    /// The command that makes the same again.
+    /// The command that repeats the run.
     pub(crate) command: &'a str,
 }
 
-/// Reads the recordings once more for their pictures, and writes everything; gives back what a person opens first.
+/// Reads the recordings again for their pictures and writes all files; returns the names of the most important ones.
 pub(crate) fn write_report(
     identification: &Identification<'_>,
     jobs: &[Job],
@@ -39,7 +39,7 @@ pub(crate) fn write_report(
 ) -> Result<Vec<String>, Failure> {
     let figures_folder = folder.join(FIGURES);
     fs::create_dir_all(&figures_folder).map_err(|error| Failure::cannot_write(&error, &figures_folder))?;
-    // what was measured is safe before anything is drawn
+    // write the measured results before the drawing, which takes long
     write(&folder.join("results.json"), results_json(identification).map_err(Failure::internal)?)?;
     write(&folder.join("results.schema.json"), RESULTS_SCHEMA)?;
     for table in [samples_data(identification.tables), loads_data(identification.tables)] {
@@ -94,7 +94,7 @@ pub(crate) fn write_report(
     Ok(["report.html", "results.json", "samples.csv", "tables.md", "tables.tex", FIGURES].map(named).to_vec())
 }
 
-/// A figure as SVG and as PNG.
+/// Writes a figure as SVG and as PNG.
 fn write_figure(figure: &Figure, folder: &Path) -> Result<(), Failure> {
     write(&folder.join(format!("{}.svg", figure.name)), &figure.svg)?;
     let png = figure_png(figure, DOTS_PER_INCH).map_err(Failure::internal)?;

@@ -1,11 +1,12 @@
 //! `hovertone spectrogram`: a recording as a picture.
 
+use crate::args::SpectrogramArguments;
 use crate::drawing::{drawing_of, trial_of};
 use crate::failure::{Ending, Failure};
+use crate::jobs::ending_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
-use crate::spectrogram_args::SpectrogramArguments;
-use crate::speed::{config_of, ending_of};
+use crate::settings::config_of;
 use crate::terminal::Terminal;
 use hovertone_figures::{figure_png, recording_figure};
 use std::fs;
@@ -17,7 +18,7 @@ enum Kind {
     Svg,
 }
 
-/// Hears a recording and draws it.
+/// Analyses a recording and draws it.
 pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let kind = kind_of(&arguments.output)?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;

@@ -1,9 +1,9 @@
-//! `--spin-up`: in which order the motors were started, by the names of the rotors or the numbers of the motors.
+//! `--spin-up`: the order in which the motors were started, by names of the rotors or numbers of the motors.
 
 use crate::failure::Failure;
 use hovertone_vehicle::{Layout, Vehicle};
 
-/// Numbers, from 1, and names of all rotors in the order of their start.
+/// Numbers, counted from 1, and names of all rotors in the order of their start.
 pub(crate) fn names_of(
     typed: &[String],
     vehicle: Option<&Vehicle>,
@@ -48,7 +48,7 @@ pub(crate) fn names_of(
     Ok(order.into_iter().map(|number| (number, all[number - 1].clone())).collect())
 }
 
-/// Names of a frame's rotors, as they are typed.
+/// Names of the rotors of a frame as on the command line.
 fn places(layout: Layout) -> [String; 4] {
     layout.places(1.0).map(|place| place.name.replace(' ', "-"))
 }

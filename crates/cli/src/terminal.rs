@@ -1,4 +1,4 @@
-//! Where words go: data to stdout, everything for people to stderr, colours only to a terminal.
+//! Output: data to stdout, all messages for people to stderr, colours only to a terminal.
 
 use crate::failure::Failure;
 use anstream::AutoStream;
@@ -12,15 +12,15 @@ const BOLD: &str = "\x1b[1m";
 const PLAIN: &str = "";
 const RESET: &str = "\x1b[0m";
 
-/// Width that is written for where nobody looks.
+/// Width of the output without a terminal.
 const WIDTH_WITHOUT_TERMINAL: usize = 100;
 
-/// The two streams of the process.
+/// The two output streams of the process.
 pub(crate) struct Terminal {
     out: BufWriter<Stdout>,
-    /// Drops colours where they are not wanted: no terminal, `NO_COLOR`, `TERM=dumb`.
+    /// stderr that drops colours where they are unwanted: no terminal, `NO_COLOR`, `TERM=dumb`.
     err: AutoStream<Stderr>,
-    /// Columns of the terminal that stderr is; absent where it is none, and lines are left whole for programs.
+    /// Columns of the terminal behind stderr; absent without a terminal, when lines stay whole for programs.
     err_width: Option<usize>,
 }
 
@@ -33,27 +33,27 @@ impl Terminal {
         }
     }
 
-    /// Columns to write for.
+    /// Width of the output in columns.
     pub(crate) fn width(&self) -> usize {
         width_of(&io::stdout()).unwrap_or(WIDTH_WITHOUT_TERMINAL)
     }
 
-    /// Data.
+    /// Writes data to stdout.
     pub(crate) fn data(&mut self, text: &str) -> Result<(), Failure> {
         self.out.write_all(text.as_bytes()).map_err(stdout_failure)
     }
 
-    /// Brings the data out before anything is said about it.
+    /// Flushes the data before any message about it.
     pub(crate) fn flush(&mut self) -> Result<(), Failure> {
         self.out.flush().map_err(stdout_failure)
     }
 
-    /// A line for people. If nobody can be told, there is nobody to tell that.
+    /// Writes a line for people. A failure to write it is ignored, since nobody could read the message about it.
     pub(crate) fn say(&mut self, line: &str) {
         let _ = writeln!(self.err, "{line}");
     }
 
-    /// Words after a label, wrapped on a terminal to stand under each other. What has lines of its own keeps them.
+    /// Text after a label, wrapped on a terminal with an indentation. Text with line breaks keeps them.
     fn labelled(&mut self, indent: &str, label: &str, colour: &str, words: &str) {
         let hanging = " ".repeat(indent.len() + label.len() + 1);
         let width = self.err_width.filter(|_| !words.contains('\n'));
@@ -65,7 +65,7 @@ impl Terminal {
         self.say(&format!("{indent}{colour}{label}{RESET} {text}"));
     }
 
-    /// Why the run failed.
+    /// Writes the reason of a failure.
     pub(crate) fn failure(&mut self, failure: &Failure) {
         let (Failure::Usage { what, hint, path } | Failure::Failed { what, hint, path }) = failure else { return };
         self.labelled("", "error:", RED, what);
@@ -75,13 +75,13 @@ impl Terminal {
         }
     }
 
-    /// A file that could not be heard. The reason holds what to do about it.
+    /// A file that could not be analysed. The reason contains the advice.
     fn file_error(&mut self, reason: &str, file: &str) {
         self.labelled("", "error:", RED, reason);
         self.say(&format!("  {file}"));
     }
 
-    /// What weakens a result.
+    /// A warning with its hint.
     pub(crate) fn warning(&mut self, notice: &Notice, indent: &str) {
         self.labelled(indent, "warning:", YELLOW, &notice.text);
         self.hint(&notice.hint, indent);
@@ -93,8 +93,8 @@ impl Terminal {
         }
     }
 
-    /// What is to be said of recordings beside their speeds: what was cut away, warnings, why there is no speed. What holds of all of
-    /// several is said once.
+    /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several
+    /// recordings is written once.
     pub(crate) fn notes(&mut self, records: &[&SpeedRecord]) {
         let of_all: Vec<&Notice> = match records {
             [first, _, _, ..] => {

@@ -1,4 +1,4 @@
-//! A TOML file that somebody wrote: reading it, and saying where it is wrong.
+//! Reading a TOML file of the user, with messages for its errors.
 
 use crate::failure::Failure;
 use crate::nearest::nearest;
@@ -7,7 +7,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// What the parser expects, as people call it.
+/// Words of the parser and their replacements for people.
 const TYPES: [(&str, &str); 4] = [
     ("expected f64", "expected a number"),
     ("expected u32", "expected a whole number"),
@@ -15,20 +15,20 @@ const TYPES: [(&str, &str); 4] = [
     ("a sequence", "a list [...]"),
 ];
 
-/// A file that was read, not yet understood.
+/// A file that was read but not parsed.
 pub(crate) struct TomlFile<'a> {
-    /// Where it is.
+    /// Path of the file.
     pub(crate) path: &'a Path,
-    /// What it is called in messages.
+    /// Kind of the file in messages.
     kind: &'static str,
-    /// Where to see one.
+    /// Advice where to find an example.
     see_example: &'static str,
     /// Its text.
     pub(crate) text: String,
 }
 
 impl<'a> TomlFile<'a> {
-    /// Reads a file of that kind; `mistaken_for` is what people give instead.
+    /// Reads a file of the given kind; `mistaken_for` is a kind of file that users often give instead.
     pub(crate) fn read(
         path: &'a Path,
         kind: &'static str,
@@ -44,13 +44,13 @@ impl<'a> TomlFile<'a> {
         Ok(Self { path, kind, see_example, text })
     }
 
-    /// What it says. Unknown keys are named, with the nearest known one.
+    /// Parses the file. An unknown key is reported with the nearest known one.
     pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, Failure> {
         toml::from_str(&self.text).map_err(|error| fault(&error, self))
     }
 }
 
-/// The line with the fault underlined, and the nearest name where one was misspelt.
+/// The faulty line with a mark under the fault, and the nearest name for a misspelt one.
 fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let (message, kind) = (error.message(), file.kind);
     let (what, hint) = match unknown_name(message) {
@@ -76,7 +76,7 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     Failure::Usage { what, hint, path: Some(path) }
 }
 
-/// What is unknown, its name and the known ones, from "unknown field `a`, expected one of `b`, `c`", or "variant".
+/// Kind, name and known names of an unknown item, from "unknown field `a`, expected one of `b`, `c`", or "variant".
 fn unknown_name(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
     let (what, list) = match message.strip_prefix("unknown field ") {
         Some(list) => ("key", list),
@@ -86,7 +86,7 @@ fn unknown_name(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
     Some((what, quoted.next()?, quoted.collect()))
 }
 
-/// A place in a text, lines and columns counted from 1.
+/// A position in a text, with line and column counted from 1.
 struct Place<'a> {
     line: &'a str,
     line_number: usize,

@@ -1,14 +1,14 @@
-//! The command as it was typed, for whoever wants to type it again.
+//! The command line as typed, for repeating the run.
 
 use std::env;
 
-/// The whole command line, quoted for a shell. Words that are no text are shown with their damage.
+/// The whole command line, quoted for a shell. Invalid UTF-8 is replaced.
 pub(crate) fn typed_command() -> String {
     let words = env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
     ["hovertone".to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" ")
 }
 
-/// A word that a shell takes as one.
+/// A word, quoted if a shell would split or change it.
 fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=:,+@%".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {

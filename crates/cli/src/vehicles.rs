@@ -1,4 +1,4 @@
-//! `hovertone vehicles`: the presets and where their numbers come from.
+//! `hovertone vehicles`: the presets and the sources of their numbers.
 
 use crate::args::VehiclesArguments;
 use crate::failure::{Ending, Failure};
@@ -18,12 +18,12 @@ pub(crate) fn run(arguments: &VehiclesArguments, terminal: &mut Terminal) -> Res
     Ok(Ending::Done)
 }
 
-/// The preset of that name; the nearest name is in the hint where there is none.
+/// The preset of a name, or a failure with the nearest name as a hint.
 pub(crate) fn preset(id: &str) -> Result<&'static Vehicle, Failure> {
     find_preset(id).ok_or_else(|| Failure::usage(format!("there is no vehicle preset \"{id}\""), preset_hint(id)))
 }
 
-/// What to do about a preset that does not exist.
+/// Hint for a name without a preset.
 pub(crate) fn preset_hint(id: &str) -> String {
     match nearest(id, presets().iter().map(|vehicle| vehicle.id)) {
         Some(name) => format!("did you mean \"{name}\"? `hovertone vehicles` lists all"),

@@ -7,7 +7,7 @@ use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
-/// A WAV file that grows.
+/// A WAV file that is written in pieces.
 pub(crate) struct WavFile {
     writer: WavWriter<BufWriter<File>>,
     format: SampleFormat,
@@ -15,7 +15,7 @@ pub(crate) struct WavFile {
 }
 
 impl WavFile {
-    /// Begins a file with so many channels.
+    /// Begins a file with the given number of channels.
     pub(crate) fn create(
         path: &Path,
         channels: usize,
@@ -33,7 +33,7 @@ impl WavFile {
         Ok(Self { writer, format, path: path.to_owned() })
     }
 
-    /// Writes all samples of the channels, which are equally many, and empties the channels.
+    /// Writes and empties the channels, which have equal lengths.
     pub(crate) fn drain(&mut self, channels: &mut [Vec<f32>]) -> Result<(), Failure> {
         for index in 0..channels.first().map_or(0, Vec::len) {
             for channel in channels.iter() {
@@ -48,7 +48,7 @@ impl WavFile {
         Ok(())
     }
 
-    /// Completes the file.
+    /// Finishes the file.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         let path = self.path;
         self.writer.finalize().map_err(|error| cannot_write(error, &path))

@@ -1,13 +1,14 @@
-//! `hovertone weigh`: what hovers, by its sound.
+//! `hovertone weigh`: the mass of a hovering vehicle from its sound.
 
+use crate::args::WeighArguments;
 use crate::export::identified;
 use crate::failure::{Ending, Failure};
+use crate::jobs::{ending_of, jobs_of};
 use crate::place::gravity_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::speed::{ending_of, jobs_of, tone_of};
+use crate::settings::tone_of;
 use crate::terminal::Terminal;
-use crate::thrust_args::WeighArguments;
 use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
@@ -17,17 +18,17 @@ use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 
-/// What the arguments mean.
+/// The meaning of the arguments.
 struct Plan {
     scale: AcousticScale,
     config: Config,
-    /// The method by which the speeds of the constant were read, where the results tell.
+    /// The method of the speeds behind the constant, where the results have it.
     method_of_constant: Option<Method>,
-    /// How far the mean of all rotors may be from the speeds of the constant, as a share.
+    /// Standard deviation of the difference between the mean of all rotors and the speeds behind the constant, as a share.
     rotors_std_share: f64,
 }
 
-/// Hears all recordings and weighs.
+/// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
     let jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default());
@@ -55,7 +56,7 @@ fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
     let segments = record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments);
     Some(HeardHover {
         speed: estimate.speed_of_thrust(),
-        // the same rotors each time: what is not known of them is no matter of one recording
+        // the uncertainty about the rotors is common to all recordings and is added later
         std_uncertainty_rev_s: estimate.combined_std_uncertainty_rev_s().map(|std| {
             let of_rotors = estimate.rotors_std_share() * estimate.speed.rev_s();
             (std * std - of_rotors * of_rotors).max(0.0).sqrt()
@@ -65,8 +66,8 @@ fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
 }
 
 impl Plan {
-    /// The loudest rotor cancels only where constant and hover were heard alike: both by the mean of all rotors, or both by
-    /// the same single ridge.
+    /// The error of a single ridge cancels only where constant and hover have the same kind of speed: both the mean of all rotors, or
+    /// both the same single ridge.
     fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
         let rotor_count = self.config.rotors.count;
         let speeds: Vec<&SpeedEstimate> =
@@ -78,7 +79,7 @@ impl Plan {
             None => is_apart,
         };
         let loudest = UncertaintyInputs::default().loudest_std_share(rotor_count);
-        // of rotors heard apart, what is not known of some of them
+        // with separated rotors: the uncertainty about rotors that were not separated
         let is_by_ridge = self.method_of_constant.is_some_and(|method| method != Method::Separated);
         let unknown = speeds.iter().map(|speed| speed.rotors_std_share()).sum::<f64>() / speeds.len().max(1) as f64;
         let unknown = if is_by_ridge || rotor_count == 1 { 0.0 } else { unknown.hypot(self.rotors_std_share) };
@@ -103,7 +104,7 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
     };
     let is_place_said = arguments.place.gravity_m_s2.or(arguments.place.latitude_deg).is_some();
     let gravity = match results {
-        // found by weight and weighed at the same place, gravity cancels
+        // gravity cancels where the constant comes from a weight and the hover is at the same place
         Some(rotor) if !is_place_said && rotor.mass_kg.is_some() => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
         _ => gravity_of(&arguments.place)?,
     };
@@ -127,7 +128,7 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
     Ok(Plan { scale, config, method_of_constant, rotors_std_share })
 }
 
-/// Rotors that carry what is weighed. The constant of a single rotor on a stand does not tell how many there are.
+/// Number of rotors of the weighed vehicle. The constant of a single rotor on a stand does not contain it.
 fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Option<u32>, Failure> {
     let of_vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let of_results = results.filter(|rotor| rotor.rotor_count > 1 || rotor.mass_kg.is_some());
@@ -142,7 +143,7 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
     Ok(rotor_count)
 }
 
-/// The numbers that were typed.
+/// Checks the numbers of the arguments.
 fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     let must_be = |name: &str, value: f64, words: &str| {
         Err(Failure::usage(format!("{name} = {value}, must be {words}"), SEE_HELP))
@@ -161,7 +162,7 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The tone that was said, else that of the results, heard as it was there.
+/// The tone of the arguments, else the tone behind the results with the same settings.
 fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<ToneConfig, Failure> {
     if let Some(tone) = tone_of(&arguments.tone)? {
         return Ok(tone);

@@ -1,28 +1,28 @@
-//! CSV as programs write it: a header, then rows; parted by commas, semicolons or tabs.
+//! CSV text: a header, then rows, separated by commas, semicolons or tabs.
 
 use csv::StringRecord;
 
-/// Text that is no table, or a cell that is no number.
+/// An error in CSV text.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvError {
-    /// No CSV.
+    /// No CSV with a header.
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
-    /// A cell that is no number.
+    /// A cell that is not a number.
     #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
     NotANumber {
         /// Line, counted from 1.
         line: u64,
-        /// Header.
+        /// Header of the column.
         column: String,
-        /// What stands there.
+        /// Text of the cell.
         cell: String,
     },
 }
 
 impl CsvError {
-    /// What to do about it.
+    /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::NotCsv(_) => "give a CSV file whose first line names the columns",
@@ -31,29 +31,29 @@ impl CsvError {
     }
 }
 
-/// A CSV, opened. Rows may be read as often as wanted, so that a long log need not be held.
+/// A CSV with a parsed header. Each call of `records` reads the rows again, so that a long log is never held in memory.
 pub(crate) struct CsvText<'a> {
     text: &'a str,
     delimiter: u8,
     pub(crate) headers: StringRecord,
-    /// Whether "3,5" is a number.
+    /// Whether "3,5" is a number with a decimal comma.
     has_decimal_commas: bool,
 }
 
 impl<'a> CsvText<'a> {
-    /// What parts the cells is what the first line has most of. A comma is a decimal one where a cell shows that it can be nothing
-    /// else ("3,5"). Lines that begin with # are left out.
+    /// Opens a CSV. The separator is the most frequent candidate in the first line. Commas are decimal commas where a cell proves it
+    /// ("3,5"). Lines that begin with # are skipped.
     pub(crate) fn open(text: &'a str) -> Result<Self, CsvError> {
         let text = text.trim_start_matches('\u{feff}');
         let first_line = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
-        // of equals the last
+        // with equal counts the last candidate wins
         let delimiter = [b'\t', b';', b',']
             .into_iter()
             .max_by_key(|delimiter| first_line.bytes().filter(|byte| byte == delimiter).count())
             .unwrap_or(b',');
         let headers = reader(text, delimiter).headers()?.clone();
         let mut csv = Self { text, delimiter, headers, has_decimal_commas: false };
-        // between commas a cell with one stands in quotes
+        // in a comma-separated file a cell with a comma has quotes
         if delimiter != b',' || text.contains('"') {
             for record in csv.records() {
                 csv.has_decimal_commas |= record?.iter().any(is_decimal_comma);
@@ -72,7 +72,7 @@ impl<'a> CsvText<'a> {
         self.headers.iter().filter(|header| !header.is_empty()).collect::<Vec<_>>().join(", ")
     }
 
-    /// The finite number in a cell.
+    /// The finite number in a cell; `None` otherwise.
     pub(crate) fn number(&self, cell: &str) -> Option<f64> {
         let number: Option<f64> = if self.has_decimal_commas && !cell.contains('.') {
             cell.replacen(',', ".", 1).parse().ok()
@@ -82,7 +82,7 @@ impl<'a> CsvText<'a> {
         number.filter(|number| number.is_finite())
     }
 
-    /// The number in a column of a row; none where the cell is empty or missing.
+    /// The number in a column of a row; `None` where the cell is empty or missing.
     pub(crate) fn number_at(&self, column: usize, record: &StringRecord) -> Result<Option<f64>, CsvError> {
         let cell = record.get(column).unwrap_or_default();
         if cell.is_empty() {
@@ -110,7 +110,7 @@ fn reader(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
         .from_reader(text.as_bytes())
 }
 
-/// Whether a cell has a comma that cannot part thousands: "3,5", not "3,610".
+/// Whether the comma of a cell cannot separate thousands: "3,5", not "3,610".
 fn is_decimal_comma(cell: &str) -> bool {
     let Some((whole, part)) = cell.split_once(',') else { return false };
     let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());

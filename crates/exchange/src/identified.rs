@@ -1,100 +1,100 @@
-//! `results.json` → what simulators want to know.
+//! From `results.json` to the numbers for simulators.
 
 use crate::units::GRAVITY_STANDARD_M_S2;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// A rotor whose thrust constant was identified, and the vehicle that it lifts.
+/// A rotor with its measured thrust constant, and its vehicle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdentifiedRotor {
-    /// What flew.
+    /// Name of the vehicle.
     pub vehicle_name: String,
     /// Constant of one rotor.
     pub thrust_constant_n_s2: f64,
-    /// Its expanded uncertainty, k = 2; absent where nothing tells.
+    /// Expanded uncertainty (k = 2) of the constant; absent where it is unknown.
     pub expanded_uncertainty_n_s2: Option<f64>,
-    /// Constant of the whole vehicle by weighing and speeds alone: its standard uncertainty.
+    /// Standard uncertainty of the constant of the whole vehicle from weighing and speeds alone.
     pub measured_std_total_n_s2: Option<f64>,
-    /// How far the mean of all rotors may be from the speeds that were heard, as a share.
+    /// Standard deviation of the difference between the mean of all rotors and the heard speeds, as a share.
     pub rotors_std_share: f64,
-    /// Rotors of the vehicle.
+    /// Number of rotors of the vehicle.
     pub rotor_count: u32,
-    /// Mass of the vehicle without added load; absent where only bench runs were heard.
+    /// Mass of the vehicle without added load; absent after bench runs only.
     pub mass_kg: Option<f64>,
-    /// Shaft speed at which it was heard to hover with that mass.
+    /// Shaft speed in hover with that mass.
     pub hover_speed_rad_s: Option<f64>,
-    /// Gravity where it flew.
+    /// Gravity at the place of the flights.
     pub gravity_m_s2: f64,
     /// Diameter of the propellers.
     pub propeller_diameter_m: Option<f64>,
     /// Density of the air.
     pub air_density_kg_m3: Option<f64>,
-    /// Torque of one rotor over its squared speed, where somebody measured it: sound does not tell.
+    /// Torque of one rotor over its squared speed, where it was measured. Sound does not contain it.
     pub torque_constant_n_m_s2: Option<f64>,
-    /// Command (0 to 1) at which it hovers, where somebody read it.
+    /// Command (0 to 1) in hover, where it was recorded.
     pub hover_command: Option<f64>,
-    /// The tone by which it was heard.
+    /// The tone behind the speeds.
     pub tone: Option<HeardTone>,
-    /// Name of the method by which its speeds were read.
+    /// Name of the method of the speeds.
     pub method: Option<String>,
-    /// Scatter of the speed from one trial to another, as a share.
+    /// Standard deviation of the speed from trial to trial, as a share.
     pub trial_std_share: Option<f64>,
-    /// Where the numbers come from, for a comment.
+    /// Source of the numbers, for a comment.
     pub origin: String,
 }
 
-/// The tone by which a rotor was heard: what it takes to hear it again in the same way.
+/// The tone of a rotor, with all settings that are needed to find it again.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 pub struct HeardTone {
     /// Lines per turn of the shaft.
     pub order: f64,
-    /// How many harmonics had a ridge.
+    /// Number of harmonics with a ridge.
     pub harmonics: u32,
-    /// Blades of the rotor, where they were known.
+    /// Blades of the rotor, where known.
     pub blades: Option<u32>,
-    /// Half width of a found band as a share of its middle.
+    /// Half width of a band around a found tone, as a share of its centre.
     pub band_half_width_share: f64,
-    /// Slowest shaft that was looked for.
+    /// Slowest shaft speed of the search.
     pub speed_rad_s_min: f64,
-    /// Fastest shaft that was looked for.
+    /// Fastest shaft speed of the search.
     pub speed_rad_s_max: f64,
 }
 
 impl IdentifiedRotor {
-    /// Torque over thrust, in metres: what Gazebo calls momentConstant.
+    /// Torque over thrust, in metres: momentConstant of Gazebo.
     pub fn moment_constant_m(&self) -> Option<f64> {
         Some(self.torque_constant_n_m_s2? / self.thrust_constant_n_s2)
     }
 
-    /// Shaft speed at which this constant carries this mass.
+    /// Shaft speed at which all rotors carry this mass.
     pub fn hover_speed_by_balance_rad_s(&self) -> Option<f64> {
         let weight_n = self.mass_kg? * self.gravity_m_s2;
         Some((weight_n / (f64::from(self.rotor_count) * self.thrust_constant_n_s2)).sqrt())
     }
 }
 
-/// Why a file is no results of hovertone.
+/// Error in a results file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResultsError {
-    /// No JSON.
+    /// Not JSON.
     #[error("this is no results.json: {0}")]
     NotJson(#[from] serde_json::Error),
-    /// JSON of something else.
+    /// JSON without the fields of a result.
     #[error("this is no results.json of `hovertone identify`: {what} is missing")]
     Missing {
-        /// What.
+        /// The missing field.
         what: &'static str,
     },
-    /// Nothing was identified.
+    /// The result has no constant.
     #[error("nothing was identified in these results: no recording had a rotor tone")]
     NothingIdentified,
-    /// A number that no rotor has.
+    /// A number out of range.
     #[error("{name} = {value} in these results, it must be a number above 0")]
     OutOfRange {
-        /// Which.
+        /// Name of the number.
         name: &'static str,
-        /// What stands there.
+        /// Its value.
         value: f64,
     },
 }
@@ -105,7 +105,7 @@ struct Constant {
     std_uncertainty: Option<f64>,
 }
 
-/// What the budget says of rotors that were not all told apart.
+/// Term of the budget for rotors that were not separated.
 fn rotors_std_share(results: &Value) -> f64 {
     let lines = results.pointer("/uncertainty_budget/lines").and_then(Value::as_array);
     let line = lines.into_iter().flatten().find(|line| line["input"] == "loudest_rotor");
@@ -115,7 +115,7 @@ fn rotors_std_share(results: &Value) -> f64 {
 /// Reads `results.json`.
 ///
 /// # Errors
-/// Not JSON, not hovertone's, nothing identified, numbers that mean nothing.
+/// Not JSON, no results of hovertone, no constant, a number out of range.
 pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsError> {
     let results: Value = serde_json::from_str(text)?;
     let constant = results
@@ -125,7 +125,7 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
     let constant = constant.ok_or(ResultsError::NothingIdentified)?;
     positive("thrust_constant_per_rotor_n_s2", constant.value)?;
     let number_at = |pointer: &str| results.pointer(pointer).and_then(Value::as_f64);
-    // of `identify`, or of `fit`
+    // the fields of `identify`, or else of `fit`
     let rotor_count = results.pointer("/settings/experiment/rotor_count").or_else(|| results.get("rotor_count"));
     let rotor_count = rotor_count.and_then(Value::as_u64).and_then(|count| u32::try_from(count).ok());
     let rotor_count = rotor_count.ok_or(ResultsError::Missing { what: "the number of rotors" })?;
@@ -178,7 +178,7 @@ struct UnladenHover {
     speed_rad_s: Option<f64>,
 }
 
-/// The vehicle by itself, and the speed of the load that adds nothing.
+/// Mass and speed of the load without added mass.
 fn unladen_hover(results: &Value, experiment: &Value) -> Option<UnladenHover> {
     let loads = experiment.get("loads")?.as_array()?;
     let hovers = || loads.iter().filter_map(|load| Some((load.get("name")?, load.get("force")?)));
@@ -193,7 +193,8 @@ fn unladen_hover(results: &Value, experiment: &Value) -> Option<UnladenHover> {
     })
 }
 
-/// From the standard uncertainty of a load's mean speed to that of a trial: the scatter is pooled, so the first load tells.
+/// From the standard uncertainty of the mean speed of a load to the standard deviation of a trial. The scatter is pooled over the loads,
+/// so the first load is enough.
 fn trial_std_share(results: &Value) -> Option<f64> {
     let number = |load: &Value, name: &str| load.get(name).and_then(Value::as_f64);
     results.get("loads")?.as_array()?.iter().find_map(|load| {

@@ -1,9 +1,9 @@
 //! Files of other programs, text in and text out: models of simulators, tables of thrust stands, logs of flights.
 //!
 //! ```text
-//! units        a thrust constant in the units that others have      simulator     models: written, read back, compared
-//! identified   results.json → what is exported                      thrust_stand  CSV tables → speeds and forces
-//! flight_log   CSV and ULog → motors and body rates over time     csv_text      how CSV text is opened, for both
+//! units        a thrust constant in the units of other programs      simulator     models: written, read back, compared
+//! identified   results.json → numbers for an export                 thrust_stand  CSV tables → speeds and forces
+//! flight_log   CSV and ULog → motors and body rates over time       csv_text      CSV text, for the two before
 //! ```
 
 mod csv_text;

@@ -1,11 +1,11 @@
-//! One thrust constant in the units that other programs have: the most repeated question of their users.
+//! One thrust constant in the units of other programs.
 
 use std::f64::consts::TAU;
 
-/// Standard gravity: what a gram-force is.
+/// Standard gravity, m/s²: the weight of a kilogram-force.
 pub(crate) const GRAVITY_STANDARD_M_S2: f64 = 9.80665;
 
-/// A thrust constant of one rotor, kept in N/(rad/s)².
+/// A thrust constant of one rotor, stored in N/(rad/s)².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantUnits {
     n_s2: f64,
@@ -64,10 +64,10 @@ mod tests {
 
     #[test]
     fn known_constants_in_known_units() {
-        // PHYSICS, section 9: N/rpm² times 91.189 is N/(rad/s)²; Crazyflie's 3.16e-10 N/rpm² is 2.88e-8
+        // 1 N/rpm² is (60/2π)² = 91.189 N/(rad/s)²; the 3.16e-10 N/rpm² of a Crazyflie is 2.88e-8 N/(rad/s)²
         assert!((ConstantUnits::from_n_rpm2(1.0).n_s2() - 91.189).abs() < 1e-3);
         assert!((ConstantUnits::from_n_rpm2(3.16e-10).n_s2() - 2.88e-8).abs() < 5e-11);
-        // AirSim's rotor: 4.179446268 N at 6396.667 rpm
+        // the rotor of AirSim: 4.179446268 N at 6396.667 rpm
         let airsim = ConstantUnits::from_coefficient(0.109919, 1.225, 0.2286);
         assert!((airsim.n_rpm2() * 6396.667f64.powi(2) - 4.179446268).abs() < 1e-5);
     }

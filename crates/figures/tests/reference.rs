@@ -43,8 +43,7 @@ struct Heard {
 
 fn heard(load: &'static str, number: u64, speed_rev_s: f64) -> Heard {
     let mut source = hover(speed_rev_s, number);
-    let config =
-        Config { wants_all_methods: true, ..Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap())) };
+    let config = Config { all_methods: true, ..Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap())) };
     let analysis = speed_from_source(&mut source, &config, &mut |_| {}).unwrap();
     let Outcome::Ok(tone) = &analysis.outcome else { panic!("no tone in {load}: {:?}", analysis.outcome) };
     let config = PictureConfig { rows_max: 64, columns_max: 64, ..PictureConfig::default() };

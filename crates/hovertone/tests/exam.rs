@@ -208,7 +208,7 @@ fn a_rate_that_cannot_be_or_cannot_hold_the_tone_is_refused_at_once() {
 fn a_window_longer_than_the_hover_is_an_answer_with_its_reason() {
     let mut config = config(2.0);
     config.method = Method::MaximumTrace;
-    config.wants_all_methods = false;
+    config.all_methods = false;
     config.spectrogram.window_s = Some(2.0);
     assert!(hears_nothing(&analyse(steady(90.0, 1.5, 0.01), &config)));
 }

@@ -1,4 +1,4 @@
-//! Which rotor is which, on tracks and logs made here. `cargo xtask bench labels` does it with simulated flights.
+//! Which rotor is which, on tracks and logs made here. `hovertone-bench labels` does it with simulated flights.
 
 #![allow(missing_docs, clippy::unwrap_used)] // a test may
 

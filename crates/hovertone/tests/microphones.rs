@@ -1,5 +1,5 @@
 //! Which rotor is which by several microphones, on sound made here: lines of rotors at known places, 1/r and r/c, in white noise.
-//! `cargo xtask bench labels` does it with simulated flights and rooms.
+//! `hovertone-bench labels` does it with simulated flights and rooms.
 
 #![allow(missing_docs, clippy::unwrap_used)] // a test may
 

@@ -1,4 +1,4 @@
-//! Several rotors told apart from one microphone, with the truth known at every instant. `cargo xtask bench rotors` does it with
+//! Several rotors told apart from one microphone, with the truth known at every instant. `hovertone-bench rotors` does it with
 //! many more, and with echoes.
 
 #![allow(clippy::unwrap_used, clippy::panic)] // a test may

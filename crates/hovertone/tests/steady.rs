@@ -19,7 +19,7 @@ fn blade_pass() -> Vec<(f64, f64)> {
 #[test]
 fn a_blade_pass_far_below_falling_noise_is_read_at_its_own_speed_or_not_at_all() {
     let lines = blade_pass();
-    let config = Config { wants_all_methods: false, ..config(2.0) };
+    let config = Config { all_methods: false, ..config(2.0) };
     let noise_std = 10.0 * lines.iter().map(|(_, amplitude)| amplitude * amplitude / 2.0).sum::<f64>().sqrt();
     let noise = Noise::falling(noise_std, CORNER_HZ, SAMPLE_RATE_HZ);
     let mut right = 0;
@@ -42,7 +42,7 @@ fn a_blade_pass_far_below_falling_noise_is_read_at_its_own_speed_or_not_at_all()
 fn every_fourth_line_of_a_blade_pass_is_no_other_sound() {
     let mut lines = blade_pass();
     lines.extend([(69.0, 0.01), (138.0, 0.005), (207.0, 0.0025)]);
-    let mut config = Config { wants_all_methods: false, ..config(69.0) };
+    let mut config = Config { all_methods: false, ..config(69.0) };
     config.tone.blades = Some(2);
     for speed_rev_s in [50.258, 51.124, 52.121] {
         let rotor = rotor(|_| speed_rev_s, &lines);

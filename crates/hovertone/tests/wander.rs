@@ -21,7 +21,7 @@ fn the_mean_of_a_wandering_rotor_is_known_to_a_few_millionths_and_its_uncertaint
     let mesh: Vec<(f64, f64)> = vec![(69.0, 0.05), (138.0, 0.025), (207.0, 0.0125)];
     let blade_pass: Vec<(f64, f64)> = (1..=20).map(|k| (2.0 * f64::from(k), 0.05 / f64::from(k))).collect();
     for (name, order, lines, rms_share_max) in [("mesh", 69.0, mesh, 4e-6), ("blade pass", 2.0, blade_pass, 15e-6)] {
-        let config = Config { wants_all_methods: false, ..config(order) };
+        let config = Config { all_methods: false, ..config(order) };
         let (mut covered, mut squares) = (0, 0.0);
         for seed in 0..DRAWS {
             let mut random = rand_pcg::Pcg64::seed_from_u64(1000 + seed);

@@ -1,4 +1,4 @@
-//! Which of several audio tracks to hear: the first with a sound in it.
+//! Choice of the audio track: the first that is not silent.
 
 use std::path::Path;
 
@@ -7,19 +7,19 @@ use crate::frames::Incidents;
 use crate::plan::Plan;
 use crate::tracks::Tracks;
 
-/// One step of 16-bit sound: what never exceeds it is silence, however it was coded.
+/// One step of 16-bit sound. A track that never exceeds it is silent, whatever its codec.
 const SILENCE_MAX: f32 = 1.0 / 32_768.0;
 
 /// The chosen track.
 pub(crate) struct Choice {
-    /// Counted from 0.
+    /// Index of the track, counted from 0.
     pub(crate) index: usize,
     pub(crate) plan: Plan,
-    /// Tracks before it that are silent, counted from 1.
+    /// Silent tracks before it, counted from 1.
     pub(crate) silent: Vec<usize>,
 }
 
-/// Listens to the tracks in order, up to the first sound. Where there is none, the first that decodes is chosen.
+/// Decodes the tracks in order up to the first sound. If all are silent, the choice is the first that decodes.
 pub(crate) fn first_audible_track(path: &Path, tracks: &Tracks<'_>) -> Result<Choice, MediaError> {
     let mut silent = Vec::new();
     let mut first_silent = None;

@@ -1,4 +1,4 @@
-//! Files that end before the sizes in their headers do: what to show a demuxer that would refuse them, or not notice.
+//! Files that end before the sizes in their headers do, and corrected sizes for a demuxer that would refuse them or not notice.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -7,14 +7,14 @@ use crate::source::Patch;
 
 const CHUNKS_MAX: usize = 10_000;
 
-/// Whether a file ends inside its sound by its own sizes, and the sizes that let a demuxer read up to there.
+/// Whether a file ends inside its sound by its own sizes, and the sizes with which a demuxer reads up to there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Clipped {
     pub(crate) is_cut_off: bool,
     pub(crate) patches: Vec<Patch>,
 }
 
-/// Holds the sizes of AIFF, CAF and AVI files against the file's length. Other containers are never clipped here.
+/// Compares the sizes of AIFF, CAF and AVI files with the length of the file. Other containers are never clipped here.
 pub(crate) fn clipped_from_sizes<R: Read + Seek>(reader: &mut R, container: Container) -> io::Result<Clipped> {
     let file_bytes = reader.seek(SeekFrom::End(0))?;
     match container {
@@ -22,7 +22,7 @@ pub(crate) fn clipped_from_sizes<R: Read + Seek>(reader: &mut R, container: Cont
         Container::Caf => caf(reader, file_bytes),
         Container::Avi => {
             let declared = bytes_at::<4, _>(reader, 4)?.map_or(0, |size| u64::from(u32::from_le_bytes(size)));
-            // Zero and all ones stand for a length that nobody wrote.
+            // Zero and all ones mean that the length was never written.
             let is_known = declared > 0 && declared < u64::from(u32::MAX);
             Ok(Clipped { is_cut_off: is_known && declared + 8 > file_bytes, patches: Vec::new() })
         }

@@ -13,13 +13,13 @@ use symphonia::core::errors::Error as SymphoniaError;
 use crate::guard::guarded;
 use crate::opus::{OPUS_RATE_HZ, OpusHead, OpusPackets};
 
-/// No packet of any codec here is longer; a longer claim is damage.
+/// Longest packet of any codec here, in bytes; a longer one is damage.
 pub(crate) const PACKET_FRAMES_MAX: u64 = 65_536;
 
-/// More channels than this are damage.
+/// Largest number of channels; more are damage.
 pub(crate) const CHANNEL_COUNT_MAX: usize = 256;
 
-/// What turns packets into frames.
+/// The decoder of packets.
 pub(crate) enum Decoder {
     Symphonia(Box<dyn AudioDecoder>),
     Opus(OpusPackets),
@@ -31,7 +31,7 @@ pub(crate) fn opus_head(parameters: &AudioCodecParameters) -> Option<OpusHead> {
     OpusHead::from_extra_data(extra_data)
 }
 
-/// The decoder of a track, and the rate and channels that its header tells.
+/// The decoder of a track, with the rate and the channels of its header.
 pub(crate) fn decoder_for(
     parameters: &AudioCodecParameters,
     has_gapless_packets: bool,
@@ -51,10 +51,10 @@ pub(crate) fn decoder_for(
     Ok((Decoder::Symphonia(decoder), sample_rate_hz, channel_count))
 }
 
-/// Refuses what only damaged headers ask for, before a decoder allocates it: a failed allocation ends the program.
+/// Refuses absurd sizes of damaged headers before a decoder allocates memory: a failed allocation ends the program.
 fn check_parameters(parameters: &AudioCodecParameters) -> Result<(), SymphoniaError> {
     let is_adpcm = matches!(parameters.codec, CODEC_ID_ADPCM_IMA_QT | CODEC_ID_ADPCM_IMA_WAV | CODEC_ID_ADPCM_MS);
-    // Symphonia's ADPCM decoder panics on more than two channels.
+    // Symphonia's ADPCM decoder panics with more than two channels.
     let channel_count_max = if is_adpcm { 2 } else { CHANNEL_COUNT_MAX };
     if parameters.channels.as_ref().is_some_and(|channels| channels.count() > channel_count_max) {
         return Err(SymphoniaError::Unsupported("too many channels"));
@@ -66,7 +66,7 @@ fn check_parameters(parameters: &AudioCodecParameters) -> Result<(), SymphoniaEr
     Ok(())
 }
 
-/// What people call a codec.
+/// Name of a codec for people.
 pub(crate) fn codec_name(codec: AudioCodecId) -> &'static str {
     match codec {
         CODEC_ID_AAC => "AAC",

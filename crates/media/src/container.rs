@@ -1,11 +1,11 @@
-//! What a file is, told by its content and never by its name.
+//! The container of a file, recognised by its content and never by its name.
 
 use std::fmt;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use crate::mpeg_audio::{self, MpegAudio};
 
-/// Formats told apart by their first bytes.
+/// Containers, recognised by their first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Container {
@@ -31,7 +31,7 @@ pub enum Container {
     Ogg,
     /// QuickTime.
     Mov,
-    /// MP4, M4A and their kin.
+    /// MP4, M4A and related formats.
     Mp4,
     /// 3GPP.
     ThreeGp,
@@ -66,7 +66,7 @@ pub enum Container {
 }
 
 impl Container {
-    /// As people call it.
+    /// Name for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Wav => "WAV file",
@@ -99,7 +99,7 @@ impl Container {
         }
     }
 
-    /// The codec that the container alone tells.
+    /// The codec that follows from the container alone.
     pub(crate) fn codec_guess(self) -> &'static str {
         match self {
             Self::Asf => "WMA",
@@ -114,7 +114,7 @@ impl Container {
         }
     }
 
-    /// Whether a file of this extension may hold this. Extensions nobody knows may hold anything.
+    /// Whether a file with this extension can have this container. An unknown extension can have any.
     pub(crate) fn fits_extension(self, extension: &str) -> bool {
         let family: &[&[Self]] = match extension.to_ascii_lowercase().as_str() {
             "wav" | "wave" | "bwf" => &[&[Self::Wav, Self::Rf64]],
@@ -151,19 +151,19 @@ impl fmt::Display for Container {
     }
 }
 
-/// What a file is and where it begins: tags and rubbish before the first frame of MP3 and AAC are skipped.
+/// The container of a file and the position of its content. Tags and other bytes before the first frame of MP3 and AAC are skipped.
 #[derive(Clone, Debug)]
 pub(crate) struct Sniffed {
     pub(crate) container: Container,
     pub(crate) base: u64,
-    /// Of MP3 and AAC frames, what their first frames tell.
+    /// Facts from the first frames of MP3 and AAC.
     pub(crate) mpeg: Option<MpegAudio>,
 }
 
-/// How much of a file is looked at.
+/// Bytes of a file that are examined.
 const SNIFF_BYTES: u64 = 256 * 1024;
 
-/// Tells what the content is; `None` where nothing is recognised.
+/// Recognises the container; `None` for unknown content.
 pub(crate) fn container_from_content<R: Read + Seek>(reader: &mut R) -> io::Result<Option<Sniffed>> {
     let mut head = Vec::new();
     reader.seek(SeekFrom::Start(0))?;
@@ -172,7 +172,7 @@ pub(crate) fn container_from_content<R: Read + Seek>(reader: &mut R) -> io::Resu
         return Ok(Some(Sniffed { container, base: 0, mpeg: None }));
     }
 
-    // An ID3 tag may hold a picture and be far longer than what was read.
+    // An ID3 tag can contain a picture and be far longer than the examined bytes.
     let base = mpeg_audio::id3v2_len(&head);
     if base > 0 {
         head.clear();
@@ -193,7 +193,7 @@ pub(crate) fn container_from_content<R: Read + Seek>(reader: &mut R) -> io::Resu
     }))
 }
 
-/// The first bytes as people compare them.
+/// The first bytes as hexadecimal numbers, for a message.
 pub(crate) fn first_bytes_in_hex<R: Read + Seek>(reader: &mut R) -> String {
     let mut head = Vec::new();
     let read = reader.seek(SeekFrom::Start(0)).and_then(|_| reader.by_ref().take(8).read_to_end(&mut head));
@@ -240,7 +240,7 @@ fn container_from_signature(head: &[u8]) -> Option<Container> {
     if head.starts_with(b"#!AMR") {
         return Some(Container::Amr);
     }
-    // Transport packets are 188 bytes, or 192 where a time stamp of four bytes leads each (AVCHD).
+    // Transport packets have 188 bytes, or 192 with a time stamp of four bytes in front (AVCHD).
     for (packet_len, offset) in [(188, 0), (192, 4)] {
         let has_sync = (0..4).all(|packet| head.get(offset + packet * packet_len) == Some(&0x47));
         if has_sync {

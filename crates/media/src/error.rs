@@ -1,4 +1,4 @@
-//! Why a recording cannot be heard: what happened, why, and what to do about it.
+//! Reasons why a recording cannot be decoded: what happened, why, and what to do.
 
 use std::io;
 
@@ -6,8 +6,7 @@ use thiserror::Error;
 
 use crate::container::Container;
 
-/// A file that gives no sound. The message has three parts (what, why, what to do) and leaves the file's name to the
-/// caller.
+/// A file without usable sound. The message has three parts (what, why, what to do); the caller adds the name of the file.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MediaError {
@@ -21,11 +20,11 @@ pub enum MediaError {
     )]
     NotAFile,
 
-    /// Not one byte.
+    /// An empty file.
     #[error("the file is empty (0 bytes): copying it probably failed; copy it again")]
     Empty,
 
-    /// No signature that this crate knows.
+    /// No known signature.
     #[error(
         "the file is no recording that hovertone knows: its content matches no audio or video format \
          (it begins {first_bytes}); give a video or audio file"
@@ -42,25 +41,25 @@ pub enum MediaError {
         container: Container,
     },
 
-    /// The asked-for track is not there.
+    /// The requested track does not exist.
     #[error("audio track {asked} does not exist: the file has {count}, counted from 1; choose one of these")]
     NoSuchTrack {
-        /// As people count, from 1.
+        /// Number of the track, counted from 1.
         asked: usize,
         /// Audio tracks in the file.
         count: usize,
     },
 
-    /// The asked-for channel is not there.
+    /// The requested channel does not exist.
     #[error("channel {asked} does not exist: the audio track has {count}, counted from 1; choose one of these")]
     NoSuchChannel {
-        /// As people count, from 1.
+        /// Number of the channel, counted from 1.
         asked: usize,
         /// Channels in the track.
         count: usize,
     },
 
-    /// Only ffmpeg reads this, and there is none.
+    /// Only ffmpeg decodes this file, and it is not available.
     #[error(
         "the {container} holds {codec}, which needs the program ffmpeg: hovertone has no decoder of its own for it, and \
          {why}; install ffmpeg, or convert the sound to WAV or FLAC"
@@ -68,22 +67,22 @@ pub enum MediaError {
     NeedsFfmpeg {
         /// The container.
         container: Container,
-        /// The codec, as people call it.
+        /// Name of the codec for people.
         codec: String,
-        /// Why ffmpeg was not used.
+        /// Reason why ffmpeg was not used.
         why: String,
     },
 
-    /// ffmpeg was there and failed.
+    /// ffmpeg was started and failed.
     #[error(
         "the {container} holds {codec}, which could not be decoded: ffmpeg said \u{201c}{message}\u{201d}; check that the file plays"
     )]
     FfmpegFailed {
         /// The container.
         container: Container,
-        /// The codec, as people call it.
+        /// Name of the codec for people.
         codec: String,
-        /// Its first complaint.
+        /// Its first error message.
         message: String,
     },
 
@@ -92,7 +91,7 @@ pub enum MediaError {
     Damaged {
         /// The container.
         container: Container,
-        /// What is wrong.
+        /// The damage.
         why: String,
     },
 
@@ -105,16 +104,16 @@ pub enum MediaError {
         field: &'static str,
         /// Its value.
         value: u64,
-        /// What it may be.
+        /// Allowed values.
         limit: &'static str,
     },
 
-    /// A good header with no sound after it.
+    /// A valid header without sound after it.
     #[error("the {container} holds no sound: {why}; copy it again, or record again")]
     NoSamples {
         /// The container.
         container: Container,
-        /// What was found.
+        /// Content after the header.
         why: String,
     },
 

@@ -1,4 +1,4 @@
-//! What hovertone cannot decode itself: an `ffmpeg` decodes it into a pipe, at the recording's own rate and channels.
+//! Recordings that hovertone cannot decode itself: an `ffmpeg` decodes them into a pipe, at their own rate and number of channels.
 
 use std::ffi::OsString;
 use std::io::{self, BufReader, Read};
@@ -12,7 +12,7 @@ use crate::wave;
 /// Sample frames of one block.
 const BLOCK_FRAMES: usize = 4096;
 
-/// Messages beyond this are read and thrown away.
+/// Messages are read up to this number of bytes; the rest is discarded.
 const MESSAGE_BYTES_MAX: usize = 64 * 1024;
 
 /// Demuxers that read one file and no other.
@@ -20,16 +20,16 @@ const FORMATS: &str = "aac,ac3,act,aiff,aix,amr,amrnb,amrwb,ape,apm,asf,au,avi,a
     g726,gsm,gxf,ircam,ivf,loas,matroska,mlp,mov,mp3,mpc,mpc8,mpeg,mpegts,mxf,nut,ogg,oma,qcp,rm,roq,shn,smk,sox,spdif,\
     swf,tak,truehd,tta,voc,w64,wav,wsaud,wtv,wv,xwma";
 
-/// Which ffmpeg decodes what hovertone cannot.
+/// The ffmpeg that decodes what hovertone cannot.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FfmpegUse {
-    /// The one that the search path finds.
+    /// The ffmpeg in the search path.
     #[default]
     FromPath,
-    /// This one.
+    /// The ffmpeg at this path.
     At(PathBuf),
-    /// None: such recordings are refused.
+    /// None: recordings that need it are refused.
     Never,
 }
 
@@ -43,7 +43,7 @@ impl FfmpegUse {
     }
 }
 
-/// What ffmpeg says of a file.
+/// Facts about a file from ffmpeg.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FfmpegInspection {
     /// Codecs of the audio tracks.
@@ -51,13 +51,12 @@ pub(crate) struct FfmpegInspection {
     pub(crate) has_input: bool,
     pub(crate) is_guess: bool,
     pub(crate) duration_s: Option<f64>,
-    /// When the first audio track's first frame sounds.
+    /// Time of the first frame of the first audio track.
     pub(crate) start_s: f64,
     pub(crate) first_complaint: Option<String>,
 }
 
-/// Asks ffmpeg for the tracks and for the time of the first frame of one of them. The error says that there is no
-/// ffmpeg.
+/// Runs ffmpeg to list the tracks and to find the time of the first frame of one of them. The error means that there is no ffmpeg.
 pub(crate) fn inspect(program: &Path, file: &Path, audio_index: usize) -> io::Result<FfmpegInspection> {
     let mut command = command(program, "info");
     command.args(["-copyts", "-start_at_zero"]).arg("-i").arg(file_url(file));
@@ -96,7 +95,7 @@ fn inspection_from_messages(messages: &str) -> FfmpegInspection {
     found
 }
 
-/// What people call a codec of ffmpeg's.
+/// Name for people of a codec in ffmpeg.
 fn codec_name(codec: &str) -> String {
     let name = match codec {
         "aac" => "AAC",
@@ -128,15 +127,15 @@ fn codec_name(codec: &str) -> String {
     name.to_owned()
 }
 
-/// `00:00:05.02`.
+/// Parses `00:00:05.02`.
 fn seconds_from_clock(clock: &str) -> Option<f64> {
     clock.trim().split(':').try_fold(0.0, |seconds, part| Some(60.0 * seconds + part.parse::<f64>().ok()?))
 }
 
-/// The last line that is neither about a stream nor empty: ffmpeg puts the reason there.
+/// The last line that is neither about a stream nor empty, where ffmpeg writes the reason of a failure.
 fn complaint_from_messages(messages: &str) -> Option<String> {
     let last = messages.lines().map(str::trim).rfind(|line| !line.is_empty())?;
-    // Names of memory addresses in brackets say nothing to people.
+    // memory addresses in brackets are meaningless to people
     let text = match (last.starts_with('['), last.split_once("] ")) {
         (true, Some((_, text))) => text,
         _ => last,
@@ -155,7 +154,7 @@ pub(crate) struct FfmpegFrames {
     bytes: Vec<u8>,
 }
 
-/// Why there are no frames.
+/// Reason for missing frames.
 pub(crate) enum FfmpegError {
     NotFound(io::Error),
     Failed(String),
@@ -167,7 +166,7 @@ impl FfmpegFrames {
         command.arg("-i").arg(file_url(file)).args(["-map", &format!("0:a:{audio_index}"), "-vn", "-sn", "-dn"]);
         command.args(["-map_metadata", "-1", "-fflags", "+bitexact", "-c:a", "pcm_f32le", "-f", "wav", "pipe:1"]);
         let mut child = command.stdout(Stdio::piped()).spawn().map_err(FfmpegError::NotFound)?;
-        // Drained beside the sound: a full pipe would stop ffmpeg, and hovertone with it.
+        // A thread reads the messages: a full pipe would block ffmpeg, and hovertone with it.
         let messages = child.stderr.take().map(|mut stderr| std::thread::spawn(move || read_messages(&mut stderr)));
         let Some(stdout) = child.stdout.take() else {
             return Err(FfmpegError::Failed("it gave no output".to_owned()));
@@ -188,7 +187,7 @@ impl FfmpegFrames {
             }
             header => {
                 if header.is_ok() {
-                    // It goes on writing, and nobody reads.
+                    // ffmpeg would block on a full pipe that is no longer read
                     let _ = frames.child.kill();
                 }
                 let (_, message) = frames.finish();
@@ -197,7 +196,7 @@ impl FfmpegFrames {
         }
     }
 
-    /// Waits for the program's end: whether it ended well, and its complaint.
+    /// Waits for the end of the program; returns whether it succeeded, and its error message.
     fn finish(&mut self) -> (bool, Option<String>) {
         let is_good = self.child.wait().is_ok_and(|status| status.success());
         let messages = self.messages.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
@@ -242,7 +241,7 @@ fn tells_of_cut_off(message: &str) -> bool {
 
 impl Drop for FfmpegFrames {
     fn drop(&mut self) {
-        // Errors only say that it is gone already.
+        // an error means that the process has already ended
         let _ = self.child.kill();
         let _ = self.child.wait();
         if let Some(messages) = self.messages.take() {
@@ -253,14 +252,14 @@ impl Drop for FfmpegFrames {
 
 fn command(program: &Path, verbosity: &str) -> Command {
     let mut command = Command::new(program);
-    // Playlists may name other files or addresses: no format that does is read, and nothing but files and pipes opened.
+    // Playlists can name other files or addresses. So formats with references are refused, and only files and pipes can be opened.
     command.args(["-hide_banner", "-nostdin", "-nostats", "-v", verbosity, "-protocol_whitelist", "file,pipe"]);
     command.args(["-format_whitelist", FORMATS]);
     command.stdin(Stdio::null()).stderr(Stdio::piped());
     command
 }
 
-/// `file:` keeps a name with a colon, or one that begins with a dash, from being taken for something else.
+/// With `file:` in front, a name with a colon or a dash at its start is still a name.
 fn file_url(file: &Path) -> OsString {
     let mut url = OsString::from("file:");
     url.push(file);

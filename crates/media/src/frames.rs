@@ -1,4 +1,4 @@
-//! What every way of decoding has in common: interleaved frames, and what went wrong on the way.
+//! The interface of all ways of decoding: interleaved frames, and counts of damage.
 
 use std::io;
 
@@ -8,11 +8,11 @@ pub(crate) trait Frames: Send {
 
     fn channel_count(&self) -> usize;
 
-    /// Replaces what `out` holds by the next frames; `false` after the last. May give none and still go on.
+    /// Replaces the content of `out` by the next frames; `false` after the last. The result can be empty although more frames follow.
     fn next_frames(&mut self, out: &mut Vec<f32>, incidents: &mut Incidents) -> io::Result<bool>;
 }
 
-/// What went wrong while decoding, counted.
+/// Counts of errors during the decoding.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Incidents {
     pub(crate) corrupt_packets: u64,
@@ -22,7 +22,7 @@ pub(crate) struct Incidents {
     pub(crate) ffmpeg_message: Option<String>,
 }
 
-/// Drops the frames that an encoder put before and after the sound.
+/// Removes the frames that an encoder added before and after the sound.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Trim {
     pub(crate) skip_frames: u64,
@@ -30,7 +30,7 @@ pub(crate) struct Trim {
 }
 
 impl Trim {
-    /// Trims the next interleaved frames in place; `false` when nothing after them is wanted.
+    /// Trims the next interleaved frames in place; `false` when all later frames are cut.
     pub(crate) fn apply(&mut self, frames: &mut Vec<f32>, channel_count: usize) -> bool {
         let channel_count = channel_count.max(1);
         let available = (frames.len() / channel_count) as u64;

@@ -1,5 +1,5 @@
-//! What hovertone adds to Symphonia's reading of MP4 and MOV: the names of codecs, and
-//! a quick way to the sound alone that reads a broken-off file up to its end.
+//! Additions to Symphonia's reading of MP4 and MOV: names of codecs, and a fast reader of the sound alone that reads a truncated file up
+//! to its end.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -17,13 +17,13 @@ use symphonia::core::units::{Duration, Timestamp};
 use crate::frames::{Frames, Incidents};
 use crate::quicktime::{AudioTrack, PacketPosition, PcmReader, QuicktimeError};
 
-/// Packets whose places are held at a time.
+/// Number of packets whose positions are held in memory at a time.
 const POSITIONS: usize = 16_384;
 
-/// Read at once.
+/// Bytes per read.
 const READ_BYTES: usize = 64 * 1024;
 
-/// What people call the codec of a track.
+/// Name of the codec of a track for people.
 pub(crate) fn codec_name(track: &AudioTrack) -> String {
     let name = match &track.codec {
         b"mp4a" => match track.mp4_object_type {
@@ -58,8 +58,8 @@ pub(crate) fn codec_name(track: &AudioTrack) -> String {
     name.to_owned()
 }
 
-/// What Symphonia's or our decoder needs to know of a compressed track; `None` where neither knows the codec. QuickTime's
-/// IMA ADPCM is left to ffmpeg: Symphonia 0.6.1 decodes it wrongly (correlation 0.935 with the original, ffmpeg 0.997).
+/// Codec parameters of a compressed track for Symphonia's decoder or ours; `None` for an unknown codec. QuickTime's IMA ADPCM is left to
+/// ffmpeg: Symphonia 0.6.1 decodes it wrongly (correlation 0.935 with the original; ffmpeg 0.997).
 pub(crate) fn codec_parameters(track: &AudioTrack) -> Option<AudioCodecParameters> {
     let codec = match (&track.codec, track.mp4_object_type) {
         (b"mp4a", Some(0x69 | 0x6b)) | (b".mp3" | b"ms\0\x55", _) => CODEC_ID_MP3,
@@ -71,7 +71,7 @@ pub(crate) fn codec_parameters(track: &AudioTrack) -> Option<AudioCodecParameter
     };
     let mut parameters = AudioCodecParameters::new();
     parameters.for_codec(codec).with_channels(Channels::Discrete(track.channel_count));
-    // The rate of the core, where a decoder without SBR is to decode HE-AAC.
+    // The rate of the core, since a decoder without SBR decodes HE-AAC.
     let rate_hz = track.half_rate_aac.map_or(track.sample_rate_hz, |half| half.core_rate_hz);
     parameters.with_sample_rate(rate_hz.round() as u32);
     if !track.codec_config.is_empty() && codec != CODEC_ID_MP3 {
@@ -81,12 +81,12 @@ pub(crate) fn codec_parameters(track: &AudioTrack) -> Option<AudioCodecParameter
     Some(parameters)
 }
 
-/// The compressed packets of one track, read where its table says, without the pictures between them.
+/// The compressed packets of one track at the positions in its table, without the pictures between them.
 pub(crate) struct TablePackets {
     reader: BufReader<File>,
     at: u64,
     track: AudioTrack,
-    /// The next of the table, some at a time: the table of an hour is small, its packets written out are not.
+    /// The next packets, some at a time: the table of an hour is small, the list of its packets is not.
     positions: IntoIter<PacketPosition>,
     taken: usize,
     next_tick: u64,
@@ -99,7 +99,7 @@ impl TablePackets {
         Ok(Self { reader, at: 0, track: track.clone(), positions, taken: 0, next_tick: 0 })
     }
 
-    /// The next packet; `None` after the last that lies whole in the file.
+    /// The next packet; `None` after the last one that lies completely in the file.
     pub(crate) fn next_packet(&mut self) -> io::Result<Option<Packet>> {
         if self.positions.len() == 0 {
             let next: Vec<_> = self.track.packets().skip(self.taken).take(POSITIONS).collect();
@@ -107,7 +107,7 @@ impl TablePackets {
             self.positions = next.into_iter();
         }
         let Some(position) = self.positions.next() else { return Ok(None) };
-        // Offsets and lengths were held against the file's length.
+        // offsets and lengths are already checked against the length of the file
         let delta = i64::try_from(position.offset).unwrap_or(i64::MAX).wrapping_sub_unsigned(self.at);
         self.reader.seek_relative(delta)?;
         let mut data = Vec::with_capacity(usize::try_from(position.byte_len).unwrap_or(0));

@@ -1,17 +1,17 @@
-//! The bytes of a video or audio file to a stream of samples, never resampled.
+//! From the bytes of a video or audio file to a stream of samples that is never resampled.
 //!
-//! [`Recording::open`] tells what a file is by its content, chooses an audio track and gives its sound as a
-//! [`SignalSource`](hovertone_signal::SignalSource): mono, finite, at the rate it was recorded at, in blocks, so that memory
-//! stays flat whatever the length. The way of the bytes:
+//! [`Recording::open`] recognises a file by its content, chooses an audio track and provides its sound as a
+//! [`SignalSource`](hovertone_signal::SignalSource): mono, finite, at the recorded rate, in blocks, so that memory does not grow with the
+//! length. The data flow:
 //!
 //! ```text
-//! container   what the content is                  wave, matroska, ogg, iso, mpeg_audio: what their headers promise
-//! tracks      the audio tracks, a plan for each    choose: the first that is not silent
-//! plan        how one track is decoded             native, opus, wave, quicktime, ffmpeg: packets or samples to frames
-//! recording   trim, mix, count what went wrong     frames, mix, warning
+//! container   recognises the content                  wave, matroska, ogg, iso, mpeg_audio: facts in the headers
+//! tracks      the audio tracks, a plan for each       choose: the first that is not silent
+//! plan        how one track is decoded                native, opus, wave, quicktime, ffmpeg: packets or samples → frames
+//! recording   trims, mixes, counts errors             frames, mix, warning
 //! ```
 //!
-//! What Symphonia and opus-pure cannot read goes through an `ffmpeg` where there is one ([`FfmpegUse`]).
+//! Files that Symphonia and opus-pure cannot read go through an `ffmpeg`, if one is available ([`FfmpegUse`]).
 
 mod choose;
 mod clipped;

@@ -1,26 +1,26 @@
-//! The little of Matroska that Symphonia does not hand on: whether the file is whole, and each audio track's codec name
-//! and delay. Element numbers: RFC 9559.
+//! Facts of Matroska that Symphonia does not provide: whether the file is complete, and codec name and delay of each audio track. Element
+//! numbers: RFC 9559.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
 use crate::source::Patch;
 
-/// Headers and track descriptions are small; more than this is not read.
+/// Headers and track descriptions are small; no more bytes than this are read.
 const TRACKS_BYTES_MAX: u64 = 4 << 20;
 
 const ELEMENTS_BEFORE_CLUSTERS_MAX: usize = 1000;
 
-/// What the beginning of the file tells.
+/// Facts from the beginning of the file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Matroska {
     pub(crate) audio_tracks: Vec<MatroskaTrack>,
-    /// Of the whole, picture and all.
+    /// Length of the whole recording with its picture.
     pub(crate) duration_s: Option<f64>,
-    /// The segment says that it is longer than the file.
+    /// The segment is longer than the file.
     pub(crate) is_truncated: bool,
-    /// Nobody wrote how long the segment is: a live recording, whose end may be anywhere.
+    /// The segment has no length: a live recording, which can end anywhere.
     pub(crate) has_open_end: bool,
-    /// Of a truncated file: makes the segment's size unknown and hides the list of what lies beyond its end, for which
+    /// For a truncated file: patches that make the size of the segment unknown and hide the list of elements beyond its end, for which
     /// Symphonia refuses the file.
     pub(crate) patches: Vec<Patch>,
 }
@@ -30,10 +30,10 @@ pub(crate) struct Matroska {
 pub(crate) struct MatroskaTrack {
     pub(crate) number: u64,
     pub(crate) codec_id: String,
-    /// What the decoder must drop at the beginning.
+    /// Delay that the decoder must drop at the beginning.
     pub(crate) codec_delay_s: f64,
     pub(crate) codec_private: Vec<u8>,
-    /// Of the sound that is heard; 0 where it is not told.
+    /// Rate of the decoded sound; 0 where the header has none.
     pub(crate) output_rate_hz: f64,
 }
 
@@ -60,7 +60,7 @@ impl MatroskaTrack {
     }
 }
 
-/// Reads up to the track descriptions. A file too damaged for that gives what was found.
+/// Reads up to the track descriptions. From a damaged file it returns the facts up to the damage.
 pub(crate) fn matroska_from_head<R: Read + Seek>(reader: &mut R) -> io::Result<Matroska> {
     let mut found = Matroska::default();
     let file_bytes = reader.seek(SeekFrom::End(0))?;
@@ -111,7 +111,7 @@ fn element_body<R: Read + Seek>(reader: &mut R, body_at: u64, size: Option<u64>)
     Ok(body)
 }
 
-/// All bits of a size set: unknown.
+/// A size with all bits set: unknown.
 fn unknown_size_patch(at: u64, end: u64) -> Patch {
     let size_bytes = end.saturating_sub(at).clamp(1, 8);
     let mut bytes = vec![0xff; size_bytes as usize];
@@ -119,7 +119,7 @@ fn unknown_size_patch(at: u64, end: u64) -> Patch {
     Patch { at, bytes }
 }
 
-/// A `Void` element of the same length: its identifier is shorter, so its size field is longer.
+/// A `Void` element of the same length. Its identifier is shorter, so its size field is longer.
 fn void_patch(at: u64, body_at: u64, body_bytes: u64) -> Patch {
     let head_bytes = body_at.saturating_sub(at).clamp(2, 12);
     let size_bytes = (head_bytes - 1).min(8);
@@ -173,7 +173,7 @@ fn float(body: &[u8]) -> Option<f64> {
     }
 }
 
-/// Identifier, size (`None`: unknown) and place of the content of the element at `at`.
+/// Identifier, size (`None`: unknown) and position of the content of the element at `at`.
 fn element_at<R: Read + Seek>(reader: &mut R, at: u64) -> io::Result<Option<(u64, Option<u64>, u64)>> {
     let mut head = Vec::new();
     reader.seek(SeekFrom::Start(at))?;
@@ -193,7 +193,7 @@ fn element_head(bytes: &[u8]) -> Option<(u64, Option<u64>, usize)> {
     Some((id, (value != mask).then_some(value), id_len + size_len))
 }
 
-/// The elements inside of one; stops at the first that does not fit.
+/// The elements inside another one; ends at the first that does not fit.
 fn children(mut body: &[u8]) -> impl Iterator<Item = (u64, &[u8])> {
     std::iter::from_fn(move || {
         let (id, size, head_len) = element_head(body)?;

@@ -1,16 +1,16 @@
-//! Interleaved channels to one, finite.
+//! From interleaved channels to one channel of finite samples.
 
-/// Takes one channel, or the mean of all.
+/// Selects one channel, or averages all.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mix {
     pub(crate) channel_count: usize,
-    /// Counted from 0; `None`: the mean of all.
+    /// Index of the channel, counted from 0; `None` for the mean of all.
     pub(crate) channel: Option<usize>,
 }
 
 impl Mix {
-    /// Appends one sample for each frame of `interleaved`; returns how many were not finite and became 0. What is left in `interleaved`
-    /// is of no use.
+    /// Appends one sample for each frame of `interleaved`. Returns the number of samples that were not finite and became 0. The content
+    /// of `interleaved` is undefined afterwards.
     pub(crate) fn append(&self, interleaved: &mut Vec<f32>, mono: &mut Vec<f32>) -> u64 {
         let first = mono.len();
         match (self.channel, self.channel_count) {
@@ -23,7 +23,7 @@ impl Mix {
                 (sum / count as f64) as f32
             })),
         }
-        // almost never any, and counted without a branch for each sample
+        // almost always zero, so it is counted without a branch for each sample
         let replaced: u32 = mono[first..].iter().map(|sample| u32::from(!sample.is_finite())).sum();
         if replaced > 0 {
             mono[first..].iter_mut().filter(|sample| !sample.is_finite()).for_each(|sample| *sample = 0.0);

@@ -1,19 +1,19 @@
-//! Bare MPEG audio and AAC frames: where they begin, and how many an MP3's first frame promises.
+//! Bare MPEG audio and AAC frames: their start, and the number of frames that the first frame of an MP3 states.
 //!
 //! Layout of the MPEG audio header: ISO/IEC 11172-3, 2.4.1.3; of ADTS: ISO/IEC 13818-7, 6.2. The Xing/Info frame and
 //! LAME's delay and padding are conventions of those encoders.
 
-/// A decoder's own delay, which LAME's number leaves out.
+/// Delay of a decoder, which LAME's number does not contain, in frames.
 const DECODER_DELAY_FRAMES: u64 = 528 + 1;
 
-/// Frames that must follow one another before bytes are believed to be MPEG audio.
+/// Number of consecutive valid frames that identify MPEG audio.
 const CHAIN_FRAMES: usize = 4;
 
-/// What the first frames of a bare stream tell.
+/// Facts from the first frames of a bare stream.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MpegAudio {
     pub(crate) is_adts: bool,
-    /// 1, 2 or 3 of MPEG audio.
+    /// Layer 1, 2 or 3 of MPEG audio.
     pub(crate) layer: u8,
     pub(crate) sample_rate_hz: u32,
     /// From a Xing/Info frame: sample frames of the whole stream, delay and padding included.
@@ -36,7 +36,7 @@ pub(crate) fn id3v2_len(head: &[u8]) -> u64 {
     }
 }
 
-/// Offset and content of the first frame that others follow.
+/// Offset and content of the first frame with enough valid frames behind it.
 pub(crate) fn first_frame(head: &[u8]) -> Option<(usize, MpegAudio)> {
     for offset in 0..head.len().saturating_sub(4) {
         let Some(first) = frame_at(head, offset) else { continue };
@@ -49,7 +49,7 @@ pub(crate) fn first_frame(head: &[u8]) -> Option<(usize, MpegAudio)> {
             }
             chained += 1;
         }
-        // A file of fewer frames than the chain asks for may be one if its frames fill it.
+        // A file with fewer frames than the chain needs is accepted if its frames fill it.
         if chained == CHAIN_FRAMES || (offset == 0 && chained >= 2 && next >= head.len()) {
             let (total_frames, delay_and_padding) = first.info_tag(head.get(offset..offset + first.frame_bytes)?);
             let mpeg = MpegAudio {

@@ -1,4 +1,4 @@
-//! Packets to frames with Symphonia's demuxers and decoders, and our adapter for Opus.
+//! From packets to frames with Symphonia's demuxers and decoders, and our adapter for Opus.
 
 use std::io;
 use std::path::Path;
@@ -25,13 +25,13 @@ use crate::quicktime::AudioTrack;
 use crate::source::{FileView, Patch};
 use crate::wave::{WaveBlocks, WaveLayout};
 
-/// Demuxers resynchronise after an error; one that fails this often in a row has no more to give.
+/// Largest number of consecutive errors. A demuxer resynchronises after an error; after this many it has no more data.
 const DEMUXER_ERRORS_IN_A_ROW_MAX: u32 = 64;
 
-/// A longer jump in time is a damaged time and not lost sound.
+/// A longer jump in time is a damaged time stamp, not lost sound.
 const GAP_S_MAX: f64 = 10.0;
 
-/// Opens the demuxer for a container: this one and no other, so that nothing is guessed from damaged content.
+/// Opens the demuxer of one container and no other, so that damaged content is not taken for another format.
 pub(crate) fn open_demuxer(
     path: &Path,
     container: Container,
@@ -62,7 +62,7 @@ pub(crate) fn audio_parameters(track: &Track) -> Option<&AudioCodecParameters> {
     }
 }
 
-/// One track, packet by packet.
+/// One track, decoded packet by packet.
 pub(crate) struct NativeFrames {
     packets: Packets,
     decoder: Decoder,
@@ -71,9 +71,9 @@ pub(crate) struct NativeFrames {
     channel_count: usize,
     demuxer_errors: u32,
     decoded: Vec<f32>,
-    /// Jumps of the packets' times from here on are lost sound; `None`: their times are not to be relied on.
+    /// Jumps of the packet times from this length on are lost sound; `None` where the times are unreliable.
     gap_s_min: Option<f64>,
-    /// When the last packet ended by its time and its frames.
+    /// End of the last packet by its time and its frames.
     last_end_s: Option<f64>,
     /// A packet that waits until the gap before it is filled.
     held: Option<Packet>,
@@ -86,7 +86,7 @@ enum Packets {
 }
 
 impl NativeFrames {
-    /// A track of a demuxer. `has_gapless_packets`: whether the demuxer's own trims are to be believed.
+    /// A track of a demuxer. `has_gapless_packets`: whether the trims of the demuxer are correct.
     pub(crate) fn from_demuxer(
         reader: Box<dyn FormatReader>,
         track_id: u32,
@@ -111,12 +111,12 @@ impl NativeFrames {
         })
     }
 
-    /// Fills jumps in time of at least this with silence.
+    /// Fills jumps in time of at least this length with silence.
     pub(crate) fn with_gap_s_min(self, gap_s_min: Option<f64>) -> Self {
         Self { gap_s_min, ..self }
     }
 
-    /// The samples of a WAVE file that come in blocks.
+    /// The samples of a WAVE file in coded blocks.
     pub(crate) fn from_wave(path: &Path, layout: &WaveLayout, codec: AudioCodecId) -> Result<Self, SymphoniaError> {
         let parameters = layout.codec_parameters(codec);
         let (decoder, sample_rate_hz, channel_count) = decoder_for(&parameters, false)?;
@@ -188,7 +188,7 @@ impl NativeFrames {
         }
     }
 
-    /// Decodes into `self.decoded`; `false` where the packet is damaged or its format is another.
+    /// Decodes into `self.decoded`; `false` for a damaged packet or a packet of another format.
     fn decode(&mut self, packet: &Packet, incidents: &mut Incidents) -> bool {
         match &mut self.decoder {
             Decoder::Opus(opus) => {
@@ -198,7 +198,7 @@ impl NativeFrames {
                 })
                 .is_ok();
                 if is_good {
-                    // Only the end: the pre-skip at the beginning is the plan's (Symphonia's Ogg reader leaves it out).
+                    // Only the end: the plan drops the pre-skip at the beginning (Symphonia's Ogg reader leaves it out).
                     let frames = self.decoded.len() / self.channel_count;
                     let in_frames = |ticks: u64| {
                         usize::try_from(frames_from_ticks(ticks, self.time_base, OPUS_RATE_HZ)).unwrap_or(usize::MAX)
@@ -227,7 +227,7 @@ impl NativeFrames {
         }
     }
 
-    /// Frames lost before a packet of this time.
+    /// Number of lost frames before a packet with this time.
     fn gap_before(&self, at_s: f64) -> Option<u64> {
         let gap_s = at_s - self.last_end_s?;
         let is_gap = gap_s >= self.gap_s_min? && gap_s <= GAP_S_MAX;
@@ -242,8 +242,8 @@ impl NativeFrames {
         frames.min(PACKET_FRAMES_MAX)
     }
 
-    /// Reads on until a packet decodes and the decoder has told its true format, about which a header may be silent or
-    /// wrong (HE-AAC). Gives the time of the first packet; `None` where nothing decodes.
+    /// Reads until a packet decodes and the decoder knows the true format, which a header can leave out or state wrongly (HE-AAC).
+    /// Returns the time of the first packet; `None` where nothing decodes.
     pub(crate) fn settle_format(&mut self, packets_max: u32) -> io::Result<Option<f64>> {
         let mut incidents = Incidents::default();
         let mut first_s = None;
@@ -271,7 +271,7 @@ impl NativeFrames {
         Ok(None)
     }
 
-    /// Replaces the format told by the header.
+    /// Replaces the format of the header.
     pub(crate) fn with_format(self, sample_rate_hz: u32, channel_count: usize) -> Self {
         Self { sample_rate_hz, channel_count, ..self }
     }
@@ -321,7 +321,7 @@ impl Frames for NativeFrames {
     }
 }
 
-/// Symphonia reports some damage as an I/O error of these kinds; others come from the disk.
+/// Kinds of I/O errors that Symphonia uses for some damage; other kinds come from the disk.
 fn is_about_content(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::Other | io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput)
         && error.raw_os_error().is_none()

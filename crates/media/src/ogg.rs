@@ -1,11 +1,11 @@
-//! Whether an Ogg file breaks off in the middle of a page. Page layout: RFC 3533, 6.
+//! Whether an Ogg file ends in the middle of a page. Page layout: RFC 3533, 6.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-/// The longest page: 27 bytes, 255 segment lengths, 255 segments of 255 bytes.
+/// Bytes of the longest page: 27 bytes, 255 segment lengths, 255 segments of 255 bytes.
 const PAGE_BYTES_MAX: u64 = 27 + 255 + 255 * 255;
 
-/// Whether the last page is cut off.
+/// Whether the last page is incomplete.
 pub(crate) fn last_page_is_cut<R: Read + Seek>(reader: &mut R) -> io::Result<bool> {
     let file_bytes = reader.seek(SeekFrom::End(0))?;
     reader.seek(SeekFrom::Start(file_bytes.saturating_sub(PAGE_BYTES_MAX)))?;

@@ -1,4 +1,4 @@
-//! Opus packets to samples: the adapter to `opus-pure`, which speaks packets and not Symphonia's traits.
+//! From Opus packets to samples: the adapter to `opus-pure`, which has packets instead of Symphonia's traits.
 
 use opus_pure::{OpusDecoder, OpusMSDecoder};
 
@@ -20,7 +20,7 @@ enum Decoder {
     Surround(Box<OpusMSDecoder>),
 }
 
-/// What the identification header (RFC 7845, 5.1) tells.
+/// Facts from the identification header (RFC 7845, 5.1).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OpusHead {
     pub(crate) channel_count: usize,
@@ -30,8 +30,8 @@ pub(crate) struct OpusHead {
 }
 
 impl OpusHead {
-    /// Reads `OpusHead` of Ogg and Matroska (version 1, little-endian). Symphonia puts the same magic before MP4's `dOps`
-    /// box (version 0, big-endian), without changing its byte order.
+    /// Reads `OpusHead` of Ogg and Matroska (version 1, little-endian). Symphonia puts the same magic before the `dOps` box of MP4
+    /// (version 0, big-endian) without a change of its byte order.
     pub(crate) fn from_extra_data(extra: &[u8]) -> Option<Self> {
         let &[version, channels, s0, s1, _, _, _, _, g0, g1, family, ..] = extra.strip_prefix(b"OpusHead")? else {
             return None;
@@ -68,7 +68,7 @@ impl OpusPackets {
         self.channel_count
     }
 
-    /// One packet to interleaved samples, replacing what `out` holds.
+    /// Decodes one packet to interleaved samples, which replace the content of `out`.
     pub(crate) fn decode(&mut self, packet: &[u8], out: &mut Vec<f32>) -> Result<(), String> {
         out.clear();
         if packet.is_empty() {
@@ -95,7 +95,7 @@ impl OpusPackets {
     }
 }
 
-/// Sample frames that a packet holds (RFC 6716, 3.1), for silence in place of a damaged one.
+/// Number of frames in a packet (RFC 6716, 3.1), for silence in place of a damaged one.
 pub(crate) fn packet_frames(packet: &[u8]) -> u64 {
     opus_pure::packet::samples_48k(packet).map_or(0, |frames| frames.min(PACKET_FRAMES_MAX) as u64)
 }

@@ -1,10 +1,9 @@
-//! How uncompressed frames are stored, and their conversion to `f32`.
+//! Layout of uncompressed frames, and their conversion to `f32`.
 //!
-//! RIFF: 8 bits are unsigned, more are signed, the low byte first.
-//! QuickTime File Format, "Sound sample descriptions"; for `lpcm` the flags of Core Audio's AudioStreamBasicDescription;
-//! for `ipcm` and `fpcm` ISO/IEC 23003-5. Companding: ITU-T G.711.
+//! RIFF: 8 bits are unsigned, more are signed and little-endian. QuickTime File Format, "Sound sample descriptions"; for `lpcm` the flags
+//! of Core Audio's AudioStreamBasicDescription; for `ipcm` and `fpcm` ISO/IEC 23003-5. Companding: ITU-T G.711.
 
-/// What the bytes of one sample mean.
+/// Number format of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PcmKind {
     /// Two's complement.
@@ -26,12 +25,12 @@ pub(crate) struct PcmLayout {
     pub(crate) is_little_endian: bool,
     /// Bytes of one sample of one channel: 1 to 4, for floats 4 or 8.
     pub(crate) sample_bytes: u8,
-    /// Empty bits above the value: full scale is that many bits lower than the container's. Zero for nearly every file.
+    /// Empty bits above the value: full scale is lower than that of the container by this number of bits. Zero for nearly every file.
     pub(crate) empty_high_bits: u8,
 }
 
 impl PcmLayout {
-    /// Signed integers that fill their bytes. `None` for a width no file uses.
+    /// Signed integers that fill their bytes. `None` for a width that no file uses.
     pub(crate) fn signed(sample_bytes: u8, is_little_endian: bool) -> Option<Self> {
         (1..=4).contains(&sample_bytes).then_some(Self {
             kind: PcmKind::Signed,
@@ -61,7 +60,7 @@ impl PcmLayout {
         Self { kind, is_little_endian: false, sample_bytes: 1, empty_high_bits: 0 }
     }
 
-    /// What people call it.
+    /// Name for people.
     pub(crate) fn name(&self) -> &'static str {
         match (self.kind, self.sample_bytes) {
             (PcmKind::MuLaw, _) => "mu-law",
@@ -88,7 +87,7 @@ impl PcmLayout {
             (PcmKind::Float, 8, false) => extend(bytes, out, |b: [u8; 8]| f64::from_be_bytes(b) as f32),
             (PcmKind::Float, _, true) => extend(bytes, out, f32::from_le_bytes),
             (PcmKind::Float, _, false) => extend(bytes, out, f32::from_be_bytes),
-            // Integers go to the top of 32 bits, where one scale fits all of them.
+            // Integers are shifted to the top of 32 bits, so that one scale fits all of them.
             (PcmKind::Signed, 1, _) => self.extend_signed(bytes, out, |[a]: [u8; 1]| [a, 0, 0, 0]),
             (PcmKind::Signed, 2, true) => self.extend_signed(bytes, out, |[a, b]: [u8; 2]| [b, a, 0, 0]),
             (PcmKind::Signed, 2, false) => self.extend_signed(bytes, out, |[a, b]: [u8; 2]| [a, b, 0, 0]),

@@ -1,4 +1,4 @@
-//! How one audio track of a file is decoded: worked out once when a file is opened, followed each time it is heard.
+//! The plan how to decode one audio track: made once when a file is opened, used in every pass over the sound.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +17,7 @@ use crate::source::Patch;
 use crate::warning::MediaWarning;
 use crate::wave::{WaveLayout, WavePcmFrames};
 
-/// Packets at the beginning that may fail to decode before a track counts as damaged.
+/// Packets at the beginning that can fail to decode before a track counts as damaged.
 const BAD_PACKETS_AT_START_MAX: u32 = 200;
 
 /// How to decode one track.
@@ -26,25 +26,25 @@ pub(crate) struct Plan {
     pub(crate) container: Container,
     pub(crate) codec: String,
     pub(crate) route: Route,
-    /// Rate and channels, where decoding has told them better than the header.
+    /// Rate and channels, where decoding has shown that the header is wrong.
     pub(crate) format: Option<(u32, usize)>,
     pub(crate) trim: Trim,
-    /// Of the first frame that is kept.
+    /// Time of the first frame that is kept.
     pub(crate) start_s: f64,
-    /// Length of what is kept, where the file promises one.
+    /// Length of the kept sound, where the file states one.
     pub(crate) declared_s: Option<f64>,
-    /// About how long the sound is, where the file only knows about (its picture, its last page).
+    /// Approximate length of the sound, where the file has only an estimate (its picture, its last page).
     pub(crate) approximate_s: Option<f64>,
-    /// How far the promise may be missed by a whole file.
+    /// Tolerance of the stated length for a complete file.
     pub(crate) declared_slack_s: f64,
-    /// The container's own sizes say that the end is missing.
+    /// The sizes in the container show that the end is missing.
     pub(crate) is_cut_off: bool,
-    /// The container does not say where it ends: that the file ends is no sign of damage.
+    /// The container has no length, so the end of the file is no sign of damage.
     pub(crate) has_open_end: bool,
     pub(crate) warnings: Vec<MediaWarning>,
 }
 
-/// The way through the decoders.
+/// The decoders of the track.
 #[derive(Clone, Debug)]
 pub(crate) enum Route {
     WavePcm { layout: WaveLayout, pcm: PcmLayout },
@@ -56,7 +56,7 @@ pub(crate) enum Route {
 }
 
 impl Plan {
-    /// A plan without trims and promises.
+    /// A plan without trims and stated lengths.
     pub(crate) fn new(container: Container, codec: impl Into<String>, route: Route) -> Self {
         Self {
             container,
@@ -121,8 +121,8 @@ fn native_frames(path: &Path, container: Container, route: &Route) -> Result<Nat
     }
 }
 
-/// From what jump of the packets' times on sound is missing. FLAC numbers its frames; Matroska's times are rounded to
-/// milliseconds, and live recorders let them jitter by a packet or two; elsewhere they are made up by the demuxer.
+/// Smallest jump of the packet times that means missing sound. FLAC numbers its frames. The times of Matroska are rounded to
+/// milliseconds, and live recorders let them jitter by a packet or two. In other containers the demuxer invents the times.
 fn gap_s_min(container: Container) -> Option<f64> {
     match container {
         Container::Flac => Some(0.001),
@@ -131,14 +131,14 @@ fn gap_s_min(container: Container) -> Option<f64> {
     }
 }
 
-/// A plan whose first packets are known to decode, and when the first of them begins.
+/// A plan whose first packets decode, with the start time of the first.
 pub(crate) struct Settled {
     pub(crate) plan: Plan,
     pub(crate) sample_rate_hz: f64,
     pub(crate) first_packet_s: f64,
 }
 
-/// Tries the first packets of a track, so that what the plan says of its format is true.
+/// Decodes the first packets of a track, so that the format in the plan is correct.
 pub(crate) fn settle(path: &Path, plan: Plan) -> Result<Settled, NotNative> {
     let container = plan.container;
     let mut frames =
@@ -154,12 +154,12 @@ pub(crate) fn settle(path: &Path, plan: Plan) -> Result<Settled, NotNative> {
     Ok(Settled { plan: Plan { format, ..plan }, sample_rate_hz: frames.sample_rate_hz(), first_packet_s })
 }
 
-/// Why a track is not decoded by hovertone itself.
+/// Reason why hovertone does not decode a track itself.
 #[derive(Debug)]
 pub(crate) enum NotNative {
-    /// No decoder: ffmpeg may have one.
+    /// No decoder; ffmpeg can have one.
     Unsupported,
-    /// Damaged, or worse.
+    /// Damage.
     Error(MediaError),
 }
 

@@ -1,4 +1,4 @@
-//! A recording as a stream of mono samples: open, choose a track, listen, rewind.
+//! A recording as a stream of mono samples: open, choose a track, decode, rewind.
 
 use std::fmt;
 use std::fs::File;
@@ -18,53 +18,53 @@ use crate::plan::{Plan, Route};
 use crate::tracks::Tracks;
 use crate::warning::{MediaWarning, Warnings};
 
-/// Blocks are at least this long, but for the last: small packets are joined, and memory stays flat.
+/// Fewest samples of a block, except for the last one. Small packets are joined, and memory does not grow.
 const BLOCK_FRAMES_MIN: usize = 4096;
 
-/// What to hear of a file.
+/// Options for opening a file.
 #[derive(Clone, Debug, Default)]
 pub struct OpenOptions {
-    /// The audio track, counted from 1 as people do. `None`: the first that is not silent.
+    /// Number of the audio track, counted from 1. `None`: the first that is not silent.
     pub audio_track: Option<usize>,
-    /// The channel, counted from 1 as people do. `None`: the mean of all.
+    /// Number of the channel, counted from 1. `None`: the mean of all.
     pub channel: Option<usize>,
-    /// Which ffmpeg decodes what this crate cannot.
+    /// The ffmpeg for formats that this crate cannot decode.
     pub ffmpeg: FfmpegUse,
 }
 
-/// Who decodes.
+/// The decoder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Decoder {
     /// This crate.
     Native,
-    /// An ffmpeg beside it.
+    /// An ffmpeg in another process.
     Ffmpeg,
 }
 
-/// What is known of a recording before it is heard.
+/// Facts about a recording from its headers and first frames.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct RecordingInfo {
-    /// Told by the content.
+    /// Recognised by the content.
     pub container: Container,
-    /// As people call it.
+    /// Name of the codec for people.
     pub codec: String,
     /// Samples per second, as recorded.
     pub sample_rate_hz: f64,
     /// Channels of the track.
     pub channel_count: usize,
-    /// The channel that is heard, counted from 1; `None`: the mean of all.
+    /// Number of the selected channel, counted from 1; `None` for the mean of all.
     pub channel: Option<usize>,
-    /// The track that is heard, counted from 1.
+    /// Number of the selected track, counted from 1.
     pub audio_track: usize,
-    /// Audio tracks in the file.
+    /// Number of audio tracks in the file.
     pub audio_track_count: usize,
-    /// Length of the sound by the header, where it tells: not to be relied on.
+    /// Length of the sound in the header, where it has one; it can be wrong.
     pub declared_duration_s: Option<f64>,
-    /// When the first sample sounds on the recording's own clock.
+    /// Time of the first sample on the clock of the recording.
     pub start_s: f64,
-    /// Who decodes.
+    /// The decoder.
     pub decoder: Decoder,
 }
 
@@ -80,7 +80,7 @@ pub struct Recording {
     is_prefix: bool,
 }
 
-/// One time through the sound.
+/// One pass through the sound.
 struct Pass {
     frames: Box<dyn Frames>,
     trim: Trim,
@@ -89,7 +89,7 @@ struct Pass {
     non_finite_samples: u64,
     heard_frames: u64,
     has_ended: bool,
-    /// The block was decoded ahead, to know that there is one.
+    /// The block was already decoded, to prove that there is one.
     is_block_ahead: bool,
 }
 
@@ -97,7 +97,7 @@ impl Recording {
     /// Opens a file, chooses its track and decodes its first block.
     ///
     /// # Errors
-    /// Everything that leaves nothing to hear; see [`MediaError`].
+    /// All reasons for missing sound; see [`MediaError`].
     pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, MediaError> {
         let sniffed = sniffed_from_file(path, &options.ffmpeg)?;
         let tracks = Tracks::of(path, &sniffed, &options.ffmpeg)?;
@@ -173,17 +173,17 @@ impl Recording {
         Ok(recording)
     }
 
-    /// What is known of it.
+    /// Facts about the recording.
     pub fn info(&self) -> &RecordingInfo {
         &self.info
     }
 
-    /// What was odd so far. More may come while it is heard; hearing it again changes nothing.
+    /// The warnings so far. More can come during a pass; a second pass changes nothing.
     pub fn warnings(&self) -> &[MediaWarning] {
         self.warnings.as_slice()
     }
 
-    /// Whether the file ended before its sound did: known once all of it was heard.
+    /// Whether the file ended before its sound did; final after a complete pass.
     pub fn is_prefix(&self) -> bool {
         self.is_prefix
     }
@@ -300,7 +300,7 @@ fn sniffed_from_file(path: &Path, ffmpeg: &FfmpegUse) -> Result<Sniffed, MediaEr
     if let Some(sniffed) = container::container_from_content(&mut file).map_err(MediaError::Read)? {
         return Ok(sniffed);
     }
-    // ffmpeg knows more formats; but it takes rubbish for MP3 where the name says so, and admits that it guessed.
+    // ffmpeg knows more formats, but it takes any bytes for MP3 if the name says so, and its log then shows that it guessed.
     let inspection = ffmpeg.program().and_then(|program| crate::ffmpeg::inspect(&program, path, 0).ok());
     match inspection {
         Some(found) if found.has_input && !found.is_guess && !found.audio_codecs.is_empty() => {

@@ -1,4 +1,4 @@
-//! The file as the demuxers see it: from where its frames begin, and with sizes in its header set right.
+//! The file as the demuxers read it: from the start of its frames, and with corrected sizes in its header.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -6,14 +6,15 @@ use std::path::Path;
 
 use symphonia::core::io::{MediaSource, MediaSourceStream, MediaSourceStreamOptions};
 
-/// Bytes to show in place of those in the file.
+/// Bytes that replace bytes of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Patch {
     pub(crate) at: u64,
     pub(crate) bytes: Vec<u8>,
 }
 
-/// A file whose first `base` bytes are hidden: tags that a demuxer would search for frames. Patches replace header fields
+/// A file whose first `base` bytes are hidden, since a demuxer would search for frames in tags. Patches replace header fields at which a
+/// demuxer would fail.
 /// at which a demuxer would give up.
 pub(crate) struct FileView {
     file: File,
@@ -32,7 +33,7 @@ impl FileView {
     }
 
     pub(crate) fn into_stream(self) -> MediaSourceStream<'static> {
-        // Symphonia asks for a power of two above 32 KiB.
+        // Symphonia needs a power of two above 32 KiB.
         MediaSourceStream::new(Box::new(self), MediaSourceStreamOptions { buffer_len: 128 * 1024 })
     }
 }

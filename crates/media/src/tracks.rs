@@ -1,4 +1,4 @@
-//! The audio tracks of a file, and for each the plan to decode it.
+//! The audio tracks of a file, and a plan for decoding each.
 
 use std::fs::File;
 use std::io::Read;
@@ -20,19 +20,19 @@ use crate::quicktime::{self, AudioTrack, Movie};
 use crate::warning::MediaWarning;
 use crate::wave::{self, WaveCodec};
 
-/// An AVI's stream headers are at its beginning.
+/// Bytes at the beginning of an AVI that contain its stream headers.
 const AVI_HEAD_BYTES: u64 = 64 * 1024;
 
-/// How far codecs of fixed packets may miss a promised length: two packets of 1152, or one of 2048, at 44.1 kHz.
+/// Tolerance of a stated length for codecs with constant packets, s: two packets of 1152 frames, or one of 2048, at 44.1 kHz.
 const PACKET_SLACK_S: f64 = 0.053;
 
-/// Times in Matroska are whole milliseconds: a start within two of zero is zero.
+/// Tolerance of a start time of zero, s: Matroska has whole milliseconds.
 const MATROSKA_TICK_SLACK_S: f64 = 0.002;
 
 /// At and below this rate, AAC in ADTS is usually the core of HE-AAC.
 const LIKELY_CORE_RATE_HZ: u32 = 24_000;
 
-/// The audio tracks, in the file's order.
+/// The audio tracks, in the order of the file.
 pub(crate) struct Tracks<'a> {
     path: &'a Path,
     ffmpeg: &'a FfmpegUse,
@@ -50,12 +50,12 @@ enum List {
         track_ids: Vec<u32>,
     },
     Wave(Box<wave::WaveLayout>),
-    /// Only ffmpeg knows.
+    /// Tracks that only ffmpeg knows.
     Foreign(ffmpeg::FfmpegInspection),
 }
 
 impl<'a> Tracks<'a> {
-    /// Reads the container's list of tracks.
+    /// Reads the list of tracks in the container.
     pub(crate) fn of(path: &'a Path, sniffed: &Sniffed, ffmpeg: &'a FfmpegUse) -> Result<Self, MediaError> {
         let container = sniffed.container;
         let mut file = File::open(path).map_err(MediaError::CannotOpen)?;
@@ -97,7 +97,7 @@ impl<'a> Tracks<'a> {
         Ok(tracks)
     }
 
-    /// How many audio tracks.
+    /// Number of audio tracks.
     pub(crate) fn count(&self) -> usize {
         match &self.list {
             List::Iso(movie) => movie.tracks.len(),
@@ -108,7 +108,7 @@ impl<'a> Tracks<'a> {
         }
     }
 
-    /// The plan for the track of an index counted from 0: hovertone's own decoders where they can, else ffmpeg.
+    /// The plan for the track with an index counted from 0: hovertone's own decoders where possible, else ffmpeg.
     pub(crate) fn plan(&self, index: usize) -> Result<Plan, MediaError> {
         let no_such = || MediaError::NoSuchTrack { asked: index + 1, count: self.count() };
         let (native, codec) = match &self.list {
@@ -223,7 +223,7 @@ impl<'a> Tracks<'a> {
         let codec = track.and_then(native::audio_parameters).map_or("an unknown codec", |p| codec::codec_name(p.codec));
         let opus = track.and_then(native::audio_parameters).and_then(codec::opus_head);
         let promised = track.map(|track| (track.delay, track.num_frames)).unwrap_or_default();
-        // The demuxer's trims are right in Ogg; in MP3 they come from a guessed length.
+        // The trims of the demuxer are correct in Ogg; in MP3 they come from a guessed length.
         let has_gapless_packets = self.container == Container::Ogg;
         let route =
             Route::Demuxer { base: sniffed.base, patches: self.clipped.patches.clone(), track_id, has_gapless_packets };
@@ -255,13 +255,13 @@ impl<'a> Tracks<'a> {
             _ => {}
         }
         if self.clipped.is_cut_off {
-            // What the demuxer promises is what was left of it.
+            // the demuxer states the length after its own trims
             (plan.declared_s, plan.is_cut_off) = (None, true);
         }
         Ok(plan)
     }
 
-    /// Whether the container's own sizes say that the end is missing.
+    /// Whether the sizes in the container show that the end is missing.
     fn is_cut_off(&self) -> bool {
         match &self.list {
             List::Matroska(matroska) => matroska.is_truncated,
@@ -306,7 +306,7 @@ impl<'a> Tracks<'a> {
     }
 }
 
-/// The codec's name, as far as it can be told without a demuxer: an AVI's is in the format of its first audio stream.
+/// Name of the codec without a demuxer; for an AVI from the format of its first audio stream.
 fn codec_guess(path: &Path, container: Container) -> String {
     let from_avi = || {
         let mut head = Vec::new();
@@ -320,7 +320,7 @@ fn codec_guess(path: &Path, container: Container) -> String {
     told.unwrap_or_else(|| container.codec_guess().to_owned())
 }
 
-/// ffmpeg's list of the tracks of what has no native demuxer.
+/// The list of tracks from ffmpeg, for containers without a native demuxer.
 fn inspection(path: &Path, container: Container, ffmpeg: &FfmpegUse) -> Result<ffmpeg::FfmpegInspection, MediaError> {
     let codec = codec_guess(path, container);
     let Some(program) = ffmpeg.program() else {

@@ -1,77 +1,77 @@
-//! What was odd about a recording that could be heard all the same.
+//! Warnings about a recording that could be decoded.
 
 use std::fmt;
 use std::mem::discriminant;
 
 use crate::container::Container;
 
-/// Something the listener should know. [`MediaWarning::hint`] says what to do about it.
+/// A warning. [`MediaWarning::hint`] has the advice.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MediaWarning {
-    /// The name says one format, the content another; the content was believed.
+    /// The file name has the extension of another format; the content was used.
     WrongExtension {
-        /// Of the file name, without the dot.
+        /// Extension of the file name, without the dot.
         extension: String,
-        /// What the content is.
+        /// Container of the content.
         container: Container,
     },
-    /// The file ends before its sound does: only the beginning was heard.
+    /// The file ends before its sound does; only the beginning was decoded.
     Truncated {
-        /// Heard.
+        /// Length of the decoded sound.
         decoded_s: f64,
-        /// What the header promised, where it did.
+        /// Length by the header, where it has one.
         declared_s: Option<f64>,
     },
-    /// The header's length of the sound is wrong; the sound was read to the end of the file.
+    /// The length in the header is wrong; the sound was read to the end of the file.
     WrongDataSize {
-        /// As the header has it.
+        /// Length by the header.
         declared_bytes: u64,
-        /// As the file has it.
+        /// Length by the file.
         actual_bytes: u64,
     },
-    /// Pieces that could not be decoded were replaced by silence, so that time stays right.
+    /// Damaged packets were replaced by silence, so that all times stay right.
     CorruptPackets {
-        /// How many.
+        /// Number of packets.
         count: u64,
-        /// Silence put in their place.
+        /// Length of the silence.
         silence_s: f64,
     },
     /// NaN or infinite samples were replaced by zero.
     NonFiniteSamples {
-        /// How many.
+        /// Number of samples.
         count: u64,
     },
-    /// There are several audio tracks, and nobody said which.
+    /// The file has several audio tracks, and none was requested.
     SeveralAudioTracks {
-        /// The one that was taken, counted from 1.
+        /// Number of the chosen track, counted from 1.
         chosen: usize,
-        /// In the file.
+        /// Number of tracks in the file.
         count: usize,
-        /// Tracks before it that hold only silence, counted from 1.
+        /// Silent tracks before the chosen one, counted from 1.
         silent: Vec<usize>,
     },
-    /// HE-AAC, of which only the core was decoded: nothing above half of the core's rate is heard.
+    /// HE-AAC of which only the core was decoded: frequencies above half of the rate of the core are missing.
     HalfRateAac {
-        /// Of the decoded core.
+        /// Rate of the decoded core.
         core_rate_hz: f64,
-        /// Whether the file says so; otherwise its low sample rate makes it possible (bare ADTS does not tell).
+        /// Whether the file states it. Otherwise its low sample rate makes it possible, since bare ADTS does not state it.
         is_certain: bool,
     },
-    /// The sample rate or number of channels changes in the middle; the sound up to there was taken.
+    /// The sample rate or number of channels changes; the sound up to there was used.
     FormatChange {
-        /// Where.
+        /// Time of the change.
         at_s: f64,
     },
-    /// The sound had to be decoded by ffmpeg, and it complained.
+    /// ffmpeg decoded the sound and reported an error.
     Ffmpeg {
-        /// Its first complaint.
+        /// Its first error message.
         message: String,
     },
 }
 
 impl MediaWarning {
-    /// What to do about it.
+    /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::WrongExtension { .. } => "rename the file, or leave it: the extension is not used",
@@ -137,7 +137,7 @@ impl fmt::Display for MediaWarning {
     }
 }
 
-/// Warnings of one recording: each kind once, the latest counts kept, however often the sound is heard.
+/// Warnings of one recording: one of each kind, with the latest counts, for any number of passes.
 #[derive(Debug, Default)]
 pub(crate) struct Warnings(Vec<MediaWarning>);
 
@@ -149,7 +149,7 @@ impl Warnings {
         }
     }
 
-    /// As [`put`](Self::put), but keeps the count of a fuller pass: hearing the sound again starts counting at zero.
+    /// Like [`put`](Self::put), but keeps the count of a more complete pass, since a new pass starts counting at zero.
     pub(crate) fn put_larger(&mut self, warning: MediaWarning) {
         let is_known = self.0.iter().any(|known| match (known, &warning) {
             (MediaWarning::CorruptPackets { count: known, .. }, MediaWarning::CorruptPackets { count, .. })

@@ -1,17 +1,17 @@
-//! Whether a constant can be signed: how well the square law holds, which law the evidence prefers, and the uncertainty budget.
+//! How well the square law holds, which law the evidence prefers, and the uncertainty budget.
 
 use crate::number::{DASH, PowerOfTen, significant, uncertainty, with_uncertainty};
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
 use hovertone_thrust::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget};
 
-/// Contributions below this share of the constant are not worth a line for people; the JSON has them.
+/// Contributions below this share of the constant have no line for people; the JSON has all of them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
-/// Smaller ones say no more.
+/// Smallest p-value that is printed as a number.
 const P_VALUE_SHOWN_MIN: f64 = 1e-4;
 
-/// Laws and budget of one method's table; nothing where there is no fit.
+/// Laws and budget of the table of one method; empty without a fit.
 pub fn adequacy_text(table: &ThrustTable) -> String {
     let (Some(fit), Some(budget)) = (&table.fit, &table.budget) else { return String::new() };
     let constant_n_s2 = fit.thrust_constant_n_s2.value;
@@ -48,7 +48,7 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     ]);
     let probability = |law: ForceLaw| {
         let known = fit.laws.iter().find(|known| known.law == law);
-        // alone it is preferred to nothing
+        // without other laws there is no preference
         known
             .filter(|_| fit.laws.len() > 1)
             .map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
@@ -92,7 +92,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
     }
 }
 
-/// The budget, largest contribution first; what contributes nothing is left to the JSON.
+/// The budget, largest contribution first. Inputs that contribute nothing are only in the JSON.
 pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable {
     let mut lines: Vec<&BudgetLine> =
         budget.lines.iter().filter(|line| line.contribution_n_s2 > NEGLIGIBLE_SHARE * constant_n_s2).collect();

@@ -1,4 +1,4 @@
-//! A simulated experiment beside what the paper printed and beside the truth of its sound.
+//! A simulated experiment compared with the numbers of the paper and with the truth of its sound.
 
 use crate::number::{DASH, PowerOfTen, rounded};
 use crate::text_table::{Column, TextTable};
@@ -7,32 +7,32 @@ use hovertone_thrust::{LoadThrust, ThrustTable};
 use hovertone_vehicle::Estimate;
 use std::iter::zip;
 
-/// The unit of the paper's columns as it should have been printed.
+/// The unit of the paper's columns with the correct power of ten.
 const PAPER_UNIT: PowerOfTen = PowerOfTen::exact(-5);
 
-/// A row that somebody printed.
+/// A printed row of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrintedRow {
     /// Propeller speed.
     pub speed_rpm: f64,
-    /// Its standard deviation, where it was printed.
+    /// Standard deviation of the speed, where it was printed.
     pub spread_rpm: Option<f64>,
-    /// Propeller speed again.
+    /// Propeller speed in the second printed unit.
     pub speed_rad_s: f64,
     /// Constant of the whole vehicle.
     pub thrust_constant_total_n_s2: f64,
 }
 
-/// What the sound of a load really was.
+/// The truth of the sound of a load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadTruth {
     /// Name of the load.
     pub name: String,
     /// Force that its rotors balance.
     pub force_n: f64,
-    /// Rotors of the vehicle.
+    /// Number of rotors of the vehicle.
     pub rotor_count: u32,
-    /// Mean over each trial of the sum of the rotors' squared speeds.
+    /// For each trial, the mean over time of the sum of the squared speeds of the rotors.
     pub mean_sum_of_squares_rad2_s2: Vec<f64>,
 }
 
@@ -45,7 +45,7 @@ impl LoadTruth {
     }
 }
 
-/// One method's table with the paper's columns beside its own. `printed` has one row for each load.
+/// The table of one method with the columns of the paper. `printed` has one row for each load.
 pub fn comparison_with_paper(table: &ThrustTable, printed: &[PrintedRow]) -> TextTable {
     let mut text = TextTable::new(vec![
         Column::words("load"),
@@ -77,8 +77,8 @@ pub fn comparison_with_paper(table: &ThrustTable, printed: &[PrintedRow]) -> Tex
     text
 }
 
-/// The constant of the whole vehicle from every load by every method, and how far it is from the truth. `truths` has
-/// one entry for each load.
+/// The constant of the whole vehicle from every load by every method, and its deviation from the truth. `truths` has one entry for each
+/// load.
 pub fn comparison_with_truth(tables: &[ThrustTable], truths: &[LoadTruth]) -> TextTable {
     let mut columns = vec![Column::words("C_f, vehicle"), Column::numbers("truth", &PAPER_UNIT.unit(CONSTANT_UNIT))];
     for table in tables {

@@ -1,4 +1,4 @@
-//! What rotors' lines say of their state, as a table: shown, not diagnosed.
+//! The shaft lines of the rotors as a table, without a diagnosis.
 
 use crate::number::{DASH, rounded};
 use crate::recording::SpeedRecord;
@@ -6,7 +6,7 @@ use crate::speed::name_of_rotor;
 use crate::text_table::{Column, TextTable};
 use hovertone_analysis::ShaftLine;
 
-/// The lines of all rotors, each against its own blade pass; nothing where nobody asked for them.
+/// The lines of all rotors, each relative to its own blade pass; `None` where no recording has them.
 pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
     let mut table = TextTable::new(vec![
         Column::words("lines against the blade pass"),
@@ -43,7 +43,7 @@ pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
     Some(table.render())
 }
 
-/// A level; of a line that is not heard, what noise has there.
+/// The level of a line, or the level of the noise for an inaudible line.
 fn level(line: &ShaftLine) -> String {
     match (line.level_db, line.noise_db) {
         (Some(level_db), _) => rounded(level_db, line.std_uncertainty_db),

@@ -1,10 +1,10 @@
-//! What was not used of a recording, on one line.
+//! The cuts of a recording on one line.
 
 use hovertone_analysis::{Cut, CutReason, Span};
 
-/// More stretches than this are summed up.
+/// Most stretches on the line; the others are summed up.
 const STRETCHES_MAX: usize = 6;
-/// Cuts that are closer than this touch.
+/// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
 
 /// "0.0–1.6 s (silence), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
@@ -47,7 +47,7 @@ fn in_words(reason: CutReason) -> &'static str {
     }
 }
 
-/// In order of time; cuts that touch and say the same are one, and the edge of a hover belongs to what it borders on.
+/// Cuts in order of time. Adjacent cuts with equal reasons are merged, and the edge of a hover is merged with its neighbour.
 fn joined(cuts: &[Cut]) -> Vec<(Span, CutReason)> {
     let mut cuts: Vec<&Cut> = cuts.iter().collect();
     cuts.sort_by(|a, b| a.span.from_s.total_cmp(&b.span.from_s));
@@ -64,7 +64,7 @@ fn joined(cuts: &[Cut]) -> Vec<(Span, CutReason)> {
                     *reason = cut.reason;
                 }
             }
-            // frames of the survey reach into the next row: what was told is not told again
+            // frames of the survey overlap the next cut: time that is already listed is skipped
             Some((before, _)) => {
                 let span = Span { from_s: cut.span.from_s.max(before.to_s), ..cut.span };
                 stretches.push((span, cut.reason));

@@ -1,46 +1,37 @@
-//! Tables for programs: named columns of one type each, as CSV and as Parquet.
+//! Tables for programs: named columns, each of one type, as CSV and as Parquet.
+
+use crate::csv_text::text_of;
 
 /// The values of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// Text, always there.
+    /// Text in every row.
     Text(Vec<String>),
-    /// Whole numbers, always there.
+    /// A whole number in every row.
     Whole(Vec<i64>),
-    /// Numbers; absent where nothing is known.
+    /// Numbers; absent where unknown.
     Number(Vec<Option<f64>>),
 }
 
-/// A column: its name, which carries the unit, and its values.
+/// A column. Its name contains the unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataColumn {
-    /// Its name.
+    /// Name of the column.
     pub name: &'static str,
-    /// Its values, as many as there are rows.
+    /// One value for each row.
     pub values: Values,
 }
 
 /// Columns of equal length.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataTable {
-    /// What its rows are.
+    /// Name of the rows.
     pub name: &'static str,
     /// Its columns.
     pub columns: Vec<DataColumn>,
 }
 
 impl DataTable {
-    /// A table of rows, each given by its columns' values.
-    pub(crate) fn of_rows<Row>(name: &'static str, rows: &[Row], columns: &[(&'static str, Cell<'_, Row>)]) -> Self {
-        let values = |cell: &Cell<'_, Row>| match cell {
-            Cell::Text(of) => Values::Text(rows.iter().map(of).collect()),
-            Cell::Whole(of) => Values::Whole(rows.iter().map(of).collect()),
-            Cell::Number(of) => Values::Number(rows.iter().map(of).collect()),
-        };
-        let columns = columns.iter().map(|(name, cell)| DataColumn { name, values: values(cell) }).collect();
-        Self { name, columns }
-    }
-
     /// Number of rows.
     pub fn row_count(&self) -> usize {
         self.columns.first().map_or(0, |column| match &column.values {
@@ -50,10 +41,10 @@ impl DataTable {
         })
     }
 
-    /// As CSV with a header. Numbers are the shortest that read back exactly; what is not known is empty.
+    /// The table as CSV with a header. Numbers have the shortest text that reads back exactly; unknown ones are empty.
     ///
     /// # Errors
-    /// None that is known of: memory is written to.
+    /// None is known, since the writer writes to memory.
     pub fn csv(&self) -> Result<String, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|column| column.name))?;
@@ -64,13 +55,13 @@ impl DataTable {
                 Values::Number(values) => values[row].map_or(String::new(), |value| format!("{value:?}")),
             }))?;
         }
-        crate::samples::text_of(writer)
+        text_of(writer)
     }
 
-    /// As Parquet: one row group, no compression, columns under their names; optional where a value can be missing.
+    /// The table as Parquet: one row group, no compression, columns under their names; a column is optional where values can be missing.
     ///
     /// # Errors
-    /// None that is known of: memory is written to.
+    /// None is known, since the writer writes to memory.
     #[cfg(feature = "parquet")]
     pub fn parquet(&self) -> Result<Vec<u8>, parquet::errors::ParquetError> {
         use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
@@ -85,7 +76,8 @@ impl DataTable {
         };
         let fields: Vec<String> = self.columns.iter().map(field).collect();
         let schema = Arc::new(parse_message_type(&format!("message {} {{ {} }}", self.name, fields.join(" ")))?);
-        let made_by = WriterProperties::builder().set_created_by(format!("hovertone {}", crate::VERSION)).build();
+        let made_by =
+            WriterProperties::builder().set_created_by(format!("hovertone {}", crate::version::VERSION)).build();
         let mut writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(made_by))?;
         let mut group = writer.next_row_group()?;
         for column in &self.columns {
@@ -111,11 +103,24 @@ impl DataTable {
     }
 }
 
-/// How a column's value comes from a row.
-pub(crate) enum Cell<'a, Row> {
-    Text(&'a dyn Fn(&Row) -> String),
-    Whole(&'a dyn Fn(&Row) -> i64),
-    Number(&'a dyn Fn(&Row) -> Option<f64>),
+/// Rows of any type, from which columns are made.
+pub(crate) struct Rows<'a, Row>(pub(crate) &'a [Row]);
+
+impl<Row> Rows<'_, Row> {
+    /// A column of text.
+    pub(crate) fn text(&self, name: &'static str, of: impl Fn(&Row) -> String) -> DataColumn {
+        DataColumn { name, values: Values::Text(self.0.iter().map(of).collect()) }
+    }
+
+    /// A column of whole numbers.
+    pub(crate) fn whole(&self, name: &'static str, of: impl Fn(&Row) -> i64) -> DataColumn {
+        DataColumn { name, values: Values::Whole(self.0.iter().map(of).collect()) }
+    }
+
+    /// A column of numbers that can be missing.
+    pub(crate) fn number(&self, name: &'static str, of: impl Fn(&Row) -> Option<f64>) -> DataColumn {
+        DataColumn { name, values: Values::Number(self.0.iter().map(of).collect()) }
+    }
 }
 
 #[cfg(test)]
@@ -124,15 +129,15 @@ mod tests {
 
     fn table() -> DataTable {
         let rows = [("a,b", 1, Some(2.83e-5)), ("ω", 2, None)];
-        DataTable::of_rows(
-            "things",
-            &rows,
-            &[
-                ("load", Cell::Text(&|row: &(&str, i64, Option<f64>)| row.0.to_owned())),
-                ("trial", Cell::Whole(&|row| row.1)),
-                ("speed_rev_s", Cell::Number(&|row| row.2)),
+        let rows = Rows(&rows);
+        DataTable {
+            name: "things",
+            columns: vec![
+                rows.text("load", |row| row.0.to_owned()),
+                rows.whole("trial", |row| row.1),
+                rows.number("speed_rev_s", |row| row.2),
             ],
-        )
+        }
     }
 
     #[test]

@@ -1,38 +1,38 @@
-//! A thrust stand's table, fitted.
+//! The fit of the table of a thrust stand.
 
-use crate::VERSION;
 use crate::adequacy::laws_text;
 use crate::notice::Notice;
 use crate::number::{PowerOfTen, significant, with_uncertainty};
 use crate::thrust::CONSTANT_UNIT;
+use crate::version::VERSION;
 use hovertone_thrust::{SquareLawFit, ThrustCoefficients};
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
 
-/// The rows of one rotor, fitted.
+/// The fit of the rows of one rotor.
 #[derive(Clone, Debug, Serialize)]
 pub struct FittedTable {
     /// Name of the file.
     pub file: String,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
-    /// What its columns of words say.
+    /// Content of its columns of words.
     pub group: String,
-    /// Header of the speed.
+    /// Header of the column with the speed.
     pub speed_column: String,
-    /// Header of the force.
+    /// Header of the column with the force.
     pub force_column: String,
-    /// Rows that were read.
+    /// Number of rows.
     pub row_count: usize,
-    /// Constant of the rotors of a row together.
+    /// Constant of all rotors of a row together.
     pub thrust_constant_total_n_s2: Estimate,
     /// Constant of one rotor.
     pub thrust_constant_per_rotor_n_s2: Estimate,
-    /// Rotors that share the force of a row.
+    /// Number of rotors that share the force of a row.
     pub rotor_count: u32,
-    /// The fit of the whole force of a row.
+    /// The fit of the total force of a row.
     pub fit: SquareLawFit,
-    /// C_T, where air and diameter are known.
+    /// Thrust coefficients, where air and diameter are known.
     pub thrust_coefficients: Option<ThrustCoefficients>,
     /// Diameter of the propellers, where known.
     pub propeller_diameter_m: Option<f64>,
@@ -40,7 +40,7 @@ pub struct FittedTable {
     pub figure_of_merit: Option<f64>,
     /// Torque of one rotor over its squared speed, where the table has torques.
     pub torque_constant_per_rotor_n_m_s2: Option<f64>,
-    /// What was left out or turned round, and what weakens the fit.
+    /// Notices about rows that were left out or turned round, and warnings about the fit.
     pub notices: Vec<Notice>,
 }
 
@@ -54,12 +54,12 @@ struct Versioned<'a> {
 /// One line of JSON, without a line feed.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn fitted_table_json(table: &FittedTable) -> Result<String, serde_json::Error> {
     serde_json::to_string(&Versioned { table, version: VERSION })
 }
 
-/// The answer and the laws beside it.
+/// The result and the laws beside it.
 pub fn fitted_table_text(table: &FittedTable) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
     let unit = PowerOfTen::of([constant.value]);

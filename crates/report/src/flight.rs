@@ -1,29 +1,29 @@
-//! What a simulated flight was like.
+//! Summary of a simulated flight.
 
 use crate::number::significant;
 use crate::text_table::{Column, TextTable};
 use hovertone_vehicle::RotorSpeed;
 
-/// A simulated flight, over its hovers where it has some.
+/// A simulated flight, summarised over its hovers, or over the whole flight where it has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedFlight {
-    /// Name of the vehicle's preset.
+    /// Name of the preset of the vehicle.
     pub vehicle: String,
-    /// All that is lifted.
+    /// Total mass.
     pub mass_kg: f64,
     /// Gravity.
     pub gravity_m_s2: f64,
     /// Length of the flight.
     pub duration_s: f64,
-    /// Channels of the sound.
+    /// Number of channels of the sound.
     pub microphone_count: usize,
-    /// Where everything random comes from.
+    /// Seed of all random numbers.
     pub seed: u64,
     /// Time in hover; absent where the means are over the whole flight.
     pub hover_s: Option<f64>,
     /// The rotors.
     pub rotors: Vec<SimulatedRotor>,
-    /// By hover balance: what an estimate should find; absent where nothing hovers.
+    /// Constant by the balance of weight and thrust in hover, the truth for an estimate; absent where nothing hovers.
     pub thrust_constant_total_n_s2: Option<f64>,
 }
 
@@ -34,11 +34,11 @@ pub struct SimulatedRotor {
     pub speed: RotorSpeed,
     /// Standard deviation of the speed.
     pub spread: RotorSpeed,
-    /// Its own constant.
+    /// Constant of this rotor.
     pub thrust_constant_n_s2: f64,
 }
 
-/// A head line, a row for each rotor, and the constant that follows.
+/// A headline, a row for each rotor, and the constant.
 pub fn simulated_flight_table(flight: &SimulatedFlight) -> String {
     let microphones = if flight.microphone_count == 1 { "microphone" } else { "microphones" };
     let mut text = format!(

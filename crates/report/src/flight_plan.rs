@@ -1,9 +1,9 @@
-//! How much flying a wish needs.
+//! How much flying a wanted uncertainty needs.
 
 use crate::number::significant;
 use hovertone_thrust::{FlightPlan, PlanWish};
 
-/// The plan in words, and what else it would show.
+/// The plan as text, with the range of loads that would show an intercept.
 pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let steps = plan.load_count - 1;
     let added: Vec<String> = (0..plan.load_count)

@@ -1,22 +1,23 @@
-//! Results as tables, CSV and JSON. Pure functions from results to text: where the text goes is the caller's business.
+//! Results as tables, CSV and JSON. Pure functions from results to text; the caller decides where the text goes.
 //!
 //! ```text
-//! number      digits that follow the uncertainty          text_table   aligned columns
-//! notice      a warning with its hint                     cuts         what was not used, on one line
-//! recording   what one recording said                     speed        its table row, its JSON, its track
-//! thrust      the paper's tables, any vehicle             results      results.json and its schema
-//! comparison  a simulated experiment beside paper, truth  vehicles     the presets and their sources
-//! adequacy    how well the square law holds, the laws beside it, the uncertainty budget
-//! fitted_table  a thrust stand's table, fitted            flight_plan  how much flying a wish needs
-//! models      simulators' models beside what was heard   weighed      what hovers, by its sound
-//! condition   what rotors' lines say of their state
-//! flight      what a simulated flight was like            tones        tone families and what each can mean
-//! typeset     tables for documents: Markdown, LaTeX        data_table   tables for programs: CSV, Parquet
+//! number       digits that follow the uncertainty          text_table    aligned columns
+//! notice       a warning with its hint                     cuts          the cuts of a recording on one line
+//! recording    the record of one recording                 speed         its table row, its JSON, its track
+//! thrust       tables like those of the paper              results       results.json and its schema
+//! comparison   a simulation beside paper and truth         vehicles      the presets and their sources
+//! adequacy     agreement, laws, uncertainty budget         samples       samples and loads as data tables
+//! fitted_table the fit of a thrust stand's table           flight_plan   flying for a wanted uncertainty
+//! models       simulators' models beside the result        weighed       a weighed hover
+//! condition    shaft lines of the rotors                   flight        summary of a simulated flight
+//! typeset      tables for documents: Markdown, LaTeX       data_table    tables for programs: CSV, Parquet
+//! tones        tone families and their readings            csv_text      text of a CSV writer
 //! ```
 
 mod adequacy;
 mod comparison;
 mod condition;
+mod csv_text;
 mod cuts;
 mod data_table;
 mod fitted_table;
@@ -34,6 +35,7 @@ mod thrust;
 mod tones;
 mod typeset;
 mod vehicles;
+mod version;
 mod weighed;
 
 pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text};
@@ -56,7 +58,5 @@ pub use thrust::{method_title, methods_table, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use vehicles::{vehicles_json, vehicles_text};
+pub use version::VERSION;
 pub use weighed::{weighed_json, weighed_text};
-
-/// Version of the program that made an output.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");

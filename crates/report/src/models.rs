@@ -1,20 +1,20 @@
-//! Simulators' models beside what was heard.
+//! Models of simulators compared with the measured constant.
 
-use crate::VERSION;
 use crate::number::{DASH, PowerOfTen, significant};
 use crate::text_table::{Column, TextTable};
 use crate::thrust::{CONSTANT_UNIT, grams};
+use crate::version::VERSION;
 use hovertone_exchange::{IdentifiedRotor, SimulatorModel};
 use hovertone_thrust::{ThrustTable, VehicleModel};
 use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
 
-/// A model that was read.
+/// A model that was read from a file.
 #[derive(Clone, Debug)]
 pub struct ComparedModel {
-    /// Name of its file.
+    /// Name of the file.
     pub file: String,
-    /// What it says.
+    /// Content of the file.
     pub model: SimulatorModel,
 }
 
@@ -56,16 +56,16 @@ fn compared<'a>(compared: &'a ComparedModel, heard: &IdentifiedRotor) -> Compare
     }
 }
 
-/// One object per line and model.
+/// One JSON object per line and model.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn models_json(models: &[ComparedModel], heard: &IdentifiedRotor) -> Result<String, serde_json::Error> {
     let lines = models.iter().map(|model| Ok(serde_json::to_string(&compared(model, heard))? + "\n"));
     lines.collect()
 }
 
-/// A row for each model, under what was heard. The speed is that at which the model would carry the vehicle that was heard.
+/// A row for the measured constant and one for each model. The speed is the one at which the model would carry the measured vehicle.
 pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor) -> String {
     let rows: Vec<Compared<'_>> = models.iter().map(|model| compared(model, heard)).collect();
     let constants = rows.iter().map(|row| row.thrust_constant_at_hover_n_s2);
@@ -106,7 +106,7 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor) -> String 
     words
 }
 
-/// A line for the model that an experiment names as its vehicle; nothing where nothing was heard.
+/// A line for the model that an experiment names as its vehicle; empty without a measured constant.
 pub fn vehicle_model_text(model: &VehicleModel, heard: &ThrustTable) -> String {
     let Some(against) = model.against(heard) else { return String::new() };
     let unit = PowerOfTen::of([against.thrust_constant_per_rotor_n_s2]);

@@ -1,16 +1,16 @@
-//! A warning as it is told: what it is, and what to do about it.
+//! A warning as text: the problem and the advice.
 
 use hovertone_analysis::Warning;
 use hovertone_thrust::ThrustWarning;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// A warning and its hint, from whichever part of the program it came.
+/// A warning and its hint, from any part of the program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
-    /// What weakens the result.
+    /// The problem.
     pub text: String,
-    /// What to do about it.
+    /// The advice.
     pub hint: String,
 }
 
@@ -33,7 +33,7 @@ impl From<&ThrustWarning> for Notice {
     }
 }
 
-/// On one line, hint included.
+/// The notice on one line, with its hint.
 impl fmt::Display for Notice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} (hint: {})", self.text, self.hint)

@@ -1,8 +1,8 @@
-//! Numbers for people: as many digits as the uncertainty is worth. The one place where digits are decided.
+//! Numbers for people, with as many digits as their uncertainty allows. Only this file decides about digits.
 
-/// Digits of a value whose uncertainty nobody knows.
+/// Digits of a value with unknown uncertainty.
 const DIGITS_WITHOUT_UNCERTAINTY: usize = 6;
-/// More decimals than this tell nobody anything.
+/// Most decimals of any number.
 const DECIMALS_MAX: i32 = 9;
 
 /// Power of ten of the first digit of a number once it is rounded to `digits` digits.
@@ -11,13 +11,13 @@ fn exponent(value: f64, digits: usize) -> i32 {
     scientific.split_once('e').and_then(|(_, exponent)| exponent.parse().ok()).unwrap_or(0)
 }
 
-/// Decimals that show two digits of the uncertainty; `None` where it is no scale for anything.
+/// Decimals that show two digits of the uncertainty; `None` where the uncertainty is zero or not finite.
 fn decimals(std_uncertainty: Option<f64>) -> Option<usize> {
     let std_uncertainty = std_uncertainty.filter(|u| u.is_finite() && *u > 0.0)?;
     Some((1 - exponent(std_uncertainty, 2)).clamp(0, DECIMALS_MAX) as usize)
 }
 
-/// A value with so many digits, where its uncertainty is told elsewhere.
+/// A value with a given number of digits, for values whose uncertainty is shown elsewhere.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     let decimals = (digits as i32 - 1 - exponent(value, digits)).clamp(0, DECIMALS_MAX) as usize;
     format!("{value:.decimals$}")
@@ -31,7 +31,7 @@ pub(crate) fn rounded(value: f64, std_uncertainty: Option<f64>) -> String {
     }
 }
 
-/// An uncertainty with two digits; a dash where there is none.
+/// An uncertainty with two digits; a dash where it is unknown.
 pub(crate) fn uncertainty(std_uncertainty: Option<f64>) -> String {
     match (std_uncertainty, decimals(std_uncertainty)) {
         (Some(std_uncertainty), Some(decimals)) => format!("{std_uncertainty:.decimals$}"),
@@ -47,7 +47,7 @@ pub fn with_uncertainty(value: f64, std_uncertainty: Option<f64>) -> String {
     }
 }
 
-/// A number with its uncertainty and the power of ten that both are to be multiplied by.
+/// A number with its uncertainty, and the power of ten for both.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScaledNumber {
     /// "2.8315 ± 0.0035".
@@ -57,7 +57,7 @@ pub struct ScaledNumber {
 }
 
 impl ScaledNumber {
-    /// The exponent with a minus as long as a plus.
+    /// The exponent with a minus sign as wide as a plus sign.
     pub fn superscript(&self) -> String {
         self.exponent.to_string().replace('-', "−")
     }
@@ -70,7 +70,7 @@ pub fn scaled_number(value: f64, uncertainty: Option<f64>) -> ScaledNumber {
     ScaledNumber { digits, exponent: unit.0 }
 }
 
-/// What stands where there is no number.
+/// Text in place of a missing number.
 pub(crate) const DASH: &str = "–";
 
 /// A power of ten that brings a column to one digit before the point.
@@ -78,18 +78,18 @@ pub(crate) const DASH: &str = "–";
 pub(crate) struct PowerOfTen(i32);
 
 impl PowerOfTen {
-    /// The one for the largest of the values.
+    /// The power for the largest of the values.
     pub(crate) fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let largest = values.into_iter().filter(|value| value.is_finite()).fold(0.0, |a: f64, b| a.max(b.abs()));
         Self(if largest > 0.0 { exponent(largest, 6) } else { 0 })
     }
 
-    /// That power itself.
+    /// The power of ten as a factor.
     pub(crate) const fn exact(exponent: i32) -> Self {
         Self(exponent)
     }
 
-    /// The value in this unit. Dividing by a whole power keeps one rounding where multiplying by 1e-5 has two.
+    /// The value in this unit. Division by a whole power rounds once, multiplication by 1e-5 rounds twice.
     pub(crate) fn scale(self, value: f64) -> f64 {
         value / 10f64.powi(self.0)
     }

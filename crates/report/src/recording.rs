@@ -1,4 +1,4 @@
-//! What one recording said, and what it was.
+//! The record of one recording: its facts and its result.
 
 use crate::notice::Notice;
 use hovertone_analysis::{
@@ -9,84 +9,84 @@ use hovertone_vehicle::Order;
 use serde::Serialize;
 use serde_json::Value;
 
-/// What is known of a file that could be opened.
+/// Facts about a file that could be opened.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordingFacts {
-    /// SHA-256 of the file's bytes, in hexadecimal; absent where nobody asked for it.
+    /// SHA-256 of the file's bytes, in hexadecimal; absent where it was not requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
-    /// Its container.
+    /// Container.
     pub container: String,
-    /// Its codec.
+    /// Codec.
     pub codec: String,
-    /// Who decoded it.
+    /// Decoder.
     pub decoder: String,
     /// Samples per second.
     pub sample_rate_hz: f64,
-    /// Channels of the track.
+    /// Number of channels of the track.
     pub channel_count: usize,
-    /// The channel that was heard, counted from 1; absent where it is the mean of all.
+    /// Number of the analysed channel, counted from 1; absent where it is the mean of all channels.
     pub channel: Option<usize>,
-    /// The track that was heard, counted from 1.
+    /// Number of the analysed track, counted from 1.
     pub audio_track: usize,
-    /// Audio tracks in the file.
+    /// Number of audio tracks in the file.
     pub audio_track_count: usize,
-    /// Whether the file ended before its sound did.
+    /// Whether the file ends before its sound does.
     pub is_prefix: bool,
 }
 
-/// What came of a recording.
+/// Result of a recording.
 #[derive(Clone, Debug)]
 pub enum Answer {
-    /// It was heard to its end, whether or not there was a rotor in it.
+    /// It was analysed to its end, with or without a rotor tone.
     Heard(Box<SpeedAnalysis>),
-    /// It could not be heard, and why.
+    /// It could not be analysed.
     Failed {
-        /// What happened, why, and what to do about it.
+        /// What happened, why, and the advice.
         reason: String,
     },
 }
 
-/// What was found where nobody had said which tone is the rotor's.
+/// Result of the search for a tone of unknown order.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// The settings of the search, as they are written out.
+    /// The settings of the search as JSON.
     pub settings: Value,
     /// All tone families, strongest first.
     pub families: Vec<ToneFamily>,
-    /// Which of them was taken for the rotor's.
+    /// Index of the family of the rotor.
     pub rotor: Option<usize>,
-    /// The readings that stay plausible, most plausible first; empty where one is settled, or there is no rotor.
+    /// The readings that stay plausible, most plausible first; empty where one is settled, or without a rotor.
     pub alternatives: Vec<Reading>,
 }
 
-/// One recording, its settings and its answer.
+/// One recording with its settings and its result.
 #[derive(Clone, Debug)]
 pub struct SpeedRecord {
-    /// Name of the file as it was given.
+    /// Name of the file as given.
     pub file: String,
-    /// The method that was asked for.
+    /// The requested method.
     pub method: Method,
-    /// Order of the tone that was followed.
+    /// Order of the followed tone.
     pub order: Order,
-    /// Whether the condition of the rotors was asked for.
+    /// Whether the condition of the rotors was requested.
     pub wants_condition: bool,
-    /// The settings of the analysis, as they are written out.
+    /// The settings of the analysis as JSON.
     pub settings: Value,
-    /// What the file is, where it could be opened.
+    /// Facts about the file, where it could be opened.
     pub recording: Option<RecordingFacts>,
-    /// What came of it.
+    /// The result.
     pub answer: Answer,
-    /// The tone families, where the tone had to be found.
+    /// The tone families, where the tone was searched for.
     pub found: Option<Found>,
-    /// Which rotor is which, where a log was to tell it.
+    /// Labels of the rotors, where they were requested.
     pub labels: Option<RotorLabels>,
-    /// What weakens it, of the file as of the analysis.
+    /// Warnings about the file and the analysis.
     pub notices: Vec<Notice>,
 }
 
 impl SpeedRecord {
-    /// The analysis, where the file could be heard.
+    /// The analysis, where the file could be read.
     pub fn analysis(&self) -> Option<&SpeedAnalysis> {
         match &self.answer {
             Answer::Heard(analysis) => Some(analysis),
@@ -94,7 +94,7 @@ impl SpeedRecord {
         }
     }
 
-    /// The rotor's tone, where one was heard.
+    /// The tone of the rotor, if there is one.
     pub fn tone(&self) -> Option<&RotorTone> {
         match &self.analysis()?.outcome {
             Outcome::Ok(tone) => Some(tone),
@@ -102,44 +102,44 @@ impl SpeedRecord {
         }
     }
 
-    /// The speed by the configured method; none where several readings of the tone stay plausible.
+    /// The speed by the configured method; `None` where several readings of the tone stay plausible.
     pub fn speed(&self) -> Option<&SpeedEstimate> {
         self.tone()?.speed(self.method).filter(|_| !self.is_ambiguous())
     }
 
-    /// The rotors one by one, fastest first, where they were told apart.
+    /// The separated rotors, fastest first.
     pub fn rotors(&self) -> &[RotorEstimate] {
         self.tone().filter(|_| !self.is_ambiguous()).map_or(&[], |tone| &tone.rotors)
     }
 
-    /// Which rotor one of [`rotors`](Self::rotors) is, where it is told.
+    /// The label of one of [`rotors`](Self::rotors), where it is known.
     pub fn label(&self, index: usize) -> Option<&RotorLabel> {
         self.labels.as_ref()?.rotors.get(index)?.as_ref()
     }
 
-    /// Mean frequency of the tone that was followed, whether or not its order is settled.
+    /// Mean frequency of the followed tone, with or without a settled order.
     pub fn tone_hz(&self) -> Option<f64> {
         let estimate = self.tone()?.speed(self.method)?;
         Some(estimate.speed.tone_hz(estimate.order))
     }
 
-    /// What the tone can mean, most plausible first; nothing where that is settled.
+    /// The plausible readings of the tone, most plausible first; empty where one is settled.
     pub fn alternatives(&self) -> &[Reading] {
         self.found.as_ref().map_or(&[], |found| &found.alternatives)
     }
 
-    /// The reading that was taken, where the tone had to be found.
+    /// The used reading, where the tone was searched for.
     pub fn found_reading(&self) -> Option<&Reading> {
         let found = self.found.as_ref()?;
         found.families.get(found.rotor?)?.readings.first()
     }
 
-    /// Whether a rotor was heard whose order is not settled.
+    /// Whether there is a rotor tone without a settled order.
     pub fn is_ambiguous(&self) -> bool {
         !self.alternatives().is_empty()
     }
 
-    /// How it ended, in the words of the machine output.
+    /// The status in the machine output.
     pub fn status(&self) -> &'static str {
         match self.speed() {
             Some(_) => "ok",
@@ -149,7 +149,7 @@ impl SpeedRecord {
         }
     }
 
-    /// Why there is no speed.
+    /// Reason for a missing speed.
     pub fn reason(&self) -> Option<String> {
         match &self.answer {
             Answer::Failed { reason } => Some(reason.clone()),
@@ -164,19 +164,19 @@ impl SpeedRecord {
         }
     }
 
-    /// Whether the file could not be heard.
+    /// Whether the file could not be read.
     pub fn has_failed(&self) -> bool {
         matches!(self.answer, Answer::Failed { .. })
     }
 
-    /// Whether there is less than was asked for: no rotor tone, one that is not settled, labels that are not told, or only the
-    /// beginning of the sound.
+    /// Whether a part of the requested result is missing: no rotor tone, an unsettled order, missing labels, or only the beginning of the
+    /// sound.
     pub fn is_incomplete(&self) -> bool {
         let has_labels = self.labels.as_ref().is_none_or(|labels| labels.not_told.is_none());
         self.speed().is_none() || !has_labels || self.recording.as_ref().is_some_and(|recording| recording.is_prefix)
     }
 
-    /// From the start of the first stretch that was used to the end of the last.
+    /// From the start of the first used stretch to the end of the last.
     pub fn used(&self) -> Option<Span> {
         let segments = &self.analysis()?.hover.segments;
         Some(Span { from_s: segments.first()?.from_s, to_s: segments.last()?.to_s })

@@ -1,8 +1,8 @@
-//! `results.json`: the answer at the top, and below it everything that it rests on.
+//! `results.json`: the result at the top, and below it all data behind it.
 
-use crate::VERSION;
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
+use crate::version::VERSION;
 use hovertone_analysis::{Hover, Method};
 use hovertone_thrust::{
     Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap, UncertaintyBudget,
@@ -19,7 +19,7 @@ pub struct Identification<'a> {
     pub file: &'a str,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: &'a str,
-    /// The settled experiment.
+    /// The resolved experiment.
     pub experiment: ExperimentFacts<'a>,
     /// The method whose constant is reported.
     pub method: Method,
@@ -29,20 +29,20 @@ pub struct Identification<'a> {
     pub inputs: &'a [InputRecord],
 }
 
-/// A settled experiment, as far as it is reported.
+/// Facts about a resolved experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct ExperimentFacts<'a> {
     /// Name of the vehicle.
     pub vehicle_name: &'a str,
     /// Number of its rotors.
     pub rotor_count: u32,
-    /// Order of the tone that was followed.
+    /// Order of the followed tone.
     pub order: Order,
     /// Number of loads.
     pub load_count: usize,
-    /// The simulator's model that is compared with the result, where one is named.
+    /// The simulator's model for comparison, if there is one.
     pub model: Option<&'a VehicleModel>,
-    /// All of it, as it is written out.
+    /// The whole experiment as JSON.
     pub settings: &'a Value,
 }
 
@@ -51,21 +51,21 @@ pub struct ExperimentFacts<'a> {
 pub struct InputRecord {
     /// Name of the load.
     pub load: String,
-    /// What the recording said.
+    /// Record of the recording.
     pub record: SpeedRecord,
 }
 
 impl Identification<'_> {
-    /// The reported method's table.
+    /// The table of the reported method.
     pub fn reported(&self) -> Option<&ThrustTable> {
         self.tables.iter().find(|table| table.method == self.method)
     }
 }
 
-/// Version of the layout of `results.json`: rises when a field is renamed, removed or means something else.
+/// Version of the layout of `results.json`. It increases when a field is renamed, removed or changes its meaning.
 const SCHEMA_VERSION: u32 = 1;
 
-/// What `results.json` may hold, field by field with units, as a JSON Schema (draft 2020-12).
+/// The fields of `results.json` with their units, as a JSON Schema (draft 2020-12).
 pub const RESULTS_SCHEMA: &str = include_str!("results.schema.json");
 
 #[derive(Serialize)]
@@ -176,10 +176,10 @@ fn loads_of(table: &ThrustTable) -> Vec<Load<'_>> {
         .collect()
 }
 
-/// `results.json`, ending with a line feed. Same input, same bytes.
+/// `results.json`, ending with a line feed. Equal input gives equal bytes.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn results_json(identification: &Identification<'_>) -> Result<String, serde_json::Error> {
     let Identification { experiment, method, tables, .. } = *identification;
     let reported = identification.reported();

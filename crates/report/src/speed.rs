@@ -1,11 +1,12 @@
 //! Rotor speeds of recordings: a table for people, a JSON line and a track for programs.
 
-use crate::VERSION;
+use crate::csv_text::text_of;
 use crate::notice::Notice;
 use crate::number::{DASH, rounded, significant, uncertainty};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
+use crate::version::VERSION;
 use hovertone_analysis::{
     Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, ShaftLine, Span, SpeedEstimate,
     TrackPoint, UncertaintyTerm,
@@ -14,7 +15,7 @@ use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Digits of speeds of which at most one is right.
+/// Digits of the speeds of several readings, of which at most one is right.
 const DIGITS_OF_READINGS: usize = 4;
 
 /// The speeds of all recordings, one row each.
@@ -48,7 +49,7 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
     table.render()
 }
 
-/// Its label, or its place among the speeds.
+/// The label of a rotor, or its number in the order of the speeds.
 pub(crate) fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
     match record.label(index) {
         Some(label) => format!("  {}", label.name),
@@ -75,7 +76,7 @@ fn cell_of_span(record: &SpeedRecord) -> String {
     record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s))
 }
 
-/// A reading among several: its belief stands where its uncertainty would.
+/// One of several readings; its plausibility stands in the column of the uncertainty.
 fn cells_of_reading(record: &SpeedRecord, reading: &Reading) -> Vec<String> {
     vec![
         format!("  {}? ({} %)", reading.meaning, percent(reading.plausibility)),
@@ -89,7 +90,7 @@ fn cells_of_reading(record: &SpeedRecord, reading: &Reading) -> Vec<String> {
     ]
 }
 
-/// The fixed names of the machine output, and after them what else is known.
+/// The fixed fields of the machine output, followed by all others.
 #[derive(Serialize)]
 struct SpeedLine<'a> {
     file: &'a str,
@@ -126,10 +127,10 @@ struct SpeedLine<'a> {
     version: &'static str,
 }
 
-/// One rotor of several.
+/// One of several rotors.
 #[derive(Serialize)]
 struct RotorLine<'a> {
-    /// Null where nothing tells which rotor it is.
+    /// Null where the label is unknown.
     label: Option<&'a RotorLabel>,
     speed_rev_s: f64,
     std_uncertainty_rev_s: Option<f64>,
@@ -141,7 +142,7 @@ struct RotorLine<'a> {
     condition: Option<ConditionLine<'a>>,
 }
 
-/// What a rotor's lines say of its state.
+/// Shaft lines of a rotor.
 #[derive(Serialize)]
 struct ConditionLine<'a> {
     shaft_over_blade_pass_db: Option<f64>,
@@ -169,7 +170,7 @@ impl<'a> RotorLine<'a> {
     }
 }
 
-/// What tells which rotor is which.
+/// Source of the labels.
 #[derive(Serialize)]
 struct LabelsLine {
     source: Option<LabelSource>,
@@ -180,7 +181,7 @@ struct LabelsLine {
 }
 
 impl LabelsLine {
-    /// Nothing where no rotors are told apart; without a source where they go by their speed.
+    /// `None` without separated rotors; without a source where rotors have numbers by their speed.
     fn of(record: &SpeedRecord) -> Option<Self> {
         let by_speed = || Self {
             source: None,
@@ -205,10 +206,10 @@ impl LabelsLine {
     }
 }
 
-/// A recording as one line of JSON, without the line feed.
+/// A recording as one line of JSON, without a line feed.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
     let (estimate, used) = (record.speed(), record.used());
     let speed = estimate.map(|estimate| estimate.speed);
@@ -243,11 +244,11 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
     })
 }
 
-/// The track of every recording as CSV; with more than one, the file is the first column. Rotors that were told apart have a line
-/// each, and their number, as in the table, in a column `rotor`. A recording without a rotor tone has no line.
+/// The track of every recording as CSV; with several recordings the first column is the file. Separated rotors have lines of their own,
+/// with their number in the table in a column `rotor`. A recording without a rotor tone has no line.
 ///
 /// # Errors
-/// None that is known of: memory is written to.
+/// None is known, since the writer writes to memory.
 pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
     #[derive(Serialize)]
     struct Line<'a> {
@@ -281,7 +282,7 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
         let file = (records.len() != 1).then_some(record.file.as_str());
         let line = |point: &TrackPoint, rotor: Option<usize>| {
             let &TrackPoint { time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db } = point;
-            // a rotor that has none has an empty cell
+            // a rotor without a label has an empty cell
             let name = || rotor.and_then(|number| record.label(number.checked_sub(1)?)).map_or("", |label| &label.name);
             let label = (has_rotors && has_labels).then(name);
             Line { file, time_s, tone_hz, speed_rev_s, std_uncertainty_rev_s, level_db, rotor, label }
@@ -291,10 +292,10 @@ pub fn track_csv(records: &[SpeedRecord]) -> Result<String, csv::Error> {
             rotor.track.iter().try_for_each(|point| writer.serialize(line(point, Some(index + 1))))?;
         }
         if tone.rotors.is_empty() {
-            // among recordings whose rotors were told apart, one without has rotor 0: all of them together
+            // among recordings with separated rotors, one without them has rotor 0 for all together
             let rotor = has_rotors.then_some(0);
             tone.track.iter().try_for_each(|point| writer.serialize(line(point, rotor)))?;
         }
     }
-    crate::samples::text_of(writer)
+    text_of(writer)
 }

@@ -1,9 +1,9 @@
-//! Tables for people: aligned columns of text; `typeset` has the same for documents.
+//! Tables for people: aligned columns of text. `typeset` has the same tables for documents.
 
 use std::fmt;
 use std::iter::zip;
 
-/// Between two columns.
+/// Text between two columns.
 const GAP: &str = "  ";
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,17 +31,17 @@ impl Column {
         Self { title: title.to_owned(), unit: unit.to_owned(), side: Side::Right }
     }
 
-    /// What the column holds.
+    /// Title of the column.
     pub fn title(&self) -> &str {
         &self.title
     }
 
-    /// Its unit; empty where it has none.
+    /// Unit; empty without one.
     pub fn unit(&self) -> &str {
         &self.unit
     }
 
-    /// Whether it holds numbers, which stand at the right.
+    /// Whether the column has numbers, which are aligned to the right.
     pub fn is_number(&self) -> bool {
         self.side == Side::Right
     }
@@ -52,7 +52,7 @@ impl Column {
 pub enum Row {
     /// One cell for each column.
     Cells(Vec<String>),
-    /// The first cell, and words across all the others.
+    /// The first cell, and text across all the others.
     Words(String, String),
 }
 
@@ -73,7 +73,7 @@ impl TextTable {
         self.rows.push(Row::Cells(cells));
     }
 
-    /// A row that has no numbers but words.
+    /// A row with text in place of numbers.
     pub(crate) fn push_words(&mut self, first: String, words: String) {
         self.rows.push(Row::Words(first, words));
     }
@@ -83,7 +83,7 @@ impl TextTable {
         &self.columns
     }
 
-    /// Its lines.
+    /// Rows.
     pub fn rows(&self) -> &[Row] {
         &self.rows
     }
@@ -93,7 +93,7 @@ impl TextTable {
         self.columns.iter().any(|column| !column.unit.is_empty())
     }
 
-    /// Title, units, a rule and the rows, each line ending with a line feed and none with a space.
+    /// Titles, units, a rule and the rows. Each line ends with a line feed, and no line ends with a space.
     pub(crate) fn render(&self) -> String {
         let widths = self.widths();
         let line = |cells: Vec<&str>| -> String {
@@ -150,12 +150,12 @@ impl fmt::Display for TextTable {
     }
 }
 
-/// Characters, which is what all the letters we print take on a terminal; wide ones in file names shift their row.
+/// Number of characters, which is the width of all letters of our output in a terminal. Wide letters in file names shift their row.
 pub(crate) fn width_of(text: &str) -> usize {
     text.chars().count()
 }
 
-/// Words in lines of at most `width` characters; a longer word has a line for itself.
+/// Text in lines of at most `width` characters; a longer word has a line of its own.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

@@ -1,4 +1,4 @@
-//! The thrust constant as the paper's tables have it, with units that are right and uncertainties.
+//! Tables of the thrust constant like those of the paper, with correct units and uncertainties.
 
 use crate::number::{DASH, PowerOfTen, rounded, significant, uncertainty, with_uncertainty};
 use crate::text_table::{Column, TextTable};
@@ -9,7 +9,7 @@ use hovertone_vehicle::{Estimate, RotorSpeed};
 /// Unit of every thrust constant: newton per (rad/s)².
 pub(crate) const CONSTANT_UNIT: &str = "N s²";
 
-/// A method as people call it.
+/// Name of a method for people.
 pub fn method_title(method: Method) -> &'static str {
     match method {
         Method::Separated => "Rotors told apart",
@@ -20,7 +20,7 @@ pub fn method_title(method: Method) -> &'static str {
     }
 }
 
-/// One method's table: a row for each load, like the paper's tables 1 and 2.
+/// The table of one method: a row for each load, like tables 1 and 2 of the paper.
 pub fn thrust_table(table: &ThrustTable) -> TextTable {
     let has_mass = table.loads.iter().any(|load| load.mass_kg.is_some());
     let has_bench = table.loads.iter().any(|load| load.mass_kg.is_none());
@@ -72,7 +72,7 @@ pub(crate) fn speed_cells(load: &LoadThrust) -> [String; 3] {
     ]
 }
 
-/// A mass, to a tenth of a gram.
+/// A mass with one decimal of a gram.
 pub(crate) fn grams(mass_kg: f64) -> String {
     format!("{:.1}", 1e3 * mass_kg)
 }
@@ -103,8 +103,8 @@ fn units_of(table: &ThrustTable) -> (PowerOfTen, PowerOfTen) {
     )
 }
 
-/// The constant of the whole vehicle and of one rotor by every method, which of them is reported, and the paper's plain mean of the loads
-/// beside it.
+/// The constant of the whole vehicle and of one rotor by every method, with a mark on the reported one, and the plain mean over the loads
+/// as in the paper.
 pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     let values = |constant: &dyn Fn(&ThrustTable) -> Option<Estimate>| -> PowerOfTen {
         PowerOfTen::of(tables.iter().filter_map(|table| Some(constant(table)?.value)))
@@ -129,7 +129,7 @@ pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     text
 }
 
-/// The answer: the table of the methods, and where the air and the propeller's diameter are known, C_T in both conventions.
+/// The result: the table of the methods, and C_T in both conventions where air and diameter are known.
 pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {

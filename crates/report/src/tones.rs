@@ -1,21 +1,21 @@
 //! Tone families of recordings: blocks for people, a JSON line for programs.
 
-use crate::VERSION;
 use crate::notice::Notice;
 use crate::number::{DASH, significant};
 use crate::recording::{Found, RecordingFacts, SpeedRecord};
 use crate::text_table::{Column, TextTable};
+use crate::version::VERSION;
 use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 use hovertone_vehicle::{Gear, Order};
 use serde::Serialize;
 use serde_json::Value;
 
-/// Digits of a frequency or speed that the survey gives.
+/// Digits of a frequency or speed from the survey.
 const DIGITS: usize = 4;
-/// Before the table of a family.
+/// Indentation of the table of a family.
 const INDENT: &str = "   ";
 
-/// What a reading is in machine output.
+/// Machine output of a reading.
 #[derive(Serialize)]
 pub(crate) struct ReadingLine<'a> {
     order: Order,
@@ -58,7 +58,7 @@ impl<'a> From<&'a Reading> for ReadingLine<'a> {
     }
 }
 
-/// The families of one recording as a block of text: the rotor's with a table of its readings, the others on two lines.
+/// The families of one recording as a block of text: the rotor's with a table of its readings, the others on two lines each.
 pub fn tones_text(record: &SpeedRecord) -> String {
     let mut text = format!("{}\n", record.file);
     if record.has_failed() {
@@ -124,7 +124,7 @@ fn numbers_in_words(harmonics: &[SeenHarmonic]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// What is believed of a reading, in per cent; a dash where it is ruled out.
+/// Plausibility in per cent; a dash for an excluded reading.
 pub(crate) fn percent(plausibility: f64) -> String {
     match plausibility {
         0.0 => DASH.to_owned(),
@@ -208,10 +208,10 @@ struct TonesLine<'a> {
     version: &'static str,
 }
 
-/// A recording's families as one line of JSON, without the line feed.
+/// The families of a recording as one line of JSON, without a line feed.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn tones_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
     let rotor = record.found.as_ref().and_then(|found| found.rotor).filter(|_| record.tone().is_some());
     let families = record.found.iter().flat_map(|found: &Found| &found.families).enumerate();

@@ -2,10 +2,10 @@
 
 use crate::text_table::{Row, TextTable};
 
-/// A table with the words above it.
+/// A table with a title.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TitledTable {
-    /// What it shows.
+    /// Title.
     pub title: String,
     /// The table.
     pub table: TextTable,
@@ -42,7 +42,7 @@ fn table_markdown(table: &TextTable) -> String {
     text
 }
 
-/// As many cells as there are columns; words stand in the second.
+/// One cell for each column; text across all of them stands in the second.
 fn cells_of(row: &Row, columns: usize) -> Vec<String> {
     let mut cells = match row {
         Row::Cells(cells) => cells.clone(),
@@ -52,7 +52,7 @@ fn cells_of(row: &Row, columns: usize) -> Vec<String> {
     cells
 }
 
-/// Text that Markdown and the HTML in it leave alone.
+/// Text with all special characters of Markdown and HTML escaped.
 fn markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -98,7 +98,7 @@ fn table_latex(TitledTable { title, table }: &TitledTable) -> String {
     text + "    \\bottomrule\n  \\end{tabular}\n\\end{table}\n"
 }
 
-/// Text that LaTeX prints as it stands.
+/// Text with all special characters of LaTeX escaped.
 fn latex(text: &str) -> String {
     let mut words: Vec<String> = Vec::new();
     for word in text.split(' ') {

@@ -4,14 +4,14 @@ use crate::text_table::{width_of, wrapped};
 use hovertone_vehicle::{Sourced, Vehicle};
 use std::fmt::Write;
 
-/// What stands where no source was found.
+/// Text in place of a number without a source.
 const UNKNOWN: &str = "not known";
-/// Direct drive, or nothing was found: a vehicle does not tell which.
+/// Text for direct drive, or for a gear without a source; a preset does not distinguish them.
 const NO_GEAR: &str = "none known";
-/// A source gets at least this much of a line, however narrow the terminal.
+/// Fewest columns of a source on a line, however narrow the terminal is.
 const SOURCE_WIDTH_MIN: usize = 30;
 
-/// All presets for people, in lines of at most `width` characters where that is possible.
+/// All presets for people, in lines of at most `width` characters where possible.
 pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
     let id_width = vehicles.iter().map(|vehicle| vehicle.id.len()).max().unwrap_or(0);
     let rows: Vec<Vec<Row>> = vehicles.iter().map(rows_of).collect();
@@ -73,7 +73,7 @@ fn row<T>(name: &'static str, number: Option<Sourced<T>>, in_words: impl Fn(T) -
 /// All presets as JSON, ending with a line feed.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn vehicles_json(vehicles: &[Vehicle]) -> Result<String, serde_json::Error> {
     Ok(serde_json::to_string_pretty(vehicles)? + "\n")
 }

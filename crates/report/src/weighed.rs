@@ -1,7 +1,7 @@
-//! What hovers, by its sound.
+//! The mass of a hovering vehicle from its sound.
 
-use crate::VERSION;
 use crate::number::{rounded, with_uncertainty};
+use crate::version::VERSION;
 use hovertone_thrust::WeighedHover;
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
@@ -16,7 +16,7 @@ struct Weighed<'a> {
 /// JSON, ending with a line feed.
 ///
 /// # Errors
-/// None that is known of: the types can all be written.
+/// None is known, since all types can be serialised.
 pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error> {
     Ok(serde_json::to_string_pretty(&Weighed { weighed, version: VERSION })? + "\n")
 }

@@ -1,8 +1,19 @@
-//! Which track of a recording is which rotor, and the condition of each rotor.
+//! Which track of a recording belongs to which rotor, and the condition of each rotor.
 //!
-//! Each analysis takes a finished [`SpeedAnalysis`](hovertone_analysis::SpeedAnalysis), or its tracks, and what else tells rotors apart: a
-//! log of the flight ([`by_log`]), several microphones ([`by_microphones`]), or the order in which the motors start ([`by_spin_up`]).
-//! [`condition`] compares the lines of each rotor's shaft with its blade pass.
+//! A separation of rotors (`hovertone-rotor-speed`) gives tracks without names. Each room of this crate compares the tracks with a
+//! second source:
+//!
+//! ```text
+//! tracks ─┬─ log of the flight ────────▶ by_log ─────────┐
+//!         │                                              ├─▶ likelihood ratio of every    ─▶ posterior over  ─▶ labels, or the
+//!         ├─ several microphones ──────▶ by_microphones ─┘   assignment, tracks to rotors    assignments        reason why not
+//!         │
+//!         ├─ sound of the spin-up ─────▶ by_spin_up ─────▶ start of every rotor ─▶ sequence of the starts ────▶ labels, or the
+//!         │                                                                                                     reason why not
+//!         └─ sound of the hover ───────▶ condition ──────▶ level of every shaft line, relative to the blade pass
+//! ```
+//!
+//! All rooms read the tracks through `speed_curve`: the speed and the shaft angle of a rotor at any time.
 //!
 //! Pure: no files, clock, threads or printing.
 
@@ -11,7 +22,6 @@ pub mod by_microphones;
 pub mod by_spin_up;
 pub mod condition;
 mod posterior;
-mod rotor_turns;
 mod settings;
 mod speed_curve;
 

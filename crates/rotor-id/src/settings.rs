@@ -1,35 +1,37 @@
-//! Settings of telling which rotor is which.
+//! Settings of the labels.
 
 use hovertone_vehicle::{ConfigError, check_range};
 use serde::Serialize;
 
-/// How tracks are compared with what was recorded in the same flight.
+/// How tracks are compared with a log of the same flight, and when a label is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LabelsConfig {
-    /// Smallest and largest offset that is tried: what is to be added to the log's times to have the recording's. Where absent,
-    /// all at which log and hover share [`overlap_share_min`](Self::overlap_share_min) of the shorter.
+    /// Smallest offset that is tried, in s: time to be added to the log's clock to get the recording's. Absent: all offsets at which log
+    /// and hover share [`overlap_share_min`](Self::overlap_share_min) of the shorter of the two.
     pub offset_s_low: Option<f64>,
-    /// See above.
+    /// Largest offset that is tried, in s. Absent: as for the smallest.
     pub offset_s_high: Option<f64>,
-    /// Step of the offset: a fifth of the 0.1 s in which a small multirotor's motors answer.
+    /// Step of the offset, in s: a fifth of the 0.1 s in which a small multirotor's motors respond.
     pub offset_step_s: f64,
-    /// Rows that are compared at most, over all offsets: a minute's work of one core. A minute of hover in a log of twelve holds so many.
+    /// Most log rows that are compared, summed over all offsets. A hover of one minute in a log of twelve minutes needs about
+    /// this number, which takes one core about one minute.
     pub comparisons_max: usize,
-    /// Share of the shorter of log and hover that must be compared.
+    /// Smallest overlap of log and hover, as a share of the shorter of the two.
     pub overlap_share_min: f64,
-    /// A faster log is averaged to rows of this length: tracks have a point every 0.04 s, and know nothing between.
+    /// Length to which the rows of a faster log are averaged, in s: a track has one point every 0.04 s.
     pub row_s: f64,
-    /// Fewer rows than this say nothing: three seconds of a slow log at 3 Hz.
+    /// Fewest log rows that are compared: three seconds of a slow log at 3 Hz.
     pub rows_min: usize,
-    /// How well measured speeds of motors agree with those heard, against each other, as a share of the speed: telemetry of ESCs
-    /// comes in steps of 10 to 100 electrical turns per minute, 0.1 to 0.3 %.
+    /// Standard deviation of the ratio between a motor's logged mean speed and its track's, after a common factor, as a share of the
+    /// speed. Telemetry of motor controllers has steps of 10 to 100 electrical turns per minute: 0.1 to 0.3 %.
     pub speed_level_std_share: f64,
-    /// Standard deviation of what the offset of a log of commands takes over from the motors' delay: they answer within 0.02 to 0.2 s.
+    /// Standard deviation of the response time that the offset of a log of commands contains, in s: motors respond within 0.02 to 0.2 s.
     pub command_delay_std_s: f64,
-    /// Power of the likelihood that is believed: no noise is as the models have it, and what they leave out looks like evidence. On
-    /// simulated hovers in which next to nothing moves, the full likelihood is sure of wrong labels in 5 to 8 % of flights.
+    /// Exponent of the likelihood (a power likelihood, Miller and Dunson 2019): no noise is exactly as its model, and the difference
+    /// looks like information. On simulated hovers in which next to nothing moves, the exponent 1 gives wrong labels in 5 to 8 % of the
+    /// flights.
     pub evidence_share: f64,
-    /// A rotor is labelled if the label has this probability.
+    /// Smallest probability of a label that is given.
     pub probability_min: f64,
 }
 
@@ -52,7 +54,10 @@ impl Default for LabelsConfig {
 }
 
 impl LabelsConfig {
-    /// Refuses settings that mean nothing, by name, value and limit.
+    /// Checks that each setting is in its range.
+    ///
+    /// # Errors
+    /// The first setting that is not: its name, value and limits.
     pub fn check(&self) -> Result<(), ConfigError> {
         let low_s = self.offset_s_low.unwrap_or(0.0);
         check_range("offset_s_low", low_s, -1e9, 1e9)?;

@@ -32,10 +32,10 @@ pub struct Config {
     pub ridge: RidgeConfig,
     /// What else makes the speed uncertain.
     pub budget: BudgetConfig,
-    /// Which of the estimators gives the speed.
+    /// The method whose speed is the answer.
     pub method: Method,
-    /// Whether the others are wanted too, for comparison. The paper's two cost more time than the harmonic likelihood.
-    pub wants_all_methods: bool,
+    /// Whether the other methods are computed beside it, for comparison. The two of the paper cost more time than the harmonic likelihood.
+    pub all_methods: bool,
 }
 
 impl Config {
@@ -52,22 +52,22 @@ impl Config {
             ridge: RidgeConfig::default(),
             budget: BudgetConfig::default(),
             method: Method::default(),
-            wants_all_methods: false,
+            all_methods: false,
         }
     }
 
-    /// The estimators that are wanted.
+    /// The methods that are computed.
     pub(crate) fn methods(&self) -> impl Iterator<Item = Method> {
-        let is_there = |method: &Method| *method != Method::Separated || self.rotors.are_several();
+        let is_possible = |method: &Method| *method != Method::Separated || self.rotors.are_several();
         let is_wanted = |method: &Method| {
-            // where there is nothing to tell apart, one rotor is heard alone
+            // beside separated rotors stands the answer for a single one
             let is_instead = self.method == Method::Separated && *method == Method::Harmonic;
-            self.wants_all_methods || *method == self.method || is_instead
+            self.all_methods || *method == self.method || is_instead
         };
-        Method::ALL.into_iter().filter(is_there).filter(is_wanted)
+        Method::ALL.into_iter().filter(is_possible).filter(is_wanted)
     }
 
-    /// Whether a method is wanted that reads ridges.
+    /// Whether a method is computed that reads ridges.
     pub(crate) fn wants_ridges(&self) -> bool {
         self.methods().any(Method::reads_ridges)
     }

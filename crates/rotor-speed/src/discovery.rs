@@ -5,7 +5,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::pipeline::{passes_after_survey, passes_of_speed, speed_from_survey};
 use crate::stages::{Silence, survey_from_source};
-use crate::survey::{RowsBuilder, Survey};
+use crate::survey::{RowSettings, RowsBuilder, Survey};
 use crate::tone::{DiscoveryConfig, families_from_surveys};
 use hovertone_analysis::{NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use hovertone_signal::SignalSource;
@@ -85,13 +85,8 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     discovery.known.check()?;
     let start_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let window_s = discovery.config.detail_window_s;
-    let mut detail = RowsBuilder::with_hop(
-        passes.sample_rate_hz(),
-        start_s,
-        (window_s, window_s),
-        DETAIL_FRAMES * window_s,
-        DETAIL_ROWS_MAX,
-    );
+    let rows = RowSettings { window_s, hop_s: window_s, row_s: DETAIL_FRAMES * window_s, rows_max: DETAIL_ROWS_MAX };
+    let mut detail = RowsBuilder::new(passes.sample_rate_hz(), start_s, rows);
     let surveyed = survey_from_source(passes, config, Some(&mut detail))?;
     let (survey, heard) = (&surveyed.survey, surveyed.heard);
     let detail = Survey::of_rows(detail.finish(heard.to_s));

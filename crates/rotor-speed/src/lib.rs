@@ -23,7 +23,10 @@ pub use config::Config;
 pub use discovery::{Discovery, FoundSpeed, tones_from_passes, tones_from_source};
 pub use error::Error;
 pub use hover::{HoverConfig, HoverPart};
-pub use pipeline::{passes_of_speed, speed_from_passes, speed_from_source, speed_from_survey, survey_from_passes};
+pub use pipeline::{
+    HoverRotors, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source, speed_from_survey,
+    survey_from_passes,
+};
 pub use ridge::{RidgeConfig, SpectrogramConfig};
 pub use rotors::RotorsConfig;
 pub use speed::{BudgetConfig, SampleConfig};

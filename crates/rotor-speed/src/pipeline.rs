@@ -4,10 +4,10 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::stages::{
     Candidates, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate, lines_from_hover,
-    passes_of_survey, speeds_from_decision, survey_from_source,
+    passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
 };
 use crate::tone::search_range_rev_s;
-use hovertone_analysis::{Method, Outcome, SpeedAnalysis};
+use hovertone_analysis::{Hover, Method, Outcome, RotorEstimate, SpeedAnalysis};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
 
@@ -72,6 +72,30 @@ pub fn speed_from_survey(
     passes.expect_more(passes_after_survey(config));
     let slower = speed_of_candidate(passes, surveyed, &candidates, slower_rev_s, config)?;
     Ok(if matches!(slower.outcome, Outcome::Ok(_)) { slower } else { leading })
+}
+
+/// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that
+/// come before the speeds, such as the search for the start of each motor.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub fn rotors_from_survey(passes: &mut Passes<'_>, surveyed: &Surveyed, config: &Config) -> Result<HoverRotors, Error> {
+    let candidates = match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
+        Ok(candidates) => candidates,
+        Err(stop) => return stop.answer(surveyed.heard).map(|_| HoverRotors::default()),
+    };
+    let hover = hover_from_candidate(surveyed, &candidates, candidates.leading_rev_s, config);
+    let tracks = rotors_from_hover(passes, surveyed, &hover, candidates.leading_rev_s, config)?;
+    Ok(HoverRotors { rotors: tracks.rotors(config.tone.order, &config.budget), hover })
+}
+
+/// A hover and the rotors that were separated in it.
+#[derive(Clone, Debug, Default)]
+pub struct HoverRotors {
+    /// The stretches of the hover.
+    pub hover: Hover,
+    /// The rotors, fastest first.
+    pub rotors: Vec<RotorEstimate>,
 }
 
 fn speed_of_candidate(

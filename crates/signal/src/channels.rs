@@ -1,12 +1,16 @@
-//! Sound → one complex signal for each line of a rotor, at a low rate: what the harmonic likelihood listens to.
+//! Sound → one complex signal at a low rate for each spectral line: the input of the harmonic likelihood.
 //!
-//! A bank of band-passes in the frequency domain. Blocks of 0.17 s under a Hann window, half overlapping, are
-//! transformed; the bins around a line are transformed back on their own, and the blocks added up. The windows add up to
-//! one, so that inside its band a channel is the sound itself, shifted in frequency and thinned out:
+//! A bank of band-pass filters in the frequency domain, by overlap-add (Allen, IEEE Trans. ASSP 25, 1977). Frames of 0.17 s
+//! under a Hann window (Harris, Proc. IEEE 66, 1978), overlapping by half, are transformed. The bins around a line alone are
+//! transformed back, and the results of overlapping frames are added. The windows add up to one, so that inside its band
+//! a channel is the sound itself, shifted in frequency and decimated:
 //!
-//! `z_o(t) = A_o exp(j (o θ(t) + φ_o) − j 2π f_o t)`, f_o the middle of the channel.
+//! `z_o(t) = A_o exp(j (o θ(t) + φ_o) − j 2π f_o t)`,
 //!
-//! A line outside the band is suppressed as the window's side lobes are, by more than 70 dB.
+//! where A_o and φ_o are amplitude and phase of the line of order o, θ is the angle of the shaft, and f_o is the centre
+//! frequency of the channel.
+//!
+//! The side lobes of the window suppress a line outside the band by more than 70 dB.
 
 use crate::spectrogram::{Window, smooth_at_least};
 use realfft::num_complex::Complex;
@@ -15,61 +19,63 @@ use rustfft::{Fft, FftPlanner};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Length of a block. Bins of 6 Hz: fine enough for the lowest line, short enough to follow the edges of a hover.
-const BLOCK_S: f64 = 0.17;
-/// Bins beyond the wanted band on either side, so that the window's main lobe fits in.
+/// Length of a frame, s. It gives bins of 6 Hz, which resolve the lowest line, and is short against a hover. *Numeric.*
+const FRAME_S: f64 = 0.17;
+/// Bins beyond the wanted band on either side, for the main lobe of the window. *Numeric.*
 const GUARD_BINS: usize = 4;
-/// Fewest bins of a channel.
+/// Smallest number of bins of a channel. *Numeric.*
 const WIDTH_BINS_MIN: usize = 16;
-/// A stretch of sound fades in and out over this time: a hard edge would splash the lines into each other's channels.
+/// Time over which a stretch of sound fades in and out, s: an abrupt edge would spread each line into the other channels.
+/// *Numeric.*
 const FADE_S: f64 = 0.03;
 
-/// A hop is divided in so many ticks; each is a whole number of samples in every channel.
+/// Number of ticks in a hop, where a hop is half a frame. A tick is a whole number of samples in every channel. *Numeric.*
 pub const TICKS_PER_HOP: usize = 8;
 
-/// Where a channel listens.
+/// The frequency band of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChannelBand {
-    /// Lines per turn of the shaft.
+    /// Order of the line: its frequency over the rotation rate of the shaft.
     pub order: f64,
-    /// Whether it is the first of its family: the blade pass or the gear mesh itself.
+    /// Whether the line is the first of its family: the blade pass or the gear mesh itself, and no multiple of it.
     pub is_first: bool,
-    /// Lower edge.
+    /// Lower edge of the band, Hz.
     pub band_hz_low: f64,
-    /// Upper edge.
+    /// Upper edge of the band, Hz.
     pub band_hz_high: f64,
 }
 
-/// A channel of the bank.
+/// One channel of the bank.
 pub struct Channel {
-    /// Lines per turn of the shaft.
+    /// Order of the line: its frequency over the rotation rate of the shaft.
     pub order: f64,
-    /// Whether it is the first of its family.
+    /// Whether the line is the first of its family.
     pub is_first: bool,
-    /// The frequency that is shifted to zero.
+    /// Centre frequency f_o, which becomes 0 Hz in the channel, Hz.
     pub centre_hz: f64,
-    /// Samples per second.
+    /// Complex samples per second.
     pub rate_hz: f64,
-    /// Samples that each hop of the bank adds.
+    /// Complex samples of one hop.
     pub hop_samples: usize,
     first_bin: i64,
     centre_bin: i64,
     inverse: Arc<dyn Fft<f32>>,
-    block: Vec<Complex<f32>>,
+    frame: Vec<Complex<f32>>,
     tail: Vec<Complex<f32>>,
 }
 
-/// Splits a stream of samples into channels.
+/// Splits a stream of samples into channels. Holds the state of one stretch of sound without gaps.
 pub struct ChannelBank {
-    /// One channel for each band, in their order.
+    /// One channel for each band, in the order of the bands.
     pub channels: Vec<Channel>,
     sample_rate_hz: f64,
     window: Vec<f32>,
     plan: Arc<dyn RealToComplex<f32>>,
     pending: Vec<f32>,
-    /// Samples of this stretch that came in so far, and blocks that went out.
+    /// Samples of this stretch so far.
     taken_samples: u64,
-    block_index: i64,
+    /// Number of the next frame of this stretch; −1 is the frame before the first full one.
+    frame_index: i64,
     input: Vec<f32>,
     output: Vec<Complex<f32>>,
     scratch: Vec<Complex<f32>>,
@@ -77,21 +83,21 @@ pub struct ChannelBank {
 }
 
 impl ChannelBank {
-    /// A bank of one channel for each band.
+    /// A bank with one channel for each band.
     pub fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
-        let block_samples = smooth_at_least((BLOCK_S * sample_rate_hz).round() as usize, 4);
-        let plan = RealFftPlanner::new().plan_fft_forward(block_samples);
-        let bin_hz = sample_rate_hz / block_samples as f64;
+        let frame_samples = smooth_at_least((FRAME_S * sample_rate_hz).round() as usize, 4);
+        let plan = RealFftPlanner::new().plan_fft_forward(frame_samples);
+        let bin_hz = sample_rate_hz / frame_samples as f64;
         let mut planner = FftPlanner::new();
         let channels: Vec<Channel> = bands.iter().map(|band| Channel::new(band, bin_hz, &mut planner)).collect();
         let scratch_len = channels.iter().map(|channel| channel.inverse.get_inplace_scratch_len()).max().unwrap_or(0);
         Self {
             channels,
             sample_rate_hz,
-            window: Window::Hann.values(block_samples).into_iter().map(|weight| weight as f32).collect(),
+            window: Window::Hann.values(frame_samples).into_iter().map(|weight| weight as f32).collect(),
             pending: Vec::new(),
             taken_samples: 0,
-            block_index: 0,
+            frame_index: 0,
             input: plan.make_input_vec(),
             output: plan.make_output_vec(),
             scratch: plan.make_scratch_vec(),
@@ -100,25 +106,24 @@ impl ChannelBank {
         }
     }
 
-    /// Time that each hop covers.
+    /// Length of a hop, half a frame, s.
     pub fn hop_s(&self) -> f64 {
         (self.window.len() / 2) as f64 / self.sample_rate_hz
     }
 
-    /// A new stretch of sound begins.
+    /// Begins a new stretch of sound.
     pub fn restart(&mut self) {
         self.pending.clear();
-        // half a block of nothing before the first sample, so that the windows add up to one from there on
+        // half a frame of zeros before the first sample, so that the windows add up to one from there on
         self.pending.resize(self.window.len() / 2, 0.0);
         self.taken_samples = 0;
-        self.block_index = -1;
+        self.frame_index = -1;
         for channel in &mut self.channels {
             channel.tail.fill(Complex::default());
         }
     }
 
-    /// Takes in samples and hands out every hop that they complete: the new samples of each channel are appended to
-    /// `series`, one for each channel.
+    /// Takes in samples and appends the channel samples of every hop that they complete to `series`, one vector for each channel.
     pub fn push(&mut self, samples: &[f32], series: &mut [Vec<Complex<f32>>]) {
         let fade_samples = self.fade_samples();
         let faded_samples = usize::try_from(self.taken_samples).map_or(fade_samples, |taken| taken.min(fade_samples));
@@ -126,11 +131,11 @@ impl ChannelBank {
         self.pending.extend(fading.iter().zip(faded_samples..).map(|(sample, n)| sample * fade(n, fade_samples)));
         self.pending.extend_from_slice(whole);
         self.taken_samples += samples.len() as u64;
-        // the last samples stay behind: they fade out if nothing follows
-        self.take_blocks(fade_samples, series);
+        // the last samples wait: they fade out if the stretch ends here
+        self.take_frames(fade_samples, series);
     }
 
-    /// The stretch ends here.
+    /// Ends the stretch: fades out its last samples and appends the rest of each channel to `series`.
     pub fn finish(&mut self, series: &mut [Vec<Complex<f32>>]) {
         if self.taken_samples == 0 {
             return;
@@ -140,9 +145,9 @@ impl ChannelBank {
         for (index, sample) in self.pending[from..].iter_mut().enumerate() {
             *sample *= fade(fade_samples - 1 - index, fade_samples);
         }
-        // until the last sample has gone through both of its blocks
+        // zeros follow, so that the last sample passes through both of its frames
         self.pending.resize(self.pending.len() + self.window.len(), 0.0);
-        self.take_blocks(0, series);
+        self.take_frames(0, series);
         self.taken_samples = 0;
     }
 
@@ -150,20 +155,20 @@ impl ChannelBank {
         (FADE_S * self.sample_rate_hz).round() as usize
     }
 
-    fn take_blocks(&mut self, keep_samples: usize, series: &mut [Vec<Complex<f32>>]) {
-        let (block_samples, hop_samples) = (self.window.len(), self.window.len() / 2);
+    fn take_frames(&mut self, keep_samples: usize, series: &mut [Vec<Complex<f32>>]) {
+        let (frame_samples, hop_samples) = (self.window.len(), self.window.len() / 2);
         let mut start = 0;
-        while start + block_samples + keep_samples <= self.pending.len() {
+        while start + frame_samples + keep_samples <= self.pending.len() {
             for ((into, sample), weight) in self.input.iter_mut().zip(&self.pending[start..]).zip(&self.window) {
                 *into = sample * weight;
             }
-            // the buffers are the plan's own, so that their lengths cannot be wrong
+            // the plan made the buffers, so that their lengths are right
             let is_done = self.plan.process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
             debug_assert!(is_done.is_ok());
             for (channel, series) in self.channels.iter_mut().zip(series.iter_mut()) {
-                channel.add_block(&self.output, self.block_index, block_samples, series, &mut self.inverse_scratch);
+                channel.add_frame(&self.output, self.frame_index, frame_samples, series, &mut self.inverse_scratch);
             }
-            self.block_index += 1;
+            self.frame_index += 1;
             start += hop_samples;
         }
         self.pending.drain(..start);
@@ -185,42 +190,42 @@ impl Channel {
             first_bin: centre_bin - width as i64 / 2,
             centre_bin,
             inverse: planner.plan_fft_inverse(width),
-            block: vec![Complex::default(); width],
+            frame: vec![Complex::default(); width],
             tail: vec![Complex::default(); width / 2],
         }
     }
 
-    /// Adds one block of the sound and hands out the half block that is complete with it.
-    fn add_block(
+    /// Adds one frame of the sound and appends the half frame that it completes.
+    fn add_frame(
         &mut self,
         spectrum: &[Complex<f32>],
-        block_index: i64,
-        block_samples: usize,
+        frame_index: i64,
+        frame_samples: usize,
         series: &mut Vec<Complex<f32>>,
         scratch: &mut [Complex<f32>],
     ) {
-        let width = self.block.len();
-        // twice the positive frequencies; the sign turns the phase from the block's start to the stretch's
-        let sign = if (self.centre_bin * block_index).rem_euclid(2) == 1 { -1.0 } else { 1.0 };
-        let scale = sign * 2.0 / block_samples as f32;
-        let (rising, negative) = self.block.split_at_mut(width / 2);
+        let width = self.frame.len();
+        // factor 2 for the positive frequencies alone; the sign refers the phase to the start of the stretch
+        let sign = if (self.centre_bin * frame_index).rem_euclid(2) == 1 { -1.0 } else { 1.0 };
+        let scale = sign * 2.0 / frame_samples as f32;
+        let (rising, negative) = self.frame.split_at_mut(width / 2);
         for (into, bin) in negative.iter_mut().chain(rising).zip(self.first_bin..) {
-            // bin 0 holds the offset of the sound card
+            // bin 0 holds the offset of the converter
             *into = match usize::try_from(bin) {
                 Ok(bin) if bin > 0 => spectrum.get(bin).copied().unwrap_or_default() * scale,
                 _ => Complex::default(),
             };
         }
-        self.inverse.process_with_scratch(&mut self.block, scratch);
-        let (first, second) = self.block.split_at(width / 2);
-        if block_index >= 0 {
+        self.inverse.process_with_scratch(&mut self.frame, scratch);
+        let (first, second) = self.frame.split_at(width / 2);
+        if frame_index >= 0 {
             series.extend(first.iter().zip(&self.tail).map(|(new, old)| new + old));
         }
         self.tail.copy_from_slice(second);
     }
 }
 
-/// Raised cosine from 0 to 1.
+/// Raised cosine from 0 to 1 over `length` samples.
 fn fade(index: usize, length: usize) -> f32 {
     let share = (index as f64 + 0.5) / length.max(1) as f64;
     (0.5 - 0.5 * (TAU / 2.0 * share).cos()) as f32
@@ -236,7 +241,7 @@ mod tests {
         let samples: Vec<f32> = (0..96000)
             .map(|n| {
                 let t = f64::from(n) / rate;
-                // a stranger well outside the band, ten times as strong
+                // a line of another sound well outside the band, ten times as strong
                 (amplitude * (TAU * hz * t + phase).cos() + 10.0 * amplitude * (TAU * 3000.0 * t).cos()) as f32
             })
             .collect();

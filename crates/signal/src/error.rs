@@ -1,4 +1,4 @@
-//! Why sound cannot be read.
+//! Errors of a pass over a sound.
 
 use crate::SourceError;
 
@@ -6,13 +6,13 @@ use crate::SourceError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// The source failed.
+    /// The source failed to deliver samples or to rewind.
     #[error("the sound could not be read to its end: {0}")]
     Source(#[from] SourceError),
-    /// The source has an impossible sample rate.
+    /// The sample rate of the source is outside 1 kHz to 1 MHz.
     #[error("a sample rate of {sample_rate_hz} Hz means nothing, allowed 1000 to 1000000 Hz")]
     SampleRate {
-        /// The rate that the source gives.
+        /// Sample rate of the source, Hz.
         sample_rate_hz: f64,
     },
 }

@@ -1,5 +1,16 @@
-//! Sound as samples, and the arithmetic on it that needs no rotor: sources, passes, spectra, narrow channels, peaks, statistics, and the
-//! least-squares solver of lines that overlap.
+//! Sound as samples, and the arithmetic on it that knows nothing of rotors.
+//!
+//! | module | content |
+//! |---|---|
+//! | crate root | [`SignalSource`]: mono samples in blocks; [`Signal`]: samples in memory |
+//! | [`passes`] | runs over a source: the wanted stretches of time, block by block |
+//! | [`spectrogram`] | power spectra of frames, window shapes, decimation, the noise floor, the cutoff of a codec |
+//! | [`channels`] | a bank of band-pass filters: one complex signal at a low rate for each spectral line |
+//! | [`peak`] | the frequency of a spectral peak, finer than a bin |
+//! | [`statistics`] | mean, spread, median, uncertainty of the mean of a correlated series |
+//! | [`line_solver`] | least squares of spectral lines that overlap |
+//!
+//! Units are SI: times in s, frequencies in Hz. Samples have full scale ±1; a power of 1 (0 dB) is a sine of full scale.
 //!
 //! Pure: no files, clock, threads or printing.
 

@@ -1,30 +1,38 @@
-//! Sound as the core takes it in: one channel of samples at the rate it was recorded at.
+//! The input of every analysis: one channel of samples at the rate of the recording.
 
 use std::error::Error;
 use std::fmt;
 
-/// Mono sound that can be heard from its first sample as often as needed, in blocks, so that memory does not grow with
-/// its length.
+/// Mono sound that delivers its samples in blocks and can start again from the first sample.
+///
+/// An analysis reads a source several times and holds one block at a time, so that memory does not grow with the length of
+/// the recording.
 pub trait SignalSource {
-    /// Samples per second, as recorded: analysis never resamples.
+    /// Sample rate of the recording, Hz. The analysis never resamples.
     fn sample_rate_hz(&self) -> f64;
 
-    /// Time of the first sample on the recording's own clock: not zero where the audio of a video starts late.
+    /// Time of the first sample on the recording's own clock, s. It is not zero where the audio of a video starts late.
     fn start_s(&self) -> f64;
 
-    /// The next samples, full scale ±1, always finite; never empty; `None` after the last.
+    /// The next samples: full scale ±1, finite, at least one. `None` after the last sample.
+    ///
+    /// # Errors
+    /// The source cannot deliver its next samples.
     fn next_block(&mut self) -> Result<Option<&[f32]>, SourceError>;
 
-    /// Back to the first sample.
+    /// Goes back to the first sample.
+    ///
+    /// # Errors
+    /// The source cannot start again.
     fn rewind(&mut self) -> Result<(), SourceError>;
 }
 
-/// A source could not deliver its next samples.
+/// A source could not deliver its next samples or start again. Holds the cause.
 #[derive(Debug)]
 pub struct SourceError(Box<dyn Error + Send + Sync>);
 
 impl SourceError {
-    /// Wraps what the source has to say.
+    /// Wraps the cause of the failure.
     pub fn new(cause: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         Self(cause.into())
     }
@@ -51,22 +59,22 @@ pub struct Signal {
     position: usize,
 }
 
-/// Samples that are handed out at a time.
+/// Length of the blocks that [`Signal`] delivers, in samples. *Numeric.*
 const BLOCK_SAMPLES: usize = 1 << 16;
 
 impl Signal {
-    /// Samples, full scale ±1, and their rate. Their first is at time 0.
+    /// Samples of full scale ±1 at a rate in Hz. The first sample is at time 0.
     pub fn new(samples: Vec<f32>, sample_rate_hz: f64) -> Self {
         Self { samples, sample_rate_hz, start_s: 0.0, position: 0 }
     }
 
-    /// The same sound, starting at `start_s` on the recording's clock.
+    /// The same sound with its first sample at `start_s` on the recording's clock.
     #[must_use]
     pub fn with_start_s(self, start_s: f64) -> Self {
         Self { start_s, ..self }
     }
 
-    /// The samples.
+    /// All samples.
     pub fn samples(&self) -> &[f32] {
         &self.samples
     }

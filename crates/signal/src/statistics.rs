@@ -1,32 +1,36 @@
-//! Means, spreads, sums of likelihoods, and how many independent observations a correlated series is worth.
+//! Mean, spread, median, uncertainty of the mean of a correlated series, and sums of likelihoods.
 
-/// Arithmetic mean; `None` of nothing.
+/// Arithmetic mean, in the unit of the values. `None` for an empty slice.
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// Standard deviation of a sample (n − 1); `None` below two values. Eq 8 of the paper lacks the square; this is the
-/// corrected form.
+/// Sample standard deviation, in the unit of the values: s = √(Σ (x − x̄)² / (n − 1)). `None` for fewer than two values.
+///
+/// This is eq 8 of the paper with the square that the printed form lacks.
 pub fn std(values: &[f64]) -> Option<f64> {
     let centre = mean(values).filter(|_| values.len() >= 2)?;
     let squares: f64 = values.iter().map(|value| (value - centre).powi(2)).sum();
     Some((squares / (values.len() - 1) as f64).sqrt())
 }
 
-/// Middle value; of an even number, the upper of the two in the middle. `None` of nothing.
+/// Median, in the unit of the values. For an even count it is the upper of the two middle values. `None` for an empty slice.
 pub fn median(values: &[f64]) -> Option<f64> {
     let mut values = values.to_vec();
     let middle = values.len() / 2;
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// Standard uncertainty of the mean of a series whose neighbours are correlated: s √(τ / n), with the integrated
-/// autocorrelation τ = −1 + 2 Σ (ρ_2m + ρ_2m+1), m = 0, 1 …, summed while the pairs stay positive (Geyer, Statistical
-/// Science 7, 1992).
+/// Standard uncertainty of the mean of a correlated series, in the unit of the values.
 ///
-/// A series too short to show its own correlation (fewer than about 10 τ) yields a value that is too small. The
-/// correlation is followed to a third of the series at most, and τ is at least 1. Values are taken as equally spaced:
-/// gaps are closed up.
+/// Formula: u = s √(τ / n), where s is the standard deviation, n the count, and τ the integrated autocorrelation time
+/// τ = −1 + 2 Σ (ρ_2m + ρ_2m+1), m = 0, 1, …; the sum ends at the first pair that is not positive.
+///
+/// - Source: Geyer, Statistical Science 7, 1992 (initial positive sequence estimator).
+/// - The sum covers lags up to a third of the series. τ is at least 1.
+/// - Values count as equally spaced: the function does not know of gaps.
+/// - Limit: for a series shorter than about 10 τ the result is too small, because the series does not show its correlation.
+/// - `None` for fewer than two values.
 pub fn std_uncertainty_of_mean(values: &[f64]) -> Option<f64> {
     let (centre, spread) = (mean(values)?, std(values)?);
     let count = values.len();
@@ -52,7 +56,8 @@ pub fn std_uncertainty_of_mean(values: &[f64]) -> Option<f64> {
     Some(spread * (correlation_time.max(1.0) / count as f64).sqrt())
 }
 
-/// ln Σ exp(x), without overflow; −∞ of nothing.
+/// ln Σ exp(x) without overflow: the largest x is factored out. Each x is the logarithm of a likelihood or probability.
+/// −∞ for no values.
 pub fn log_sum_exp(logarithms: impl Iterator<Item = f64>) -> f64 {
     let (mut largest, mut sum) = (f64::NEG_INFINITY, 0.0);
     for value in logarithms {

@@ -1,4 +1,4 @@
-//! The force that the running rotors balance.
+//! The force that the running rotors balance, and its uncertainty.
 
 use serde::Serialize;
 
@@ -6,11 +6,11 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Force {
-    /// A hover: the weight of vehicle and payload.
+    /// A hover: the weight of vehicle and payload, m g.
     Weight {
         /// Mass of the vehicle, weighed once for all loads.
         vehicle_mass_kg: f64,
-        /// Mass that this load adds.
+        /// Added mass of this load.
         added_mass_kg: f64,
         /// Standard uncertainty of a weighing.
         mass_std_kg: f64,
@@ -19,9 +19,9 @@ pub enum Force {
         /// Its standard uncertainty.
         gravity_std_m_s2: f64,
     },
-    /// A bench run: thrust read from a scale.
+    /// A bench run: thrust from a scale.
     Thrust {
-        /// Thrust of all rotors that run.
+        /// Thrust of all running rotors.
         thrust_n: f64,
         /// Its standard uncertainty.
         thrust_std_n: f64,
@@ -39,7 +39,7 @@ impl Force {
         }
     }
 
-    /// Mass that is lifted; none on a bench.
+    /// Mass in the air; `None` on a bench.
     pub fn mass_kg(&self) -> Option<f64> {
         match *self {
             Self::Weight { vehicle_mass_kg, added_mass_kg, .. } => Some(vehicle_mass_kg + added_mass_kg),
@@ -47,14 +47,24 @@ impl Force {
         }
     }
 
-    /// Relative standard uncertainty that this load has alone, and the one it shares with the others.
-    pub(crate) fn relative_std(&self) -> (f64, f64) {
+    /// Relative standard uncertainty of the force. All loads share the weighing of the vehicle; the weighing of an added mass and
+    /// the thrust of a bench run belong to one load.
+    pub(crate) fn relative_std(&self) -> RelativeStd {
         match *self {
             Self::Weight { vehicle_mass_kg, added_mass_kg, mass_std_kg, .. } => {
                 let shared = mass_std_kg / (vehicle_mass_kg + added_mass_kg);
-                (if added_mass_kg == 0.0 { 0.0 } else { shared }, shared)
+                RelativeStd { own: if added_mass_kg == 0.0 { 0.0 } else { shared }, shared }
             }
-            Self::Thrust { thrust_n, thrust_std_n } => (thrust_std_n / thrust_n, 0.0),
+            Self::Thrust { thrust_n, thrust_std_n } => RelativeStd { own: thrust_std_n / thrust_n, shared: 0.0 },
         }
     }
+}
+
+/// Relative standard uncertainty of a force in two independent parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RelativeStd {
+    /// The part of this load alone.
+    pub(crate) own: f64,
+    /// The part that all loads have in common.
+    pub(crate) shared: f64,
 }

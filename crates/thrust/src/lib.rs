@@ -1,5 +1,14 @@
 //! From rotor speeds and known forces to the thrust constant C_f in F = C_f ω²: the square law through all loads with its uncertainty
-//! budget; and per sample, per trial and per load as the paper averages.
+//! budget, and the averages of the paper over samples, trials and loads.
+//!
+//! ```text
+//! speeds, force       input: loads, trials, samples           fit            loads → table, the entry point
+//! campaign            loads → points with uncertainties       square_law     points → constant, laws, verdicts
+//! regression          lines with errors in x and y            budget         uncertainty budget (GUM)
+//! drift               significant drifts of the constant      air            density, gravity, thrust coefficients
+//! plan                flights for a wanted uncertainty        weighing       mass from a constant and a speed
+//! vehicle_model       a simulator's model beside the result   table          output, with warnings
+//! ```
 
 mod air;
 mod budget;
@@ -19,16 +28,16 @@ mod warning;
 mod weighing;
 
 pub use air::{
-    Air, Gravity, ThrustCoefficients, figure_of_merit, gravity_m_s2, is_plausible_merit, thrust_constant_n_s2,
-    torque_constant_n_m_s2,
+    Air, Gravity, ThrustCoefficients, TorqueReading, figure_of_merit, gravity_m_s2, is_plausible_merit,
+    thrust_constant_n_s2, torque_constant_n_m_s2,
 };
-pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget, UncertaintyInputs};
+pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget};
 pub use campaign::TrialBootstrap;
 pub use drift::{Drift, DriftKind, row_drifts};
 pub use fit::{thrust_from_loads, warnings_of_points};
 pub use force::Force;
 pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
-pub use settings::ThrustSettings;
+pub use settings::{ThrustSettings, UncertaintyInputs};
 pub use speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, PointNoise, PointVerdict, PowerLaw,

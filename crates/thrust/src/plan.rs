@@ -1,69 +1,67 @@
-//! Before flying: how many loads, trials and seconds a wanted uncertainty needs. The plan is a campaign with the scatter that is
-//! to be expected, fitted like a real one, so that plan and budget cannot disagree.
+//! Before the flights: how many loads, trials and seconds a wanted uncertainty needs. Each candidate plan is a synthetic campaign with
+//! the expected scatter, fitted like a real one, so that plan and budget always agree.
 
 use crate::budget::BudgetInput;
 use crate::fit::thrust_from_loads;
 use crate::force::Force;
 use crate::settings::ThrustSettings;
-use crate::speeds::LoadSpeeds;
-use crate::speeds::SampleSpeed;
-use crate::speeds::TrialSpeeds;
-use crate::square_law::load_range::force_ratio_for_intercept;
-use hovertone_analysis::Method;
-use hovertone_analysis::Span;
-use hovertone_vehicle::PROPELLER_DIAMETER_M;
-use hovertone_vehicle::RotorSpeed;
+use crate::speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
+use crate::square_law::force_ratio_for_intercept;
+use hovertone_analysis::{Method, Span};
+use hovertone_vehicle::{PROPELLER_DIAMETER_M, RotorSpeed};
 use serde::Serialize;
 
-/// What is tried, each list in growing order: no fewer than three loads, of which one can be named that does not fit, and three
-/// trials, whose scatter can be measured.
+/// Numbers of loads that are tried. From three loads on, one that does not fit can be named. *Numeric.*
 const LOADS: [usize; 4] = [3, 4, 5, 8];
+/// Numbers of trials per load that are tried. Three trials are the fewest that show their scatter. *Numeric.*
 const TRIALS: [usize; 6] = [3, 4, 5, 8, 12, 20];
+/// Lengths of a hover that are tried, s. *Numeric.*
 const SECONDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 60.0];
-/// Flights cost more than their seconds: take-off, landing, another load.
+/// Time of a flight beside the hover, s: take-off, landing and the change of the load. *Decision.*
 const OVERHEAD_S: f64 = 20.0;
-/// Any speed will do: only shares matter.
+/// Speed of the synthetic campaign without added mass, rad/s. Only relative speeds matter. *Numeric.*
 const SPEED_RAD_S: f64 = 400.0;
 
-/// What is wanted, and with what it is flown.
+/// The wanted uncertainty, and the vehicle and place of the flights.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanWish {
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share.
     pub expanded_share: f64,
     /// Mass of the vehicle.
     pub vehicle_mass_kg: f64,
-    /// Largest mass that it may carry beside itself.
+    /// Largest added mass.
     pub added_mass_kg_max: f64,
     /// Standard uncertainty of a weighing.
     pub mass_std_kg: f64,
-    /// Gravity where it is flown.
+    /// Gravity at the place of the flights.
     pub gravity_m_s2: f64,
     /// Its standard uncertainty.
     pub gravity_std_m_s2: f64,
-    /// Spread of the speed while it hovers (the paper's STD over its speed: 0.0123) …
+    /// Relative standard deviation σ of the speed in a hover (in the paper's tables STD over speed is 0.0123) …
     pub speed_spread_share: f64,
-    /// … and the time over which it is correlated.
+    /// … and its correlation time τ.
     pub correlation_time_s: f64,
-    /// Everything else.
+    /// All other settings of the constant.
     pub settings: ThrustSettings,
 }
 
-/// What will do.
+/// A plan that reaches the wanted uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FlightPlan {
     /// Loads, evenly spaced from none to the largest.
     pub load_count: usize,
-    /// Trials of each.
+    /// Trials of each load.
     pub trials_per_load: usize,
     /// Seconds of hover in each trial.
     pub trial_s: f64,
     /// Seconds of hover in all.
     pub hover_s: f64,
-    /// Expanded uncertainty (k = 2) that is to be expected, as a share.
+    /// Expected expanded uncertainty (k = 2), as a share.
     pub expanded_share: f64,
-    /// What contributes most to it.
+    /// The input with the largest share of the variance.
     pub largest: BudgetInput,
-    /// Largest over smallest weight that would show an intercept, with so many trials; absent where none would.
+    /// Ratio of the largest to the smallest weight that would show an intercept, with the same number of trials; absent where no
+    /// ratio would.
     pub force_ratio_for_intercept: Option<f64>,
 }
 
@@ -71,33 +69,33 @@ pub struct FlightPlan {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
-    /// Masses or shares that mean nothing.
+    /// A mass or a share out of range.
     #[error("{name} = {value} means nothing here, it must be {must_be}")]
     OutOfRange {
-        /// Which.
+        /// Name of the number.
         name: &'static str,
-        /// What was given.
+        /// The given value.
         value: f64,
-        /// What is allowed.
+        /// Allowed values.
         must_be: &'static str,
     },
-    /// More flying does not help.
+    /// No number of flights reaches the wanted uncertainty.
     #[error(
         "no number of flights brings the uncertainty below {:.2} % (k = 2): what remains is the {}",
         100.0 * .best_share, .largest.title()
     )]
     OutOfReach {
-        /// The best that can be had.
+        /// The smallest expanded uncertainty that can be reached.
         best_share: f64,
-        /// What stands in the way.
+        /// Its largest input.
         largest: BudgetInput,
     },
 }
 
-/// The plan that reaches the wish with the least flying.
+/// The plan that reaches the wanted uncertainty in the shortest time.
 ///
 /// # Errors
-/// Wishes that mean nothing, or that no number of flights reaches.
+/// Numbers out of range, or an uncertainty that no number of flights reaches.
 pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
     for (name, value) in [
         ("expanded_share", wish.expanded_share),
@@ -144,14 +142,15 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
     }
 }
 
-/// Standard uncertainty of the mean speed of a trial, as a share: σ √(2 τ/T), and no more than the spread itself.
+/// Standard uncertainty of the mean speed of a trial of length T, as a share: σ √(2 τ/T), at most σ.
 fn trial_std_share(wish: &PlanWish, trial_s: f64) -> f64 {
     wish.speed_spread_share * (2.0 * wish.correlation_time_s / trial_s).sqrt().min(1.0)
 }
 
+/// The plan with its expected uncertainty; `None` where the synthetic campaign has no fit.
 fn expected(wish: &PlanWish, load_count: usize, trials_per_load: usize, trial_s: f64) -> Option<FlightPlan> {
     let std_share = trial_std_share(wish, trial_s);
-    // speeds that scatter by exactly so much, evenly
+    // evenly spaced speeds whose standard deviation is exactly `std_share`
     let middle = (trials_per_load as f64 - 1.0) / 2.0;
     let squares: f64 = (0..trials_per_load).map(|trial| (trial as f64 - middle).powi(2)).sum();
     let unit = std_share * ((trials_per_load as f64 - 1.0) / squares).sqrt();

@@ -1,4 +1,4 @@
-//! Speeds of loads, trials and samples: the input of the fit.
+//! Speeds of loads, trials and samples, the input of the fit.
 
 use crate::force::Force;
 use hovertone_analysis::{Method, Outcome, Span, SpeedAnalysis, SpeedEstimate};
@@ -8,36 +8,37 @@ use serde::Serialize;
 /// One load: a known force and the trials flown with it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadSpeeds {
-    /// Its name.
+    /// Name of the load.
     pub name: String,
-    /// What the rotors balance.
+    /// Force that the rotors balance.
     pub force: Force,
-    /// How many rotors balance it.
+    /// Number of rotors that balance it.
     pub rotors_running: u32,
-    /// Power that they take together, where known.
+    /// Total power of these rotors, where known.
     pub power_w: Option<f64>,
     /// Its trials.
     pub trials: Vec<TrialSpeeds>,
 }
 
-/// One trial: a recording, the speed of its hover and those of its samples.
+/// One trial: a recording, the speed over its hover and the speeds of its samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrialSpeeds {
     /// Name of the recording.
     pub recording: String,
-    /// How long it hovers, without what was cut.
+    /// Length of the hover, without the parts that were cut.
     pub hover_s: f64,
-    /// Over all of its hover, where that is what counts; else the mean of the samples does, as in the paper.
+    /// Speed over the whole hover. Where it is absent, the mean over the samples counts, as in the paper.
     ///
-    /// A force balance holds over a stretch of time but for the climb that begins or ends in it, which is the less the longer the
-    /// stretch; samples leave out the end of a hover and hear its middle twice.
+    /// The balance of weight and thrust is disturbed by climbs at the start and end of a stretch, so the longest stretch is best.
+    /// Samples leave out the end of a hover, and their overlap counts its middle twice.
     pub hover: Option<SampleSpeed>,
     /// Its samples.
     pub samples: Vec<SampleSpeed>,
 }
 
 impl TrialSpeeds {
-    /// What is heard in a recording by one method: over all of its hover by ours, in samples by the paper's. `None` without a rotor tone.
+    /// The speeds of a recording by one method: over the whole hover, or in samples by the methods of the paper. `None` without a rotor
+    /// tone.
     pub fn from_analysis(recording: impl Into<String>, analysis: &SpeedAnalysis, method: Method) -> Option<Self> {
         let Outcome::Ok(tone) = &analysis.outcome else { return None };
         let speed_in = |span: Span, estimate: &SpeedEstimate| SampleSpeed {
@@ -62,7 +63,7 @@ impl TrialSpeeds {
         })
     }
 
-    /// What counts of it.
+    /// The speeds that the fit uses: the speed over the hover, or else the samples.
     pub(crate) fn counted(&self) -> &[SampleSpeed] {
         if self.hover.is_some() { self.hover.as_slice() } else { &self.samples }
     }
@@ -71,16 +72,16 @@ impl TrialSpeeds {
 /// Speed in one sample, or in all of a hover.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SampleSpeed {
-    /// When.
+    /// Stretch of time.
     #[serde(flatten)]
     pub span: Span,
-    /// Shaft speed: the mean, or where rotors are told apart the root of the mean square over them.
+    /// Shaft speed: the mean, or the root mean square over the rotors where they are separated.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
     /// Standard uncertainty of the mean, from the sound alone.
     pub std_uncertainty_rev_s: Option<f64>,
     /// Standard deviation over the frames.
     pub spread_rev_s: Option<f64>,
-    /// Frames in it.
+    /// Number of frames.
     pub frame_count: usize,
 }

@@ -1,4 +1,4 @@
-//! The thrust constant by one method, load by load: the output of the fit.
+//! The thrust constant by one method, load by load, the output of the fit.
 
 use crate::air::ThrustCoefficients;
 use crate::budget::UncertaintyBudget;
@@ -11,32 +11,32 @@ use hovertone_analysis::Method;
 use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::Serialize;
 
-/// The thrust constant by one method: the paper's table, and the answer under it.
+/// The thrust constant by one method: a table like those of the paper, and the result below it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ThrustTable {
-    /// How the ridges were read.
+    /// Method of the speeds.
     pub method: Method,
-    /// Rotors of the vehicle.
+    /// Number of rotors of the vehicle.
     pub rotor_count: u32,
     /// One row for each load.
     pub loads: Vec<LoadThrust>,
-    /// Constant of the whole vehicle by the fit, uncertain by weighing and speeds; absent where nothing was heard.
+    /// Constant of the whole vehicle by the fit, with the uncertainty of weighing and speeds; absent without any speed.
     pub thrust_constant_total_n_s2: Option<Estimate>,
-    /// Constant of one rotor: the total over the number of rotors.
+    /// Constant of one rotor: the total divided by the number of rotors.
     pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
-    /// Constant of the whole vehicle as the paper has it: the plain mean over the loads.
+    /// Constant of the whole vehicle as in the paper: the plain mean over the loads.
     pub plain_mean_total_n_s2: Option<Estimate>,
-    /// The fit: the law's agreement, the laws beside it, each load against the others.
+    /// The fit: agreement of the square law, the laws beside it, each load against the others.
     pub fit: Option<SquareLawFit>,
-    /// All that makes the constant of the whole vehicle uncertain.
+    /// The uncertainty budget of the constant of the whole vehicle.
     pub budget: Option<UncertaintyBudget>,
-    /// The constant of one rotor without its dimension, where air and diameter are known.
+    /// Thrust coefficients of one rotor, where air and diameter are known.
     pub coefficients: Option<ThrustCoefficients>,
-    /// Its scatter when trials are drawn anew: to be compared with what the budget says of the speeds.
+    /// Bootstrap over trials, to be compared with the inputs of the budget for the speeds.
     pub bootstrap: Option<TrialBootstrap>,
-    /// What drifts beyond chance.
+    /// Significant drifts of the constant.
     pub drifts: Vec<Drift>,
-    /// What weakens the result.
+    /// Warnings about the result.
     pub warnings: Vec<ThrustWarning>,
 }
 
@@ -45,18 +45,18 @@ pub struct ThrustTable {
 pub struct LoadThrust {
     /// Name of the load.
     pub name: String,
-    /// Mass that is lifted; none on a bench.
+    /// Mass in the air; absent on a bench.
     pub mass_kg: Option<f64>,
     /// Force that the rotors balance.
     pub force_n: f64,
-    /// How many rotors balance it.
+    /// Number of rotors that balance it.
     pub rotors_running: u32,
-    /// Mean shaft speed over all trials, or over all their samples by the methods of the paper; absent where nothing was heard.
+    /// Mean shaft speed over all trials, or over all their samples by the methods of the paper; absent without any speed.
     #[serde(rename = "speed_rad_s")]
     pub speed: Option<RotorSpeed>,
     /// Its standard uncertainty, from the scatter of the trials.
     pub std_uncertainty_rad_s: Option<f64>,
-    /// Standard deviation of the speed over all frames: the paper's STD column.
+    /// Standard deviation of the speed over all frames: column STD of the paper.
     pub spread_rad_s: Option<f64>,
     /// Constant of the whole vehicle from this load alone.
     pub thrust_constant_total_n_s2: Option<Estimate>,
@@ -66,9 +66,9 @@ pub struct LoadThrust {
     pub fits: Option<bool>,
     /// Figure of merit, where power, air and diameter are known.
     pub figure_of_merit: Option<f64>,
-    /// Chance that a right load is as far from the others as this one.
+    /// Probability that a correct load deviates from the others at least this much.
     pub p_value: Option<f64>,
-    /// Mass that would agree with the other loads, where this one does not …
+    /// Mass that would agree with the other loads, where this load does not fit …
     pub mass_that_fits_kg: Option<f64>,
     /// … and its standard uncertainty.
     pub mass_that_fits_std_kg: Option<f64>,

@@ -1,21 +1,21 @@
-//! A simulator's model as the vehicle of an experiment: it fills what the file leaves out, and is compared with what was heard.
+//! The model of a simulator as the vehicle of an experiment: it supplies missing numbers, and it is compared with the measured constant.
 
 use crate::statistics::mean;
 use crate::table::ThrustTable;
 use serde::Serialize;
 
-/// What a simulator's file says of a vehicle: T = a + b ω + c ω² for each rotor.
+/// A vehicle in the file of a simulator, with the thrust T = a + b ω + c ω² of each rotor.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VehicleModel {
-    /// Name of its file.
+    /// Name of the file.
     pub file: String,
-    /// Whose file it is.
+    /// Name of the format.
     pub format: String,
-    /// Rotors, where the file tells.
+    /// Number of rotors, where the file has it.
     pub rotor_count: Option<u32>,
-    /// Mass of everything, where the file tells.
+    /// Total mass, where the file has it.
     pub mass_kg: Option<f64>,
-    /// Diameter of the propellers, where the file tells.
+    /// Diameter of the propellers, where the file has it.
     pub propeller_diameter_m: Option<f64>,
     /// c, N/(rad/s)².
     pub thrust_constant_n_s2: f64,
@@ -25,23 +25,23 @@ pub struct VehicleModel {
     pub thrust_offset_n: f64,
 }
 
-/// A model beside what was heard.
+/// A model compared with the measured constant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ModelAgainstHeard {
-    /// Mean speed of the loads, at which they are compared.
+    /// Speed of the comparison: mean over the loads.
     pub speed_rad_s: f64,
-    /// The model's thrust of one rotor over the squared speed, there.
+    /// Thrust of one rotor of the model over the squared speed, at that speed.
     pub thrust_constant_per_rotor_n_s2: f64,
-    /// The same over the constant that was heard.
+    /// Constant of the model over the measured constant.
     pub over_heard: f64,
-    /// Expanded uncertainty (k = 2) of what was heard, as a share; absent where nothing tells.
+    /// Expanded uncertainty (k = 2) of the measured constant, as a share; absent without a budget.
     pub expanded_share: Option<f64>,
-    /// Whether the model lies within it; absent where nothing tells.
+    /// Whether the model lies within that uncertainty; absent without a budget.
     pub agrees: Option<bool>,
 }
 
 impl VehicleModel {
-    /// The model beside the constant of a table. `None` where nothing was heard.
+    /// The model compared with the constant of a table. `None` where the table has no constant.
     pub fn against(&self, heard: &ThrustTable) -> Option<ModelAgainstHeard> {
         let speeds: Vec<f64> = heard.loads.iter().filter_map(|load| Some(load.speed?.rad_s())).collect();
         let speed_rad_s = mean(&speeds)?;

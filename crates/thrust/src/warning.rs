@@ -1,63 +1,61 @@
-//! What weakens a thrust constant, with what to do about it. Values, not print-outs.
+//! Warnings about a thrust constant, each with a hint. They are values; nothing here prints.
 
-use crate::drift::Drift;
-use crate::drift::DriftKind;
-use crate::square_law::ForceLaw;
-use crate::square_law::LoadRange;
+use crate::drift::{Drift, DriftKind};
+use crate::square_law::{ForceLaw, LoadRange};
 use serde::Serialize;
 use std::fmt;
 
-/// Names that a warning lists.
+/// Most names in the list of a warning. *Decision.*
 const NAMES_MAX: usize = 5;
 
-/// Something that weakens a thrust constant.
+/// A reason to doubt a thrust constant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ThrustWarning {
     /// A load disagrees with the others.
     LoadDoesNotFit {
-        /// Its name.
+        /// Name of the load.
         name: String,
         /// Mass that would agree; absent for a bench run.
         mass_that_fits_kg: Option<f64>,
-        /// Its standard uncertainty.
+        /// Standard uncertainty of that mass.
         mass_that_fits_std_kg: Option<f64>,
         /// Off by a factor, and left out of the fit.
         is_left_out: bool,
     },
     /// Many rows of a table disagree with the others.
     RowsDoNotFit {
-        /// Their names.
+        /// Names of the rows.
         names: Vec<String>,
         /// Off by a factor, and left out of the fit.
         are_left_out: bool,
     },
     /// A trial is off by a factor from all others, and left out of the fit.
     TrialLeftOut {
-        /// Its load.
+        /// Name of its load.
         load: String,
-        /// Its recording.
+        /// Name of its recording.
         recording: String,
     },
     /// Half of the constants or more are off by a factor from the others.
     ConstantsSplit,
-    /// Bench runs and hovers stand in one fit.
+    /// One fit has bench runs and hovers.
     MixedBenchAndHover,
-    /// Only one load: nothing can be compared.
+    /// There is only one load, and nothing to compare it with.
     SingleLoad,
-    /// All loads are the same.
+    /// All loads have the same weight.
     EqualLoads {
-        /// How many.
+        /// Number of loads.
         count: usize,
     },
-    /// The loads are too much alike to see an intercept.
+    /// The loads are too similar to show an intercept.
     NarrowLoadRange(LoadRange),
     /// The evidence prefers another law than F = C ω².
     OtherLawPreferred {
-        /// Which.
+        /// The preferred law.
         law: ForceLaw,
-        /// Its probability among the three.
+        /// Its probability among the three laws.
         probability: f64,
     },
     /// The constant changes over time.
@@ -69,29 +67,29 @@ pub enum ThrustWarning {
     },
     /// A figure of merit that no rotor has.
     ImplausibleFigureOfMerit {
-        /// Load or row.
+        /// Name of the load or row.
         name: String,
         /// T √(T/(2 ρ A)) / P.
         figure_of_merit: f64,
     },
-    /// Some rows of a table have no uncertainty, and those of the others do not count.
+    /// Some rows of a table have no uncertainty, so the uncertainties of the other rows are not used.
     UncertaintiesIncomplete {
-        /// Rows that have one.
+        /// Rows with an uncertainty.
         stated: usize,
-        /// Rows.
+        /// All rows.
         of: usize,
     },
-    /// The mass is a preset's or a model's, and that of another specimen.
+    /// The mass comes from a preset or a model, which describes another specimen.
     MassNotWeighed {
-        /// The mass that was taken.
+        /// The mass that was used.
         mass_kg: f64,
     },
-    /// Several rotors run, and one ridge follows the loudest.
+    /// Several rotors run, and one ridge follows the loudest of them.
     LoudestRotor,
 }
 
 impl ThrustWarning {
-    /// What to do about it.
+    /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::LoadDoesNotFit { mass_that_fits_kg: Some(_), is_left_out: false, .. } => {

@@ -1,61 +1,62 @@
-//! The acoustic scale: with a known thrust constant, what hovers weighs C ω²/g.
+//! The acoustic scale: with a known thrust constant C, a hovering vehicle has the mass m = C ω²/g.
 
-use crate::budget::UncertaintyInputs;
+use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std};
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 use serde::Serialize;
 
-/// What weighs: a constant, and what is known of the flights it was found in.
+/// A thrust constant with the facts about the flights that it was measured in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AcousticScale {
     /// Thrust constant of the whole vehicle.
     pub thrust_constant_total_n_s2: Estimate,
-    /// Scatter of the speed from one trial to another, as a share, when the constant was found.
+    /// Standard deviation of the speed from trial to trial when the constant was measured, as a share.
     pub trial_std_share: Option<f64>,
-    /// Gravity where it hovers …
+    /// Gravity at the place of the weighed hover …
     pub gravity_m_s2: f64,
     /// … and its standard uncertainty.
     pub gravity_std_m_s2: f64,
     /// Mass of the vehicle without payload.
     pub vehicle_mass_kg: Option<Estimate>,
-    /// How far the speed that is heard may be from that of the constant because one ridge follows the loudest rotor, or because not all
-    /// rotors were told apart: a standard deviation, as a share. 0 where all were both times, or one ridge was followed both times.
+    /// Standard deviation, as a share, of the difference between the heard speed and the speed behind the constant, because one ridge
+    /// follows the loudest rotor or not all rotors were separated. 0 where all rotors were separated both times, or one ridge was
+    /// followed both times.
     pub loudest_std_share: f64,
 }
 
-/// A hover as it was heard, in one recording.
+/// The hover of one recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeardHover {
-    /// Shaft speed whose square carries the weight.
+    /// Shaft speed for the thrust: root mean square over the rotors where they are separated.
     pub speed: RotorSpeed,
-    /// Its standard uncertainty, where the method tells, but for what is not known of its rotors.
+    /// Its standard uncertainty, where the method states one, without the uncertainty about rotors that are not separated.
     pub std_uncertainty_rev_s: Option<f64>,
-    /// How long it hovers.
+    /// Length of the hover.
     pub hover_s: f64,
 }
 
-/// What hovered.
+/// The mass of a hovering vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct WeighedHover {
-    /// All that hovers.
+    /// Total mass.
     pub mass_kg: Estimate,
-    /// What it carries beside itself, where the vehicle's own mass is known.
+    /// Mass of the payload, where the mass of the vehicle is known.
     pub payload_kg: Option<Estimate>,
     /// Mean shaft speed of all recordings.
     #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
-    /// Recordings in which it was heard.
+    /// Number of recordings with a speed.
     pub recording_count: usize,
 }
 
 impl AcousticScale {
-    /// Mass of all that hovers: m = C ω²/g, and of the payload: that less the vehicle's own.
-    /// u²(m)/m² = u²(C)/C² + 4 u²(ω)/ω² + 4 u²(loudest) + u²(g)/g². `None` where nothing was heard.
+    /// Total mass m = C ω²/g, and the mass of the payload: m minus the mass of the vehicle.
+    /// u²(m)/m² = u²(C)/C² + 4 u²(ω)/ω² + 4 u²(loudest) + u²(g)/g². `None` without hovers.
     ///
-    /// The speed of a recording is uncertain by the largest of: the scatter of these recordings, what the method says of each,
-    /// and the scatter of the trials when the constant was found. Where that is not known, by a climb that ends as fast as
-    /// [`UncertaintyInputs`] has it. The masses of constant and vehicle are taken as weighed apart; where they are one
-    /// weighing, the payload is known a little better than is said.
+    /// The uncertainty of the speed of a recording is the largest of three: the scatter of these recordings, the statement of the
+    /// method for each, and the scatter of the trials behind the constant. Where the last is unknown, a climb at the rate of
+    /// [`UncertaintyInputs`] is added to the second. The weighings behind the constant and of the vehicle count as independent;
+    /// where they are the same weighing, the stated uncertainty of the payload is slightly too large.
     pub fn weigh(&self, hovers: &[HeardHover]) -> Option<WeighedHover> {
         let constant = self.thrust_constant_total_n_s2;
         let speeds: Vec<f64> = hovers.iter().map(|hover| hover.speed.rad_s()).collect();
@@ -91,7 +92,7 @@ impl AcousticScale {
         if self.trial_std_share.is_some() || hover.hover_s <= 0.0 {
             return Some(stated);
         }
-        // a mean acceleration changes the thrust, and half as much the speed
+        // a mean acceleration a changes the thrust by a/g and the speed by half of that
         let acceleration_m_s2 = UncertaintyInputs::default().climb_rate_m_s_max / hover.hover_s / 3f64.sqrt();
         Some(stated.hypot(acceleration_m_s2 / self.gravity_m_s2 / 2.0))
     }

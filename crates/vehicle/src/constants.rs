@@ -1,7 +1,7 @@
 //! Constants of nature that several stages share.
 
-/// Speed of sound in dry air of 20 °C. It changes by 0.17 % per kelvin. *Physics.*
+/// Speed of sound in dry air of 20 °C, m/s. It changes by 0.17 % per kelvin. *Physics.*
 pub const SOUND_M_S: f64 = 343.2;
 
-/// Standard gravity (ISO 80000-3). *Physics.*
+/// Standard gravity, m/s² (ISO 80000-3). *Physics.*
 pub const GRAVITY_STANDARD_M_S2: f64 = 9.806_65;

@@ -1,31 +1,31 @@
-//! A number that says how sure it is and how it came about.
+//! A number with its uncertainty and its origin.
 
 use serde::{Deserialize, Serialize};
 
-/// How an estimate came about.
+/// How an estimate was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Ending {
-    /// From enough observations for its uncertainty to be measured from their scatter.
+    /// From several observations, whose scatter gives the uncertainty.
     Solved,
-    /// From a single observation: the value stands, its uncertainty covers only what one observation can tell.
+    /// From a single observation: the uncertainty contains no scatter.
     SingleObservation,
 }
 
-/// A value with its standard uncertainty, in the unit that the field's name says.
+/// A value with its standard uncertainty, in the unit of the name of the field that holds it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// One standard deviation of what the value could be off; absent where nothing tells it.
+    /// Standard uncertainty (one standard deviation); absent where it is unknown.
     pub std_uncertainty: Option<f64>,
-    /// How it came about.
+    /// How it was made.
     pub ending: Ending,
 }
 
 impl Estimate {
-    /// The same estimate in another unit, `factor` of the old one.
+    /// The estimate and its uncertainty times a factor.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         Self {

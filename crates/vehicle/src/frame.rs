@@ -1,23 +1,23 @@
-//! Where rotors stand on a frame, for those who must tell one from another.
+//! Names and positions of the rotors of a frame.
 
 use crate::Layout;
 use serde::Serialize;
 
-/// One rotor of a frame, seen from above; body axes, x forward and y left.
+/// Position of one rotor in body axes: x forward, y left, seen from above.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RotorPlace {
     /// Name of the place: "front left".
     pub name: &'static str,
-    /// Forward of the centre of mass.
+    /// Distance forward of the centre of mass.
     pub x_m: f64,
-    /// Left of it.
+    /// Distance left of the centre of mass.
     pub y_m: f64,
-    /// Sense of turning seen from above: +1 counter-clockwise, -1 clockwise.
+    /// Direction of rotation seen from above: +1 counter-clockwise, -1 clockwise.
     pub spin: f64,
 }
 
 impl Layout {
-    /// Names of the places, in the order of the rotors' numbers.
+    /// Names of the places, in the order of the numbers of the rotors.
     pub fn place_names(self) -> [&'static str; 4] {
         match self {
             Self::X => ["front left", "rear left", "rear right", "front right"],
@@ -25,7 +25,7 @@ impl Layout {
         }
     }
 
-    /// The rotors of such a frame with arms of that length.
+    /// The positions of the rotors of this layout for a given length of the arms.
     pub fn places(self, arm_length_m: f64) -> [RotorPlace; 4] {
         let (directions, spins, names) = (self.hub_directions(), self.spins(), self.place_names());
         std::array::from_fn(|k| RotorPlace {

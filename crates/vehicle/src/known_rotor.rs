@@ -1,16 +1,24 @@
-//! The prior on the shaft speed: what is known of a vehicle before it is heard.
+//! The prior on the shaft speed: facts about a vehicle before its sound is analysed.
 
 use crate::{ConfigError, GRAVITY_STANDARD_M_S2, ShaftSpeedRange, Vehicle, check_range};
 use serde::Serialize;
+use std::ops::RangeInclusive;
 
-/// Facts about the vehicle that rule some shaft speeds out.
+/// Diameters of multirotor propellers that are accepted as a prior, m. *Decision.*
+const DIAMETER_M_ALLOWED: RangeInclusive<f64> = 0.01..=5.0;
+/// Masses of multirotors that are accepted as a prior, kg. *Decision.*
+const MASS_KG_ALLOWED: RangeInclusive<f64> = 1e-3..=1e4;
+/// Numbers of rotors that are accepted as a prior. *Decision.*
+const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=64.0;
+
+/// Facts about a vehicle that exclude some shaft speeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct KnownRotor {
     /// Tip-to-tip diameter of a propeller.
     pub diameter_m: Option<f64>,
-    /// Mass as flown.
+    /// Take-off mass.
     pub mass_kg: Option<f64>,
-    /// Number of rotors that carry it.
+    /// Number of rotors.
     pub rotor_count: Option<u32>,
     /// Blades of a propeller.
     pub blade_count: Option<u32>,
@@ -19,7 +27,7 @@ pub struct KnownRotor {
 }
 
 impl KnownRotor {
-    /// The facts in a preset.
+    /// The facts of a preset.
     pub fn of_vehicle(vehicle: &Vehicle) -> Self {
         Self {
             diameter_m: vehicle.propeller_diameter_m.map(|diameter| diameter.value),
@@ -30,22 +38,25 @@ impl KnownRotor {
         }
     }
 
-    /// Thrust coefficient T/(ρ n² D⁴) that a hover at this shaft speed would mean. `None` unless mass, number of rotors and diameter
-    /// are known.
+    /// Thrust coefficient C_T = T/(ρ n² D⁴) of a hover at the shaft speed n, with T = m g / rotors. `None` unless mass, number of rotors
+    /// and diameter are known.
     pub fn hover_thrust_coefficient(&self, shaft_rev_s: f64, air_density_kg_m3: f64) -> Option<f64> {
         let (diameter_m, mass_kg, rotor_count) = (self.diameter_m?, self.mass_kg?, self.rotor_count?);
         let thrust_n = mass_kg * GRAVITY_STANDARD_M_S2 / f64::from(rotor_count);
         Some(thrust_n / (air_density_kg_m3 * shaft_rev_s.powi(2) * diameter_m.powi(4)))
     }
 
-    /// Refuses numbers that no multirotor has.
+    /// Checks every number against its limits.
     ///
     /// # Errors
     /// The first number outside its limits.
     pub fn check(&self) -> Result<(), ConfigError> {
-        check_range("diameter_m", self.diameter_m.unwrap_or(1.0), 0.01, 5.0)?;
-        check_range("mass_kg", self.mass_kg.unwrap_or(1.0), 1e-3, 1e4)?;
-        check_range("rotors", f64::from(self.rotor_count.unwrap_or(4)), 1.0, 64.0)
+        let within = |name, value: Option<f64>, allowed: RangeInclusive<f64>| {
+            value.map_or(Ok(()), |value| check_range(name, value, *allowed.start(), *allowed.end()))
+        };
+        within("diameter_m", self.diameter_m, DIAMETER_M_ALLOWED)?;
+        within("mass_kg", self.mass_kg, MASS_KG_ALLOWED)?;
+        within("rotors", self.rotor_count.map(f64::from), ROTORS_ALLOWED)
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a multirotor is, and the quantities of its rotors.
 //!
-//! Nothing here knows of sound. The estimator (`hovertone`) and the simulator (`hovertone-sim`) both build on this
-//! crate and on nothing else of each other, so that recovering a simulated flight proves something.
+//! Nothing here knows of sound. The estimator (`hovertone`) and the simulator (`hovertone-sim`) share this crate and nothing else,
+//! so that recovering a simulated flight proves something.
 
 mod constants;
 mod estimate;

@@ -8,7 +8,7 @@ pub const BLADES_MAX: f64 = 12.0;
 /// Orders beside a gear mesh and its multiples at which its sidebands lie: one and two shaft turns to either side. *Physics.*
 pub const MESH_SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
-/// Diameters of multirotor propellers, with a margin on both sides. C_T contains D⁴, so a wrong unit must be refused. *Physics.*
+/// Diameters of multirotor propellers, m, with a margin on both sides. C_T contains D⁴, so a wrong unit must be refused. *Physics.*
 pub const PROPELLER_DIAMETER_M: RangeInclusive<f64> = 0.01..=10.0;
 
 /// Thrust coefficients T/(ρ n² D⁴) of hovering propellers. Measured ones lie between 0.06 and 0.15. *Physics.*
@@ -20,18 +20,19 @@ pub const KNOWN_RANGE_MARGIN: f64 = 1.5;
 /// Default standard deviation of the rotors' speeds about their mean, as a share: rotors spread evenly over ±1 % have 0.58 %. *Decision.*
 pub const ROTOR_SPREAD_SHARE: f64 = 0.0058;
 
-/// Default for the change of the distance to the microphone during a hover. *Decision.*
+/// Default change of the distance to the microphone during a hover, m. *Decision.*
 pub const DRIFT_M_MAX: f64 = 0.5;
 
 /// Default half width of the error of a recorder's clock, in millionths. Phones and cameras keep within 50. *Physics.*
 pub const CLOCK_PPM: f64 = 50.0;
 
-/// Standard deviation of the difference between one rotor's speed and the mean of all, as a share: `σ √(1 − 1/N)`.
+/// Standard deviation of the difference between the speed of one rotor and the mean of all, as a share: σ √(1 − 1/N), for independent
+/// rotors with the relative standard deviation σ.
 pub fn loudest_rotor_share(rotor_spread_share: f64, rotor_count: u32) -> f64 {
     rotor_spread_share * (1.0 - 1.0 / f64::from(rotor_count.max(1))).sqrt()
 }
 
-/// A setting without a meaning.
+/// A setting out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConfigError {
@@ -40,14 +41,14 @@ pub enum ConfigError {
     OutOfRange {
         /// Name of the setting, as in files and flags.
         name: &'static str,
-        /// The number that was given.
+        /// The given number.
         value: f64,
-        /// Smallest allowed.
+        /// Smallest allowed number.
         min: f64,
-        /// Largest allowed.
+        /// Largest allowed number.
         max: f64,
     },
-    /// A band without any frequency in it.
+    /// A band whose upper edge is not above its lower edge.
     #[error("the band {low_hz}:{high_hz} Hz holds nothing, its end must be above its start")]
     EmptyBand {
         /// Lower edge.
@@ -55,7 +56,7 @@ pub enum ConfigError {
         /// Upper edge.
         high_hz: f64,
     },
-    /// A span without any time in it.
+    /// A span whose end is not after its start.
     #[error("the span from {from_s} s to {to_s} s holds nothing, its end must be after its start")]
     EmptySpan {
         /// Start.
@@ -65,7 +66,7 @@ pub enum ConfigError {
     },
 }
 
-/// Checks that a setting lies within its limits, both included. NaN never does.
+/// Checks that a setting lies within its limits, both included. NaN is always refused.
 ///
 /// # Errors
 /// [`ConfigError::OutOfRange`] with the setting's name, its value and the limits.

@@ -1,24 +1,23 @@
-//! Multirotors that people have, every number with the document it was read in.
+//! Common multirotors, every number with its source.
 //!
-//! Looked for and not found in any document, so absent: the propeller diameter of both AR.Drones and of the Bebops;
-//! the blades of the first Bebop, the Tello, the Iris and the Hummingbird; a take-off mass of the F450, which is a kit.
-//! The AR.Drone models of RotorS and `tum_simulator` are no sources: one is a copy of the Firefly (1.5 kg), the other
-//! weighs 1.477 kg.
+//! No source was found for these numbers, so they are absent: the propeller diameter of both AR.Drones and of the Bebops; the number
+//! of blades of the first Bebop, the Tello, the Iris and the Hummingbird; a take-off mass of the F450, which is a kit. The AR.Drone
+//! models of RotorS and `tum_simulator` are not used: one is a copy of the Firefly (1.5 kg), the other weighs 1.477 kg.
 
 use crate::{Gear, ShaftSpeedRange, Sourced, Vehicle};
 
-/// Metres in an inch: propellers are sold by the inch.
+/// Metres in an inch, the unit in which propellers are sold. *Physics.*
 const INCH_M: f64 = 0.0254;
 
-/// The paper of the method: Pizetta, Brandao, Pizziolo, Sarcinelli-Filho, preprints201808.0313.
+/// Source of the number of blades: the paper of the method (Pizetta, Brandao, Pizziolo, Sarcinelli-Filho, preprints201808.0313).
 const PAPER_BLADES: &str = "Pizetta et al., preprints201808.0313 v1, text at eq 6: each propeller has two blades";
 
-/// All presets, the paper's vehicle first.
+/// All presets; the vehicle of the paper is the first.
 pub fn presets() -> &'static [Vehicle] {
     &PRESETS
 }
 
-/// The preset of that id, exactly as spelt in [`Vehicle::id`].
+/// The preset with the given [`Vehicle::id`].
 pub fn find_preset(id: &str) -> Option<&'static Vehicle> {
     PRESETS.iter().find(|vehicle| vehicle.id == id)
 }

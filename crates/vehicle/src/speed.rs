@@ -1,32 +1,34 @@
-//! Shaft speed and order: the two quantities that are silently mixed up when both are plain numbers of hertz.
+//! Shaft speed and order. They are types, because shaft speed and tone frequency as plain numbers of hertz are easily mixed up.
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use std::fmt;
 
-/// A quantity that is not what its name says.
+/// A quantity out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} = {value}, must be {must_be}")]
 pub struct QuantityError {
     /// Name of the quantity, as in files and flags.
     pub name: &'static str,
-    /// The value that was given.
+    /// The given value.
     pub value: f64,
-    /// What is allowed.
+    /// Allowed values.
     pub must_be: &'static str,
 }
 
-/// Lines per turn of the rotor's shaft: 2 for the blade pass of a two-bladed propeller, 69 for the gear mesh of a
-/// 69-tooth wheel on the shaft. A tone at `f` Hz means a shaft at `f / order` turns per second.
+/// Order of a tone, in lines per turn of the rotor's shaft: 2 for the blade pass of a two-bladed propeller, 69 for the gear mesh of a
+/// 69-tooth wheel on the shaft. A tone at `f` Hz belongs to a shaft with `f / order` turns per second.
 ///
-/// The paper's `n·r` in eq 6 is this number: 8 pinion teeth times the ratio 8.625 gives 69.
+/// n·r in eq 6 of the paper is this number: 8 pinion teeth times the ratio 8.625 give 69.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "f64")]
 pub struct Order(f64);
 
 impl Order {
-    /// An order from the lines per turn, a positive finite number. It need not be whole: the shaft of a geared motor
-    /// turns 8.625 times for each turn of the rotor.
+    /// An order from the lines per turn. It need not be whole: the shaft of a geared motor turns 8.625 times per turn of the rotor.
+    ///
+    /// # Errors
+    /// A number that is not positive or not finite.
     pub fn new(lines_per_turn: f64) -> Result<Self, QuantityError> {
         if lines_per_turn.is_finite() && lines_per_turn > 0.0 {
             Ok(Self(lines_per_turn))
@@ -35,7 +37,10 @@ impl Order {
         }
     }
 
-    /// Blade pass of a propeller: as many lines per turn as it has blades.
+    /// Order of the blade pass: the number of blades.
+    ///
+    /// # Errors
+    /// No blades.
     pub fn from_blades(blade_count: u32) -> Result<Self, QuantityError> {
         Self::new(f64::from(blade_count)).map_err(|error| QuantityError { name: "blades", ..error })
     }
@@ -45,7 +50,7 @@ impl Order {
         self.0
     }
 
-    /// The order of the `number`-th harmonic of this tone; the first is the tone itself.
+    /// Order of the `number`-th harmonic of this tone; the first harmonic is the tone itself.
     pub fn harmonic(self, number: u32) -> Self {
         Self(self.0 * f64::from(number))
     }
@@ -70,7 +75,7 @@ impl fmt::Display for Order {
     }
 }
 
-/// A gear between motor and rotor: the pinion sits on the motor, the wheel on the rotor's shaft.
+/// A gear between motor and rotor, with the pinion on the motor and the wheel on the rotor's shaft.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gear {
@@ -86,13 +91,16 @@ impl Gear {
         f64::from(self.wheel) / f64::from(self.pinion)
     }
 
-    /// Order of the mesh tone: the wheel's teeth meet the pinion once each per turn of the rotor.
+    /// Order of the mesh tone: each tooth of the wheel meets the pinion once per turn of the rotor.
+    ///
+    /// # Errors
+    /// A wheel without teeth.
     pub fn mesh_order(self) -> Result<Order, QuantityError> {
         Order::new(f64::from(self.wheel)).map_err(|error| QuantityError { name: "gear wheel", ..error })
     }
 }
 
-/// Speed of a rotor's shaft, kept in rad/s. Not the frequency of any tone it makes.
+/// Speed of a rotor's shaft, in rad/s. It is not the frequency of a tone.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct RotorSpeed {
@@ -115,7 +123,7 @@ impl RotorSpeed {
         Self::from_rev_s(rpm / 60.0)
     }
 
-    /// From the frequency of a tone of known order: the paper's eq 6, N = 60 ζ / order in rpm.
+    /// From the frequency of a tone of known order: eq 6 of the paper, N = 60 ζ / order in rpm.
     pub fn from_tone_hz(tone_hz: f64, order: Order) -> Self {
         Self::from_rev_s(tone_hz / order.lines_per_turn())
     }
@@ -135,7 +143,7 @@ impl RotorSpeed {
         60.0 * self.rev_s()
     }
 
-    /// Frequency of the tone of that order.
+    /// Frequency of the tone with the given order.
     pub fn tone_hz(self, order: Order) -> f64 {
         self.rev_s() * order.lines_per_turn()
     }

@@ -1,18 +1,18 @@
-//! A multirotor as far as its sound and its thrust constant need it.
+//! The facts about a multirotor that its sound and its thrust constant depend on.
 
 use crate::{Gear, Order};
 use serde::Serialize;
 
-/// A number with the place it was read in.
+/// A value with its source.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Sourced<T> {
-    /// The number, in the unit that the field's name says.
+    /// The value, in the unit of the name of the field.
     pub value: T,
-    /// The document it stands in, and what is doubtful about it. Never empty.
+    /// The document with the value, and doubts about it. Never empty.
     pub source: &'static str,
 }
 
-/// Shaft speeds that a rotor can have in flight: what an octave check may rule out, not a limit of anything.
+/// Plausible shaft speeds in flight. They rule out octaves of a tone; they are no limit of the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ShaftSpeedRange {
     /// Slowest, turns of the rotor's shaft per second.
@@ -21,30 +21,30 @@ pub struct ShaftSpeedRange {
     pub rev_s_high: f64,
 }
 
-/// A multirotor. What no source was found for is absent: nothing here is a guess.
+/// A multirotor. Numbers without a source are absent; none is a guess.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Vehicle {
-    /// Name in files and flags: lower case letters and digits.
+    /// Name in files and flags, in lower case letters and digits.
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,
-    /// Rotors that carry it.
+    /// Number of rotors.
     pub rotor_count: Sourced<u32>,
     /// Blades of each propeller.
     pub blade_count: Option<Sourced<u32>>,
-    /// Gear between each motor and its rotor; absent for direct drive, and where nothing was found.
+    /// Gear between each motor and its rotor; absent for direct drive, and where no source was found.
     pub gear: Option<Sourced<Gear>>,
     /// Tip-to-tip diameter of the propellers.
     pub propeller_diameter_m: Option<Sourced<f64>>,
-    /// Mass as flown, with battery. A scale beats it.
+    /// Take-off mass with battery. A weighed mass is better.
     pub mass_kg: Option<Sourced<f64>>,
-    /// Shaft speeds that are plausible in flight.
+    /// Plausible shaft speeds in flight.
     pub shaft_speed: Option<Sourced<ShaftSpeedRange>>,
 }
 
 impl Vehicle {
-    /// Order of the tone to listen to: the gear mesh of a geared rotor, else the blade pass. The mesh moves the most
-    /// hertz for each change of speed (34.5 times the blade pass on the AR.Drone). `None` when neither is known.
+    /// Order of the tone to follow: the gear mesh of a geared rotor, else the blade pass. A change of speed moves the mesh by more hertz
+    /// (34.5 times the blade pass on the AR.Drone). `None` where neither is known.
     pub fn tone_order(&self) -> Option<Order> {
         self.gear_mesh_order().or_else(|| self.blade_pass_order())
     }

@@ -1,12 +1,12 @@
-//! `cargo run --release -p hovertone-bench -- labels`: which rotor is which, from logs and several microphones of simulated flights, and from the motors' start.
-//! Writes a section of `docs/rotors.md`. Run by people; its tests fly fewer.
+//! `cargo run --release -p hovertone-bench -- labels`: which rotor is which, from logs and several microphones of simulated flights, and
+//! from the start of the motors. Writes a section of `docs/rotors.md`. Run by people; its tests fly fewer.
 
 mod flight;
 mod microphones;
 mod spin_up;
 
 use crate::accuracy::drawn;
-use crate::rotors::REPORT;
+use crate::rotors_report::{LABELS_TITLE, REPORT, labels_section};
 use flight::{Flown, Logged};
 use hovertone::rotors::{LabelsConfig, RotorLabels, labels_from_log};
 use hovertone::sound::Signal;
@@ -29,8 +29,6 @@ const DURATION_S: f64 = 5.0;
 /// rotors that cross all the time are confused.
 const FAR_APART_SHARE: f64 = 0.06;
 const NEAR_SHARE: f64 = 0.015;
-/// Where the section begins.
-const TITLE: &str = "\n## Which rotor is which\n";
 const TITLE_OF_STARTS: &str = "\n### By the motors' start\n";
 
 /// What is flown and logged.
@@ -182,7 +180,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     };
     let report = root.join(REPORT);
     let before = fs::read_to_string(&report).map_err(|error| format!("{REPORT}: {error}"))?;
-    let section = section_of(&before);
+    let section = labels_section(&before);
     let only = given("--only").copied();
     if let Some(other) = only.filter(|only| !PARTS.iter().any(|(name, ..)| name == only)) {
         return Err(format!("--only {other}: there are {}", PARTS.map(|(name, ..)| name).join(", ")));
@@ -204,7 +202,7 @@ type Counts<'a> = &'a dyn Fn(&str, usize) -> Result<usize, String>;
 type Part = (&'static str, &'static str, fn(Counts<'_>) -> Result<String, String>);
 
 const PARTS: [Part; 3] = [
-    ("logs", TITLE, by_logs),
+    ("logs", LABELS_TITLE, by_logs),
     ("microphones", microphones::TITLE, microphones::section),
     ("starts", TITLE_OF_STARTS, by_starts),
 ];
@@ -219,7 +217,7 @@ fn part_of<'a>(section: &'a str, title: &str) -> &'a str {
 /// By logs: tracks that are the truth with an error, and those of the sound.
 fn by_logs(option: Counts<'_>) -> Result<String, String> {
     let (flights, heard) = (option("--count", FLIGHTS)?, option("--heard", HEARD)?);
-    let mut text = TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string());
+    let mut text = LABELS_TITLE.to_owned() + &HEAD.replace("{flights}", &flights.to_string());
     for kind in kinds() {
         let count = by_tracks(&kind, flights)?;
         let row = row_of(&kind, &count);
@@ -256,11 +254,6 @@ fn by_starts(option: Counts<'_>) -> Result<String, String> {
         text += &row;
     }
     Ok(text)
-}
-
-/// The section of this bench in a report; nothing where there is none.
-pub(crate) fn section_of(report: &str) -> &str {
-    report.find(TITLE).map_or("", |at| &report[at..])
 }
 
 const HEAD: &str = "
@@ -361,12 +354,12 @@ mod tests {
 
     #[test]
     fn a_section_is_found_and_kept() {
-        let report = format!("# a\n\n| b |\n{TITLE}\nc\n");
-        assert_eq!(section_of(&report), format!("{TITLE}\nc\n"));
-        assert_eq!(section_of("# a\n"), "");
+        let report = format!("# a\n\n| b |\n{LABELS_TITLE}\nc\n");
+        assert_eq!(labels_section(&report), format!("{LABELS_TITLE}\nc\n"));
+        assert_eq!(labels_section("# a\n"), "");
         let both = format!("{report}{TITLE_OF_STARTS}\nd\n");
-        assert_eq!(part_of(&both, TITLE), format!("{TITLE}\nc\n"));
+        assert_eq!(part_of(&both, LABELS_TITLE), format!("{LABELS_TITLE}\nc\n"));
         assert_eq!(part_of(&both, TITLE_OF_STARTS), format!("{TITLE_OF_STARTS}\nd\n"));
-        assert_eq!(part_of("# a\n", TITLE), "");
+        assert_eq!(part_of("# a\n", LABELS_TITLE), "");
     }
 }

@@ -76,7 +76,7 @@ fn flight(spacing_share: f64, number: usize) -> Result<Flight, String> {
     let mut config = Config::for_tone(tone);
     config.rotors.count = 4;
     config.method = Method::Separated;
-    config.wants_all_methods = true;
+    config.all_methods = true;
     let mut signal = Signal::new(channels.swap_remove(0), f64::from(sample_rate_hz));
     let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).map_err(|error| error.to_string())?;
     let Outcome::Ok(tone) = &analysis.outcome else {

@@ -1,12 +1,12 @@
-//! `cargo run --release -p hovertone-bench -- rotors`: four rotors from one microphone, against the truth of every instant. Writes `docs/rotors.md`. Run by
-//! people, never in a test.
+//! `cargo run --release -p hovertone-bench -- rotors`: four rotors from one microphone, against the truth of every instant. Writes
+//! `docs/rotors.md`. Run by people, never in a test.
 
 mod bobbing;
 mod score;
 mod sound;
 
 use crate::accuracy::drawn;
-use crate::labels::section_of;
+use crate::rotors_report::{REPORT, labels_section};
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, ToneConfig, TrackPoint, speed_from_source};
 use hovertone_vehicle::Order;
@@ -15,8 +15,6 @@ use sound::{Room, SAMPLE_RATE_HZ, Sound, rendered};
 use std::path::Path;
 use std::time::Instant;
 
-/// What it writes, in the repository.
-pub(crate) const REPORT: &str = "docs/rotors.md";
 const SEEDS: usize = 20;
 const FIRST_SEED: u64 = 1000;
 
@@ -102,7 +100,7 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     if only.is_none() {
         // another bench's section stays
         let before = std::fs::read_to_string(root.join(REPORT)).unwrap_or_default();
-        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + &bobbing + "\n" + section_of(&before);
+        let text = HEAD.replace("{seeds}", &seeds.to_string()) + &rows + &bobbing + "\n" + labels_section(&before);
         std::fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
         println!("written: {REPORT}");
     }

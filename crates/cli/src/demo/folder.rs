@@ -1,4 +1,4 @@
-//! The folder of a demo: that it may be written to, its experiment file, its truth.
+//! The folder of a demo: its check, its experiment file, its truth.
 
 use super::render::{TrialTruth, folder_of_load};
 use crate::failure::Failure;
@@ -8,16 +8,16 @@ use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// First words of every experiment file that a demo writes: what may be overwritten.
+/// First words of every experiment file of a demo. A folder with such a file may be overwritten.
 const MARK: &str = "# Written by `hovertone demo`";
 const EXPERIMENT: &str = "experiment.toml";
 
-/// Makes the folder, and refuses one that holds anything but an earlier demo.
+/// Makes the folder. A folder with other files than those of an earlier demo is refused.
 pub(super) fn prepare(folder: &Path) -> Result<(), Failure> {
     output_folder::prepare(folder, "demo", EXPERIMENT, MARK)
 }
 
-/// Writes the experiment file; gives back where it is.
+/// Writes the experiment file and returns its path.
 pub(super) fn write_experiment(folder: &Path, seed: u64) -> Result<PathBuf, Failure> {
     let vehicle_kg = LOADS[0].mass_kg;
     let mut text = format!(
@@ -52,8 +52,7 @@ overlap = 0.4
     Ok(path)
 }
 
-/// Writes `truth.csv`, a line for each trial, and `truth_tracks.csv`, the speed of every rotor at every row of the
-/// truth.
+/// Writes `truth.csv` with a line for each trial, and `truth_tracks.csv` with the speed of every rotor at every row of the truth.
 pub(super) fn write_truth(folder: &Path, trials: &[TrialTruth]) -> Result<(), Failure> {
     write_csv(&folder.join("truth.csv"), |writer| {
         let rotors = (1..=ROTOR_COUNT).map(|rotor| format!("rotor_{rotor}_mean_speed_rev_s"));

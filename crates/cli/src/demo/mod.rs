@@ -1,4 +1,4 @@
-//! `hovertone demo`: the paper's experiment in simulated flight, identified like anybody's recordings.
+//! `hovertone demo`: the paper's experiment in simulated flight, identified like any other recordings.
 
 mod folder;
 mod render;
@@ -17,7 +17,7 @@ use hovertone_report::{
 };
 use hovertone_sim::paper::{LOADS, PaperLoad};
 
-/// Flies, writes, identifies, compares.
+/// Simulates, writes, identifies and compares.
 pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let folder = &arguments.output;
     folder::prepare(folder)?;

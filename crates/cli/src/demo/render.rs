@@ -1,4 +1,4 @@
-//! The flights of all trials, their sound as 16-bit WAV files, and the truth about them.
+//! The flights of all trials, their sound as 16-bit WAV files, and their truth.
 
 use crate::failure::Failure;
 use crate::progress::{Progress, Share};
@@ -12,29 +12,29 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Steps of the flight between two writings.
+/// Steps of the flight between two writes to the file.
 const STEPS_AT_ONCE: usize = 100;
 
-/// What one trial really was.
+/// The truth of one trial.
 pub(super) struct TrialTruth {
-    /// Its load.
+    /// Name of its load.
     pub(super) load: PaperLoad,
     /// Its number, counted from 1.
     pub(super) number: u32,
     /// Seed of its flight and sound.
     pub(super) seed: u64,
-    /// Its means.
+    /// Its means over the hover.
     pub(super) truth: SpanTruth,
     /// The speeds of its rotors over time.
     pub(super) track: Vec<(f64, [RotorSpeed; ROTOR_COUNT])>,
 }
 
-/// Name of a load's folder.
+/// Name of the folder of a load.
 pub(super) fn folder_of_load(load: &PaperLoad) -> String {
     load.name.replace(' ', "_")
 }
 
-/// Flies and writes all trials, in parallel; their truths are in the order of loads and trials.
+/// Simulates and writes all trials in parallel; the truths are in the order of loads and trials.
 pub(super) fn render_all(seed: u64, folder: &Path, shows_progress: bool) -> Result<Vec<TrialTruth>, Failure> {
     for load in &LOADS {
         let folder = folder.join(folder_of_load(load));
@@ -76,7 +76,7 @@ fn render(seed: u64, load: PaperLoad, trial: u32, folder: &Path, share: &mut Sha
     Ok(TrialTruth { load, number, seed: file.seed, truth: truth.flight, track })
 }
 
-/// The truth of every load, in the paper's order.
+/// The truth of every load, in the order of the paper.
 pub(super) fn truth_of_loads(trials: &[TrialTruth]) -> Vec<LoadTruth> {
     let truth_of = |load: &PaperLoad| LoadTruth {
         name: load.name.to_owned(),

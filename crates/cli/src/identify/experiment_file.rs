@@ -1,4 +1,4 @@
-//! The experiment file: reading it, and saying where it is wrong.
+//! Reading the experiment file, with messages for its errors.
 
 use crate::compare::read_model;
 use crate::failure::Failure;
@@ -11,24 +11,24 @@ use std::path::{Path, PathBuf};
 
 const SEE_EXAMPLE: &str = "`hovertone identify --help` shows an experiment file";
 
-/// An experiment file that was read and settled.
+/// An experiment file that was read and resolved.
 pub(crate) struct ExperimentSource {
-    /// Where it is.
+    /// Path of the file.
     pub(crate) path: PathBuf,
-    /// The folder it is in.
+    /// Its folder.
     pub(crate) folder: PathBuf,
     /// Its file name.
     pub(crate) name: String,
     /// SHA-256 of its bytes.
     pub(crate) sha256: String,
-    /// Whether it begins with a comment.
+    /// Whether the file begins with a comment.
     pub(crate) has_notes: bool,
-    /// What it says.
+    /// Its meaning.
     pub(crate) experiment: Experiment,
 }
 
 impl ExperimentSource {
-    /// Reads and settles an experiment file.
+    /// Reads and resolves an experiment file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let toml = TomlFile::read(path, "experiment file", "recording", SEE_EXAMPLE)?;
         let file: ExperimentFile = toml.parse()?;
@@ -45,7 +45,7 @@ impl ExperimentSource {
     }
 }
 
-/// The simulator's model that an experiment names, from the folder it is in.
+/// The simulator's model that an experiment names, relative to the folder of the experiment.
 fn model_of(name: &str, experiment: &Path) -> Result<VehicleModel, Failure> {
     let path = experiment.parent().unwrap_or(Path::new("")).join(name);
     let model = read_model(&path)?;

@@ -6,13 +6,13 @@ mod recordings;
 pub(crate) use experiment_file::ExperimentSource;
 
 use crate::args::HearingArguments;
+use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
+use crate::jobs::ending_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, records_of};
 use crate::report_folder::{Extras, write_report};
-use crate::speed::ending_of;
 use crate::terminal::Terminal;
-use crate::thrust_args::IdentifyArguments;
 use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
 use hovertone::speed::{Method, SpeedEstimate};
@@ -21,19 +21,19 @@ use hovertone_report::{
     ExperimentFacts, Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary,
     thrust_table, vehicle_model_text,
 };
-use recordings::jobs_of;
+use recordings::{LoadJob, jobs_of};
 use serde_json::Value;
 use std::path::Path;
 
-/// An experiment, what its recordings said, and what follows from it.
+/// An experiment with the records of its recordings and the fits of its loads.
 pub(crate) struct Identified {
     source: ExperimentSource,
     method: Method,
     inputs: Vec<InputRecord>,
     tables: Vec<ThrustTable>,
-    /// The settled experiment as it is written out.
+    /// The resolved experiment, as written to the results.
     settings: Value,
-    /// What was heard, recording by recording, to be read again for its pictures.
+    /// The recordings, which are read again for their pictures.
     jobs: Vec<Job>,
     hearing: Hearing,
 }
@@ -70,7 +70,7 @@ fn hearing_of(arguments: &HearingArguments, wants_hash: bool) -> Hearing {
     Hearing { audio_track: arguments.audio_track, channel: arguments.channel, wants_hash, wants_samples: true }
 }
 
-/// Hears all recordings of an experiment and fits its loads by every method.
+/// Analyses all recordings of an experiment and fits its loads by every method.
 pub(crate) fn identify(
     source: ExperimentSource,
     data_root: Option<&Path>,
@@ -78,7 +78,8 @@ pub(crate) fn identify(
     method: Method,
     shows_progress: bool,
 ) -> Result<Identified, Failure> {
-    let (jobs, loads) = jobs_of(&source, data_root)?.into_iter().unzip::<_, _, Vec<Job>, Vec<_>>();
+    let (jobs, loads): (Vec<Job>, Vec<String>) =
+        jobs_of(&source, data_root)?.into_iter().map(|LoadJob { job, load }| (job, load)).unzip();
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
@@ -104,8 +105,8 @@ pub(crate) fn identify(
     Ok(Identified { source, method, inputs, tables, settings, jobs, hearing })
 }
 
-/// How far the mean of all rotors may be from that of those which were told apart, as a share: the mean over all recordings, since the rotors
-/// are the same in each of them.
+/// Standard deviation of the difference between the mean of all rotors and the mean of the separated rotors, as a share. It is the mean
+/// over all recordings, since the rotors are the same in each of them.
 fn unresolved_std_share(experiment: &Experiment, inputs: &[InputRecord]) -> f64 {
     let running = |input: &InputRecord| {
         let load = experiment.loads.iter().find(|load| load.name == input.load);
@@ -152,7 +153,7 @@ impl Identified {
         ending_of(self.inputs.iter().map(|input| &input.record))
     }
 
-    /// For the report.
+    /// The results as the report takes them.
     pub(crate) fn identification(&self) -> Identification<'_> {
         let experiment = &self.source.experiment;
         Identification {
@@ -172,7 +173,7 @@ impl Identified {
         }
     }
 
-    /// The answer under the tables.
+    /// The result below the tables.
     pub(crate) fn summary(&self) -> String {
         let identification = self.identification();
         let reported = identification.reported();
@@ -199,7 +200,7 @@ impl Identified {
         text + "\n" + &self.summary()
     }
 
-    /// What was cut away, and what weakens the result.
+    /// Prints cuts and warnings.
     pub(crate) fn say_notes(&self, terminal: &mut Terminal) {
         terminal.notes(&self.inputs.iter().map(|input| &input.record).collect::<Vec<_>>());
         for warning in self.identification().reported().map_or(&[][..], |table| &table.warnings) {
@@ -207,7 +208,7 @@ impl Identified {
         }
     }
 
-    /// Writes the report and all that belongs to it; gives back where.
+    /// Writes the report with all its files; returns their names.
     pub(crate) fn write(&self, folder: &Path, extras: &Extras<'_>) -> Result<Vec<String>, Failure> {
         write_report(&self.identification(), &self.jobs, self.hearing, extras, folder)
     }

@@ -1,4 +1,4 @@
-//! The names and patterns of an experiment file to recordings on disk.
+//! From the names and patterns in an experiment file to recordings on disk.
 
 use super::ExperimentSource;
 use crate::failure::Failure;
@@ -7,22 +7,35 @@ use crate::recording::{Job, Requests};
 use hovertone::experiment::ExperimentLoad;
 use std::path::{Path, PathBuf};
 
-/// Names that are listed when recordings are missing.
+/// Most names in the list of missing recordings.
 const NAMES_MAX: usize = 8;
 
-/// All recordings, load by load, each with the name of its load.
-pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Result<Vec<(Job, String)>, Failure> {
+/// A recording of a load.
+pub(super) struct LoadJob {
+    pub(super) job: Job,
+    /// Name of the load.
+    pub(super) load: String,
+}
+
+/// A name or pattern of a load that no file matches.
+struct Missing<'a> {
+    load: &'a ExperimentLoad,
+    name: &'a str,
+}
+
+/// All recordings, load by load.
+pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Result<Vec<LoadJob>, Failure> {
     let root = data_root.unwrap_or(&source.folder);
     if !root.is_dir() && data_root.is_some() {
         let hint = "give --data-root the folder that holds the recordings";
         return Err(Failure::failed("there is no such folder", hint, root));
     }
-    let (mut jobs, mut missing) = (Vec::new(), Vec::new());
+    let (mut jobs, mut missing): (Vec<LoadJob>, Vec<Missing<'_>>) = (Vec::new(), Vec::new());
     for load in &source.experiment.loads {
         for name in &load.recordings {
             let files: Vec<PathBuf> = files_of(&root.join(name)).into_iter().filter(|file| file.exists()).collect();
             if files.is_empty() {
-                missing.push((load, name.as_str()));
+                missing.push(Missing { load, name });
             }
             for path in files {
                 let job = Job {
@@ -32,9 +45,9 @@ pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
                     discovery: None,
                     requests: Requests::default(),
                 };
-                let is_known = |(known, of): &(Job, String)| *of == load.name && known.path == job.path;
+                let is_known = |known: &LoadJob| known.load == load.name && known.job.path == job.path;
                 if !jobs.iter().any(is_known) {
-                    jobs.push((job, load.name.clone()));
+                    jobs.push(LoadJob { job, load: load.name.clone() });
                 }
             }
         }
@@ -42,18 +55,14 @@ pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
     if missing.is_empty() { Ok(jobs) } else { Err(missing_failure(&missing, source, root, data_root.is_some())) }
 }
 
-/// The same wherever the folder is.
+/// Name of a recording relative to the folder, with forward slashes on all systems.
 fn name_of(path: &Path, root: &Path) -> String {
     path.strip_prefix(root).unwrap_or(path).display().to_string().replace('\\', "/")
 }
 
-fn missing_failure(
-    missing: &[(&ExperimentLoad, &str)],
-    source: &ExperimentSource,
-    root: &Path,
-    is_root_given: bool,
-) -> Failure {
-    let listed = missing.iter().take(NAMES_MAX).map(|(load, name)| format!("{name} of load \"{}\"", load.name));
+fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Path, is_root_given: bool) -> Failure {
+    let listed =
+        missing.iter().take(NAMES_MAX).map(|Missing { load, name }| format!("{name} of load \"{}\"", load.name));
     let mut list = listed.collect::<Vec<_>>().join("\n  ");
     if missing.len() > NAMES_MAX {
         list += &format!("\n  and {} more", missing.len() - NAMES_MAX);

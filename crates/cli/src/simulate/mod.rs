@@ -18,18 +18,18 @@ use std::fs::File;
 use std::iter::zip;
 use std::path::Path;
 
-/// Steps between two looks at the progress bar, and between two writings.
+/// Steps between two updates of the progress bar, and between two writes.
 const STEPS_AT_ONCE: usize = 100;
 const SOUND: &str = "sound.wav";
 const TABLE: &str = "truth.csv";
 
-/// Flies, writes, and says what the hover was like.
+/// Simulates, writes the files, and prints a summary of the hovers.
 pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let source = ScenarioSource::read(&arguments.scenario, arguments.seed)?;
     let flown = ScenarioRun::new(source.scenario.clone()).map_err(|error| source.failure(&error))?;
     let folder = &arguments.output;
     output_folder::prepare(folder, "simulation", truth_json::NAME, truth_json::MARK)?;
-    // whatever happens next, the folder is known as a simulation's
+    // mark the folder first, so that a later run recognises it even after a failure
     truth_json::begin(folder)?;
     let truth = write(flown, &source, folder, !arguments.no_progress)?;
     truth_json::write(folder, &source, &truth)?;
@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Res
     Ok(Ending::Done)
 }
 
-/// Runs the scenario into the sound and the table.
+/// Runs the scenario and writes sound and table.
 fn write(
     mut flown: ScenarioRun,
     source: &ScenarioSource,
@@ -83,7 +83,7 @@ fn write_rows(table: &mut csv::Writer<File>, rows: &mut Vec<FlightState>) -> Res
     Ok(())
 }
 
-/// The flight went where its sound cannot follow.
+/// The failure for a flight that leaves the range of the sound model.
 fn stopped(error: &ScenarioError, flown: &ScenarioRun, source: &ScenarioSource) -> Failure {
     let what = format!("the flight cannot go on after {:.2} s: {error}", flown.time_s());
     let hint = "keep the flight within the room and near the microphones, or take [room] out".to_owned();

@@ -1,4 +1,4 @@
-//! The scenario file and its command tables: reading them, and saying what is wrong.
+//! Reading the scenario file and its command tables, with messages for their errors.
 
 use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
@@ -12,22 +12,22 @@ use std::path::{Path, PathBuf};
 
 const SEE_EXAMPLE: &str = "`hovertone simulate --help` shows a scenario file, docs/formats.md lists all keys";
 
-/// A scenario file that was read and settled.
+/// A scenario file that was read and resolved.
 pub(crate) struct ScenarioSource {
-    /// Where it is.
+    /// Path of the file.
     pub(crate) path: PathBuf,
     /// Its file name.
     pub(crate) name: String,
     /// SHA-256 of its bytes.
     pub(crate) sha256: String,
-    /// What it says, with the seed that is used.
+    /// Its content, with the used seed.
     pub(crate) file: ScenarioFile,
-    /// What that means.
+    /// Its meaning.
     pub(crate) scenario: Scenario,
 }
 
 impl ScenarioSource {
-    /// Reads and settles a scenario file; `seed` overrules its own.
+    /// Reads and resolves a scenario file; `seed` replaces its own seed.
     pub(crate) fn read(path: &Path, seed: Option<u64>) -> Result<Self, Failure> {
         let toml = TomlFile::read(path, "scenario file", "recording", SEE_EXAMPLE)?;
         let mut file: ScenarioFile = toml.parse()?;
@@ -52,7 +52,7 @@ impl ScenarioSource {
         })
     }
 
-    /// Something that the file says turned out not to work.
+    /// The failure for a part of the file that fails later.
     pub(crate) fn failure(&self, error: &ScenarioError) -> Failure {
         failure_of(error, &self.path)
     }

@@ -1,4 +1,4 @@
-//! `truth.json`: exact means over the hovers, and everything that was set.
+//! `truth.json`: exact means over the hovers, and all settings.
 
 use super::{SOUND, ScenarioSource, TABLE};
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// Name of the file.
 pub(super) const NAME: &str = "truth.json";
-/// First words of every one: what may be overwritten.
+/// First words of every truth file. A folder with such a file may be overwritten.
 pub(super) const MARK: &str = "{\n  \"made_by\": \"hovertone simulate\"";
 
 #[derive(Serialize)]
@@ -39,7 +39,7 @@ struct Settings<'a> {
     vehicle: &'a FlightParameters,
 }
 
-/// Leaves the mark, until there is a truth.
+/// Writes the mark alone, before there is a truth.
 pub(super) fn begin(folder: &Path) -> Result<(), Failure> {
     write_text(folder, &format!("{MARK},\n  \"ending\": \"unfinished\"\n}}\n"))
 }

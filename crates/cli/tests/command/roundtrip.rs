@@ -1,4 +1,4 @@
-//! Simulate → WAV → identify: C_f comes back. `cargo xtask bench roundtrip` does a hundred of longer sound.
+//! Simulate → WAV → identify: C_f comes back. `hovertone-bench roundtrip` does a hundred of longer sound.
 
 use crate::testkit::{hovertone, text};
 use hovertone_sim::scenario::ScenarioFile;

@@ -1,16 +1,16 @@
-//! Headers of flight logs → what their columns hold.
+//! From the headers of flight logs to the quantities of their columns.
 
 use std::f64::consts::TAU;
 
-/// What a column holds. Factors are SI units in one unit of the column.
+/// Quantity of a column. Factors are SI units per unit of the column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum LogColumn {
     Time {
         factor: f64,
     },
-    /// A time whose unit nobody says.
+    /// A time in an unknown unit.
     TimeWithoutUnit,
-    /// About x, y or z: 0, 1 or 2.
+    /// Rate about x, y or z: 0, 1 or 2.
     Rate {
         axis: usize,
         factor: f64,
@@ -26,7 +26,7 @@ pub(super) enum LogColumn {
 
 const ABOUT: [&[&str]; 3] = [&["x", "roll", "p"], &["y", "pitch", "q"], &["z", "yaw", "r"]];
 
-/// What a header means; `None` for what tells no rotor.
+/// Quantity of a header; `None` for columns without information about rotors.
 pub(super) fn column_of(header: &str) -> Option<LogColumn> {
     let words = words_of(header);
     let has = |any: &[&str]| words.iter().any(|word| any.contains(&word.as_str()));
@@ -35,7 +35,7 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
         let unit = units.iter().find(|(unit, _)| has(&[unit]));
         return Some(match unit {
             Some(&(_, factor)) => LogColumn::Time { factor },
-            // PX4's logs say it nowhere, and always mean this
+            // the logs of PX4 never name the unit, which is always this one
             None if words == ["timestamp"] => LogColumn::Time { factor: 1e-6 },
             None => LogColumn::TimeWithoutUnit,
         });
@@ -73,7 +73,7 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
     (is_command || is_bare).then_some(LogColumn::MotorCommand { motor })
 }
 
-/// Lower-case words and whole numbers: "rotor1_speed_rad_s" is rotor, 1, speed, rad, s.
+/// Lower-case words and whole numbers: "rotor1_speed_rad_s" becomes rotor, 1, speed, rad, s.
 fn words_of(header: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
     let mut before: Option<char> = None;

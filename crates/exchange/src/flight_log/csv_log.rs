@@ -1,26 +1,26 @@
-//! A CSV with a header → motors and body rates over time, in SI.
+//! From a CSV with a header to motors and body rates over time, in SI units.
 
 use super::column::{LogColumn, column_of};
 use super::{FlightLogError, LoggedFlight, LoggedMotors, LoggedRates};
 use crate::csv_text::{CsvError, CsvText, line_of};
 use csv::StringRecord;
 
-/// Motors that a log can have.
+/// Largest number of motors in a log.
 const MOTORS_MAX: usize = 16;
 
-/// A column that was understood.
+/// A column with a known quantity.
 struct Known {
     index: usize,
     header: String,
     kind: LogColumn,
 }
 
-/// Reads a log, parted by commas, semicolons or tabs. Columns are known by the words and units of their headers (`docs/formats.md`);
-/// what is not known is left alone. A row in which something is empty is a gap of what it belongs to; of rows at one time the first
-/// counts.
+/// Reads a log, separated by commas, semicolons or tabs. The words and units of the headers give the quantities of the columns
+/// (`docs/formats.md`); other columns are ignored. A row with an empty cell is a gap in the series of that cell. Of several rows with
+/// equal times the first counts.
 ///
 /// # Errors
-/// No header, no time with a unit, neither motors nor body rates, a cell that is no number, times that go back.
+/// No header, no time with a unit, neither motors nor body rates, a cell that is not a number, times that decrease.
 pub fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, FlightLogError> {
     let csv = CsvText::open(text)?;
     let columns: Vec<Known> = csv
@@ -82,7 +82,7 @@ pub fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, FlightLogError> {
     })
 }
 
-/// Rows of some columns, in SI.
+/// Rows of some columns, in SI units.
 struct Table {
     time_s: Vec<f64>,
     values: Vec<Vec<f64>>,
@@ -93,7 +93,7 @@ impl Table {
         Self { time_s: Vec::new(), values: vec![Vec::new(); columns.len()] }
     }
 
-    /// Takes in a row, unless one of its cells is empty or its time is that of the row before.
+    /// Adds a row, unless one of its cells is empty or its time equals the time of the previous row.
     fn take(
         &mut self,
         time_s: f64,
@@ -154,7 +154,7 @@ fn refuse_twice(columns: &[Known]) -> Result<(), FlightLogError> {
     Ok(())
 }
 
-/// A finite number, or nothing in an empty cell.
+/// The finite number of a cell; `None` for an empty cell.
 fn number(csv: &CsvText, column: &Known, record: &StringRecord) -> Result<Option<f64>, CsvError> {
     let is_gap = record.get(column.index).is_some_and(|cell| cell.eq_ignore_ascii_case("nan"));
     if is_gap { Ok(None) } else { csv.number_at(column.index, record) }

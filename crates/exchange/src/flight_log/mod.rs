@@ -1,8 +1,8 @@
-//! Logs of flights → motors and body rates over time, in SI.
+//! From logs of flights to motors and body rates over time, in SI units.
 //!
 //! ```text
-//! csv_log  a CSV with a header; what its columns are called (column)
-//! ulog     PX4's ULog: messages and what damage leaves of them (file), their layout (format), the topics that tell rotors
+//! csv_log  a CSV with a header, and the quantities of its columns (column)
+//! ulog     PX4's ULog: undamaged messages (file), their layout (format), and the topics about rotors
 //! ```
 
 mod column;
@@ -18,15 +18,15 @@ use crate::csv_text::CsvError;
 /// A series for each motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedMotors {
-    /// On the log's clock, increasing.
+    /// Times on the clock of the log, increasing.
     pub time_s: Vec<f64>,
-    /// Names with the numbers that the log has for them: "motor 1".
+    /// Names with the numbers in the log: "motor 1".
     pub names: Vec<String>,
     /// `values[motor][row]`.
     pub values: Vec<Vec<f64>>,
 }
 
-/// How the axes of body rates point.
+/// Axes of body rates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RateAxes {
     /// x forward, y left, z up.
@@ -35,35 +35,35 @@ pub enum RateAxes {
     ForwardRightDown,
 }
 
-/// Rates at which the body turns, as the log has its axes.
+/// Body rates in the axes of the log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedRates {
-    /// On the log's clock, increasing.
+    /// Times on the clock of the log, increasing.
     pub time_s: Vec<f64>,
-    /// About x, y and z.
+    /// Rates about x, y and z.
     pub rates_rad_s: [Vec<f64>; 3],
-    /// How they point, where the format says it.
+    /// The axes, where the format defines them.
     pub axes: Option<RateAxes>,
 }
 
-/// What a log says of its rotors.
+/// Content of a log.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoggedFlight {
     /// Measured speeds, rad/s.
     pub speeds: Option<LoggedMotors>,
-    /// Commands, in whatever unit.
+    /// Commands, in any unit.
     pub commands: Option<LoggedMotors>,
     /// Body rates.
     pub rates: Option<LoggedRates>,
-    /// What is wrong with it.
+    /// Defects of the log.
     pub notes: Vec<String>,
 }
 
-/// A log that cannot be read.
+/// Error in a log.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlightLogError {
-    /// No table, or a cell that is no number.
+    /// No table, or a cell that is not a number.
     #[error(transparent)]
     Csv(#[from] CsvError),
     /// Neither text nor a ULog.
@@ -72,44 +72,44 @@ pub enum FlightLogError {
     /// A ULog without data.
     #[error("this ULog ends, or is damaged, before its data begin")]
     UlogWithoutData,
-    /// A ULog that tells nothing of rotors.
+    /// A ULog without topics about rotors.
     #[error("this ULog holds no motor speeds, motor commands or body rates; its topics are: {topics}")]
     UlogWithoutSignal {
-        /// What it holds.
+        /// Names of its topics.
         topics: String,
     },
-    /// No times.
+    /// No column with times.
     #[error("no column holds the time with its unit; the columns are: {columns}")]
     NoTime {
         /// The headers.
         columns: String,
     },
-    /// Nothing that tells rotors.
+    /// No column about rotors.
     #[error("no columns hold motors or body rates; the columns are: {columns}")]
     NoSignal {
         /// The headers.
         columns: String,
     },
-    /// Two columns for one thing.
+    /// Two columns with the same quantity.
     #[error("columns \"{first}\" and \"{second}\" say the same")]
     Twice {
-        /// The one.
+        /// Header of the first.
         first: String,
-        /// The other.
+        /// Header of the second.
         second: String,
     },
-    /// Times that go back.
+    /// Times that decrease.
     #[error("line {line}: its time, {time_s} s, is before that of the line above it")]
     NotInOrder {
         /// Line, counted from 1.
         line: u64,
-        /// Its time.
+        /// The time in that line.
         time_s: f64,
     },
 }
 
 impl FlightLogError {
-    /// What to do about it.
+    /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Csv(CsvError::NotANumber { .. }) => "correct the cell, or leave it empty: that is a gap",
@@ -129,14 +129,14 @@ impl FlightLogError {
     }
 }
 
-/// Reads a log of either kind, which its first bytes tell: PX4's ULog by its magic, else CSV.
+/// Reads a log. The magic bytes at its start identify a ULog of PX4; anything else is CSV.
 ///
-/// From a ULog come the speeds of `esc_status`, the commands of `actuator_motors` (else of that instance of `actuator_outputs` that
-/// moves most channels), and the rates of `vehicle_angular_velocity` (else of `sensor_combined`), x forward, y right and z down. Each
-/// keeps its own times. A log that breaks off or is damaged is read as far as it can be, with a note.
+/// From a ULog come the speeds of `esc_status`, the commands of `actuator_motors` (or of the instance of `actuator_outputs` in which most
+/// channels move), and the rates of `vehicle_angular_velocity` (or of `sensor_combined`) with x forward, y right and z down. Each topic
+/// keeps its own times. A truncated or damaged log is read as far as possible, with a note.
 ///
 /// # Errors
-/// As [`flight_log_from_csv`]; bytes that are neither; a ULog in which nothing tells of rotors.
+/// The errors of [`flight_log_from_csv`]; bytes that are neither text nor a ULog; a ULog without topics about rotors.
 pub fn flight_log_from_bytes(bytes: &[u8]) -> Result<LoggedFlight, FlightLogError> {
     if ulog::is_ulog(bytes) {
         return ulog::flight_log_from_ulog(bytes);

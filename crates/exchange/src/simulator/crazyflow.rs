@@ -7,7 +7,7 @@ use crate::units::ConstantUnits;
 use std::f64::consts::TAU;
 use toml::{Table, Value};
 
-/// Its vehicles are quadrotors.
+/// All vehicles of crazyflow are quadrotors.
 const ROTOR_COUNT: u32 = 4;
 
 pub(super) fn write(rotor: &IdentifiedRotor) -> String {

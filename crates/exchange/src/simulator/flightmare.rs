@@ -5,7 +5,7 @@ use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 use saphyr::{LoadableYamlNode, Yaml};
 
-/// Its vehicle is a quadrotor.
+/// The vehicle of Flightmare is a quadrotor.
 const ROTOR_COUNT: u32 = 4;
 
 pub(super) fn write(rotor: &IdentifiedRotor) -> String {
@@ -25,7 +25,7 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
 }
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
-    // the file that Flightmare ships is no YAML by its indents; what is looked for stands in one section
+    // the file of Flightmare is invalid YAML by its indentation; all needed keys stand in one section
     let section = text.split_once("quadrotor_dynamics:").ok_or(ModelError::Unknown)?.1;
     let lines = section.lines().skip(1).take_while(|line| line.is_empty() || line.starts_with([' ', '#']));
     let section: String = lines.map(|line| format!("{line}\n")).collect();
@@ -46,7 +46,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     })
 }
 
-/// A number, also where it is written without a point.
+/// A number, also one without a decimal point.
 pub(super) fn number_of(yaml: &Yaml<'_>) -> Option<f64> {
     yaml.as_floating_point().or_else(|| yaml.as_integer().map(|whole| whole as f64))
 }

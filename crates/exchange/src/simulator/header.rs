@@ -1,20 +1,20 @@
-//! The lines that stand above every export: which number this is, how sure it is, and in which units others have it.
+//! The comment above every export: name of the constant, its uncertainty, and its value in other units.
 
 use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
 
-/// Digits that are written: more than any uncertainty, few enough to read.
+/// A number with eight significant digits, more than any uncertainty needs.
 pub(super) fn number(value: f64) -> String {
     if (0.1..1e5).contains(&value.abs()) { plain(value) } else { format!("{value:.7e}") }
 }
 
-/// The same without an exponent where that is how people write it.
+/// A number with up to eight decimals and without an exponent, for quantities that people write that way.
 pub(super) fn plain(value: f64) -> String {
     let text = format!("{value:.8}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Lines without any comment sign. A name that breaks its line would end the comment, and so would a backslash in C++.
+/// Lines of the comment without a comment sign. Line breaks in names would end the comment, as would a backslash in C++.
 pub(super) fn lines(rotor: &IdentifiedRotor) -> Vec<String> {
     let tame = |c: char| if c.is_control() || c == '\\' { ' ' } else { c };
     described(rotor).iter().map(|line| line.chars().map(tame).collect()).collect()
@@ -69,17 +69,17 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
     lines
 }
 
-/// The torque's line, where nobody measured it.
+/// The line about a torque that was not measured.
 pub(super) fn missing_torque(name: &str) -> String {
     format!("{name}: MISSING. Sound tells thrust, not torque: measure it, or keep the one you have")
 }
 
-/// The lines behind a comment sign.
+/// The lines with a comment sign in front.
 pub(super) fn commented(rotor: &IdentifiedRotor, sign: &str) -> String {
     lines(rotor).iter().map(|line| format!("{sign} {line}\n")).collect()
 }
 
-/// The lines as one XML comment, which must hold no double hyphen.
+/// The lines as one XML comment, which must not contain a double hyphen.
 pub(super) fn xml_comment(rotor: &IdentifiedRotor) -> String {
     let text: String =
         lines(rotor).iter().map(|line| format!("  {}\n", line.replace("--", "- -").replace("--", "- -"))).collect();

@@ -1,4 +1,4 @@
-//! Models of simulators: written from what was identified, and read back to be compared with it.
+//! Models of simulators: written from a measured constant, and read for a comparison with it.
 
 mod airsim;
 mod crazyflow;
@@ -33,14 +33,14 @@ pub enum SimulatorFormat {
     Airsim,
     /// TOML of crazyflow and drone-models: `rpm2thrust`, a polynomial of rpm in N.
     Crazyflow,
-    /// JSON of our own, every unit.
+    /// JSON of this project, with every unit.
     Json,
-    /// The same as YAML.
+    /// The same fields as YAML.
     Yaml,
 }
 
 impl SimulatorFormat {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 9] = [
         Self::Gazebo,
         Self::Rotors,
@@ -68,7 +68,7 @@ impl SimulatorFormat {
         }
     }
 
-    /// How this program names the constant, and in which unit.
+    /// Name and unit of the constant in this program.
     pub fn constant(self) -> (&'static str, &'static str) {
         match self {
             Self::Gazebo => ("motorConstant", "N/(rad/s)^2"),
@@ -83,24 +83,24 @@ impl SimulatorFormat {
     }
 }
 
-/// What a simulator's file says of its rotors: T = a + b ω + c ω² for each, ω in rad/s.
+/// The rotors in the file of a simulator, with the thrust T = a + b ω + c ω² of each, ω in rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatorModel {
-    /// Which program's file it is.
+    /// Format of the file.
     pub format: SimulatorFormat,
     /// c, N/(rad/s)².
     pub thrust_constant_n_s2: f64,
-    /// b, N/(rad/s); 0 in most.
+    /// b, N/(rad/s); 0 in most files.
     pub thrust_linear_n_s: f64,
-    /// a; 0 in most.
+    /// a, N; 0 in most files.
     pub thrust_offset_n: f64,
-    /// Rotors, where the file tells.
+    /// Number of rotors, where the file has it.
     pub rotor_count: Option<u32>,
-    /// Mass of everything, where the file tells.
+    /// Total mass, where the file has it.
     pub mass_kg: Option<f64>,
-    /// Diameter of the propellers, where the file tells.
+    /// Diameter of the propellers, where the file has it.
     pub propeller_diameter_m: Option<f64>,
-    /// Torque over thrust, where the file tells.
+    /// Torque over thrust, where the file has it.
     pub moment_constant_m: Option<f64>,
 }
 
@@ -123,12 +123,12 @@ impl SimulatorModel {
         self.thrust_offset_n + speed_rad_s * (self.thrust_linear_n_s + speed_rad_s * self.thrust_constant_n_s2)
     }
 
-    /// Thrust of one rotor over its squared speed, at a speed: what compares with an identified constant.
+    /// Thrust of one rotor over its squared speed, at a speed: the value to compare with a measured constant.
     pub fn constant_at_n_s2(&self, speed_rad_s: f64) -> f64 {
         self.thrust_n(speed_rad_s) / speed_rad_s.powi(2)
     }
 
-    /// Shaft speed at which one rotor has this thrust.
+    /// Shaft speed at which one rotor has the given thrust.
     pub fn speed_rad_s(&self, thrust_n: f64) -> Option<f64> {
         let (a, b, c) = (self.thrust_constant_n_s2, self.thrust_linear_n_s, self.thrust_offset_n - thrust_n);
         let speed = (-b + (b * b - 4.0 * a * c).sqrt()) / (2.0 * a);
@@ -136,54 +136,54 @@ impl SimulatorModel {
     }
 }
 
-/// Why a file is no model.
+/// Error in a model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// Text that no known program has.
+    /// Text of no known program.
     #[error(
         "no thrust constant of a known simulator stands in it (looked for motorConstant, motor_constant, kf, k_eta, thrust_map, C_T, rpm2thrust)"
     )]
     Unknown,
-    /// A file that is broken.
+    /// An invalid file.
     #[error("it cannot be read as {format}: {reason}")]
     Broken {
-        /// What it should be.
+        /// Expected content.
         format: &'static str,
-        /// Why it is not.
+        /// Reason.
         reason: String,
     },
-    /// A number that no rotor has.
+    /// A number out of range.
     #[error("{name} = {value}, which no rotor has: it must be a number above 0")]
     OutOfRange {
-        /// Which.
+        /// Name of the number.
         name: &'static str,
-        /// What stands there.
+        /// Its value.
         value: f64,
     },
-    /// Rotors that differ.
+    /// Rotors with different constants.
     #[error("its rotors have different constants, from {least:e} to {most:e} N/(rad/s)^2")]
     UnlikeRotors {
-        /// Smallest.
+        /// Smallest constant.
         least: f64,
-        /// Largest.
+        /// Largest constant.
         most: f64,
     },
-    /// A format that needs more than sound tells.
+    /// A format that needs more numbers than the result has.
     #[error("{format} needs {what}")]
     Needs {
-        /// Which.
+        /// The format.
         format: &'static str,
-        /// What, and where to write it.
+        /// The missing number, and where to give it.
         what: &'static str,
     },
 }
 
-/// Lines to paste into a simulator's file, with the constant in its unit and in all others in a comment. What sound does not
-/// tell is marked missing and never made up.
+/// Lines to paste into the file of a simulator, with the constant in its unit, and in all other units in a comment. Numbers that sound
+/// does not contain are marked as missing.
 ///
 /// # Errors
-/// AirSim without air and diameter.
+/// The format of AirSim without air and diameter.
 pub fn export_text(rotor: &IdentifiedRotor, format: SimulatorFormat) -> Result<String, ModelError> {
     match format {
         SimulatorFormat::Gazebo => Ok(gazebo::write(rotor)),
@@ -198,10 +198,10 @@ pub fn export_text(rotor: &IdentifiedRotor, format: SimulatorFormat) -> Result<S
     }
 }
 
-/// Reads a simulator's model; the words in it tell whose it is.
+/// Reads the model of a simulator; its keywords identify the format.
 ///
 /// # Errors
-/// No known constant, a broken file, constants that no rotor has, rotors that differ.
+/// No known constant, an invalid file, a constant out of range, rotors with different constants.
 pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
     let has = |word: &str| text.contains(word);
     let (name, model) = if has("<motorConstant") {
@@ -223,7 +223,7 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
     } else {
         return Err(ModelError::Unknown);
     };
-    // a mass of zero is what files have where nobody knew one
+    // a mass of zero stands for an unknown mass
     let model = SimulatorModel { mass_kg: model.mass_kg.filter(|mass_kg| *mass_kg != 0.0), ..model };
     for (name, value) in [
         (name, Some(model.thrust_constant_n_s2)),

@@ -1,4 +1,4 @@
-//! JSON and YAML for programs that nobody has written yet: every unit, spelt out in the names.
+//! JSON and YAML for other programs, with the unit in every name.
 
 use super::flightmare::number_of;
 use super::header::{commented, missing_torque, number};
@@ -60,7 +60,7 @@ pub(super) fn write_yaml(rotor: &IdentifiedRotor) -> String {
     let optional = |value: Option<f64>| value.map_or("null".to_owned(), number);
     let mut text = commented(rotor, "#");
     for (name, value) in [
-        // a string of JSON is one of YAML
+        // a JSON string is a valid YAML string
         ("vehicle", serde_json::Value::from(all.vehicle).to_string()),
         ("thrust_constant_per_rotor_n_s2", number(all.thrust_constant_per_rotor_n_s2)),
         ("thrust_constant_per_rotor_n_rev_s2", number(all.thrust_constant_per_rotor_n_rev_s2)),

@@ -6,7 +6,7 @@ use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
 
-/// Its drones are quadrotors, all of them.
+/// All drones of gym-pybullet-drones are quadrotors.
 const ROTOR_COUNT: u32 = 4;
 
 pub(super) fn write(rotor: &IdentifiedRotor) -> String {

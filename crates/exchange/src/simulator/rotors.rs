@@ -1,4 +1,4 @@
-//! xacro of RotorS: properties, motor_constant in N/(rad/s)² (its files say kg·m/s², a slip), moment_constant in m.
+//! xacro of RotorS: properties, motor_constant in N/(rad/s)² (its files say kg·m/s² by mistake), moment_constant in m.
 
 use super::header::{missing_torque, number, plain, xml_comment};
 use super::xml::{parsed, rooted};
@@ -37,7 +37,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let rotors = document.descendants().filter(|node| node.tag_name().name() == "vertical_rotor").count();
     Ok(SimulatorModel {
         rotor_count: u32::try_from(rotors).ok().filter(|count| *count > 0),
-        // the frame's alone: rotors have a mass of their own
+        // the mass of the frame alone, since the rotors have masses of their own
         mass_kg: property("mass").map(|frame_kg| frame_kg + rotors as f64 * property("mass_rotor").unwrap_or(0.0)),
         propeller_diameter_m: property("radius_rotor").map(|radius_m| 2.0 * radius_m),
         moment_constant_m: property("moment_constant"),

@@ -1,4 +1,4 @@
-//! Every format is written and read back; its own number is checked by the arithmetic of a hover in its own unit.
+//! Every format is written and read back. The arithmetic of a hover in the unit of the format checks its number.
 
 use super::*;
 use std::f64::consts::TAU;
@@ -25,7 +25,7 @@ fn rotor() -> IdentifiedRotor {
     }
 }
 
-/// Digits that are written.
+/// Relative precision of exported numbers.
 const TOLERANCE: f64 = 1e-7;
 
 fn agrees(value: f64, expected: f64, what: &str) {
@@ -63,7 +63,7 @@ fn every_format_is_read_back() {
     }
 }
 
-/// Four rotors at the identified hover speed carry the weight, in each format's own unit and by its own formula.
+/// Four rotors at the measured hover speed carry the weight, in the unit and by the formula of each format.
 #[test]
 fn each_format_hovers_in_its_own_unit() {
     let rotor = rotor();
@@ -93,11 +93,11 @@ fn each_format_hovers_in_its_own_unit() {
         weight_n,
         "json",
     );
-    // comments are wrapped in XML, which holds no double hyphen
+    // an XML comment must not contain a double hyphen
     assert!(!export_text(&rotor, SimulatorFormat::Gazebo).unwrap().contains(" -- "));
 }
 
-/// As the programs ship them, shortened to what is read.
+/// Files of the programs, shortened to the parts that are read.
 #[test]
 fn models_as_they_are_shipped() {
     for (text, constant, rotors, mass_kg, moment_m) in [
@@ -203,7 +203,7 @@ fn what_is_no_model_says_why() {
     assert!(refusal.to_string().contains("--air-density-kg-m3"), "{refusal}");
 }
 
-/// What a file or a group may be called does not end the comment that it stands in.
+/// The name of a file or a group cannot end the comment around it.
 #[test]
 fn names_stay_in_their_comments() {
     let names = ["two\nlines", "ends in \\", "-->", "quote \" and \u{301} accent"];

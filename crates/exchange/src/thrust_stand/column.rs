@@ -1,16 +1,18 @@
-//! Headers → quantities and units.
+//! From headers to quantities and units.
 
 use crate::csv_text::CsvText;
 use crate::units::GRAVITY_STANDARD_M_S2;
 use csv::StringRecord;
 use std::f64::consts::TAU;
 
-/// A pound and an ounce.
+/// Kilograms in a pound.
 const POUND_KG: f64 = 0.453_592_37;
+/// Kilograms in an ounce.
 const OUNCE_KG: f64 = POUND_KG / 16.0;
+/// Metres in an inch.
 const INCH_M: f64 = 0.0254;
 
-/// What a column holds.
+/// Quantity of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Speed,
@@ -31,16 +33,16 @@ pub(super) struct Column {
     pub(super) index: usize,
     pub(super) header: String,
     pub(super) quantity: Option<Quantity>,
-    /// Whether it holds words, which make groups.
+    /// Whether the column has words, which make groups.
     pub(super) is_words: bool,
-    /// Whether it would be a thrust or a torque, had it a known unit.
+    /// Whether the column is a thrust or a torque without a known unit.
     pub(super) lacks_unit: bool,
-    /// SI units in one unit of the column.
+    /// SI units per unit of the column.
     pub(super) si_per_unit: f64,
 }
 
 impl Column {
-    /// The number in a row, in SI.
+    /// The number in a row, in SI units.
     pub(super) fn number(&self, csv: &CsvText, record: &StringRecord) -> Option<f64> {
         Some(csv.number(record.get(self.index)?)? * self.si_per_unit)
     }
@@ -67,19 +69,18 @@ pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Ve
     headers.iter().enumerate().map(column).collect()
 }
 
-/// What a header means.
+/// Meaning of a header.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Meaning {
-    /// A quantity, and how many SI units one of its units is.
+    /// A quantity, and the number of SI units per unit.
     Known(Quantity, f64),
-    /// A thrust or a torque in a unit that is not known, or in none.
+    /// A thrust or a torque with an unknown unit, or without a unit.
     UnknownUnit,
-    /// Nothing of interest.
+    /// Any other column.
     Other,
 }
 
-/// Words of columns that are made of a thrust or a speed and are neither: ratios, rates, settings, errors whose kind nobody
-/// knows.
+/// Words of columns that contain the name of a thrust or a speed but are neither: ratios, rates, settings, errors of an unknown kind.
 const NO_MEASUREMENT: [&str; 14] = [
     "efficiency",
     "acceleration",
@@ -98,7 +99,7 @@ const NO_MEASUREMENT: [&str; 14] = [
 ];
 /// Words of standard uncertainties.
 const STD: [&str; 9] = ["std", "stddev", "stdev", "sd", "sigma", "uncertainty", "unc", "u", "se"];
-/// What weighs something and does not hover.
+/// Words of masses that are parts and do not hover.
 const PARTS: [&str; 8] = ["motor", "prop", "propeller", "battery", "frame", "arm", "cell", "blade"];
 
 fn meaning_of(header: &str) -> Meaning {
@@ -117,7 +118,7 @@ fn meaning_of(header: &str) -> Meaning {
     }
     let has_force = has(&["thrust", "lift", "force"]);
     if has_force && has(&["w", "watt"]) {
-        // thrust for each watt
+        // thrust per watt
         return Meaning::Other;
     }
     if has_force || has(&["weight"]) && newtons_in(&words).is_some() {
@@ -154,7 +155,7 @@ fn meaning_of(header: &str) -> Meaning {
     }
 }
 
-/// The unit of force among the words that is one of its own.
+/// The unit of force that is a word of its own.
 fn newtons_in(words: &[&str]) -> Option<f64> {
     words.iter().find_map(|word| match *word {
         "n" => Some(1.0),
@@ -163,7 +164,7 @@ fn newtons_in(words: &[&str]) -> Option<f64> {
     })
 }
 
-/// The unit of mass among the words, or the force that weighs as much under standard gravity.
+/// The unit of mass, or the force of that mass under standard gravity.
 fn kilograms_in(words: &[&str]) -> Option<f64> {
     words.iter().find_map(|word| match *word {
         "gf" | "g" | "gram" | "grams" | "gramm" => Some(1e-3),
@@ -174,7 +175,7 @@ fn kilograms_in(words: &[&str]) -> Option<f64> {
     })
 }
 
-/// N·m in the unit of a torque: a force and a length, apart or in one word.
+/// Newton metres in the unit of a torque: a force and a length, in two words or one.
 fn torque_unit_n_m(words: &[&str]) -> Option<f64> {
     let joined = words.iter().find_map(|word| match *word {
         "nm" => Some(1.0),

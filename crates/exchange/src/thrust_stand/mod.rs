@@ -1,4 +1,4 @@
-//! Tables of speed and thrust: RCbenchmark's CSV, and anybody's with a header → speeds and forces in SI.
+//! From tables of speed and thrust to speeds and forces in SI units: CSV of RCbenchmark, or any CSV with a header.
 
 mod column;
 #[cfg(test)]
@@ -9,20 +9,20 @@ use column::{Column, Quantity, columns_of};
 use csv::StringRecord;
 use std::f64::consts::TAU;
 
-/// A row whose speed is below this share of the fastest stands still: idling rotors and offsets of the scale.
+/// Rows below this share of the fastest speed count as at rest: idling rotors and offsets of the scale.
 const AT_REST_SHARE: f64 = 0.1;
 
-/// What a row says of the force.
+/// The force of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StandForce {
     /// A thrust.
     Thrust {
-        /// Newtons.
+        /// Thrust.
         thrust_n: f64,
     },
     /// A mass that hovers.
     Mass {
-        /// Kilograms.
+        /// Mass.
         mass_kg: f64,
     },
 }
@@ -34,13 +34,13 @@ pub struct StandRow {
     pub line_number: u64,
     /// Shaft speed.
     pub speed_rad_s: f64,
-    /// Its standard uncertainty, where the table has it.
+    /// Standard uncertainty of the speed, where the table has it.
     pub speed_std_rad_s: Option<f64>,
     /// Thrust or mass.
     pub force: StandForce,
-    /// Standard uncertainty of that, in its unit.
+    /// Standard uncertainty of the force, in its unit.
     pub force_std: Option<f64>,
-    /// Power of the shaft, from a torque; else electrical power, from its column or volts and amperes.
+    /// Shaft power from a torque; else electrical power, from its column or from voltage and current.
     pub power_w: Option<f64>,
     /// Torque.
     pub torque_n_m: Option<f64>,
@@ -48,53 +48,59 @@ pub struct StandRow {
     pub voltage_v: Option<f64>,
 }
 
-/// The rows that belong to one rotor.
+/// The rows of one rotor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandGroup {
-    /// What its columns of words say; empty where there are none.
+    /// Content of its columns of words; empty without such columns.
     pub name: String,
     /// Its rows.
     pub rows: Vec<StandRow>,
 }
 
+/// A row and the name of its group.
+struct GroupedRow {
+    group: String,
+    row: StandRow,
+}
+
 /// A table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandTable {
-    /// Its groups, in the order in which they appear.
+    /// Its groups, in the order of their first rows.
     pub groups: Vec<StandGroup>,
-    /// Header of the column that is taken for the speed.
+    /// Header of the column with the speed.
     pub speed_column: String,
-    /// Header of the column that is taken for the force.
+    /// Header of the column with the force.
     pub force_column: String,
-    /// What was left out or turned round, and why.
+    /// Notes about rows that were left out or turned round.
     pub notes: Vec<String>,
 }
 
-/// Why a table cannot be used.
+/// Error in a table.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// No table, or a cell that is no number.
+    /// No table, or a cell that is not a number.
     #[error(transparent)]
     Csv(#[from] CsvError),
     /// A column is missing.
     #[error("no column holds {what}; the columns are: {columns}")]
     NoColumn {
-        /// What was looked for.
+        /// The missing quantity.
         what: &'static str,
         /// The headers.
         columns: String,
     },
-    /// A number that means nothing.
+    /// A number out of range.
     #[error("line {line}, column \"{column}\": {value}, {must_be}")]
     OutOfRange {
         /// Line, counted from 1.
         line: u64,
-        /// Header.
+        /// Header of its column.
         column: String,
-        /// What stands there.
+        /// The number.
         value: f64,
-        /// What is allowed.
+        /// Allowed numbers.
         must_be: &'static str,
     },
     /// No row with a turning rotor.
@@ -102,14 +108,14 @@ pub enum TableError {
     NoRow,
 }
 
-/// Reads a table, parted by commas, semicolons or tabs. Columns are known by their headers: a speed (rpm, rad/s, rev/s), a thrust
-/// (N, mN, g, gf, kg, kgf, lbf, ozf) or a mass that hovers (kg, g), their standard uncertainties (the same with "std"), power,
-/// volts, amperes, torque (N m, or a force and a length). Columns of words make groups. A unit that is not known is never guessed.
+/// Reads a table, separated by commas, semicolons or tabs. The headers give the quantities of the columns: a speed (rpm, rad/s, rev/s), a
+/// thrust (N, mN, g, gf, kg, kgf, lbf, ozf) or a mass that hovers (kg, g), their standard uncertainties (the same with "std"), power,
+/// voltage, current, torque (N m, or a force and a length). Columns of words make groups. An unknown unit is never guessed.
 ///
-/// A comma is a decimal one where a cell shows that it can be nothing else ("3,5").
+/// Commas are decimal commas where a cell proves it ("3,5").
 ///
 /// # Errors
-/// No header, no speed, no force, a cell that is no number, masses that are zero or negative, no usable row.
+/// No header, no speed, no force, a cell that is not a number, masses that are zero or negative, no usable row.
 pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let csv = CsvText::open(text)?;
     let records: Vec<StringRecord> = csv.records().collect::<Result<_, _>>()?;
@@ -121,10 +127,10 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         .or_else(|| best(&csv, &columns, &records, Quantity::Mass))
         .ok_or_else(|| missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"))?;
     let reader = RowReader { csv: &csv, columns: &columns, speed, force };
-    let mut rows: Vec<(String, StandRow)> = Vec::new();
+    let mut rows: Vec<GroupedRow> = Vec::new();
     for record in &records {
         if let Some(row) = reader.row(record)? {
-            rows.push((reader.group(record), row));
+            rows.push(GroupedRow { group: reader.group(record), row });
         }
     }
     let unit_missing = columns.iter().filter(|column| column.lacks_unit);
@@ -137,7 +143,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         return Err(TableError::NoRow);
     }
     let mut groups: Vec<StandGroup> = Vec::new();
-    for (name, row) in rows {
+    for GroupedRow { group: name, row } in rows {
         match groups.iter_mut().find(|group| group.name == name) {
             Some(group) => group.rows.push(row),
             None => groups.push(StandGroup { name, rows: vec![row] }),
@@ -146,14 +152,14 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     Ok(StandTable { groups, speed_column: speed.header.clone(), force_column: force.header.clone(), notes })
 }
 
-/// The column of a quantity that says most: an optical tachometer that was not connected has a column of zeros.
+/// The column of a quantity with most numbers other than zero: a missing optical tachometer leaves a column of zeros.
 fn best<'a>(csv: &CsvText, columns: &'a [Column], records: &[StringRecord], quantity: Quantity) -> Option<&'a Column> {
     let told = |column: &&Column| {
         let tells = |record: &&StringRecord| column.number(csv, record).is_some_and(|number| number.abs() > 0.0);
         records.iter().filter(tells).count()
     };
     let candidates: Vec<&Column> = columns.iter().filter(|column| column.quantity == Some(quantity)).collect();
-    // of equals the first
+    // with equal counts the first column wins
     candidates.into_iter().rev().max_by_key(told)
 }
 
@@ -165,7 +171,7 @@ struct RowReader<'a> {
 }
 
 impl RowReader<'_> {
-    /// A row with speed and force; none where either is empty.
+    /// A row with speed and force; `None` where either is empty.
     fn row(&self, record: &StringRecord) -> Result<Option<StandRow>, TableError> {
         let (Some(speed_rad_s), Some(force)) = (self.checked(self.speed, record)?, self.checked(self.force, record)?)
         else {
@@ -215,7 +221,7 @@ impl RowReader<'_> {
         }))
     }
 
-    /// A number in SI; none in an empty cell.
+    /// A number in SI units; `None` for an empty cell.
     fn checked(&self, column: &Column, record: &StringRecord) -> Result<Option<f64>, CsvError> {
         Ok(self.csv.number_at(column.index, record)?.map(|number| number * column.si_per_unit))
     }
@@ -226,38 +232,39 @@ impl RowReader<'_> {
     }
 }
 
-/// A stand that pulls shows negative thrust; a row against the sign of most is left out.
-fn turn_round(rows: &mut Vec<(String, StandRow)>, notes: &mut Vec<String>) {
+/// Reverses the sign of all thrusts of a stand that pulls, and leaves out rows against the sign of most others.
+fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     let thrust = |row: &StandRow| match row.force {
         StandForce::Thrust { thrust_n } => thrust_n,
         StandForce::Mass { mass_kg } => mass_kg,
     };
     let fastest = fastest_rad_s(rows);
-    let turning = rows.iter().filter(|(_, row)| row.speed_rad_s.abs() >= AT_REST_SHARE * fastest);
-    let sum: f64 = turning.map(|(_, row)| thrust(row)).sum();
+    let turning = rows.iter().map(|of| &of.row).filter(|row| row.speed_rad_s.abs() >= AT_REST_SHARE * fastest);
+    let sum: f64 = turning.map(thrust).sum();
     if sum < 0.0 {
         notes.push("thrust is negative: taken with the other sign (a matter of mounting)".to_owned());
-        for (_, row) in rows.iter_mut() {
+        for GroupedRow { row, .. } in rows.iter_mut() {
             if let StandForce::Thrust { thrust_n } = &mut row.force {
                 *thrust_n = -*thrust_n;
             }
         }
     }
-    for (_, row) in rows.iter_mut() {
+    for GroupedRow { row, .. } in rows.iter_mut() {
         row.speed_rad_s = row.speed_rad_s.abs();
     }
     let against = |row: &StandRow| thrust(row) <= 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest;
-    for (_, row) in rows.iter().filter(|(_, row)| against(row)) {
+    for row in rows.iter().map(|of| &of.row).filter(|row| against(row)) {
         let what = "thrust is zero or against the sign of the others";
         notes.push(format!("line {} is left out: {what}", row.line_number));
     }
-    rows.retain(|(_, row)| !against(row));
+    rows.retain(|of| !against(&of.row));
 }
 
-fn leave_out_resting(rows: &mut Vec<(String, StandRow)>, notes: &mut Vec<String>) {
+/// Leaves out rows at rest.
+fn leave_out_resting(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     let fastest = fastest_rad_s(rows);
     let before = rows.len();
-    rows.retain(|(_, row)| row.speed_rad_s > 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest);
+    rows.retain(|of| of.row.speed_rad_s > 0.0 && of.row.speed_rad_s >= AT_REST_SHARE * fastest);
     if rows.len() < before {
         let share = 100.0 * AT_REST_SHARE;
         let count = before - rows.len();
@@ -267,6 +274,6 @@ fn leave_out_resting(rows: &mut Vec<(String, StandRow)>, notes: &mut Vec<String>
     }
 }
 
-fn fastest_rad_s(rows: &[(String, StandRow)]) -> f64 {
-    rows.iter().map(|(_, row)| row.speed_rad_s.abs()).fold(0.0, f64::max)
+fn fastest_rad_s(rows: &[GroupedRow]) -> f64 {
+    rows.iter().map(|of| of.row.speed_rad_s.abs()).fold(0.0, f64::max)
 }

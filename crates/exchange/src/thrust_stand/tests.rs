@@ -1,4 +1,4 @@
-//! Tables as stands write them, and as they should not be.
+//! Valid and invalid tables.
 
 use super::*;
 
@@ -70,7 +70,7 @@ fn semicolons_tabs_and_decimal_commas() {
     for text in ["rpm;thrust_n\n1000;0,1\n2000;0,4\n", "rpm\tthrust_n\n1000\t0.1\n2000\t0.4\n"] {
         assert_eq!(thrusts(&table_from_csv(text).unwrap()), [0.1, 0.4], "{text}");
     }
-    // thousands, or a decimal comma with three places: nobody knows
+    // "3,610" is ambiguous: a thousands separator, or a decimal comma with three decimals
     let message = table_from_csv("rpm;thrust_n\n1,000;1\n").unwrap_err().to_string();
     assert!(message.contains("\"1,000\" is no number"), "{message}");
 }

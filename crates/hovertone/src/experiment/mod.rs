@@ -1,5 +1,30 @@
-//! The experiment file: what was flown, with which masses, and how it is to be analysed. Data only: where the recordings
-//! are and how they are read is the caller's.
+//! The experiment file: vehicle, loads with their masses, and settings of the analysis. It is data only; the caller finds and reads the
+//! recordings.
+//!
+//! ```
+//! use hovertone::experiment::ExperimentFile;
+//!
+//! let file: ExperimentFile = toml::from_str(
+//!     r#"
+//!     [vehicle]
+//!     preset = "ardrone"
+//!     mass_kg = 0.413
+//!
+//!     [[load]]
+//!     name = "no hull"
+//!     recordings = ["no_hull/*.mov"]
+//!
+//!     [[load]]
+//!     name = "small hull"
+//!     added_mass_kg = 0.031
+//!     recordings = ["small_hull/*.mov"]
+//!     "#,
+//! )?;
+//! let experiment = file.resolve(None)?;
+//! assert_eq!(experiment.config.tone.order.lines_per_turn(), 69.0); // the gear mesh of the preset
+//! assert!((experiment.loads[1].force.newtons() - 0.444 * 9.80665).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod resolve;
 #[cfg(test)]
@@ -12,30 +37,30 @@ use hovertone_thrust::{Air, Force, ThrustSettings, UncertaintyInputs, VehicleMod
 use hovertone_vehicle::{ConfigError, Gear, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
-/// An experiment file as it is written. Unknown keys are refused.
+/// An experiment file as written. Unknown keys are refused.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentFile {
-    /// What flew.
+    /// The vehicle.
     pub vehicle: VehicleSection,
-    /// Which tone is followed.
+    /// The tone to follow.
     #[serde(default)]
     pub tone: ToneSection,
-    /// How a hover is cut into samples.
+    /// Division of a hover into samples.
     #[serde(default)]
     pub samples: SampleConfig,
     /// Frames and their spectra.
     #[serde(default)]
     pub spectrogram: SpectrogramConfig,
-    /// How ridges are drawn.
+    /// Search of the ridges.
     #[serde(default)]
     pub ridge: RidgeConfig,
-    /// How hovering is found.
+    /// Search of the hover.
     #[serde(default)]
     pub hover: HoverConfig,
     /// The air, for the thrust coefficients.
     pub air: Option<Air>,
-    /// How large the effects may be that no recording shows.
+    /// Limits of the effects that no recording shows.
     #[serde(default)]
     pub uncertainty: UncertaintyInputs,
     /// The loads.
@@ -43,14 +68,15 @@ pub struct ExperimentFile {
     pub loads: Vec<LoadSection>,
 }
 
-/// What flew: a preset, a simulator's model, whose numbers win over the preset's, or its own numbers, which win over both.
+/// The vehicle: a preset, a simulator's model, and numbers of its own. Own numbers have priority over the model, the model over the
+/// preset.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VehicleSection {
     /// Name of a preset.
     pub preset: Option<String>,
-    /// Name of a simulator's model, from the folder of the experiment file: rotors, mass and diameter as far as it has them,
-    /// and a constant to be compared with what is heard.
+    /// File name of a simulator's model, relative to the folder of the experiment file. It supplies number of rotors, mass and diameter
+    /// where it has them, and a constant for comparison.
     pub model: Option<String>,
     /// Number of rotors.
     pub rotors: Option<u32>,
@@ -66,22 +92,21 @@ pub struct VehicleSection {
     pub mass_std_kg: Option<f64>,
     /// Local gravity …
     pub gravity_m_s2: Option<f64>,
-    /// Its standard uncertainty
+    /// … and its standard uncertainty,
     pub gravity_std_m_s2: Option<f64>,
-    /// … or where it was flown: latitude
+    /// or the place of the flights: latitude
     pub latitude_deg: Option<f64>,
     /// and height above the sea.
     pub height_m: Option<f64>,
 }
 
-/// The order of a tone: a number, or `"auto"` for the vehicle's own tone (its gear mesh if it has a gear, else its blade
-/// pass).
+/// The order of a tone: a number, or `"auto"` for the tone of the vehicle (its gear mesh if it has a gear, else its blade pass).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "a number of lines per turn, or \"auto\"")]
 pub enum OrderSetting {
     /// Lines per turn.
     Lines(Order),
-    /// The vehicle's own tone.
+    /// The tone of the vehicle.
     #[default]
     #[serde(with = "auto_word")]
     Auto,
@@ -102,17 +127,17 @@ mod auto_word {
     }
 }
 
-/// Which tone is followed.
+/// The tone to follow.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ToneSection {
     /// Its order.
     pub order: OrderSetting,
-    /// How many harmonics are followed.
+    /// Number of harmonics to follow.
     pub harmonics: Option<u32>,
-    /// Band of the first harmonic, low and high edge.
+    /// Band of the first harmonic, lower and upper edge.
     pub band_hz: Option<(f64, f64)>,
-    /// Half width of a found band as a share of its middle.
+    /// Half width of a band around a found tone, as a share of its centre.
     pub band_half_width_share: Option<f64>,
 }
 
@@ -120,68 +145,68 @@ pub struct ToneSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadSection {
-    /// Its name.
+    /// Name of the load.
     pub name: String,
-    /// A hover: mass added to the vehicle's.
+    /// For a hover: mass that is added to the vehicle.
     pub added_mass_kg: Option<f64>,
-    /// A bench run: thrust of the running rotors.
+    /// For a bench run: thrust of the running rotors.
     pub thrust_n: Option<f64>,
-    /// Standard uncertainty of that thrust; where absent, that of a scale, `mass_std_kg` times standard gravity.
+    /// Standard uncertainty of that thrust; where absent, `mass_std_kg` times standard gravity, as for a scale.
     pub thrust_std_n: Option<f64>,
-    /// Rotors that run; all of them in a hover.
+    /// Number of running rotors; in a hover all of them.
     pub rotors_running: Option<u32>,
-    /// Power that they take together, for the figure of merit.
+    /// Total power of the running rotors, for the figure of merit.
     pub power_w: Option<f64>,
-    /// Its recordings: names or patterns.
+    /// Names or patterns of its recordings.
     pub recordings: Vec<String>,
-    /// Start of the part to use, in every recording of this load.
+    /// Start of the used part, in every recording of this load.
     pub from_s: Option<f64>,
-    /// End of the part to use.
+    /// End of the used part.
     pub to_s: Option<f64>,
 }
 
-/// An experiment with everything settled.
+/// A resolved experiment: presets, defaults and checks are applied.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Experiment {
-    /// Name of what flew.
+    /// Name of the vehicle.
     pub vehicle_name: String,
     /// Number of rotors.
     pub rotor_count: u32,
     /// Diameter of the propellers, where known.
     pub propeller_diameter_m: Option<f64>,
-    /// Settings of the analysis, the same for all loads but for their spans.
+    /// Settings of the analysis, equal for all loads except for their spans.
     pub config: Config,
-    /// The simulator's model that is compared with what is heard, where one is named.
+    /// The simulator's model for comparison, if there is one.
     pub model: Option<VehicleModel>,
-    /// Whether the mass is that of a scale; a preset's or a model's is another specimen's.
+    /// Whether the vehicle was weighed. The mass of a preset or a model belongs to another specimen.
     pub is_weighed: bool,
     /// The air, where known.
     pub air: Option<Air>,
-    /// How large the effects may be that no recording shows.
+    /// Limits of the effects that no recording shows.
     pub uncertainty: UncertaintyInputs,
     /// The loads.
     pub loads: Vec<ExperimentLoad>,
 }
 
-/// A load with everything settled.
+/// A resolved load.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExperimentLoad {
-    /// Its name.
+    /// Name of the load.
     pub name: String,
-    /// What the rotors balance.
+    /// Force that the rotors balance.
     pub force: Force,
-    /// How many rotors balance it.
+    /// Number of rotors that balance it.
     pub rotors_running: u32,
-    /// Power that they take together, where known.
+    /// Total power of these rotors, where known.
     pub power_w: Option<f64>,
     /// Names or patterns of its recordings.
     pub recordings: Vec<String>,
-    /// Which part of them is used.
+    /// Used part of the recordings.
     pub span: SpanConfig,
 }
 
 impl Experiment {
-    /// What a thrust constant needs to be known beside its loads.
+    /// The settings of the thrust constant.
     pub fn thrust_settings(&self) -> ThrustSettings {
         ThrustSettings {
             propeller_diameter_m: self.propeller_diameter_m,
@@ -195,57 +220,57 @@ impl Experiment {
 }
 
 impl ExperimentLoad {
-    /// The settings for a recording of this load.
+    /// The settings of the analysis for a recording of this load.
     pub fn config(&self, experiment: &Experiment) -> Config {
         let rotors = RotorsConfig { count: self.rotors_running, ..experiment.config.rotors };
         let mut budget = experiment.config.budget;
         if matches!(self.force, Force::Thrust { .. }) {
-            budget.drift_m_max = 0.0; // a bench stands still
+            budget.drift_m_max = 0.0; // a bench does not move
         }
         Config { span: self.span, rotors, budget, ..experiment.config.clone() }
     }
 }
 
-/// What is wrong with an experiment.
+/// An error in an experiment.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
     /// A preset that does not exist.
     #[error("there is no vehicle preset {name:?}; `hovertone vehicles` lists them")]
     UnknownPreset {
-        /// What was asked for.
+        /// The given name.
         name: String,
     },
-    /// Something that cannot be guessed.
+    /// A missing entry without a default.
     #[error("{what} is missing: {hint}")]
     Missing {
-        /// What.
+        /// The missing entry.
         what: String,
-        /// Where to write it.
+        /// Advice where to write it.
         hint: &'static str,
     },
-    /// A number that means nothing.
+    /// A number out of range.
     #[error("{name} = {value}, {must_be}")]
     OutOfRange {
-        /// Which number, with the load's name where it belongs to one.
+        /// Name of the number, with the name of its load.
         name: String,
-        /// What was given.
+        /// The given value.
         value: f64,
-        /// What is allowed.
+        /// Allowed values.
         must_be: &'static str,
     },
-    /// Things that exclude each other.
+    /// Entries that exclude each other.
     #[error("{what}: {hint}")]
     Contradiction {
-        /// What.
+        /// The entries.
         what: String,
-        /// What to do.
+        /// Advice.
         hint: &'static str,
     },
-    /// A setting of the analysis.
+    /// An error in a setting of the analysis.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// A quantity.
+    /// A quantity out of range.
     #[error(transparent)]
     Quantity(#[from] QuantityError),
 }

@@ -1,4 +1,4 @@
-//! The experiment file, settled: preset and own numbers, gravity, the tone's order, each load's force.
+//! From the experiment file to a resolved experiment: preset and own numbers, gravity, the order of the tone, the force of each load.
 
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
 use hovertone_analysis::Method;
@@ -6,15 +6,19 @@ use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
 use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset};
 
-/// A mass this many times off the preset's or the model's was written in grams, or is another vehicle's.
+/// Largest ratio between the given mass and the mass of the preset or the model. Beyond it the mass is in grams, or of another vehicle.
+/// *Decision.*
 const MASS_FACTOR_MAX: f64 = 10.0;
-/// Gravity is 9.764 m/s² on the highest equatorial mountain and 9.834 at the poles.
+/// Smallest gravity, m/s². On the highest equatorial mountain it is 9.764. *Physics.*
 const GRAVITY_M_S2_MIN: f64 = 9.70;
+/// Largest gravity, m/s². At the poles it is 9.832. *Physics.*
 const GRAVITY_M_S2_MAX: f64 = 9.90;
-/// Standard uncertainty of a kitchen scale that shows whole grams.
+/// Default standard uncertainty of a mass, kg: a kitchen scale that shows whole grams. *Decision.*
 const MASS_STD_KG: f64 = 0.0005;
+/// Latitude of a pole, degrees. *Physics.*
+const LATITUDE_DEG_MAX: f64 = 90.0;
 
-/// What stands behind the file's own numbers.
+/// Sources of the numbers that the file leaves out.
 #[derive(Clone, Copy)]
 struct Known<'a> {
     preset: Option<&'a Vehicle>,
@@ -22,7 +26,8 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// Rotors of the preset or of the model. A model may be a fragment with one rotor of several, so the two must agree.
+    /// Number of rotors of the preset or of the model. The two must agree, since the file of a model can be a fragment with one of
+    /// several rotors.
     fn rotor_count(&self) -> Result<Option<u32>, ExperimentError> {
         let of_preset = self.preset.map(|preset| preset.rotor_count.value);
         match (of_preset, self.model.and_then(|model| model.rotor_count)) {
@@ -46,11 +51,11 @@ impl Known<'_> {
 }
 
 impl ExperimentFile {
-    /// Settles everything: preset, model and own numbers, gravity, the tone's order, each load's force. `model` is what stands in
-    /// the file that `vehicle.model` names.
+    /// Resolves preset, model and own numbers, gravity, the order of the tone and the force of each load. `model` is the content of the
+    /// file that `vehicle.model` names.
     ///
     /// # Errors
-    /// What is missing, means nothing or contradicts itself.
+    /// An entry that is missing, out of range or in contradiction to another one.
     pub fn resolve(&self, model: Option<VehicleModel>) -> Result<Experiment, ExperimentError> {
         if self.vehicle.model.is_some() != model.is_some() {
             return Err(missing("the vehicle's model", "give the file that vehicle.model names"));
@@ -79,7 +84,7 @@ impl ExperimentFile {
                 ..BudgetConfig::default()
             },
             method: Method::for_rotors(rotor_count),
-            wants_all_methods: true,
+            all_methods: true,
             ..Config::for_tone(self.resolve_tone(preset)?)
         };
         config.check()?;
@@ -94,7 +99,7 @@ impl ExperimentFile {
             let name = "vehicle.propeller_diameter_m".to_owned();
             return Err(ExperimentError::OutOfRange { name, value, must_be: "allowed 0.01 to 10: it is in metres" });
         }
-        // the place that gives gravity also gives the air's pressure, where no barometer was read
+        // the height of the place also gives the pressure, where the file has none
         let air = self.air.map(|air| Air { height_m: air.height_m.or(self.vehicle.height_m), ..air });
         if let Some(air) = air {
             air.check()?;
@@ -200,7 +205,7 @@ impl ExperimentFile {
             mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
         let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
             (Some(gravity), None, None) => Gravity::given(gravity),
-            (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= 90.0 => {
+            (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= LATITUDE_DEG_MAX => {
                 Gravity::at_place(latitude_deg, height_m.unwrap_or(0.0))
             }
             (None, None, None) => Gravity::UNKNOWN,
@@ -246,7 +251,7 @@ impl ExperimentFile {
 }
 
 impl ExperimentFile {
-    /// Loads are told apart by their names.
+    /// Refuses loads with equal or empty names.
     fn check_names(&self) -> Result<(), ExperimentError> {
         for (index, load) in self.loads.iter().enumerate() {
             if load.name.trim().is_empty() || self.loads[..index].iter().any(|before| before.name == load.name) {
@@ -263,7 +268,7 @@ impl ExperimentFile {
         not_negative("vehicle.mass_std_kg", self.vehicle.mass_std_kg.unwrap_or(MASS_STD_KG))
     }
 
-    /// Standard uncertainty of a thrust that is read from the same scale.
+    /// Standard uncertainty of a thrust that was read from the same scale.
     fn scale_std_n(&self) -> Result<f64, ExperimentError> {
         Ok(self.mass_std_kg()? * GRAVITY_STANDARD_M_S2)
     }
@@ -301,7 +306,7 @@ fn not_negative(name: &str, value: f64) -> Result<f64, ExperimentError> {
     }
 }
 
-/// Refuses a model whose numbers mean nothing.
+/// Refuses a model with numbers out of range.
 fn check_model(model: &VehicleModel) -> Result<(), ExperimentError> {
     let is_positive = |value: f64| value.is_finite() && value > 0.0;
     let refuse = |name: &str, value: f64, must_be| {

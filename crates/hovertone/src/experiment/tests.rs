@@ -1,4 +1,4 @@
-//! Experiment files as people write them, right and wrong.
+//! Valid and invalid experiment files.
 
 use super::*;
 use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
@@ -153,7 +153,7 @@ fn a_model_fills_what_the_file_leaves_out_and_wins_over_the_preset() {
     let experiment = resolve(&own, model()).expect("a good file");
     assert_eq!((experiment.rotor_count, experiment.loads[0].force.mass_kg()), (6, Some(1.6)));
     assert!(experiment.is_weighed);
-    // a fragment with one rotor's plugin makes no quadrotor a monocopter
+    // a fragment with the plugin of one rotor does not make a quadrotor a single-rotor vehicle
     let fragment = VehicleModel { rotor_count: Some(1), ..model() };
     let message = resolve(&text, fragment.clone()).expect_err("rotors").to_string();
     assert!(message.contains("4 rotors, the model 1") && message.contains("vehicle.rotors"), "{message}");

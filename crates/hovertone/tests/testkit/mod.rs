@@ -51,7 +51,7 @@ pub fn steady(speed_rev_s: f64, length_s: f64, noise_std: f64) -> Vec<f32> {
 /// Every method is examined.
 pub fn config(order: f64) -> Config {
     let tone = ToneConfig::of_order(Order::new(order).expect("an order"));
-    Config { wants_all_methods: true, ..Config::for_tone(tone) }
+    Config { all_methods: true, ..Config::for_tone(tone) }
 }
 
 pub fn analyse(samples: Vec<f32>, config: &Config) -> SpeedAnalysis {

@@ -1,4 +1,4 @@
-//! What an `esds` box says about an AAC stream, and whether a decoder without SBR plays it at half rate.
+//! Content of an `esds` box about an AAC stream, and whether a decoder without SBR plays it at half rate.
 //!
 //! The box holds MPEG-4 descriptors (ISO/IEC 14496-1 section 7.2.6) around the AudioSpecificConfig (ISO/IEC 14496-3
 //! section 1.6.2.1). HE-AAC stores a core at half the rate of the sound and the upper half of the band as side
@@ -7,14 +7,14 @@
 
 use super::boxes::be_u16;
 
-/// An HE-AAC track: a decoder that ignores SBR delivers `core_rate_hz` and nothing above half of that.
+/// An HE-AAC track. A decoder that ignores SBR produces `core_rate_hz` and nothing above half of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HalfRateAac {
-    /// Rate of the AAC core, what a decoder without SBR delivers.
+    /// Rate of the AAC core, the output rate of a decoder without SBR.
     pub(crate) core_rate_hz: f64,
-    /// Rate of the sound as it was recorded, what a decoder with SBR delivers.
+    /// Rate of the recorded sound, the output rate of a decoder with SBR.
     pub(crate) output_rate_hz: f64,
-    /// Two channels made from one coded channel: a decoder without it delivers one channel.
+    /// Parametric stereo: two channels from one coded channel. A decoder without it produces one channel.
     pub(crate) has_parametric_stereo: bool,
 }
 
@@ -31,18 +31,18 @@ pub(super) struct Esds {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct AudioSpecificConfig {
     pub(super) core_rate_hz: u32,
-    /// 1 to 8, or 0 where the stream itself says.
+    /// Channel configuration 1 to 8, or 0 where the stream itself defines it.
     pub(super) channel_count: u16,
     pub(super) spectral_band: SpectralBand,
     pub(super) has_parametric_stereo: bool,
 }
 
-/// How the configuration speaks of SBR.
+/// Signalling of SBR in the configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SpectralBand {
-    /// Not mentioned: the track may still have it.
+    /// Not mentioned: the track can still use it.
     Unsaid,
-    /// Said to be absent.
+    /// Stated to be absent.
     Absent,
     /// Present, with the rate of the decoded sound.
     Present { output_rate_hz: u32 },

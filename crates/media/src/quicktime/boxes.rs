@@ -1,4 +1,4 @@
-//! Walking boxes: the length-and-name records every QuickTime and MP4 file is made of.
+//! Iteration over boxes: the records of length and name that every QuickTime and MP4 file consists of.
 //!
 //! ISO/IEC 14496-12 section 4.2 calls them boxes, the QuickTime File Format calls them atoms. The header is a big-endian
 //! 32-bit size that includes the header, then a four-character type. Size 1 means that a 64-bit size follows the type,
@@ -11,23 +11,23 @@ use super::QuicktimeError;
 /// The name of a box, a codec or a handler: four bytes, mostly ASCII.
 pub(super) type FourCc = [u8; 4];
 
-/// Largest movie index that is read into memory. Two hours of video at 60 frames per second with its sound need about
-/// 10 MB; a file that asks for more than this is not a recording.
+/// Largest movie index that is read into memory, bytes. Two hours of video at 60 frames per second with sound need about 10 MB; a larger
+/// index belongs to no recording.
 const MOOV_BYTES_MAX: u64 = 256 << 20;
 
-/// Boxes to pass over while looking for `moov`. A file of fragments has a few per second of video, and those start with
-/// their `moov`; a hostile file can hold one for every eight bytes.
+/// Largest number of boxes before `moov`. A fragmented file has a few per second of video, but it starts with `moov`; a malicious file
+/// can have one for every eight bytes.
 const TOP_LEVEL_BOXES_MAX: usize = 100_000;
 
-/// What was found at the top level of the file.
+/// The top level of the file.
 pub(super) enum TopLevel {
-    /// The first bytes are not a box this family of formats starts with.
+    /// The first bytes are no box with which a file of this family starts.
     NotThisFormat,
     /// The payload of `moov`.
     Moov(Vec<u8>),
 }
 
-/// The types a QuickTime or MP4 file may start with. Files older than 2001 have no `ftyp`.
+/// The types with which a QuickTime or MP4 file can start. Files from before 2001 have no `ftyp`.
 fn may_start_a_file(kind: FourCc) -> bool {
     matches!(
         &kind,
@@ -46,7 +46,7 @@ fn may_start_a_file(kind: FourCc) -> bool {
     )
 }
 
-/// Walks the top level of a file of `file_len` bytes and reads the payload of the first `moov`, wherever it stands.
+/// Reads the top level of a file of `file_len` bytes up to the first `moov`, wherever it is, and returns its payload.
 pub(super) fn find_moov<R: Read + Seek>(reader: &mut R, file_len: u64) -> Result<TopLevel, QuicktimeError> {
     let mut offset = 0_u64;
     for index in 0..TOP_LEVEL_BOXES_MAX {
@@ -91,7 +91,7 @@ pub(super) fn find_moov<R: Read + Seek>(reader: &mut R, file_len: u64) -> Result
             }
             let len =
                 usize::try_from(payload_len).map_err(|_| QuicktimeError::MoovTooLarge { size, max: MOOV_BYTES_MAX })?;
-            // The length is inside the file and below the limit, so the file's own size bounds this allocation.
+            // The length is inside the file and below the limit, which bounds this allocation.
             let mut payload = vec![0_u8; len];
             reader.read_exact(&mut payload)?;
             return Ok(TopLevel::Moov(payload));
@@ -153,7 +153,7 @@ pub(super) fn find<'a>(payload: &'a [u8], kind: &FourCc) -> Result<Option<&'a [u
     Ok(None)
 }
 
-/// [`find`] for a box that has to be there.
+/// [`find`] for a mandatory box.
 pub(super) fn require<'a>(payload: &'a [u8], kind: &FourCc) -> Result<&'a [u8], QuicktimeError> {
     find(payload, kind)?.ok_or(QuicktimeError::MissingBox { kind: *kind })
 }
@@ -162,7 +162,7 @@ fn size_and_kind(header: &[u8]) -> (u32, FourCc) {
     (be_u32(header, 0).unwrap_or(0), four_cc(header, 4).unwrap_or_default())
 }
 
-/// `N` bytes at `at`, if they are there.
+/// `N` bytes at `at`, if they exist.
 fn bytes_at<const N: usize>(bytes: &[u8], at: usize) -> Option<[u8; N]> {
     bytes.get(at..at.checked_add(N)?)?.try_into().ok()
 }

@@ -1,4 +1,4 @@
-//! The edit list: which part of a track is played, and when.
+//! The edit list: the played part of a track, and its time.
 //!
 //! ISO/IEC 14496-12 section 8.6.6 (`elst`), QuickTime File Format "Edit list atom". Each entry has a duration in the
 //! movie's timescale, a start in the track's own timescale (-1: nothing is played, the track waits) and a speed. Encoders
@@ -6,14 +6,14 @@
 
 use super::boxes::{be_u16, be_u32, be_u64};
 
-/// What the edit list of a track comes to.
+/// Meaning of the edit list of a track.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Edits {
     /// Movie ticks before the first frame is heard.
     pub(super) wait_movie_ticks: u64,
-    /// The first part that is played. `None` without an edit list, or with nothing but waiting in it.
+    /// The first played part. `None` without an edit list, or with waiting times only.
     pub(super) played: Option<Played>,
-    /// The list goes on in a way that one start and one length do not describe: more parts, or a speed other than 1.
+    /// The list has more than one start and one length: more parts, or a speed other than 1.
     pub(super) has_more: bool,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Played {
     pub(super) length_movie_ticks: u64,
 }
 
-/// Reads the payload of `elst`. Entries the box has no room for are not there.
+/// Reads the payload of `elst`. Entries beyond its end are ignored.
 pub(super) fn edits_from_elst(payload: &[u8]) -> Edits {
     let is_64_bit = payload.first() == Some(&1);
     let entry_len = if is_64_bit { 20 } else { 12 };

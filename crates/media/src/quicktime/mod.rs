@@ -1,12 +1,12 @@
-//! QuickTime and MP4 (ISO/IEC 14496-12) as far as the sound in them needs it.
+//! The parts of QuickTime and MP4 (ISO/IEC 14496-12) that the sound needs.
 //!
-//! symphonia decodes the packets of these files; this module reads what it does not tell: when the sound starts and
-//! which frames are priming (edit lists), whether an AAC track plays at half rate, whether the file is shorter than its
-//! tables say. Uncompressed tracks are read here altogether: symphonia delivers them one frame per packet (a thirtieth of
-//! the speed) and takes big-endian `in24` for little-endian.
+//! Symphonia decodes the packets of these files. This module reads what Symphonia does not provide: the start of the sound and the
+//! priming frames (edit lists), whether an AAC track plays at half rate, whether the file is shorter than its tables state. It reads
+//! uncompressed tracks completely: Symphonia delivers them one frame per packet (a thirtieth of the speed) and takes big-endian `in24`
+//! for little-endian.
 //!
-//! [`read_movie`] finds the index (`boxes`), reads each sound track of it (`track`, `sound_description`, `aac_config`,
-//! `edits`, `sample_table`), and `pcm` reads the frames.
+//! [`read_movie`] finds the index (`boxes`) and reads each sound track in it (`track`, `sound_description`, `aac_config`, `edits`,
+//! `sample_table`); `pcm` reads the frames.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -35,7 +35,7 @@ use boxes::{Boxes, TopLevel, find, find_moov};
 pub(crate) struct Movie {
     /// The sound tracks in the order of the file.
     pub(crate) tracks: Vec<AudioTrack>,
-    /// The samples come in fragments (`mvex`, `moof`), and the tables say little or nothing.
+    /// The samples are in fragments (`mvex`, `moof`), and the tables are mostly empty.
     pub(crate) is_fragmented: bool,
     /// There are tracks other than sound: video, text, time code.
     pub(crate) has_other_tracks: bool,
@@ -44,23 +44,23 @@ pub(crate) struct Movie {
 }
 
 impl Movie {
-    /// Where the last byte of sound ends by the tables. Beyond the end of the file: the file was cut.
+    /// End of the last byte of sound by the tables. It lies beyond the end of a truncated file.
     #[allow(dead_code, reason = "part of the module's interface; the media crate compares frames instead so far")]
     pub(crate) fn tables_end(&self) -> u64 {
         self.tracks.iter().map(AudioTrack::tables_end).max().unwrap_or(0)
     }
 
-    /// Bytes by which the file is shorter than its sound tables say.
+    /// Bytes by which the file is shorter than its sound tables state.
     #[allow(dead_code, reason = "part of the module's interface; the media crate compares frames instead so far")]
     pub(crate) fn missing_bytes(&self) -> u64 {
         self.tables_end().saturating_sub(self.file_len)
     }
 }
 
-/// Reads the index of a QuickTime or MP4 file. `None` for a file that is neither.
+/// Reads the index of a QuickTime or MP4 file. `None` for any other file.
 ///
 /// # Errors
-/// A file that starts like one and has no usable index: see [`QuicktimeError`].
+/// A file of this kind without a usable index; see [`QuicktimeError`].
 pub(crate) fn read_movie<R: Read + Seek>(reader: &mut R) -> Result<Option<Movie>, QuicktimeError> {
     let file_len = reader.seek(SeekFrom::End(0))?;
     let moov = match find_moov(reader, file_len)? {
@@ -86,35 +86,35 @@ pub(crate) fn read_movie<R: Read + Seek>(reader: &mut R) -> Result<Option<Movie>
     Ok(Some(movie))
 }
 
-/// HE-AAC by an AudioSpecificConfig from elsewhere (Matroska), in a track whose header says `container_rate_hz`.
+/// HE-AAC by an AudioSpecificConfig from another container (Matroska), in a track whose header has `container_rate_hz`.
 pub(crate) fn half_rate_from_config(config: &[u8], container_rate_hz: f64) -> Option<HalfRateAac> {
     aac_config::audio_specific_config(config)?.half_rate(container_rate_hz)
 }
 
-/// Why the index of a QuickTime or MP4 file cannot be used.
+/// Reason why the index of a QuickTime or MP4 file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum QuicktimeError {
     /// Reading failed.
     #[error("the file cannot be read")]
     Io(#[from] io::Error),
-    /// The index is written last by most recorders: it is missing when the recording was cut off.
+    /// Most recorders write the index last, so it is missing in a truncated recording.
     #[error("the MP4/MOV file has no index (moov box){}: {NO_MOOV_WHY}", cut_in_text(*cut_in))]
     NoMoov {
-        /// The box that goes on beyond the end of the file.
+        /// The box that continues beyond the end of the file.
         cut_in: Option<[u8; 4]>,
     },
     /// The file ends inside its index.
     #[error("the MP4/MOV file ends inside its index: the moov box takes {size} bytes and {room} are left")]
     MoovCut {
-        /// Bytes the box says it takes.
+        /// Stated size of the box in bytes.
         size: u64,
-        /// Bytes left in the file.
+        /// Remaining bytes of the file.
         room: u64,
     },
-    /// An index of a size no recording has.
+    /// An index that is too large for any recording.
     #[error("the index of the MP4/MOV file (moov box) takes {size} bytes, more than the {max} that are read")]
     MoovTooLarge {
-        /// Bytes the box says it takes.
+        /// Stated size of the box in bytes.
         size: u64,
         /// The limit.
         max: u64,
@@ -124,17 +124,17 @@ pub(crate) enum QuicktimeError {
         "the MOV file has a compressed index (cmov box), which is not supported: save it again with another program"
     )]
     CompressedMoov,
-    /// A box that is smaller than its header or larger than what holds it.
+    /// A box that is smaller than its header or larger than its container.
     #[error("the MP4/MOV file is damaged: its {} box takes {size} bytes where {room} are left", name(*kind))]
     BoxSize {
         /// Type of the box.
         kind: [u8; 4],
-        /// Bytes the box says it takes.
+        /// Stated size of the box in bytes.
         size: u64,
-        /// Bytes that are left where it stands.
+        /// Remaining bytes at its position.
         room: u64,
     },
-    /// A box that every file has.
+    /// A mandatory box is missing.
     #[error("the MP4/MOV file is damaged: a sound track has no {} box", name(*kind))]
     MissingBox {
         /// Type of the box.
@@ -146,10 +146,10 @@ pub(crate) enum QuicktimeError {
         /// The part.
         what: &'static str,
     },
-    /// A compressed track given to the reader of uncompressed ones.
+    /// A compressed track in the reader of uncompressed ones.
     #[error("the codec {} is not uncompressed sound", name(*codec))]
     NotPcm {
-        /// The codec's name in the sample description.
+        /// Name of the codec in the sample description.
         codec: [u8; 4],
     },
 }
@@ -161,7 +161,7 @@ fn cut_in_text(kind: Option<[u8; 4]>) -> String {
     kind.map(|kind| format!(" and ends inside its {} box", name(kind))).unwrap_or_default()
 }
 
-/// A four-character code for a person to read.
+/// A four-character code as text.
 fn name(kind: [u8; 4]) -> String {
     format!("'{}'", kind.escape_ascii())
 }

@@ -23,9 +23,17 @@ pub(super) fn entry_v0(codec: &[u8; 4], channels: u16, bits: u16, rate_hz: u16, 
     boxed(codec, &joined(&[&entry_fields(0, channels, bits, 0, rate_hz), extensions]))
 }
 
-/// A version 1 sample entry with packets of `packet_frames` in `packet_bytes` (bytesPerFrame, of all channels).
-pub(super) fn entry_v1(codec: &[u8; 4], channels: u16, packet: (u32, u32), rate_hz: u16, extensions: &[u8]) -> Vec<u8> {
-    let numbers = words(&[packet.0, packet.1 / u32::from(channels), packet.1, 2]);
+/// Size of a packet of constant size.
+#[derive(Clone, Copy)]
+pub(super) struct Packet {
+    pub(super) frames: u32,
+    /// Bytes of all channels (bytesPerFrame).
+    pub(super) bytes: u32,
+}
+
+/// A version 1 sample entry.
+pub(super) fn entry_v1(codec: &[u8; 4], channels: u16, packet: Packet, rate_hz: u16, extensions: &[u8]) -> Vec<u8> {
+    let numbers = words(&[packet.frames, packet.bytes / u32::from(channels), packet.bytes, 2]);
     boxed(codec, &joined(&[&entry_fields(1, channels, 16, 0, rate_hz), &numbers, extensions]))
 }
 

@@ -1,7 +1,7 @@
 //! Reading the frames of an uncompressed track, whole chunks at a time.
 //!
-//! A MOV of 30 minutes has tens of thousands of chunks between the pictures. They are read with as few calls as their
-//! places in the file allow, straight into one buffer, and converted to `f32` on the way out.
+//! A MOV of 30 minutes has tens of thousands of chunks between the pictures. They are read with as few calls as their positions allow,
+//! directly into one buffer, and converted to `f32` on output.
 
 use std::io::{self, Read, Seek, SeekFrom};
 use std::sync::Arc;
@@ -16,7 +16,7 @@ const BLOCK_FRAMES: u64 = 8192;
 /// Bytes of one block, for tracks of many channels.
 const BLOCK_BYTES_MAX: u64 = 1 << 20;
 
-/// The frames of an uncompressed track, in order, from the first of its table: priming and edits are the caller's
+/// Reads the frames of an uncompressed track in order, from the first in its table. The caller handles priming and edits
 /// (`AudioTrack::skip_frames`, `AudioTrack::kept_frames`).
 #[derive(Debug)]
 pub(crate) struct PcmReader<R> {
@@ -27,9 +27,9 @@ pub(crate) struct PcmReader<R> {
     declared_frames: u64,
     file_len: u64,
     cursor: ChunkCursor,
-    /// What is left of the present run of bytes.
+    /// Remaining part of the current run of bytes.
     run: Run,
-    /// The chunk after the run, looked at and not yet begun.
+    /// The chunk after the run, already read from the table.
     ahead: Option<Run>,
     delivered_frames: u64,
     is_at_end: bool,
@@ -44,7 +44,7 @@ struct Run {
 }
 
 impl<R: Read + Seek> PcmReader<R> {
-    /// A reader of `track`, whose table was read from the same file. The reader may stand anywhere.
+    /// A reader of `track`, whose table was read from the same file. The position of the file does not matter.
     ///
     /// # Errors
     /// `NotPcm` for a track without `AudioTrack::pcm`.
@@ -66,12 +66,12 @@ impl<R: Read + Seek> PcmReader<R> {
         })
     }
 
-    /// Replaces `out` by the next interleaved frames and returns their number, 0 at the end.
+    /// Replaces the content of `out` by the next interleaved frames and returns their number, 0 at the end.
     ///
-    /// A file that ends before its table does gives its frames up to there; see [`Self::missing_frames`].
+    /// Of a truncated file it returns the existing frames; see [`Self::missing_frames`].
     ///
     /// # Errors
-    /// What reading the file fails with.
+    /// Errors of reading the file.
     pub(crate) fn next_block(&mut self, out: &mut Vec<f32>) -> Result<u64, QuicktimeError> {
         out.clear();
         self.bytes.clear();
@@ -94,7 +94,7 @@ impl<R: Read + Seek> PcmReader<R> {
         Ok(frames)
     }
 
-    /// Frames that the table promises and that were not there. Known when [`Self::next_block`] has returned 0.
+    /// Number of frames in the table that are missing in the file. It is final when [`Self::next_block`] has returned 0.
     pub(crate) fn missing_frames(&self) -> u64 {
         if self.is_at_end { self.declared_frames.saturating_sub(self.delivered_frames) } else { 0 }
     }
@@ -133,12 +133,12 @@ impl<R: Read + Seek> PcmReader<R> {
         }
     }
 
-    /// Reads from the present run until the block has `wanted` bytes, the run is used up, or the file ends.
+    /// Reads from the current run until the block has `wanted` bytes, or the run or the file ends.
     fn read_from_run(&mut self, wanted: u64) -> Result<(), QuicktimeError> {
         let delivered_bytes = self.delivered_frames.saturating_mul(self.frame_bytes);
         let buffered = self.bytes.len() as u64;
         let in_file = self.file_len.saturating_sub(self.run.offset);
-        // Chunks that overlap to give more than the whole file are damage, and following them could take for ever.
+        // Overlapping chunks with more bytes than the file are damage; reading them could take very long.
         let honest = self.file_len.saturating_sub(delivered_bytes.saturating_add(buffered));
         let asked = self.run.byte_len.min(wanted - buffered);
         let there = asked.min(in_file).min(honest) / self.frame_bytes * self.frame_bytes;

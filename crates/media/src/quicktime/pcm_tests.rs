@@ -1,6 +1,6 @@
 use std::io::Cursor;
 
-use super::super::movie_builder::{TrackPlan, boxed, entry_v0, entry_v1, entry_v2, movie, wave_enda};
+use super::super::movie_builder::{Packet, TrackPlan, boxed, entry_v0, entry_v1, entry_v2, movie, wave_enda};
 use super::super::{Movie, read_movie};
 use super::*;
 
@@ -36,10 +36,13 @@ fn every_layout_to_exact_values() {
     let be_24 = [0x40, 0, 0, 0xc0, 0, 0, 0, 0, 0x01];
     let le_24 = [0, 0, 0x40, 0, 0, 0xc0, 0x01, 0, 0];
     let values_24 = [0.5, -0.5, 1.0 / 8_388_608.0];
-    assert_eq!(samples(entry_v1(b"in24", 1, (1, 3), 44_100, &[]), 3, 3, &be_24), values_24);
-    assert_eq!(samples(entry_v1(b"in24", 1, (1, 3), 44_100, &wave_enda(1)), 3, 3, &le_24), values_24);
+    assert_eq!(samples(entry_v1(b"in24", 1, Packet { frames: 1, bytes: 3 }, 44_100, &[]), 3, 3, &be_24), values_24);
+    assert_eq!(
+        samples(entry_v1(b"in24", 1, Packet { frames: 1, bytes: 3 }, 44_100, &wave_enda(1)), 3, 3, &le_24),
+        values_24
+    );
     // A constant size of 1 or of one channel, where a frame has more.
-    assert_eq!(samples(entry_v1(b"in24", 1, (1, 3), 44_100, &[]), 1, 3, &be_24), values_24);
+    assert_eq!(samples(entry_v1(b"in24", 1, Packet { frames: 1, bytes: 3 }, 44_100, &[]), 1, 3, &be_24), values_24);
     assert_eq!(samples(entry_v2(b"lpcm", 1, 44_100.0, [24, 12, 3, 1]), 3, 3, &le_24), values_24);
 
     let stereo = [0, 0x40, 0, 0xc0, 1, 0, 0, 0x80, 0, 0, 0, 0x20];
@@ -57,9 +60,15 @@ fn every_layout_to_exact_values() {
     let floats: Vec<u8> = [0.1_f32, -2.5, 0.75].iter().flat_map(|value| value.to_le_bytes()).collect();
     assert_eq!(samples(entry_v0(b"fpcm", 1, 16, 44_100, &pcm_c), 4, 4, &floats), [0.1, -2.5, 0.75]);
     let doubles: Vec<u8> = [0.1_f64, -2.5, 0.75].iter().flat_map(|value| value.to_be_bytes()).collect();
-    assert_eq!(samples(entry_v1(b"fl64", 1, (1, 8), 44_100, &[]), 8, 8, &doubles), [0.1, -2.5, 0.75]);
+    assert_eq!(
+        samples(entry_v1(b"fl64", 1, Packet { frames: 1, bytes: 8 }, 44_100, &[]), 8, 8, &doubles),
+        [0.1, -2.5, 0.75]
+    );
     let wide: Vec<u8> = [1_i32 << 30, i32::MIN, 0].iter().flat_map(|value| value.to_be_bytes()).collect();
-    assert_eq!(samples(entry_v1(b"in32", 1, (1, 4), 44_100, &[]), 4, 4, &wide), [0.5, -1.0, 0.0]);
+    assert_eq!(
+        samples(entry_v1(b"in32", 1, Packet { frames: 1, bytes: 4 }, 44_100, &[]), 4, 4, &wide),
+        [0.5, -1.0, 0.0]
+    );
     assert_eq!(
         samples(entry_v0(b"ulaw", 1, 16, 44_100, &[]), 1, 1, &[0xff, 0x80, 0x00]),
         [0.0, 32_124.0 / 32_768.0, -32_124.0 / 32_768.0]

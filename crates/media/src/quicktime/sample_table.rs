@@ -1,11 +1,11 @@
-//! Where the samples of a track lie in the file: the tables of `stbl`.
+//! Positions of the samples of a track in the file: the tables of `stbl`.
 //!
-//! ISO/IEC 14496-12 sections 8.6.1.2 (`stts`, durations), 8.7.3 (`stsz` and `stz2`, sizes), 8.7.4 (`stsc`, samples per
-//! chunk) and 8.7.5 (`stco` and `co64`, chunk offsets). A sample is what one table entry describes: a compressed packet,
-//! or in QuickTime's uncompressed tracks one frame of PCM. A chunk is a run of samples without gaps.
+//! ISO/IEC 14496-12 sections 8.6.1.2 (`stts`, durations), 8.7.3 (`stsz` and `stz2`, sizes), 8.7.4 (`stsc`, samples per chunk) and 8.7.5
+//! (`stco` and `co64`, chunk offsets). A sample is the object of one table entry: a compressed packet, or in QuickTime's uncompressed
+//! tracks one frame of PCM. A chunk is a run of samples without gaps.
 //!
-//! The tables are kept as they stand in the file, run lengths and all, and are walked lazily: a constant sample size
-//! with a count of four billion costs nothing to hold.
+//! The tables stay run-length coded as in the file and are evaluated lazily: a constant sample size with a count of four billion needs no
+//! memory.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub(super) struct SampleTable {
     sizes: SampleSizes,
     sample_count: u64,
     durations: Vec<DurationRun>,
-    /// Chunks name more than one sample description: the codec changes within the track.
+    /// Chunks refer to more than one sample description: the codec changes within the track.
     pub(super) has_mixed_descriptions: bool,
 }
 
@@ -38,13 +38,13 @@ struct DurationRun {
     ticks: u32,
 }
 
-/// How long the samples are.
+/// Sizes of the samples.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum SampleSizes {
-    /// Every `group_samples` samples take `group_bytes`. More than one in a group: QuickTime's version 1 descriptions
-    /// count the frames of a compressed packet as samples.
+    /// Every `group_samples` samples have `group_bytes` bytes. There is more than one sample in a group where QuickTime's version 1
+    /// descriptions count the frames of a compressed packet as samples.
     Constant { group_bytes: u64, group_samples: u64 },
-    /// A size for each.
+    /// One size for each sample.
     Each(Vec<u32>),
 }
 
@@ -62,7 +62,7 @@ pub(super) struct Chunk {
     pub(super) sample_count: u64,
 }
 
-/// One compressed packet of a track, and where it lies in the file.
+/// Position of one compressed packet of a track in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PacketPosition {
     pub(crate) offset: u64,
@@ -125,14 +125,14 @@ impl SampleTable {
         }
     }
 
-    /// Replaces a constant sample size: every `group_samples` samples take `group_bytes`. Sizes given one by one stay.
+    /// Replaces a constant sample size: every `group_samples` samples have `group_bytes` bytes. A list of sizes is not changed.
     pub(super) fn correct_constant_size(&mut self, group_bytes: u64, group_samples: u64) {
         if let SampleSizes::Constant { .. } = self.sizes {
             self.sizes = SampleSizes::Constant { group_bytes, group_samples: group_samples.max(1) };
         }
     }
 
-    /// Whether there is nothing in the tables.
+    /// Whether the tables are empty.
     pub(super) fn is_empty(&self) -> bool {
         self.chunk_offsets.is_empty() || self.sample_count == 0
     }
@@ -149,13 +149,13 @@ impl SampleTable {
         self.durations.first().map(|run| run.ticks)
     }
 
-    /// Whether the last sample lasts shorter than most: the table cuts what the decoder delivers at the end.
+    /// Whether the last sample is shorter than most: then the table cuts the output of the decoder at the end.
     pub(super) fn is_last_sample_short(&self) -> bool {
         let most = self.durations.iter().max_by_key(|run| run.count);
         most.zip(self.durations.last()).is_some_and(|(most, last)| last.ticks < most.ticks)
     }
 
-    /// Where the last byte of the track ends.
+    /// Position of the last byte of the track.
     pub(super) fn end_offset(&self) -> u64 {
         let mut cursor = ChunkCursor::default();
         let mut end = 0;
@@ -175,7 +175,7 @@ impl SampleTable {
         frames
     }
 
-    /// The packets that lie wholly within a file of `file_len` bytes, up to the first that does not.
+    /// The packets that lie completely within a file of `file_len` bytes, up to the first that does not.
     pub(super) fn packets(self: Arc<Self>, file_len: u64) -> Packets {
         Packets {
             table: self,
@@ -190,7 +190,7 @@ impl SampleTable {
     }
 }
 
-/// `count` rows of `row_len` bytes from `start` on, as far as the payload goes: a count is never believed beyond it.
+/// `count` rows of `row_len` bytes from `start` on, limited by the payload, since a count can be wrong.
 fn rows(payload: &[u8], start: usize, row_len: usize, count: Option<u32>) -> impl Iterator<Item = &[u8]> {
     let count = count.and_then(|count| usize::try_from(count).ok()).unwrap_or(0);
     payload.get(start..).unwrap_or_default().chunks_exact(row_len).take(count)
@@ -208,7 +208,7 @@ fn compact_sizes(payload: &[u8]) -> Vec<u32> {
     }
 }
 
-/// A place in the list of chunks. Holds no reference, so that a reader can keep it beside the table.
+/// A position in the list of chunks. It has no reference, so that a reader can store it beside the table.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ChunkCursor {
     chunk: usize,
@@ -246,19 +246,19 @@ impl ChunkCursor {
     }
 }
 
-/// The packets of a track in the order of its tables, worked out one by one. See `SampleTable::packets`.
+/// The packets of a track in the order of its tables, computed one by one. See `SampleTable::packets`.
 #[derive(Debug, Clone)]
 pub(crate) struct Packets {
     table: Arc<SampleTable>,
     cursor: ChunkCursor,
-    /// What is left of the present chunk.
+    /// Remaining part of the current chunk.
     chunk: Option<Chunk>,
     sample: u64,
     run: usize,
     run_used: u64,
     file_len: u64,
-    /// A file holds no more bytes of packets than it has bytes: chunks that overlap to go beyond that are damage, and
-    /// following them could take for ever.
+    /// The packets have at most as many bytes as the file. Overlapping chunks with more are damage, and reading them could take very
+    /// long.
     bytes_left: u64,
 }
 
@@ -305,7 +305,7 @@ impl Iterator for Packets {
         let offset = chunk.offset;
         let end = offset.checked_add(byte_len)?;
         if end > self.file_len || byte_len > self.bytes_left {
-            // Ends the iteration for good: nothing is read past a hole.
+            // Ends the iteration: no packet behind a gap is read.
             self.bytes_left = 0;
             self.file_len = 0;
             return None;

@@ -14,13 +14,13 @@ use crate::pcm_layout::{PcmKind, PcmLayout};
 /// Fields in front of the extensions in version 0 and in an ISO entry.
 const FIXED_LEN: usize = 28;
 
-/// What a sound sample description says.
+/// Content of a sound sample description.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct SoundDescription {
     pub(super) codec: FourCc,
     /// Index into the data references, from 1.
     pub(super) data_reference: u16,
-    /// Zero where the entry has no room for it (rates from 65 536 Hz on).
+    /// Sample rate; zero where the entry has no room for it (from 65 536 Hz on).
     pub(super) rate_hz: f64,
     pub(super) channel_count: u16,
     pub(super) pcm: Option<PcmLayout>,
@@ -28,7 +28,7 @@ pub(super) struct SoundDescription {
     pub(super) packet: Option<(u32, u32)>,
     pub(super) esds: Option<Esds>,
     pub(super) aac: Option<AudioSpecificConfig>,
-    /// What the decoder has to know: see `AudioTrack::codec_config`.
+    /// Configuration of the decoder: see `AudioTrack::codec_config`.
     pub(super) codec_config: Vec<u8>,
 }
 
@@ -42,7 +42,7 @@ pub(super) fn description_from_stsd(stsd: &[u8]) -> Result<SoundDescription, Qui
 }
 
 fn description_from_entry(codec: FourCc, entry: &[u8], stsd_version: u8) -> Option<SoundDescription> {
-    // ISO's own version 1 (for rates beyond 65 535 Hz) adds no fields; it is told by the version of `stsd`.
+    // Version 1 of ISO (for rates above 65 535 Hz) adds no fields; the version of `stsd` identifies it.
     let version = if stsd_version == 0 { be_u16(entry, 8)? } else { 0 };
     let mut found = SoundDescription {
         codec,
@@ -92,7 +92,7 @@ fn description_from_entry(codec: FourCc, entry: &[u8], stsd_version: u8) -> Opti
 }
 
 impl SoundDescription {
-    /// Sets the decoder's configuration, and lets it correct rate and channels: muxers write 2 channels into every entry.
+    /// Sets the configuration of the decoder, and corrects rate and channels by it: muxers write 2 channels into every entry.
     fn take_codec_config(&mut self, extensions: Extensions<'_>) {
         let esds = extensions.esds.and_then(esds_from_payload);
         match (&self.codec, extensions.config) {
@@ -160,7 +160,7 @@ struct Extensions<'a> {
 }
 
 impl<'a> Extensions<'a> {
-    /// Stops at the first damaged box: old writers leave rubbish behind the last one.
+    /// Stops at the first damaged box: old writers leave other bytes behind the last one.
     fn read(bytes: &'a [u8]) -> Self {
         let mut found = Self::default();
         for (kind, content) in Boxes::new(bytes).map_while(Result::ok) {
@@ -225,7 +225,7 @@ impl StreamDescription {
     }
 }
 
-/// The layout a codec's name stands for. `bits` is the field of the entry, which says 16 for wider samples too.
+/// The layout that the name of a codec stands for. `bits` is the field of the entry, which is 16 for wider samples too.
 fn layout_of_codec(codec: FourCc, bits: u16, extensions: &Extensions<'_>) -> Option<PcmLayout> {
     let little = extensions.is_little_endian.unwrap_or(false);
     let integer_bytes =

@@ -1,4 +1,4 @@
-use super::super::movie_builder::{boxed, entry_v0, entry_v1, entry_v2, joined, wave_enda, words};
+use super::super::movie_builder::{Packet, boxed, entry_v0, entry_v1, entry_v2, joined, wave_enda, words};
 use super::*;
 
 fn description(entry: &[u8]) -> SoundDescription {
@@ -30,7 +30,9 @@ fn version_0_names() {
 
 #[test]
 fn version_1_is_big_endian_unless_enda_says_otherwise() {
-    let v1 = |codec: &[u8; 4], extensions: &[u8]| layout(&entry_v1(codec, 1, (1, 3), 44_100, extensions));
+    let v1 = |codec: &[u8; 4], extensions: &[u8]| {
+        layout(&entry_v1(codec, 1, Packet { frames: 1, bytes: 3 }, 44_100, extensions))
+    };
     assert_eq!(v1(b"in24", &[]), Some((PcmKind::Signed, false, 3)));
     assert_eq!(v1(b"in24", &wave_enda(0)), Some((PcmKind::Signed, false, 3)));
     assert_eq!(v1(b"in24", &wave_enda(1)), Some((PcmKind::Signed, true, 3)));
@@ -38,7 +40,7 @@ fn version_1_is_big_endian_unless_enda_says_otherwise() {
     assert_eq!(v1(b"in32", &wave_enda(1)), Some((PcmKind::Signed, true, 4)));
     assert_eq!(v1(b"fl32", &[]), Some((PcmKind::Float, false, 4)));
     assert_eq!(v1(b"fl64", &wave_enda(1)), Some((PcmKind::Float, true, 8)));
-    assert_eq!(description(&entry_v1(b"in24", 1, (1, 3), 44_100, &[])).packet, Some((1, 3)));
+    assert_eq!(description(&entry_v1(b"in24", 1, Packet { frames: 1, bytes: 3 }, 44_100, &[])).packet, Some((1, 3)));
 }
 
 #[test]
@@ -100,7 +102,10 @@ fn esds_is_found_in_wave_and_outside() {
     esds.extend([0x05, 2, 0x12, 0x08]);
     let esds = boxed(b"esds", &esds);
     let wave = boxed(b"wave", &joined(&[&boxed(b"mp4a", &[0; 4]), &esds, &[0, 0, 0, 8, 0, 0, 0, 0]]));
-    for entry in [entry_v0(b"mp4a", 2, 16, 44_100, &esds), entry_v1(b"mp4a", 2, (1024, 0), 44_100, &wave)] {
+    for entry in [
+        entry_v0(b"mp4a", 2, 16, 44_100, &esds),
+        entry_v1(b"mp4a", 2, Packet { frames: 1024, bytes: 0 }, 44_100, &wave),
+    ] {
         let found = description(&entry);
         assert_eq!(found.codec_config, [0x12, 0x08]);
         assert_eq!((found.channel_count, found.packet), (1, None));
@@ -110,7 +115,7 @@ fn esds_is_found_in_wave_and_outside() {
 #[test]
 fn cut_short_anywhere_it_is_an_error_or_a_description() {
     let entries = [
-        entry_v1(b"in24", 1, (1, 3), 44_100, &wave_enda(1)),
+        entry_v1(b"in24", 1, Packet { frames: 1, bytes: 3 }, 44_100, &wave_enda(1)),
         entry_v2(b"lpcm", 2, f64::NAN, [u32::MAX; 4]),
         entry_v0(b"ipcm", 2, 16, 48_000, &boxed(b"pcmC", &[0; 6])),
     ];

@@ -3,7 +3,7 @@ use std::io::{BufReader, Cursor};
 use std::path::PathBuf;
 
 use super::movie_builder::{
-    TrackPlan, boxed, entry_v0, entry_v1, faststart_movie, joined, moov, movie, wave_enda, words,
+    Packet, TrackPlan, boxed, entry_v0, entry_v1, faststart_movie, joined, moov, movie, wave_enda, words,
 };
 use super::*;
 
@@ -53,7 +53,7 @@ fn boxes_before_the_index_and_sizes_of_both_widths() {
 
 #[test]
 fn media_data_beyond_four_gigabytes() {
-    // A sparse file: only the start and the end are really there.
+    // A sparse file: only its start and its end have content.
     struct Sparse {
         head: Vec<u8>,
         tail: Vec<u8>,
@@ -134,7 +134,12 @@ fn errors_name_what_is_wrong() {
 
 #[test]
 fn cut_at_every_length_and_damaged_at_every_byte_it_never_panics() {
-    let mut late = TrackPlan::compressed(entry_v1(b"in24", 1, (1, 3), 44_100, &wave_enda(1)), 44_100, 1, &[3; 20]);
+    let mut late = TrackPlan::compressed(
+        entry_v1(b"in24", 1, Packet { frames: 1, bytes: 3 }, 44_100, &wave_enda(1)),
+        44_100,
+        1,
+        &[3; 20],
+    );
     late.edits = vec![(10, -1, 0x1_0000), (20, 3, 0x1_0000)];
     let plans = [sowt(&[(0, 10), (20, 20)]), late];
     let mut opened = 0;
@@ -193,7 +198,7 @@ fn random_tables_neither_hang_nor_panic() {
     }
 }
 
-/// A file of the shared recordings, `None` (and a line that says so) where they are not on this machine.
+/// A file of the shared recordings; `None`, with a message, where they are not installed.
 fn recording(name: &str) -> Option<PathBuf> {
     let shared = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data"));
     let folder = std::env::var_os("HOVERTONE_TEST_DATA").map_or_else(shared, PathBuf::from);
@@ -232,14 +237,14 @@ fn uncompressed_recordings_equal_the_wave_file_exactly() {
     }
 }
 
-/// What the tables and the edit list of a recording say.
+/// Content of the tables and the edit list of a recording.
 struct Expected {
     name: &'static str,
     tracks: usize,
     codec: &'static [u8; 4],
     start_s: f64,
     skip_frames: u64,
-    /// Kept and declared frames.
+    /// Numbers of kept and declared frames.
     lengths: Option<(u64, u64)>,
 }
 

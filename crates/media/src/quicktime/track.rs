@@ -1,4 +1,4 @@
-//! One sound track: its description, its edits and its tables put together.
+//! One sound track: its description, its edits and its tables together.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use super::sample_table::{Packets, SampleTable};
 use super::sound_description::{SoundDescription, description_from_stsd};
 use crate::pcm_layout::PcmLayout;
 
-/// Most channels a track of PCM is read with.
+/// Largest number of channels of a PCM track.
 const PCM_CHANNELS_MAX: u16 = 256;
 
 /// A sound track of a movie.
@@ -21,29 +21,29 @@ pub(crate) struct AudioTrack {
     pub(crate) codec: [u8; 4],
     /// The object type of `mp4a`: 0x40 MPEG-4 AAC, 0x66 to 0x68 MPEG-2 AAC, 0x69 and 0x6b MP3.
     pub(crate) mp4_object_type: Option<u8>,
-    /// Rate of the sound as it was recorded. For HE-AAC that is the rate with SBR: see `half_rate_aac`.
+    /// Rate of the recorded sound. For HE-AAC this is the rate with SBR: see `half_rate_aac`.
     pub(crate) sample_rate_hz: f64,
     pub(crate) channel_count: u16,
     /// Whether the track is switched on (`tkhd` flag 1).
     pub(crate) is_enabled: bool,
-    /// When the first kept frame is heard, on the movie's clock: the length of the empty edits.
+    /// Time of the first kept frame on the clock of the movie: the length of the empty edits.
     pub(crate) start_s: f64,
     /// Frames at the start of the decoder's output that are not played (priming), at `sample_rate_hz`.
     pub(crate) skip_frames: u64,
-    /// Frames to keep after those, at `sample_rate_hz`, if the decoder delivers that many. `None`: all of them.
+    /// Frames to keep after the priming frames, at `sample_rate_hz`, if the decoder produces as many. `None` for all.
     pub(crate) kept_frames: Option<u64>,
-    /// The edit list plays more than one part, or at another speed; `skip_frames` and `kept_frames` are of the first part.
+    /// The edit list plays more than one part, or at another speed; `skip_frames` and `kept_frames` describe the first part.
     pub(crate) has_more_edits: bool,
     /// Frames by the tables, priming included, at `sample_rate_hz`. `None` where the tables are empty.
     pub(crate) declared_frames: Option<u64>,
-    /// The track is HE-AAC, and a decoder without SBR delivers it at another rate.
+    /// The track is HE-AAC, and a decoder without SBR produces another rate.
     pub(crate) half_rate_aac: Option<HalfRateAac>,
     /// The layout of uncompressed samples, where `PcmReader` reads them.
     pub(crate) pcm: Option<PcmLayout>,
-    /// What the decoder has to know. AAC: AudioSpecificConfig. Opus: payload of `dOps`, big endian, without "OpusHead".
-    /// ALAC: the 24 bytes of ALACSpecificConfig. FLAC: the 34 bytes of STREAMINFO. AC-3, AMR: payload of their box.
+    /// Configuration of the decoder. AAC: AudioSpecificConfig. Opus: payload of `dOps`, big endian, without "OpusHead". ALAC: the 24
+    /// bytes of ALACSpecificConfig. FLAC: the 34 bytes of STREAMINFO. AC-3, AMR: payload of their box.
     pub(crate) codec_config: Vec<u8>,
-    /// The samples lie in another file (a reference movie): there is nothing to read here.
+    /// The samples are in another file (a reference movie), which is not read.
     pub(crate) is_data_elsewhere: bool,
     /// Ticks per second of `PacketPosition::duration_ticks`.
     pub(crate) timescale_hz: u32,
@@ -52,13 +52,13 @@ pub(crate) struct AudioTrack {
 }
 
 impl AudioTrack {
-    /// The packets of the track that are whole in the file, in the order of the table. Worked out while iterating: collect
-    /// them only where their number is known to be small, a hostile file can hold one for every byte.
+    /// The packets of the track that lie completely in the file, in the order of the table. They are computed during the iteration:
+    /// collect them only where their number is known to be small, since a malicious file can have one for every byte.
     pub(crate) fn packets(&self) -> Packets {
         Arc::clone(&self.table).packets(if self.is_data_elsewhere { 0 } else { self.file_len })
     }
 
-    /// Where the last byte of the track ends by its tables.
+    /// Position of the last byte of the track by its tables.
     pub(crate) fn tables_end(&self) -> u64 {
         if self.is_data_elsewhere { 0 } else { self.table.end_offset() }
     }
@@ -149,7 +149,7 @@ fn rate_hz(description: &SoundDescription, timescale_hz: u32) -> f64 {
     if description.rate_hz < 1.0 || is_wrapped { timescale } else { description.rate_hz }
 }
 
-/// Finds HE-AAC and sets the rate of the description to what the sound has.
+/// Detects HE-AAC and sets the rate of the description to the rate of the sound.
 fn half_rate_aac(description: &mut SoundDescription, timescale_hz: u32) -> Option<HalfRateAac> {
     let aac = description.aac?;
     let half = aac.half_rate(description.rate_hz).or_else(|| aac.half_rate(f64::from(timescale_hz)));
@@ -157,19 +157,19 @@ fn half_rate_aac(description: &mut SoundDescription, timescale_hz: u32) -> Optio
     half
 }
 
-/// Whether the entry's data reference (`dref`) points at another file: flag 1 says that it does not.
+/// Whether the data reference (`dref`) of the entry points to another file: flag 1 means this file.
 fn is_data_elsewhere(minf: &[u8], index: u16) -> Result<bool, QuicktimeError> {
     let Some(dinf) = find(minf, b"dinf")? else { return Ok(false) };
     let Some(dref) = find(dinf, b"dref")? else { return Ok(false) };
     let entry = Boxes::new(dref.get(8..).unwrap_or_default()).nth(usize::from(index.saturating_sub(1))).transpose()?;
-    // Version, then 24 bits of flags. QuickTime writes `alis` entries for the file itself with the flag set too.
+    // Version, then 24 bits of flags. QuickTime writes `alis` entries for the file itself with the flag set, too.
     Ok(entry.is_some_and(|(_, content)| be_u16(content, 2).is_some_and(|flags| flags & 1 == 0)))
 }
 
-/// Undoes what QuickTime writes as the constant sample size of tracks whose "samples" are single frames.
+/// Corrects the constant sample size that QuickTime writes for tracks whose "samples" are single frames.
 ///
-/// Uncompressed: 1, or the bytes of one channel, where the frame has more. Version 1 with constant packets: the size of an
-/// uncompressed sample, where the file holds packets.
+/// Uncompressed: 1, or the bytes of one channel, where a frame has more. Version 1 with constant packets: the size of an uncompressed
+/// sample, where the file has packets.
 fn correct_sample_size(
     table: &mut SampleTable,
     description: &SoundDescription,
@@ -181,7 +181,7 @@ fn correct_sample_size(
         (Some(frame_bytes), _) => {
             let ticks = f64::from(table.first_duration_ticks().unwrap_or(1));
             let frames = (ticks * description.rate_hz / f64::from(timescale_hz)).round();
-            // A sample may be a block of frames (ISO/IEC 23003-5), and then lasts as long as one.
+            // A sample can be a block of frames (ISO/IEC 23003-5); its duration is then that of the block.
             let is_block = stated > frame_bytes && stated % frame_bytes == 0 && frames > 1.0;
             table.correct_constant_size(if is_block { stated } else { frame_bytes }, 1);
         }
@@ -210,13 +210,13 @@ impl Clock {
         to_frames(movie_ticks, self.rate_hz, self.movie_timescale_hz)
     }
 
-    /// Frames of one movie tick, rounded up: what a length in movie ticks can be wrong by.
+    /// Frames of one movie tick, rounded up: the tolerance of a length in movie ticks.
     fn movie_tick_frames(&self) -> u64 {
         (self.rate_hz / f64::from(self.movie_timescale_hz)).ceil() as u64
     }
 }
 
-/// Exact where timescale and rate are equal, else to the nearest frame. A float beyond the range of `u64` saturates.
+/// Exact where timescale and rate are equal, else rounded to a frame. A float beyond the range of `u64` saturates.
 fn to_frames(ticks: u64, rate_hz: f64, timescale_hz: u32) -> u64 {
     if rate_hz == f64::from(timescale_hz) {
         return ticks;
@@ -224,10 +224,9 @@ fn to_frames(ticks: u64, rate_hz: f64, timescale_hz: u32) -> u64 {
     (ticks as f64 * rate_hz / f64::from(timescale_hz)).round() as u64
 }
 
-/// Frames the decoder delivers before the first that is played.
+/// Frames before the first played one in the output of the decoder.
 ///
-/// The edit list says so. Opus says it in its own header too, and both mean the same frames; the header stands in where
-/// the list is missing or starts earlier.
+/// The edit list states them. Opus states the same frames in its own header, which is used where the list is missing or starts earlier.
 fn skip_frames(edits: &Edits, description: &SoundDescription, clock: &Clock) -> u64 {
     let by_edit = edits.played.map_or(0, |played| clock.frames(played.start_media_ticks));
     let by_header = match &description.codec {
@@ -237,10 +236,10 @@ fn skip_frames(edits: &Edits, description: &SoundDescription, clock: &Clock) -> 
     by_edit.max(by_header)
 }
 
-/// Frames to keep after the skipped ones, where that is less than the decoder delivers.
+/// Frames to keep after the skipped ones, where the decoder produces more.
 ///
-/// Two things cut the end: the length of the edit, known to one movie tick only, and a last sample that lasts shorter
-/// than its packet decodes to. Where both agree within the tick, the second is exact.
+/// Two facts cut the end: the length of the edit, with a tolerance of one movie tick, and a last sample with a shorter duration than its
+/// packet has frames. Where both agree within the tick, the second is exact.
 fn kept_frames(
     edits: &Edits,
     clock: &Clock,

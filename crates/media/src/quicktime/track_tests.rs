@@ -1,6 +1,6 @@
 use std::io::Cursor;
 
-use super::super::movie_builder::{TrackPlan, boxed, entry_v0, entry_v1, entry_v2, movie};
+use super::super::movie_builder::{Packet, TrackPlan, boxed, entry_v0, entry_v1, entry_v2, movie};
 use super::super::read_movie;
 use super::*;
 
@@ -120,7 +120,8 @@ fn rates_beyond_sixteen_bits_come_from_the_timescale() {
 
 #[test]
 fn packets_of_a_quicktime_version_1_codec() {
-    let plan = TrackPlan::pcm(entry_v1(b"ima4", 1, (64, 34), 44_100, &[]), 44_100, 1, &[(0, 128)]);
+    let plan =
+        TrackPlan::pcm(entry_v1(b"ima4", 1, Packet { frames: 64, bytes: 34 }, 44_100, &[]), 44_100, 1, &[(0, 128)]);
     let found = track(&plan);
     let lens: Vec<_> = found.packets().map(|packet| (packet.byte_len, packet.duration_ticks)).collect();
     assert_eq!(lens, [(34, 64), (34, 64)]);

@@ -11,7 +11,7 @@ use super::WaveLayout;
 use crate::frames::{Frames, Incidents};
 use crate::pcm_layout::PcmLayout;
 
-/// Blocks of samples, cut from the data chunk.
+/// Blocks of samples from the data chunk.
 pub(crate) struct WaveBlocks {
     reader: BufReader<File>,
     layout: WaveLayout,
@@ -33,7 +33,7 @@ impl WaveBlocks {
         data.clear();
         data.reserve(usize::try_from(wanted).unwrap_or(0));
         self.reader.by_ref().take(wanted).read_to_end(data)?;
-        // Shorter where the file shrinks while it is read.
+        // fewer bytes if the file becomes shorter while it is read
         let blocks = data.len() as u64 / self.layout.block_bytes;
         data.truncate((blocks * self.layout.block_bytes) as usize);
         self.left_bytes -= data.len() as u64;
@@ -54,7 +54,7 @@ impl WaveBlocks {
     }
 }
 
-/// The frames of a WAVE file whose samples stand by themselves: no decoder is needed, and packets of one would be four times as slow.
+/// The frames of an uncompressed WAVE file. No decoder is needed; packets of one frame would be four times slower.
 pub(crate) struct WavePcmFrames {
     blocks: WaveBlocks,
     pcm: PcmLayout,

@@ -1,8 +1,7 @@
-//! RIFF/WAVE, RF64 and Wave64: where the samples are and how they are coded, believing the file's length over the
-//! header's.
+//! RIFF/WAVE, RF64 and Wave64: position and coding of the samples. The length of the file has priority over the header.
 //!
-//! Symphonia's own reader trusts the sizes in the header; recorders that were stopped hard, pipes and copies that broke
-//! off leave them wrong.
+//! Symphonia's own reader trusts the sizes in the header. They are wrong in files of recorders that lost power, of pipes and of truncated
+//! copies.
 
 mod blocks;
 
@@ -18,17 +17,16 @@ use crate::container::Container;
 use crate::error::MediaError;
 use crate::pcm_layout::{PcmKind, PcmLayout};
 
-/// Sample frames that are read at a time, about.
+/// Approximate number of frames per read.
 const PACKET_FRAMES: u64 = 4096;
 
-/// Sizes from here on are what programs write when they do not know the length: ffmpeg `0xffffffff`, sox and arecord a
-/// little under or at 2 GiB.
+/// Sizes from here on mean an unknown length: ffmpeg writes `0xffffffff`, sox and arecord a little below or at 2 GiB.
 const UNKNOWN_SIZE_MIN: u64 = 0x7fff_0000;
 
 const CHANNEL_COUNT_MAX: u64 = 256;
 const SAMPLE_RATE_HZ_MAX: u64 = 16_000_000;
 
-/// What the header says, corrected by the file's length.
+/// Facts from the header, corrected by the length of the file.
 #[derive(Clone, Debug)]
 pub(crate) struct WaveLayout {
     pub(crate) codec: WaveCodec,
@@ -37,22 +35,22 @@ pub(crate) struct WaveLayout {
     block_bytes: u64,
     block_frames: u64,
     data_at: u64,
-    /// Bytes of samples that are really there.
+    /// Existing bytes of samples.
     data_bytes: u64,
-    /// As the header has it, where it is a promise and not a placeholder.
+    /// Stated bytes of samples, unless the number is a placeholder.
     declared_bytes: Option<u64>,
-    /// The header's size, where the sound goes on after it or it is a placeholder.
+    /// Stated and real size, where the sound continues behind the stated size or the size is a placeholder.
     pub(crate) wrong_size: Option<(u64, u64)>,
 }
 
-/// How samples are coded.
+/// Coding of the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum WaveCodec {
-    /// Every sample by itself.
+    /// Uncompressed samples.
     Pcm(PcmLayout),
     /// Blocks that Symphonia decodes.
     Blocks(AudioCodecId, &'static str),
-    /// A code that only ffmpeg may know.
+    /// A code that only ffmpeg can know.
     Foreign(u16),
 }
 
@@ -66,7 +64,7 @@ impl WaveCodec {
     }
 }
 
-/// What people call a codec by its code in WAVE and AVI files.
+/// Name for people of a codec by its code in WAVE and AVI files.
 pub(crate) fn codec_name_from_code(code: u16) -> String {
     let name = match code {
         0x0001 | 0x0003 => "PCM",
@@ -87,7 +85,7 @@ pub(crate) fn codec_name_from_code(code: u16) -> String {
 }
 
 impl WaveLayout {
-    /// Sample frames that the header promises, where it does.
+    /// Number of frames that the header states, if it does.
     pub(crate) fn declared_frames(&self) -> Option<u64> {
         self.declared_bytes.map(|bytes| bytes / self.block_bytes * self.block_frames)
     }
@@ -97,7 +95,7 @@ impl WaveLayout {
         frames as f64 / f64::from(self.sample_rate_hz)
     }
 
-    /// Whether the file ends before the sound that the header promises.
+    /// Whether the file ends before the stated end of the sound.
     pub(crate) fn is_truncated(&self) -> bool {
         self.declared_bytes.is_some_and(|declared| self.data_bytes < declared)
     }
@@ -136,7 +134,7 @@ pub(crate) fn layout_from_header<R: Read + Seek>(
         let mut id = [0; 4];
         id.copy_from_slice(&head[..4]);
         let size = if is_w64 {
-            // Wave64 counts its own chunk header.
+            // the size in Wave64 includes the header of the chunk
             u64_le(&head, id_bytes).unwrap_or(0).saturating_sub(head_bytes)
         } else {
             u64::from(u32_le(&head, 4).unwrap_or(0))
@@ -166,7 +164,7 @@ pub(crate) fn layout_from_header<R: Read + Seek>(
             }
             _ => {}
         }
-        // Chunks are padded: to 2 bytes in RIFF, to 8 in Wave64.
+        // chunks are padded: to 2 bytes in RIFF, to 8 in Wave64
         let align = if is_w64 { 8 } else { 2 };
         at = match size.checked_next_multiple_of(align).and_then(|size| body_at.checked_add(size)) {
             Some(next) => next,
@@ -210,7 +208,7 @@ fn layout_from_data<R: Read + Seek>(
     Ok(layout)
 }
 
-/// Whether an empty data chunk is followed by another chunk, so that it is empty in earnest.
+/// Whether an empty data chunk is followed by another chunk, and is therefore really empty.
 fn next_chunk_is_known<R: Read + Seek>(reader: &mut R, at: u64) -> bool {
     let mut id = [0; 4];
     reader.seek(SeekFrom::Start(at)).and_then(|_| reader.read_exact(&mut id)).is_ok()
@@ -250,7 +248,7 @@ impl Format {
         }
         let channels = u64::from(channel_count);
         let block_bytes = u64::from(block_bytes);
-        // The container of a sample is the block shared out; its bits may be fewer (12 of 16), and lie at the top.
+        // The container of a sample is the block divided by the channels. Its bits can be fewer (12 of 16), and stand at the top.
         let sample_bytes = match block_bytes / channels {
             0 => u64::from(bits.div_ceil(8)),
             bytes => bytes,
@@ -304,7 +302,7 @@ impl Format {
     }
 }
 
-/// Sample rate and channels from the header of a 32-bit float WAVE on a pipe; the reader stands at its samples then.
+/// Sample rate and channels from the header of a 32-bit float WAVE in a pipe. Afterwards the reader is at the samples.
 pub(crate) fn float_stream_header<R: Read>(reader: &mut R) -> io::Result<Option<(u32, u16)>> {
     let mut head = [0; 12];
     reader.read_exact(&mut head)?;

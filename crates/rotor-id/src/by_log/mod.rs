@@ -1,46 +1,55 @@
-//! Rotors named with a log of the same flight.
+//! Labels from a log of the same flight.
 //!
 //! ```text
-//! tracks of rotors ─────────┐                                ┌─ motors      commands or speeds of each motor
-//!                           ├─ rows at each offset (rows) ───┤                                                ─▶ evidence of
-//! log on its own clock ─────┘                                └─ body_rates  the torques of the rotors turn        each assignment
-//!                                                                           the body                                 │
-//! labels, their probability, the offset of the clocks ◀── posterior over all assignments and offsets ◀───────────────┘
+//! tracks of rotors ──────┐                                ┌─▶ motor_model      command or speed of each motor ──┐
+//!                        ├─▶ log rows, at every offset ───┤                                                     ├─▶ likelihood ratio of
+//! log on its own clock ──┘   of the clocks (log_rows)     └─▶ body_rate_model  torques of the rotors on the ────┘   each assignment
+//!                                                                              body                                     │
+//! labels, their probability, offset of the clocks ◀── posterior over all assignments and offsets ◀──────────────────────┘
 //! ```
+//!
+//! Both models are linear regressions (`bayes_factor`) of series with drifting noise, which a filter makes white (`noise_model`). Series
+//! that carry no information about single rotors are projected out first (`nuisance`).
 
-mod body_rates;
-mod evidence;
-mod log;
-mod motors;
-mod rows;
-mod whitening;
+mod bayes_factor;
+mod body_rate_model;
+mod flight_log;
+mod log_rows;
+mod motor_model;
+mod noise_model;
+mod nuisance;
 
-pub use log::{FlightLog, LogError, LogSignals, MotorSignal};
+pub use flight_log::{FlightLog, LogError, LogSignals, MotorSignal};
 
-use crate::posterior::{Posterior, assignments};
+use crate::posterior::{Posterior, TRACKS_MIN, assignments};
 use crate::settings::LabelsConfig;
 use crate::speed_curve::SpeedCurve;
-use body_rates::BodyRates;
-use evidence::Evidence;
+use body_rate_model::BodyRateModel;
 use hovertone_analysis::{LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorLabels, Span, TrackPoint};
-use motors::Motors;
-use rows::LogRows;
+use log_rows::{LogRows, MatchedRows};
+use motor_model::MotorModel;
 
-/// Which rotor each track is, from a log of the same flight: `rotor_count` rotors turn, of which `tracks` have been told apart.
+/// How a kind of log depends on the assignment of tracks to rotors.
+trait AssignmentModel {
+    /// Logarithm of the likelihood ratio of each assignment to "the log has no relation to the tracks", at one offset of the clocks.
+    fn ln_likelihood_ratios(&self, rows: &MatchedRows, assignments: &[Vec<usize>]) -> Vec<f64>;
+}
+
+/// The labels of tracks, from a log of the same flight. `rotor_count` rotors turn; `tracks` holds a track of each separated rotor.
 ///
-/// Every assignment of tracks to rotors is weighed at every offset of the log's clock against the recording's, by its likelihood
-/// ratio to "this log has nothing to do with these tracks" (a prior probability of one half):
+/// Every assignment of tracks to rotors is compared, at every offset of the log's clock, with the hypothesis "this log has no relation to
+/// these tracks", which has a prior probability of one half. Both hypotheses are linear regressions:
 ///
-/// - *Motors*: `n_i − ⟨n⟩ = a_i + b (m_j − ⟨m⟩) + noise`, with `m_j` the command or speed of the motor behind a lag, one positive
-///   gain b for all, and a constant a_i of each track: what counts is how speeds change against each other. Measured speeds are also
-///   compared by their means.
-/// - *Body rates*: `Ω_axis(t) = g Σ_i s_i,axis ∫ω_i² dt + a + b t + noise`, with `s` the lever of the rotor that track i is taken for
-///   (y for roll, −x for pitch, its sense of turning for yaw), and an unknown positive gain g for each axis, so that no inertia is
-///   needed; that of yaw may have either sign. Every rotor must be told apart.
+/// - *Motors*: `n_i − ⟨n⟩ = a_i + b (m_j − ⟨m⟩) + noise`. n_i is the speed of track i, m_j the command or speed of motor j behind a
+///   first-order lag, ⟨⟩ the mean over the rotors, b > 0 one gain for all motors, and a_i a constant of each track. So the changes of the
+///   speeds relative to each other are compared. The mean values of measured speeds are compared as well.
+/// - *Body rates*: `Ω_axis(t) = g Σ_i s_i,axis ∫ω_i² dt + a + b t + noise`. `s_i,axis` is the lever of the rotor assigned to track i (y
+///   for roll, −x for pitch, minus the direction of rotation for yaw). The gain g of each axis is unknown, so no inertia is needed; it is
+///   positive, but may have either sign for yaw. A track of every rotor is needed.
 ///
-/// The noise is white on top of a random walk, in a ratio that is integrated over. The clocks run equally fast.
+/// The noise is white plus a random walk of the value or of the slope; the ratio of the two is integrated out. Both clocks run equally fast.
 ///
-/// The answer is "not told" where nothing stands out, per rotor and altogether. Measured limits: docs/rotors.md.
+/// A track without a label, or the reason why no track has one, is part of the result. Measured limits: docs/rotors.md.
 pub fn labels_from_log(
     tracks: &[&[TrackPoint]],
     rotor_count: usize,
@@ -56,40 +65,40 @@ pub fn labels_from_log(
     if rotor_count > LABELLED_ROTORS_MAX {
         return not_told(NotTold::TooManyRotors { rotors: rotor_count });
     }
-    let needed = if source == LabelSource::BodyRates { rotor_count } else { 2 };
+    let needed = if source == LabelSource::BodyRates { rotor_count } else { TRACKS_MIN };
     if tracks.len() < needed || tracks.len() > rotor_count {
         return not_told(NotTold::TooFewTracks { tracks: tracks.len(), needed });
     }
     let curves: Vec<SpeedCurve> = tracks.iter().map(|track| SpeedCurve::through(track)).collect();
-    let rows = LogRows::of(log, config.row_s);
+    let rows = LogRows::from_log(log, config.row_s);
     let Some(hover) = SpeedCurve::span_of_all(&curves) else { return not_told(NotTold::NoOverlap) };
     let offsets = match offsets_s(&rows, hover, config) {
         Ok(offsets) => offsets,
         Err(reason) => return not_told(reason),
     };
     let assignments = assignments(tracks.len(), rotor_count);
-    let evidence: Box<dyn Evidence> = match &log.signals {
-        LogSignals::Motors { signal, .. } => Box::new(Motors::new(&rows, *signal, config)),
-        LogSignals::BodyRates { places, .. } => Box::new(BodyRates::new(&rows, places)),
+    let model: Box<dyn AssignmentModel> = match log.signals() {
+        LogSignals::Motors { signal, .. } => Box::new(MotorModel::new(&rows, *signal, config)),
+        LogSignals::BodyRates { places, .. } => Box::new(BodyRateModel::new(&rows, places)),
     };
     let mut posterior = Posterior::new(&assignments, offsets.len());
     for &offset_s in &offsets {
-        let heard = rows.heard_at(offset_s, &curves, hover);
-        let is_enough = heard.len() >= config.rows_min;
-        let believed = || {
-            let ratios = evidence.log_ratios(&heard, &assignments);
-            // numbers that overflow say nothing
-            ratios
+        let matched = rows.matched_at(offset_s, &curves, hover);
+        let is_enough = matched.len() >= config.rows_min;
+        let tempered = || {
+            let ln_ratios = model.ln_likelihood_ratios(&matched, &assignments);
+            // a ratio that overflowed carries no information
+            ln_ratios
                 .into_iter()
                 .map(|ratio| if ratio.is_finite() { config.evidence_share * ratio } else { 0.0 })
                 .collect()
         };
-        posterior.add(offset_s, is_enough.then(believed));
+        posterior.add(offset_s, is_enough.then(tempered));
     }
     posterior.labels(source, &names, config)
 }
 
-/// The offsets to try.
+/// The offsets to try, in steps about the middle of the limits: a log on the recording's own clock has its offset 0 among them.
 fn offsets_s(rows: &LogRows, hover: Span, config: &LabelsConfig) -> Result<Vec<f64>, NotTold> {
     let Some(log) = rows.span().filter(|log| log.length_s() > 0.0) else { return Err(NotTold::NoOverlap) };
     let shared_s = config.overlap_share_min * log.length_s().min(hover.length_s());
@@ -102,6 +111,5 @@ fn offsets_s(rows: &LogRows, hover: Span, config: &LabelsConfig) -> Result<Vec<f
         return Err(NotTold::TooManyOffsets { low_s, high_s });
     }
     let middle_s = (low_s + high_s) / 2.0;
-    // about the middle, so that a log on the recording's own clock has its offset 0 among them
     Ok((0..count).map(|index| middle_s + config.offset_step_s * (index as f64 - (count - 1) as f64 / 2.0)).collect())
 }

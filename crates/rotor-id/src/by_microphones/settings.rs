@@ -1,44 +1,50 @@
-//! Settings of telling rotors by several microphones.
+//! Settings of the labels from several microphones.
 
 use hovertone_vehicle::{ConfigError, check_range};
 use serde::Serialize;
 
-/// How levels and delays at several microphones are compared with where microphones and rotors stand.
+/// Speed of sound in dry air of 0 °C, in m/s. *Physics.*
+const SOUND_0_C_M_S: f64 = 331.3;
+/// 0 °C in K, by definition. *Physics.*
+const ZERO_C_K: f64 = 273.15;
+
+/// How levels and delays at several microphones are compared with the places of microphones and rotors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MicrophonesConfig {
-    /// How well each coordinate of a microphone in the vehicle's frame is known: a vehicle that hovers over a spot is off it by a hand's
-    /// breadth on the average, and its heading by 5° (a tenth of the distance). Microphones fixed to the vehicle are known to 0.01 m.
+    /// Standard deviation of each coordinate of a microphone in the vehicle's frame, in m. A vehicle that hovers over a spot is 0.1 m off it
+    /// on average, and its heading is off by 5° (a tenth of the distance). Microphones fixed to the vehicle have 0.01 m.
     pub position_std_m: f64,
-    /// How well microphones are as sensitive as each other: those of one kind agree within ±3 dB.
+    /// Standard deviation of the microphones' gains, in dB: microphones of one kind agree within ±3 dB.
     pub gain_std_db: f64,
-    /// Air temperature, for the speed of sound: 10 °C off is 2 %, less than the positions.
+    /// Air temperature, for the speed of sound: an error of 10 °C is 2 %, less than that of the positions.
     pub temperature_c: f64,
-    /// What body, arms, rotor wash and the rotor's own pattern make of all its lines at a microphone together. Rotors on one frame differ
-    /// by some decibels at one distance; where a microphone stands near a rotor's axis the pattern adds to this.
+    /// Standard deviation of what body, arms, rotor wash and the rotor's own directivity change in the levels of all its lines at a
+    /// microphone, in dB. Rotors on one frame differ by some decibels at one distance. Near a rotor's axis the directivity adds to this.
     pub level_std_db: f64,
-    /// Scatter of single lines' levels about that, before it is measured: echoes as strong as the sound make 5.6 dB (Rayleigh).
+    /// Prior standard deviation of the levels of single lines about their mean, in dB. If echoes dominate, the amplitude has a
+    /// Rayleigh distribution, whose level has a standard deviation of 10 / ln 10 · π / √6 = 5.6 dB.
     pub line_level_std_db: f64,
-    /// Scatter of single lines' phases that is integrated over, in rad (as 1/√κ of von Mises): echoes off body and frame of a third of
-    /// the sound; echoes as strong as the sound; nearly lost in them.
+    /// Scatter of the phases of single lines over which the likelihood is averaged, in rad (1/√κ of a von Mises distribution): echoes of a
+    /// third of the sound from body and frame; echoes as strong as the sound; lines nearly lost in echoes.
     pub phase_std_rad: [f64; 3],
-    /// Share of lines whose phase says nothing, because something else sounds there.
+    /// Share of lines whose phase is uniform, because another source sounds at their frequency.
     pub phase_outlier_share: f64,
-    /// Lines are solved for in blocks of at most this length: resolves rotors half a turn per second apart from the second line on.
+    /// Longest block in which the amplitudes are solved, in s: separates rotors half a turn per second apart from the second line on.
     pub block_s: f64,
-    /// And at most this over their order: 3 resolution cells between rotors of 60 rev/s that differ by 0.2 %, while errors of a track
-    /// of 0.03 % leave the phase alone, and so does a vehicle that drifts at 0.05 m/s.
+    /// Longest block times the order of the line, in s. At 24 s, rotors of 60 rev/s that differ by 0.2 % are 3 resolution cells apart, while
+    /// track errors of 0.03 % and a vehicle that drifts at 0.05 m/s keep the phase.
     pub block_order_s: f64,
-    /// No more than this is listened to, from where rotors are first followed: what noise there is has averaged out by then, and echoes,
-    /// shadows and places do not. It bounds what is kept.
+    /// Longest stretch that is analysed, in s, from the first point of a track. By then the noise has averaged out, while echoes, shadows
+    /// and errors of the places do not. It limits the memory.
     pub listen_s_max: f64,
-    /// Power over that of noise at which a line is heard in one block; in n blocks, by a √n less far above.
+    /// A line is audible if its mean power over n blocks exceeds 1 + this / √n times the power of the noise.
     pub heard_over_noise: f64,
-    /// Probability that microphones and rotors stand where it is said, before anything is heard: who measures gets it wrong in one of five
-    /// hundred set-ups. Two microphones cannot tell more of it than this; with four a wrong place shows.
+    /// Prior probability that microphones and rotors are at the given places: one of five hundred set-ups is measured wrongly. Two
+    /// microphones can hardly change this probability; with four a wrong place shows.
     pub array_prior: f64,
-    /// Power of the likelihood that is believed, as for logs: errors of echoes and shadows are not independent from line to line.
+    /// Exponent of the likelihood, as for logs: errors from echoes and shadows are not independent from line to line.
     pub evidence_share: f64,
-    /// A rotor is labelled if the label has this probability.
+    /// Smallest probability of a label that is given.
     pub probability_min: f64,
 }
 
@@ -64,7 +70,10 @@ impl Default for MicrophonesConfig {
 }
 
 impl MicrophonesConfig {
-    /// Refuses settings that mean nothing, by name, value and limit.
+    /// Checks that each setting is in its range.
+    ///
+    /// # Errors
+    /// The first setting that is not: its name, value and limits.
     pub fn check(&self) -> Result<(), ConfigError> {
         check_range("position_std_m", self.position_std_m, 0.001, 10.0)?;
         check_range("gain_std_db", self.gain_std_db, 0.1, 60.0)?;
@@ -84,8 +93,8 @@ impl MicrophonesConfig {
         check_range("probability_min", self.probability_min, 0.5, 1.0)
     }
 
-    /// Speed of sound in dry air, m/s: 331.3 √(1 + t / 273.15).
-    pub(crate) fn sound_m_s(&self) -> f64 {
-        331.3 * (1.0 + self.temperature_c / 273.15).sqrt()
+    /// Speed of sound in dry air, an ideal gas: `331.3 √(1 + t / 273.15)`.
+    pub(super) fn sound_m_s(&self) -> f64 {
+        SOUND_0_C_M_S * (1.0 + self.temperature_c / ZERO_C_K).sqrt()
     }
 }

@@ -1,105 +1,117 @@
-//! What the harmonic likelihood says of a hover: blocks of speed, and what each line contributed.
+//! The result of the harmonic likelihood for a hover: blocks of speed, and the contribution of each line.
 
 use hovertone_analysis::Span;
 use hovertone_signal::statistics::mean;
 
-/// A line between the assumed ones is there above this likelihood; noise reaches it in one of ten thousand lines and blocks.
+/// Smallest likelihood of a line between the assumed ones, for each chunk; noise reaches it in one of ten thousand lines and blocks.
+/// *Decision.*
 const BETWEEN_LIKELIHOOD_MIN: f64 = 16.0;
-/// Lines between that have this share of the others' power belong to one series with them.
+/// Smallest power of the lines between, as a share of the power of the others, at which all form one series. *Decision.*
 const SERIES_POWER_SHARE: f64 = 0.5;
 
-/// The speed over one block of sound.
+/// Rounding error of the ratio of two orders: a ratio this close to a whole number is one. *Numeric.*
+const ORDER_TOLERANCE: f64 = 1e-6;
+
+/// The uncertainty of a mean speed falls with the length of a block to this power (Rife and Boorstyn 1974). *Physics.*
+pub(crate) const LENGTH_POWER: f64 = 1.5;
+
+/// The speed in one block of sound.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HarmonicBlock {
     pub(crate) span: Span,
-    /// Speed in the middle.
+    /// Speed in the middle of the block.
     pub(crate) speed_rev_s: f64,
+    /// Rate of change of the speed.
     pub(crate) slope_rev_s2: f64,
-    /// From the curvature of the likelihood.
+    /// Standard uncertainty, from the curvature of the likelihood.
     pub(crate) std_uncertainty_rev_s: f64,
-    /// By how many turns the next block's line starts ahead of where this one ends, where phases say so.
+    /// Angle in turns from the end of this block's line of speed to the start of the next block's, where the phases determine it.
     pub(crate) step_to_next_turns: Option<f64>,
-    /// Whether several rotors sound, and the speed is their mean.
+    /// Whether several rotors sound and the speed is their mean.
     pub(crate) is_several: bool,
-    /// Level of the strongest line, dB re a full-scale sine.
+    /// Level of the strongest line, dB re a sine of full scale.
     pub(crate) level_db: f64,
-    /// Whether it stands out of the noise.
+    /// Whether the block stands out of the noise.
     pub(crate) is_heard: bool,
-    /// Whether two lines keep their phase over a second or more, beyond what the search finds in noise.
+    /// Whether several lines keep their phase over a second or more, with a likelihood that a search does not find in noise.
     pub(crate) is_steady: bool,
 }
 
 impl HarmonicBlock {
-    /// The part of it that lies in a stretch of time; less is known of it than of all of it.
-    pub(crate) fn within(&self, stretch: Span) -> Option<Self> {
-        let span = self.span.overlap(stretch);
+    /// The part of the block in a span of time, with the larger uncertainty of the shorter part. `None` outside the block.
+    pub(crate) fn within(&self, part: Span) -> Option<Self> {
+        let span = self.span.overlap(part);
         let longer = self.span.length_s() / span.length_s();
         (span.length_s() > 0.0).then(|| Self {
             span,
             speed_rev_s: self.speed_at(span.middle_s()),
-            std_uncertainty_rev_s: self.std_uncertainty_rev_s * longer.powf(1.5),
+            std_uncertainty_rev_s: self.std_uncertainty_rev_s * longer.powf(LENGTH_POWER),
             step_to_next_turns: self.step_to_next_turns.filter(|_| span.to_s == self.span.to_s),
             ..*self
         })
     }
 
-    /// Speed at a time.
+    /// Speed at a time on the recording's clock.
     pub(crate) fn speed_at(&self, time_s: f64) -> f64 {
         self.speed_rev_s + self.slope_rev_s2 * (time_s - self.span.middle_s())
     }
 
-    /// The same block, ending a little earlier.
+    /// The same block with an earlier end.
     pub(crate) fn until(&self, to_s: f64) -> Self {
         let span = Span { to_s, ..self.span };
         Self { span, speed_rev_s: self.speed_at(span.middle_s()), ..*self }
     }
 }
 
-/// What a line contributed over all quanta.
+/// The contribution of a line over all chunks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LineRecord {
     pub(crate) order: f64,
+    /// Sum over the chunks of the mean power on the path, over the power of noise.
     pub(crate) on_path: f64,
-    /// Likelihood where lines keep their phase.
+    /// Likelihood in the chunks whose speed is steady.
     pub(crate) steady_likelihood: f64,
-    pub(crate) quanta: u32,
-    pub(crate) quanta_left_out: u32,
+    /// Number of chunks.
+    pub(crate) chunks: u32,
+    /// Chunks in which the line was not used, because of a foreign sound in its band.
+    pub(crate) chunks_left_out: u32,
 }
 
 impl LineRecord {
+    /// Whether the line keeps its phase.
     fn is_heard(&self) -> bool {
-        self.steady_likelihood > BETWEEN_LIKELIHOOD_MIN * f64::from(self.quanta.max(1))
+        self.steady_likelihood > BETWEEN_LIKELIHOOD_MIN * f64::from(self.chunks.max(1))
     }
 
-    /// What the line counts for: order squared times power over noise.
+    /// Weight of the line in the speed: order squared times power over noise.
     pub(crate) fn weight(&self) -> f64 {
-        let heard = 1.0 - f64::from(self.quanta_left_out) / f64::from(self.quanta.max(1));
-        heard * self.order.powi(2) * (self.on_path - f64::from(self.quanta)).max(0.0)
+        let heard = 1.0 - f64::from(self.chunks_left_out) / f64::from(self.chunks.max(1));
+        heard * self.order.powi(2) * (self.on_path - f64::from(self.chunks)).max(0.0)
     }
 }
 
-/// The harmonic likelihood over a hover.
+/// The speed along a hover by harmonic likelihood.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct HarmonicTrack {
     /// Time between points of the track.
     pub(crate) step_s: f64,
+    /// Blocks in order of time.
     pub(crate) blocks: Vec<HarmonicBlock>,
-    /// Blocks from the middle of one to the middle of the next, where the track leans on them.
+    /// Blocks from the middle of each block to the middle of the next: they support the track where two blocks meet.
     pub(crate) between: Vec<HarmonicBlock>,
+    /// The contribution of each line.
     pub(crate) lines: Vec<LineRecord>,
 }
 
 impl HarmonicTrack {
-    /// Share of a hover in which lines keep their phase.
+    /// Share of a hover of length `hover_s` in which lines keep their phase.
     pub(crate) fn steady_share(&self, hover_s: f64) -> f64 {
         let steady_s: f64 = self.blocks.iter().filter(|block| block.is_steady).map(|block| block.span.length_s()).sum();
         steady_s / hover_s.max(f64::MIN_POSITIVE)
     }
-}
 
-impl HarmonicTrack {
-    /// Lines that keep their phase at orders which are no multiple of `order`, where there is more than one: those of a shaft that
-    /// turns more slowly.
+    /// Lines that keep their phase at orders that are no multiples of `order`: they belong to a slower shaft. `None` for fewer than two
+    /// lines.
     pub(crate) fn lines_between(&self, order: f64) -> Option<LinesBetween> {
         let is_between = |line: &&LineRecord| (line.order / order).fract() != 0.0;
         let reach = self.lines.iter().filter(is_between).map(|line| line.order).fold(0.0, f64::max);
@@ -107,7 +119,7 @@ impl HarmonicTrack {
             self.lines.iter().filter(is_between).filter(|line| line.is_heard()).map(|line| line.order).collect();
         let times_slower = (2..=5u32).find(|&times| {
             let parts = |line_order: f64| f64::from(times) * line_order / order;
-            let is_part = |line_order: f64| (parts(line_order) - parts(line_order).round()).abs() < 1e-6;
+            let is_part = |line_order: f64| (parts(line_order) - parts(line_order).round()).abs() < ORDER_TOLERANCE;
             let mean_of = |is_own: bool| {
                 let of_kind =
                     |line: &&LineRecord| is_between(line) != is_own && line.order <= reach && is_part(line.order);
@@ -121,10 +133,11 @@ impl HarmonicTrack {
     }
 }
 
-/// Lines between those that a rotor can make.
+/// Lines between the lines that the assumed rotor makes.
 pub(crate) struct LinesBetween {
+    /// Number of lines.
     pub(crate) count: usize,
-    /// How many times more slowly a shaft turns that makes all of them, if they are as strong as the others: the shaft lines of a
-    /// rotor, which lie there too, are much weaker.
+    /// Ratio of the assumed speed to the speed of a shaft that makes all lines, where the lines between are as strong as the others. The
+    /// shaft lines of the assumed rotor have these orders too, but are much weaker.
     pub(crate) times_slower: Option<u32>,
 }

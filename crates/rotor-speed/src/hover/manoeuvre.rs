@@ -1,13 +1,16 @@
-//! Speed of each row → which rows are flown, not hovered: doublets, climbs, fast yaw.
+//! Speed of each row → rows in which the vehicle manoeuvres: doublets, climbs, fast yaw.
 
 use crate::hover::HoverConfig;
 use hovertone_signal::statistics::median;
 
-/// Standard deviations in the median of absolute deviations of a normal distribution.
+/// Standard deviation of a normal distribution over the median of its absolute deviations. *Physics.*
 const STD_PER_MEDIAN_DEVIATION: f64 = 1.4826;
 
-/// Which rows turn faster or slower than the hover around them by clearly more than the hover's own wander. A row alone
-/// does not count: what noise does to one reading is no manoeuvre.
+/// For each row, whether its speed differs from the median speed around it by much more than the wander of the hover. A single row does
+/// not count, because noise may have changed its speed.
+///
+/// - `speeds_rev_s`: speed of each row, where known; `row_s`: length of a row.
+/// - The wander is the median absolute deviation, as a standard deviation. A neighbour of a row that counts needs half the difference.
 pub(super) fn manoeuvring_rows(speeds_rev_s: &[Option<f64>], row_s: f64, config: &HoverConfig) -> Vec<bool> {
     let reach = (config.manoeuvre_reach_s / row_s).ceil() as usize;
     let off_share: Vec<f64> = speeds_rev_s
@@ -62,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn where_the_reading_itself_scatters_nothing_is_cut() {
+    fn where_the_speed_itself_scatters_nothing_is_cut() {
         assert!(rows(|row| if row % 2 == 0 { 87.0 } else { 93.0 }, 40).iter().all(|is_off| !is_off));
     }
 }

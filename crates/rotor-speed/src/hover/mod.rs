@@ -1,4 +1,4 @@
-//! Survey → hover: which stretches are steady flight, and why the rest was cut away.
+//! Survey → hover: the spans of steady flight, and the reasons for cutting away the rest.
 
 mod manoeuvre;
 mod phases;
@@ -12,18 +12,23 @@ use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
 use hovertone_signal::statistics::median;
 
-/// The hover that is looked for.
+/// Largest part of a steady span that is cut away at an edge, as a share of the span. *Decision.*
+const EDGE_SHARE_MAX: f64 = 0.2;
+/// Largest difference of two other speeds that form one cut, as a share. *Decision.*
+const SAME_SPEED_SHARE: f64 = 0.1;
+
+/// The hover that is searched for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WantedHover {
     /// Shaft speed.
     pub(crate) speed_rev_s: f64,
-    /// Half width of the band around it, as a share.
+    /// Half width of the band around this speed, as a share.
     pub(crate) band_half_width_share: f64,
-    /// Whether several rotors turn: then the loudest changes, and the mean of all tells the vehicle's motion.
+    /// Whether several rotors turn. Then the loudest rotor changes, and the mean of all rotors follows the motion of the vehicle.
     pub(crate) has_several_rotors: bool,
 }
 
-/// Finds the stretches in which the rotors turn near the wanted speed, at the level of the hover.
+/// The spans in which the rotors turn near the wanted speed, with about the loudness of the hover.
 pub(crate) fn hover_from_survey(survey: &Survey, map: &CombMap, wanted: &WantedHover, config: &HoverConfig) -> Hover {
     let verdicts = verdicts_of_rows(survey, map, wanted, config);
     let mut hover = Hover::default();
@@ -33,7 +38,9 @@ pub(crate) fn hover_from_survey(survey: &Survey, map: &CombMap, wanted: &WantedH
         let span = Span { from_s: survey.rows[row].span.from_s, to_s: survey.rows[end - 1].span.to_s };
         match verdicts[row].reason() {
             None => {
-                trim_into(&mut hover, span, row > 0, end < verdicts.len(), survey.rows[row].span.length_s(), config)
+                let row_s = survey.rows[row].span.length_s();
+                let cut_s = |is_cut: bool| if is_cut { row_s.min(EDGE_SHARE_MAX * span.length_s()) } else { 0.0 };
+                add_trimmed(&mut hover, span, cut_s(row > 0), cut_s(end < verdicts.len()), config);
             }
             Some(reason) => hover.cuts.push(Cut { span, reason }),
         }
@@ -43,10 +50,9 @@ pub(crate) fn hover_from_survey(survey: &Survey, map: &CombMap, wanted: &WantedH
     hover
 }
 
-/// Takes a steady span into the hover, less the edges where it meets something else.
-fn trim_into(hover: &mut Hover, span: Span, is_cut_before: bool, is_cut_after: bool, row_s: f64, config: &HoverConfig) {
-    let edge_s = |is_cut: bool| if is_cut { row_s.min(0.2 * span.length_s()) } else { 0.0 };
-    let kept = Span { from_s: span.from_s + edge_s(is_cut_before), to_s: span.to_s - edge_s(is_cut_after) };
+/// Adds a steady span to the hover, shortened at both ends.
+fn add_trimmed(hover: &mut Hover, span: Span, before_s: f64, after_s: f64, config: &HoverConfig) {
+    let kept = Span { from_s: span.from_s + before_s, to_s: span.to_s - after_s };
     if kept.length_s() < config.length_s_min {
         hover.cuts.push(Cut { span, reason: CutReason::TooShort });
         return;
@@ -58,6 +64,7 @@ fn trim_into(hover: &mut Hover, span: Span, is_cut_before: bool, is_cut_after: b
     hover.segments.push(kept);
 }
 
+/// Whether a row belongs to the hover.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Verdict {
     Hover,
@@ -65,6 +72,7 @@ enum Verdict {
 }
 
 impl Verdict {
+    /// The reason for cutting the row away.
     fn reason(self) -> Option<CutReason> {
         match self {
             Self::Hover => None,
@@ -72,25 +80,27 @@ impl Verdict {
         }
     }
 
+    /// Whether two neighbouring rows form one span.
     fn is_same_kind(self, other: &Self) -> bool {
         match (self, other) {
             (
                 Self::Not(CutReason::OtherSpeed { speed_rev_s: a }),
                 Self::Not(CutReason::OtherSpeed { speed_rev_s: b }),
-            ) => (a / b - 1.0).abs() < 0.1,
+            ) => (a / b - 1.0).abs() < SAME_SPEED_SHARE,
             (a, b) => a == *b,
         }
     }
 }
 
+/// Decides for each row whether it belongs to the hover.
 fn verdicts_of_rows(survey: &Survey, map: &CombMap, wanted: &WantedHover, config: &HoverConfig) -> Vec<Verdict> {
-    let WantedHover { speed_rev_s, band_half_width_share: half_width_share, has_several_rotors } = *wanted;
+    let WantedHover { speed_rev_s, band_half_width_share: half_width_share, .. } = *wanted;
     let rows = 0..survey.rows.len();
     let near_db: Vec<f64> = rows
         .clone()
         .map(|row| map.best_near(row, speed_rev_s, half_width_share).map_or(0.0, |(_, score)| score.max(0.0)))
         .collect();
-    // the score of the rows that carry the tone, however few they are: a mean in which rows count by their square
+    // typical score of the rows with the tone, even where these are few: a mean weighted by the square of the score
     let (cubes, squares) = near_db.iter().fold((0.0, 0.0), |(c, s), d| (c + d.powi(3), s + d.powi(2)));
     let score_db_min = if squares > 0.0 { config.comb_share_min * cubes / squares } else { f64::INFINITY };
     let level_db: Vec<f64> = survey.rows.iter().map(|row| row.level_db(survey.bin_hz)).collect();
@@ -99,17 +109,12 @@ fn verdicts_of_rows(survey: &Survey, map: &CombMap, wanted: &WantedHover, config
     let Some(hover_level_db) = median(&with_tone) else {
         return vec![Verdict::Not(CutReason::NoTone); survey.rows.len()];
     };
-    let speeds_rev_s: Vec<Option<f64>> = rows
-        .clone()
-        .map(|row| match has_several_rotors {
-            // now one is the loudest, now another; what they share moves as the vehicle does
-            true if near_db[row] >= score_db_min => map.mean_near(row, speed_rev_s, half_width_share),
-            true => None,
-            false => map
-                .best_near(row, speed_rev_s, half_width_share)
-                .filter(|&(_, score)| score >= score_db_min)
-                .map(|(speed, _)| speed),
-        })
+    let speeds_rev_s: Vec<Option<f64>> = near_db
+        .iter()
+        .enumerate()
+        .map(
+            |(row, &near_db)| if near_db >= score_db_min { speed_of_row(map, row, wanted, score_db_min) } else { None },
+        )
         .collect();
     let row_s = survey.rows.first().map_or(config.survey_row_s, |row| row.span.length_s());
     let is_flown = manoeuvre::manoeuvring_rows(&speeds_rev_s, row_s, config);
@@ -133,7 +138,20 @@ fn verdicts_of_rows(survey: &Survey, map: &CombMap, wanted: &WantedHover, config
     verdicts
 }
 
-/// A single weak row inside a hover is a fading tone, not a landing: the ridge shows it as a gap.
+/// The speed of a row with the tone. `None` where its score is below the minimum.
+fn speed_of_row(map: &CombMap, row: usize, wanted: &WantedHover, score_db_min: f64) -> Option<f64> {
+    let WantedHover { speed_rev_s, band_half_width_share, has_several_rotors } = *wanted;
+    if has_several_rotors {
+        // the loudest rotor changes; the mean of all moves as the vehicle does
+        map.mean_near(row, speed_rev_s, band_half_width_share)
+    } else {
+        map.best_near(row, speed_rev_s, band_half_width_share)
+            .filter(|&(_, score)| score >= score_db_min)
+            .map(|(speed, _)| speed)
+    }
+}
+
+/// Counts a single weak row within a hover as hover: the tone fades there, and the ridge has a gap.
 fn bridge_single_rows(verdicts: &mut [Verdict]) {
     for middle in 1..verdicts.len().saturating_sub(1) {
         let is_faded = matches!(verdicts[middle], Verdict::Not(CutReason::NoTone | CutReason::OtherSpeed { .. }));

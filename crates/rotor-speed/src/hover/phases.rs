@@ -1,23 +1,25 @@
-//! Cuts of other speeds → the phase of flight that they are: take-off, landing, manoeuvre.
+//! Cuts with other speeds → phases of flight: take-off, landing, manoeuvre.
 
 use crate::survey::Survey;
 use crate::tone::CombMap;
 use hovertone_analysis::{Cut, CutReason, Hover, Span};
 use hovertone_signal::statistics::median;
 
-/// A speed that is held for so long is one of its own: idling, another load.
+/// Shortest time for which a speed is held to be a steady state of its own, such as idling or another load, s. *Decision.*
 const HELD_S: f64 = 2.0;
-/// Rotors that run up or down overshoot the hover by this share at most.
+/// Largest overshoot beyond the speed of the hover when rotors run up or down, as a share. *Decision.*
 const OVERSHOOT_SHARE: f64 = 0.15;
-/// A manoeuvre between two stretches of hover lasts this long at most.
+/// Longest manoeuvre between two spans of hover, s. *Decision.*
 const MANOEUVRE_S_MAX: f64 = 6.0;
-
-/// Rows outside the hover whose comb reaches this share of the hover's sound as clearly as it does.
+/// Smallest comb score of a clear row outside the hover, as a share of the median score in the hover. *Decision.*
 const CLEAR_SHARE: f64 = 0.7;
-/// Below this comb, rows chance to lead to other speeds: faint rotors do that too.
+/// Smallest comb score of a clear row, dB: with a lower score, the best speed of a row is wrong by chance, also with a faint rotor.
+/// *Decision.*
 const CLEAR_DB_MIN: f64 = 10.0;
+/// Rounding error of the times at which rows meet, s. *Numeric.*
+const SAME_TIME_S: f64 = 1e-6;
 
-/// How long clear tones are heard that are neither the hover's nor held, nor the run-up or run-down to it.
+/// Length of the rows with clear tones outside the hover that are not held and belong to no take-off or landing, s.
 pub(crate) fn restless_s(hover: &Hover, survey: &Survey, map: &CombMap) -> f64 {
     let middle_s = |row: usize| (survey.rows[row].span.from_s + survey.rows[row].span.to_s) / 2.0;
     let best_db = |row: usize| map.best_of_row(row).map_or(0.0, |(_, score)| score);
@@ -36,7 +38,7 @@ pub(crate) fn restless_s(hover: &Hover, survey: &Survey, map: &CombMap) -> f64 {
         .sum()
 }
 
-/// Names what lies before, between and after the stretches of hover, where it is no steady speed of its own.
+/// Names the cuts before, between and after the spans of hover as take-off, manoeuvre and landing, where no other speed is held.
 pub(super) fn name_cuts(hover: &mut Hover, hover_speed_rev_s: f64) {
     let (Some(first), Some(last)) = (hover.segments.first().copied(), hover.segments.last().copied()) else { return };
     hover.cuts.sort_by(|a, b| a.span.from_s.total_cmp(&b.span.from_s));
@@ -77,8 +79,8 @@ pub(super) fn name_cuts(hover: &mut Hover, hover_speed_rev_s: f64) {
     join_equal(&mut hover.cuts);
 }
 
-/// Neighbouring cuts in which the rotors turn at other speeds, none of them for long, or too fast up or down to be heard as
-/// a series, with the edges beside them.
+/// Runs of neighbouring cuts in which the speed changes: other speeds that are not held, changes too fast to be heard as a series of
+/// lines, and the edges beside these.
 fn runs_of_motion(cuts: &mut [Cut]) -> impl Iterator<Item = &mut [Cut]> {
     let is_motion = |cut: &Cut| match cut.reason {
         CutReason::OtherSpeed { .. } | CutReason::NoTone => cut.span.length_s() <= HELD_S,
@@ -89,13 +91,14 @@ fn runs_of_motion(cuts: &mut [Cut]) -> impl Iterator<Item = &mut [Cut]> {
         .filter(move |run| run.iter().all(is_motion))
 }
 
-/// Whether speeds rise to the hover's, or fall from it.
+/// A change of speed towards the hover (sign 1), or away from it (sign −1).
 struct Direction {
     hover_speed_rev_s: f64,
     sign: f64,
 }
 
 impl Direction {
+    /// Whether the speeds of the cuts change in this direction, and overshoot the hover by little.
     fn is_of(&self, cuts: &[Cut]) -> bool {
         let speeds: Vec<f64> = cuts
             .iter()
@@ -110,17 +113,18 @@ impl Direction {
     }
 }
 
-/// Times of rows that touch differ by rounding.
+/// Whether two times are equal up to rounding.
 fn is_same(a_s: f64, b_s: f64) -> bool {
-    (a_s - b_s).abs() < 1e-6
+    (a_s - b_s).abs() < SAME_TIME_S
 }
 
+/// Whether a span lies directly between two segments of the hover.
 fn touches_hover(segments: &[Span], span: &Span) -> bool {
     segments.iter().any(|segment| is_same(segment.to_s, span.from_s))
         && segments.iter().any(|segment| is_same(segment.from_s, span.to_s))
 }
 
-/// Neighbours with the same reason are one cut.
+/// Joins neighbouring cuts with the same reason.
 fn join_equal(cuts: &mut Vec<Cut>) {
     cuts.dedup_by(|next, before| {
         let is_one = before.reason == next.reason && is_same(next.span.from_s, before.span.to_s);

@@ -1,41 +1,42 @@
-//! How hovering is told from the rest.
+//! Settings: how hovering is separated from the rest of a recording.
 
 use crate::survey::SurveySettings;
 use hovertone_vehicle::{ConfigError, check_range};
 use serde::{Deserialize, Serialize};
 
-/// How hovering is told from silence, handling noise, take-off and landing.
+/// How hovering is separated from silence, handling noise, take-off and landing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HoverConfig {
-    /// Frame of the survey: resolves 5 Hz, enough to find lines, short enough for their wander.
+    /// Length of a frame of the survey, s. 0.2 s resolves 5 Hz, which separates lines, and is short enough for their varying frequency.
     pub survey_window_s: f64,
-    /// Time step of the survey: cuts are made to this.
+    /// Length of a row of the survey, s: the time resolution of cuts.
     pub survey_row_s: f64,
-    /// Rows kept at most; a longer recording gets longer rows, so that memory does not grow with its length.
+    /// Largest number of rows. A longer recording gets longer rows, so that memory does not grow with its length.
     pub survey_rows_max: usize,
-    /// Frame of the survey's low frequencies: resolves 1 Hz, so that mains hum is told from a rotor that wanders by 0.1 % and
-    /// more, and a helicopter's lines, 10 Hz and more apart, from each other.
+    /// Length of a frame of the low frequencies, s. 1 s resolves 1 Hz, which separates mains hum from a rotor whose speed varies by 0.1 % or
+    /// more, and the lines of a helicopter, 10 Hz apart or more, from each other.
     pub fine_window_s: f64,
-    /// Highest frequency of those: mains hum has been heard to its fiftieth multiple, and that must not pass for a gear mesh.
+    /// Highest of the low frequencies, Hz. Recordings hold mains hum up to its 50th multiple, which must not count as a gear mesh.
     pub fine_hz_max: f64,
-    /// Rows this much quieter than the typical row of the hover are not hover.
+    /// Level below the median level of the hover at which a row is no hover, dB.
     pub quieter_db: f64,
-    /// Rows this much louder are handling noise.
+    /// Level above the median level of the hover at which a row is handling noise, dB.
     pub louder_db: f64,
-    /// A row's comb must reach this share of the hover's typical comb to count as hover.
+    /// Smallest comb score of a row of the hover, as a share of the typical score.
     pub comb_share_min: f64,
-    /// Rows whose speed differs from the hover's around them by so many of the hover's own wanders (standard deviations) are a
-    /// manoeuvre. Wander alone reaches it in one row of 16 000.
+    /// Difference of a row's speed from the median around it that is a manoeuvre, in standard deviations of the wander of the hover. Normal
+    /// wander reaches 4 in one row of 16 000.
     pub manoeuvre_wanders: f64,
-    /// A difference below this share is no manoeuvre, however steady the hover: twice the spread of the paper's hovers.
+    /// Smallest difference that is a manoeuvre, as a share of the speed, in a hover of any steadiness. 0.025 is twice the spread of the
+    /// hovers of the paper.
     pub manoeuvre_share_min: f64,
-    /// The hover around a row reaches this far: long against a doublet, short against a battery.
+    /// Reach of the median around a row to either side, s: long against a doublet, short against the discharge of a battery.
     pub manoeuvre_reach_s: f64,
-    /// A tone that is never held for so long, while others sound for longer than it, is no rotor's: music does that. The
-    /// shortest hover between manoeuvres that is worth a sample of the paper's is longer.
+    /// Shortest time, s, for which a rotor must hold its speed where other tones sound for longer in total: music does not. The shortest
+    /// hover between manoeuvres that gives a sample of the paper is longer.
     pub held_s_min: f64,
-    /// Shorter hovers are not used: they hold too few frames to tell a tone from noise.
+    /// Shortest hover that is used, s: a shorter one has too few frames to separate a tone from noise.
     pub length_s_min: f64,
 }
 
@@ -60,7 +61,7 @@ impl Default for HoverConfig {
 }
 
 impl HoverConfig {
-    /// The settings of the survey among them.
+    /// The settings of the survey.
     pub(crate) fn survey(&self) -> SurveySettings {
         SurveySettings {
             window_s: self.survey_window_s,
@@ -88,20 +89,20 @@ impl HoverConfig {
     }
 }
 
-/// The part of the hover that is analysed.
+/// The part of a hover that is analysed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum HoverPart {
-    /// All of it.
+    /// The whole hover.
     #[default]
     Whole,
-    /// The later half of its first seconds: the rotors turn by then, even if the recording begins before they start.
+    /// The second half of the first seconds of hover: the rotors turn there, even where the recording begins before they start.
     LaterHalf {
-        /// Length of the first seconds.
+        /// Length of the first seconds, s.
         of_s_max: f64,
     },
-    /// All after a time: before it the rotors run up.
+    /// The hover after a time: before, the rotors run up.
     After {
-        /// The time on the recording's clock.
+        /// Time on the recording's clock, s.
         time_s: f64,
     },
 }

@@ -1,21 +1,23 @@
-//! Gaussian approximation (paper, section 4.2): the centre of everything in the band that reaches a share of the peak.
+//! Gaussian approximation (paper, section 4.2): the weighted mean frequency of all bins of the band that reach a share of the peak.
 
-/// Centre and width of the Gaussian of one frame.
+/// Mean and standard deviation of the Gaussian of one frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct GaussianPeak {
     pub(super) centre_hz: f64,
     pub(super) std_hz: f64,
 }
 
-/// The Gaussian γ(ζ) = exp(−(ζ − ζ̄)² / 2σ²) / (σ √2π) of one frame: ζ̄ and σ are the mean and the standard deviation of
-/// all frequencies whose modulus reaches `threshold_share` of the peak's, each weighed by its modulus. (Eq 10 as printed
-/// lacks the square in the exponent.)
+/// The Gaussian γ(ζ) = exp(−(ζ − ζ̄)² / 2σ²) / (σ √2π) of one frame: ζ̄ and σ are the mean and the standard deviation of all
+/// frequencies whose modulus reaches `threshold_share` of the modulus of the peak, weighted by the modulus. This is eq 10 of the paper
+/// with the square that the printed exponent lacks.
 ///
-/// The modulus between bins is taken as a straight line, so that the threshold cuts between bins too; without that, a
-/// steady tone of one or two bins would read as the middle of a bin.
+/// The modulus is linear between bins, so that the threshold cuts between bins; otherwise a steady tone of one or two bins would give
+/// the middle of a bin.
 ///
-/// Bias for a steady tone, Hann window, transform of two windows, in bins of the unpadded frame: at most 0.01 with a
-/// threshold of 0.8, 0.035 with 0.9 (measured by `a_steady_tone_reads_right_between_bins`).
+/// - `power`: power spectrum, any unit; `first` and `last`: bins of the band; `peak_power`: power of the loudest bin. Output in Hz.
+/// - Bias for a steady tone with a Hann window and a transform of two windows, in bins without zero padding: at most 0.01 with a
+///   threshold of 0.8, 0.035 with 0.9 (measured by the test `a_steady_tone_is_right_between_bins`).
+/// - `None` where no bin reaches the threshold.
 pub(super) fn gaussian_peak(
     power: &[f64],
     first: usize,
@@ -26,14 +28,14 @@ pub(super) fn gaussian_peak(
 ) -> Option<GaussianPeak> {
     let threshold = threshold_share * peak_power.sqrt();
     let last = last.min(power.len().saturating_sub(1));
-    // moments of the straight pieces above the threshold: ∫m, ∫mx, ∫mx²
+    // moments of the modulus m over the place x, above the threshold: ∫m, ∫mx, ∫mx²
     let (mut mass, mut first_moment, mut second_moment) = (0.0, 0.0, 0.0);
     for bin in first..last {
         let (left, right) = (power[bin].sqrt(), power[bin + 1].sqrt());
         let Some((from, to)) = part_above(left, right, threshold) else { continue };
         let at = |share: f64| left + share * (right - left);
         let (a, b, length) = (at(from), at(to), to - from);
-        // Simpson's rule is exact for these cubics at most
+        // Simpson's rule is exact, because the integrands are cubic at most
         let middle = (from + to) / 2.0;
         for (weight, share, modulus) in [(1.0, from, a), (4.0, middle, at(middle)), (1.0, to, b)] {
             let place = bin as f64 + share;
@@ -51,7 +53,7 @@ pub(super) fn gaussian_peak(
     Some(GaussianPeak { centre_hz: centre * bin_hz, std_hz: variance.sqrt() * bin_hz })
 }
 
-/// Which part of the unit step from `left` to `right` lies above the threshold.
+/// The part of the unit interval in which a straight line from `left` to `right` is above the threshold.
 fn part_above(left: f64, right: f64, threshold: f64) -> Option<(f64, f64)> {
     let crossing = (threshold - left) / (right - left);
     match (left >= threshold, right >= threshold) {
@@ -79,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn a_steady_tone_reads_right_between_bins() {
+    fn a_steady_tone_is_right_between_bins() {
         let (rate, window_s) = (8000.0, 0.1);
         for (threshold_share, bias_cells) in [(0.5, 0.01), (0.8, 0.01), (0.9, 0.035)] {
             let mut worst_cells = 0.0f64;

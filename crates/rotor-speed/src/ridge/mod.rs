@@ -1,4 +1,4 @@
-//! Frames and bands → ridges: for each harmonic a curve of frequency over time, with explicit gaps.
+//! Frames and bands → ridges: for each harmonic, the frequency of its peak in each frame, with gaps where the peak may be noise.
 
 mod gaussian;
 mod maximum_trace;
@@ -10,30 +10,34 @@ pub use settings::{RidgeConfig, SpectrogramConfig};
 use hovertone_analysis::{Band, Peak, Ridge, RidgeFrame};
 use hovertone_signal::passes::StretchListener;
 use hovertone_signal::spectrogram::{Frame, Stft, power_db};
+use peak::Resolution;
 
-/// Draws the ridges of all bands at one frame length, from a stream of samples.
+/// Traces the ridges of all bands at one frame length, from a stream of samples.
 pub(crate) struct RidgeTracer {
     stft: Stft,
     window_s: f64,
     hop_s: f64,
     lobe_half_cells: f64,
     config: RidgeConfig,
-    ridges: Vec<Drawn>,
+    ridges: Vec<PartialRidge>,
     scratch: Vec<f64>,
 }
 
-/// A ridge that is being drawn.
-struct Drawn {
+/// A ridge up to the latest frame.
+struct PartialRidge {
     band: Band,
-    /// Power over the surroundings above which a peak is a point.
+    /// Smallest ratio of a peak's power to its surroundings at which the peak is a point of the ridge.
     point_ratio: f64,
     frames: Vec<RidgeFrame>,
+    /// Number of frames whose peak is a line.
     line_count: usize,
 }
 
 impl RidgeTracer {
+    /// A tracer with frames of length `window_s` at steps of `hop_s`.
     pub(crate) fn new(
-        (window_s, hop_s): (f64, f64),
+        window_s: f64,
+        hop_s: f64,
         bands: &[Band],
         sample_rate_hz: f64,
         spectrogram: &SpectrogramConfig,
@@ -47,7 +51,7 @@ impl RidgeTracer {
             lobe_half_cells: spectrogram.window.main_lobe_half_bins(),
             ridges: bands
                 .iter()
-                .map(|&band| Drawn {
+                .map(|&band| PartialRidge {
                     band,
                     point_ratio: peak::ratio_for_chance(band.width_hz() * window_s, config.false_point_chance),
                     frames: Vec::new(),
@@ -62,7 +66,7 @@ impl RidgeTracer {
         let (window_s, hop_s, resolution_hz) = (self.window_s, self.hop_s, self.stft.resolution_hz());
         self.ridges
             .into_iter()
-            .map(|Drawn { band, frames, line_count, .. }| {
+            .map(|PartialRidge { band, frames, line_count, .. }| {
                 let line_share = line_count as f64 / frames.len().max(1) as f64;
                 Ridge { band, window_s, hop_s, resolution_hz, frames, line_share }
             })
@@ -79,29 +83,29 @@ impl StretchListener for RidgeTracer {
         let Self { stft, config, ridges, scratch, lobe_half_cells, .. } = self;
         let cell_hz = stft.resolution_hz();
         stft.push(samples, |frame| {
-            for drawn in ridges.iter_mut() {
-                let cells = (*lobe_half_cells, cell_hz / frame.bin_hz);
-                let peak = peak_from_frame(&frame, drawn, cells, config.gaussian_threshold_share, scratch);
-                drawn.line_count += usize::from(peak.is_some_and(|p| p.over_sides_db >= config.line_over_sides_db));
-                drawn.frames.push(RidgeFrame { time_s: frame.centre_s, peak });
+            for ridge in ridges.iter_mut() {
+                let resolution = Resolution { lobe_half_cells: *lobe_half_cells, cell_bins: cell_hz / frame.bin_hz };
+                let peak = peak_from_frame(&frame, ridge, resolution, config.gaussian_threshold_share, scratch);
+                ridge.line_count += usize::from(peak.is_some_and(|p| p.over_sides_db >= config.line_over_sides_db));
+                ridge.frames.push(RidgeFrame { time_s: frame.centre_s, peak });
             }
         });
     }
 }
 
-/// What one frame shows in one band; `None` where the peak could be noise.
+/// The peak of one frame in one band; `None` where the band has no peak or the peak may be noise.
 fn peak_from_frame(
     frame: &Frame<'_>,
-    drawn: &Drawn,
-    cells: (f64, f64),
+    ridge: &PartialRidge,
+    resolution: Resolution,
     gaussian_threshold_share: f64,
     scratch: &mut Vec<f64>,
 ) -> Option<Peak> {
-    let first = (drawn.band.band_hz_low / frame.bin_hz).ceil() as usize;
-    let last = (drawn.band.band_hz_high / frame.bin_hz).floor() as usize;
+    let first = (ridge.band.band_hz_low / frame.bin_hz).ceil() as usize;
+    let last = (ridge.band.band_hz_high / frame.bin_hz).floor() as usize;
     let bin = peak::loudest_bin(frame.power, first, last)?;
-    let over_sides =
-        peak::over_sides(frame.power, bin, cells, scratch).filter(|&over_sides| over_sides >= drawn.point_ratio)?;
+    let over_sides = peak::over_sides(frame.power, bin, resolution, scratch)
+        .filter(|&over_sides| over_sides >= ridge.point_ratio)?;
     let maximum_hz = maximum_trace::maximum_hz(frame.power, bin, frame.bin_hz);
     let peak_power = frame.power[bin];
     let gaussian =

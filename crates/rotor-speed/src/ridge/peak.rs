@@ -1,16 +1,30 @@
-//! The peak of a band, finer than its bins, and how far it stands out.
+//! The peak of a band, and its height over its surroundings.
 
 use hovertone_signal::statistics::median;
 
-/// A peak must stand out of this many resolution cells on either side, which begin half a cell beyond its own main lobe:
-/// near enough that the noise has the same colour.
+/// Number of resolution cells on either side of a peak that form its surroundings. They begin half a cell beyond the main lobe, and are
+/// near enough for the noise to have the same density. *Decision.*
 const SIDE_CELLS: f64 = 5.0;
-/// So many cells make an independent value of the median: neighbouring cells of a Hann window are correlated, but a
-/// transform of two windows shows two values for each. Chosen so that noise passes as often as it is set to (measured by
-/// `noise_passes_for_a_point_as_often_as_the_setting_says`).
+/// Number of resolution cells for each independent value in the median of the surroundings: neighbouring cells of a Hann window are
+/// correlated, but a transform of two windows gives two values for each cell. The test
+/// `noise_passes_for_a_point_as_often_as_the_setting_says` measures that noise then passes at the chosen rate. *Decision.*
 const CELLS_PER_INDEPENDENT: f64 = 0.8;
 
-/// Index of the loudest bin of a band that is a maximum of its neighbourhood; `None` where the band only slopes.
+/// Relative accuracy of the threshold from [`ratio_for_chance`]. *Numeric.*
+const RATIO_TOLERANCE: f64 = 1e-3;
+/// Highest threshold that [`ratio_for_chance`] gives. *Numeric.*
+const RATIO_MAX: f64 = 1e9;
+
+/// Frequency resolution of a spectrum in its bins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Resolution {
+    /// Half width of the main lobe of the window, in resolution cells.
+    pub(super) lobe_half_cells: f64,
+    /// Bins in a resolution cell.
+    pub(super) cell_bins: f64,
+}
+
+/// Index of the loudest local maximum of a band; `None` where the band has none.
 pub(super) fn loudest_bin(power: &[f64], first: usize, last: usize) -> Option<usize> {
     let (first, last) = (first.max(1), last.min(power.len().saturating_sub(2)));
     (first..=last)
@@ -18,11 +32,12 @@ pub(super) fn loudest_bin(power: &[f64], first: usize, last: usize) -> Option<us
         .max_by(|&a, &b| power[a].total_cmp(&power[b]))
 }
 
-/// Power ratio over the median of its surroundings that noise exceeds in a band of so many cells with a chance.
+/// Ratio α of a peak's power to the median of its surroundings that noise alone exceeds with probability `chance`, in a band of
+/// `band_cells` resolution cells.
 ///
-/// With a median of M independent cells in place of the noise's true one, the chance of a single cell to exceed α times
-/// it is Π (M − i) / (M − i + α), i = 0 … M/2 − 1 (order-statistic CFAR: Rohling, IEEE Trans. AES 19, 1983); a band of N
-/// cells has N times that.
+/// The probability that one cell exceeds α times the median of M independent cells is Π (M − i) / (M − i + α), i = 0 … M/2 − 1
+/// (order-statistic CFAR; Rohling, IEEE Trans. Aerospace and Electronic Systems 19, 1983). A band of N cells has N times this
+/// probability.
 pub(super) fn ratio_for_chance(band_cells: f64, chance: f64) -> f64 {
     let reference_cells = (2.0 * SIDE_CELLS / CELLS_PER_INDEPENDENT).floor();
     let half = (reference_cells / 2.0) as u32;
@@ -30,28 +45,27 @@ pub(super) fn ratio_for_chance(band_cells: f64, chance: f64) -> f64 {
         let single: f64 = (0..half).map(|i| reference_cells - f64::from(i)).map(|left| left / (left + ratio)).product();
         band_cells.max(1.0) * single
     };
-    // the chance falls with the ratio: halve the interval, on a scale of ratios, until it is known to a thousandth
-    let (mut low, mut high) = (1.0f64, 1e9f64);
-    while high / low > 1.001 {
+    // the chance falls with the ratio: bisection on a logarithmic scale
+    let (mut low, mut high) = (1.0f64, RATIO_MAX);
+    while high / low > 1.0 + RATIO_TOLERANCE {
         let middle = (low * high).sqrt();
         if chance_of(middle) > chance { low = middle } else { high = middle }
     }
     high
 }
 
-/// Power ratio of a peak over the median of its surroundings, which begin beyond a main lobe of `lobe_half_cells`. `None`
-/// where the surroundings are empty or silent.
+/// Ratio of the power of a peak to the median power of its surroundings. `None` where the surroundings are empty or silent.
 pub(super) fn over_sides(
     power: &[f64],
     peak: usize,
-    (lobe_half_cells, cell_bins): (f64, f64),
+    Resolution { lobe_half_cells, cell_bins }: Resolution,
     scratch: &mut Vec<f64>,
 ) -> Option<f64> {
     let near_cells = lobe_half_cells + 0.5;
     let near = (near_cells * cell_bins).round() as usize;
     let far = ((near_cells + SIDE_CELLS) * cell_bins).round() as usize;
     scratch.clear();
-    // bin 0 holds the offset of the sound card, not sound
+    // bin 0 holds the offset of the converter, not sound
     scratch
         .extend_from_slice(power.get(peak.saturating_sub(far).max(1)..peak.saturating_sub(near)).unwrap_or_default());
     scratch.extend_from_slice(power.get(peak + near + 1..(peak + far + 1).min(power.len())).unwrap_or_default());
@@ -109,8 +123,9 @@ mod tests {
                 let first = ((hz - band_hz / 2.0) / frame.bin_hz).ceil() as usize;
                 let last = ((hz + band_hz / 2.0) / frame.bin_hz).floor() as usize;
                 frames += 1;
+                let resolution = Resolution { lobe_half_cells: 2.0, cell_bins: cell_hz / frame.bin_hz };
                 let over = loudest_bin(frame.power, first, last)
-                    .and_then(|bin| over_sides(frame.power, bin, (2.0, cell_hz / frame.bin_hz), &mut scratch));
+                    .and_then(|bin| over_sides(frame.power, bin, resolution, &mut scratch));
                 points += usize::from(over.is_some_and(|over| over >= ratio));
             });
             let share = points as f64 / f64::from(frames);

@@ -1,4 +1,4 @@
-//! Frames and their spectra, and when a ridge counts as a tone.
+//! Settings of frames and their spectra, and of the decision when a ridge is a tone.
 
 use hovertone_signal::spectrogram::Window;
 use hovertone_vehicle::{ConfigError, check_range};
@@ -8,24 +8,25 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpectrogramConfig {
-    /// Length of a frame. Where absent, the clearest of 0.0125 to 0.4 s is taken: a wandering high order wants short
-    /// frames, a steady low one long frames.
+    /// Length of a frame, s. Where absent, the length between 0.0125 and 0.4 s that shows lines in most frames: short frames suit a high
+    /// order of varying speed, long frames a low order of steady speed.
     pub window_s: Option<f64>,
-    /// Step between frames as a share of their length. At one half, Hann frames use every sample of the sound equally.
+    /// Step between frames, as a share of their length. With one half, Hann windows add up to a constant, so that every sample has the
+    /// same weight.
     pub hop_share: f64,
-    /// Frames of a ridge at most. On a hover so long that the step above would give more, the step grows, so that memory
-    /// does not grow with the length of a recording. 12 000 frames cover 75 s in the shortest frames without a gap.
+    /// Largest number of frames of a ridge. In a longer hover the step between frames grows, so that memory does not grow with the length
+    /// of the recording. 12 000 of the shortest frames cover 75 s without gaps.
     pub frames_max: u32,
-    /// Frames of each length at most where only the question is asked whether there are lines at all: a share of 256 is known to
-    /// 3 %.
+    /// Largest number of frames of each length where the question is only whether there are lines. The standard error of a share of 256
+    /// frames is 3 %.
     pub verdict_frames_max: u32,
     /// Shape of the window.
     pub window: Window,
-    /// Length of the transform in windows: 2 brings the bias of the interpolated peak to 0.0017 of a window's bin.
+    /// Length of the transform in windows. With 2, the bias of an interpolated peak is 0.0017 bins of a transform without zero padding.
     pub zero_pad_factor: u32,
 }
 
-/// Frame lengths that are tried where none is given.
+/// Frame lengths that are tried where none is given, s. *Decision.*
 const WINDOW_LADDER_S: [f64; 6] = [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4];
 
 impl Default for SpectrogramConfig {
@@ -52,13 +53,13 @@ impl SpectrogramConfig {
         check_range("zero_pad_factor", f64::from(self.zero_pad_factor), 1.0, 8.0)
     }
 
-    /// Step between frames of a length in a hover of a length.
+    /// Step between frames of length `window_s` in a hover of length `hover_s`, s.
     pub(crate) fn hop_s(&self, window_s: f64, hover_s: f64, frames_max: u32) -> f64 {
         (self.hop_share * window_s).max(hover_s / f64::from(frames_max))
     }
 
-    /// The frame lengths in which to look for lines of a tone whose first band is this wide. The main lobe must fit in the
-    /// band on either side of the tone: in a shorter frame noise of the band's width would look like a line.
+    /// The frame lengths for a tone whose first band has a width of `band_width_hz`, s. The main lobe must fit in the band on either side of
+    /// the tone; in a shorter frame, noise in the band would look like a line.
     pub(crate) fn ladder_s(&self, band_width_hz: f64) -> Vec<f64> {
         let window_s_min = self.window.main_lobe_half_bins() / (band_width_hz / 2.0);
         let longest_s = WINDOW_LADDER_S[WINDOW_LADDER_S.len() - 1];
@@ -66,31 +67,32 @@ impl SpectrogramConfig {
     }
 }
 
-/// How a ridge is drawn and when it counts as a tone.
+/// Settings of a ridge, and of the decision when it is a tone.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RidgeConfig {
-    /// Share of a frame's peak that takes part in the Gaussian (paper: 0.8, remark 5: 0.5 to 0.9 change little).
+    /// Smallest modulus that counts for the Gaussian, as a share of the peak. The paper uses 0.8; by its remark 5, values from 0.5 to 0.9
+    /// change little.
     pub gaussian_threshold_share: f64,
-    /// Chance that noise alone puts a point on the ridge of a frame. A frame with the tone has its point there; among the
-    /// frames without, one in fifty then has one somewhere in the band.
+    /// Probability that noise alone gives a point of the ridge in a frame. With 0.02, one in fifty frames without the tone has a point
+    /// somewhere in the band.
     pub false_point_chance: f64,
-    /// A peak is a line when it stands this far above the median of its surroundings. Noise reaches it in one frame of
-    /// a hundred; the lines of real hovers in 60 to 100 % of frames.
+    /// Smallest height of a line over the median of its surroundings, dB. Noise reaches 16 dB in one frame of a hundred, the lines of
+    /// real hovers in 60 to 100 % of the frames.
     pub line_over_sides_db: f64,
-    /// Share of frames in which the clearest harmonic must be a line. Rotors recorded in flight give 0.64 to 1.00,
-    /// machinery and traffic that only resembles a rotor up to 0.45.
+    /// Smallest share of frames in which the clearest harmonic of a rotor is a line. Rotors recorded in flight give 0.64 to 1.00, machines
+    /// and traffic up to 0.45.
     pub line_share_min: f64,
-    /// Share of frames in which a second harmonic must be a line too …
+    /// Smallest share of frames in which a second harmonic is a line too, unless one of the two conditions below holds.
     pub company_share_min: f64,
-    /// … unless the clearest is one in this share of frames.
+    /// Share of frames in which the clearest harmonic is a line, from which no second harmonic is needed.
     pub lonely_line_share_min: f64,
-    /// … or lines keep their phase, in blocks of a second and more, over this share of the hover: a tone so steady is a tone
-    /// however weak it is. No rotor in flight is; one on a bench, or a simulated one, can be.
+    /// Share of the hover in which lines keep their phase in blocks of a second and more, from which a tone is accepted however weak it is.
+    /// A rotor on a bench or in a simulation can be so steady; no rotor in flight is.
     pub steady_share_min: f64,
-    /// Share of frames with a point below which a ridge is not used.
+    /// Smallest share of frames with a point at which a ridge is used.
     pub point_share_min: f64,
-    /// Harmonics whose mean differs from the clearest one's by more than this share are left out.
+    /// Largest difference of the mean speed of a harmonic from the reference harmonic at which the harmonic is used, as a share.
     pub harmonic_disagreement_share_max: f64,
 }
 

@@ -1,7 +1,7 @@
-//! A quantum, listened to again and again: the rotors looked for beside each other, taken apart, their paths drawn again, and what
+//! A chunk, listened to again and again: the rotors looked for beside each other, taken apart, their paths drawn again, and what
 //! is left over given to those that have nothing.
 
-use super::RoughQuantum;
+use super::RoughChunk;
 use super::atoms::ChannelAtoms;
 use super::grid::OffsetGrid;
 use super::line_weights::line_weights;
@@ -13,8 +13,8 @@ use super::search::{found_tracks, reclaimed_tracks};
 use super::separation::{SeparatedRotor, separated};
 use super::spectra::{FRAME_TICKS, Spectra};
 use super::together::FrameScores;
-use crate::harmonic::path::SpeedPath;
-use crate::harmonic::quanta::Quantum;
+use crate::harmonic::chunks::Chunk;
+use crate::harmonic::speed_path::SpeedPath;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
 
@@ -90,9 +90,9 @@ impl Apart {
     }
 }
 
-/// One quantum, listened to again and again.
+/// One chunk, listened to again and again.
 pub(super) struct Hearing<'a, 'p> {
-    quantum: &'a Quantum<'a>,
+    chunk: &'a Chunk<'a>,
     atoms: &'a [ChannelAtoms],
     pace: Pace,
     middle_rev_s: f64,
@@ -103,9 +103,9 @@ pub(super) struct Hearing<'a, 'p> {
 impl<'a, 'p> Hearing<'a, 'p> {
     /// Where rotors are roughly; and the frames of a first search along what they share.
     pub(super) fn new(
-        quantum: &'a Quantum<'a>,
+        chunk: &'a Chunk<'a>,
         atoms: &'a [ChannelAtoms],
-        RoughQuantum { tracks: rough, pace, .. }: &RoughQuantum,
+        RoughChunk { tracks: rough, pace, .. }: &RoughChunk,
         planner: &'p mut FftPlanner<f32>,
     ) -> Option<(Self, Spectra)> {
         let speeds = || rough.iter().flatten();
@@ -113,8 +113,8 @@ impl<'a, 'p> Hearing<'a, 'p> {
         if middle_rev_s <= 0.0 {
             return None;
         }
-        let mut hearing = Self { quantum, atoms, pace: *pace, middle_rev_s, line_weights: Vec::new(), planner };
-        let spectra = hearing.spectra(&quantum.series, rough, hearing.frame_s(COMMON_SEARCH.frame_hz_s2))?;
+        let mut hearing = Self { chunk, atoms, pace: *pace, middle_rev_s, line_weights: Vec::new(), planner };
+        let spectra = hearing.spectra(&chunk.series, rough, hearing.frame_s(COMMON_SEARCH.frame_hz_s2))?;
         let grid = hearing.grid(&offsets_from(rough, &spectra.common_rev_s), COMMON_SEARCH.margin_share, &spectra);
         hearing.line_weights = line_weights(&spectra, &grid, rough.len());
         Some((hearing, spectra))
@@ -123,7 +123,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
     /// Resolution of the line that resolves most finely.
     pub(super) fn cell_rev_s(&self, frame_hz_s2: f64) -> f64 {
         let frame_s = self.frame_s(frame_hz_s2);
-        1.0 / self.quantum.channels.iter().map(|line| line.order * frame_s(line.order)).fold(1.0, f64::max)
+        1.0 / self.chunk.channels.iter().map(|line| line.order * frame_s(line.order)).fold(1.0, f64::max)
     }
 
     /// Length of the frames of a line of some order.
@@ -133,11 +133,10 @@ impl<'a, 'p> Hearing<'a, 'p> {
 
     fn apart(&self, paths: Vec<SpeedPath>) -> Apart {
         let frame_s = self.frame_s(OWN_FRAME_HZ_S2);
-        let (rotors, rests) = separated(self.quantum, self.atoms, &paths, frame_s, &self.line_weights);
+        let (rotors, rests) = separated(self.chunk, self.atoms, &paths, frame_s, &self.line_weights);
         let energy = |rest: &Vec<Complex<f32>>| rest.iter().map(|z| f64::from(z.norm_sqr())).sum::<f64>();
-        let rest_energy =
-            rests.iter().zip(&self.quantum.noise_variances).map(|(rest, noise)| energy(rest) / noise).sum();
-        Apart { paths, rotors, rests, rest_energy, frames: self.quantum.ticks / FRAME_TICKS }
+        let rest_energy = rests.iter().zip(&self.chunk.noise_variances).map(|(rest, noise)| energy(rest) / noise).sum();
+        Apart { paths, rotors, rests, rest_energy, frames: self.chunk.ticks / FRAME_TICKS }
     }
 
     /// Offsets around those of tracks, and a share of the speed beyond.
@@ -152,13 +151,13 @@ impl<'a, 'p> Hearing<'a, 'p> {
         tracks: &[Vec<f64>],
         frame_s: impl Fn(f64) -> f64,
     ) -> Option<Spectra> {
-        let common = path_through(smoothed_mean(tracks, self.pace.common_frames()), self.quantum)?;
-        Some(Spectra::along(self.quantum, series, &common, (frame_s, 1), self.planner))
+        let common = path_through(smoothed_mean(tracks, self.pace.common_frames()), self.chunk)?;
+        Some(Spectra::along(self.chunk, series, &common, (frame_s, 1), self.planner))
     }
 
     /// The rotors, looked for along what their tracks share.
     pub(super) fn searched(&mut self, tracks: &[Vec<f64>], search: Search) -> Apart {
-        match self.spectra(&self.quantum.series, tracks, self.frame_s(search.frame_hz_s2)) {
+        match self.spectra(&self.chunk.series, tracks, self.frame_s(search.frame_hz_s2)) {
             Some(spectra) => self.searched_in(&spectra, tracks, search),
             None => self.apart(Vec::new()),
         }
@@ -171,14 +170,14 @@ impl<'a, 'p> Hearing<'a, 'p> {
         let known: &[Vec<f64>] = if search.is_afresh { &[] } else { &start };
         let trust = Trust { line_weights: &self.line_weights, residue_share: search.residue_share, echo_share: 0.0 };
         let found = found_tracks(spectra, self.atoms, &grid, known, (start.len(), search.sweeps), trust);
-        self.apart(paths_along(&found, &spectra.common_rev_s, self.pace, self.quantum))
+        self.apart(paths_along(&found, &spectra.common_rev_s, self.pace, self.chunk))
     }
 
     /// Each rotor's path drawn again in its own lines.
     pub(super) fn retraced(&self, apart: Apart) -> Apart {
         let frame_s = self.frame_s(OWN_FRAME_HZ_S2);
         let speeds = apart.paths.iter().zip(&apart.rotors).map(|(path, rotor)| retraced(&rotor.lines, path, &frame_s));
-        let paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), self.pace, self.quantum);
+        let paths = continuous_paths(&speeds.collect::<Vec<Vec<f64>>>(), self.pace, self.chunk);
         apart.or_better(self.apart(paths))
     }
 
@@ -216,11 +215,11 @@ impl<'a, 'p> Hearing<'a, 'p> {
         let mut tracks = found.clone();
         let mut scores = FrameScores::default();
         for _ in 0..TOGETHER_ROUNDS {
-            scores = self.scores(&self.quantum.series, &tracks, &frame_s, ECHO_SHARE);
+            scores = self.scores(&self.chunk.series, &tracks, &frame_s, ECHO_SHARE);
             tracks = scores.moved_as_one(&tracks, MARGIN_SHARE * self.middle_rev_s);
         }
         if scores.speak_more_for(&tracks, &found) {
-            let paths = tracks.into_iter().filter_map(|track| path_through(track, self.quantum)).collect();
+            let paths = tracks.into_iter().filter_map(|track| path_through(track, self.chunk)).collect();
             self.apart(paths).worth_as_much_as(apart)
         } else {
             apart
@@ -233,6 +232,6 @@ impl<'a, 'p> Hearing<'a, 'p> {
         let worths: Vec<&[f64]> = apart.rotors.iter().map(|rotor| rotor.worths.as_slice()).collect();
         let tracks = reclaimed_tracks(&left.scores, &offsets, &worths, &left.grid, self.middle_rev_s);
         (tracks != offsets)
-            .then(|| self.retraced(self.apart(paths_along(&tracks, &left.common_rev_s, self.pace, self.quantum))))
+            .then(|| self.retraced(self.apart(paths_along(&tracks, &left.common_rev_s, self.pace, self.chunk))))
     }
 }

@@ -1,13 +1,14 @@
 //! Several rotors told apart from one microphone.
 //!
-//! In each quantum of up to ten seconds: what they share, where the vehicle bobs (`motion`); spectra of all lines in short frames along
+//! In each chunk of up to ten seconds: what they share, where the vehicle bobs (`motion`); spectra of all lines in short frames along
 //! it (`spectra`); a path for each rotor with the others taken away (`search`, `scores`), once in a wide band of speeds, which misses
 //! none, and again in what is then known to hold them all; the amplitudes of all lines solved for together, so that each rotor is heard
 //! alone (`separation`) and its path is known more finely (`retrace`), and then all of them as one pattern, where they bob (`together`); and
-//! then the same likelihood as for a single rotor (`coherence`, `join`). Which rotor is which, where they cross, their loudness tells
+//! then the same likelihood as for a single rotor (`partition`, `join`). Which rotor is which, where they cross, their loudness tells
 //! (`identity`).
 
 mod atoms;
+mod chunk;
 mod grid;
 mod hearing;
 mod identity;
@@ -17,7 +18,6 @@ mod motion;
 mod pace;
 mod paths;
 mod phase_kept;
-mod quantum;
 mod retrace;
 mod scores;
 mod search;
@@ -29,15 +29,16 @@ mod together;
 pub use settings::RotorsConfig;
 
 use crate::harmonic::{
-    HarmonicBlock, HarmonicTrack, InQuanta, Quantum, QuantumCutter, QuantumListener, block_at, limits_rev_s,
+    Chunk, ChunkCutter, ChunkListener, ChunkPlace, HarmonicBlock, HarmonicTrack, InChunks, NoiseDensity, block_at,
+    limits_rev_s,
 };
 use atoms::{ChannelAtoms, atoms_of};
+use chunk::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_chunk, rough_tracks};
 use hovertone_analysis::Span;
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::statistics::median;
 use identity::{Identity, TrackFrame};
 use pace::Pace;
-use quantum::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_quantum, rough_tracks};
 use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
 
@@ -62,17 +63,17 @@ pub(crate) struct RotorScout {
 pub(crate) struct RoughRotors {
     count: usize,
     limits_rev_s: (f64, f64),
-    quanta: Vec<RoughQuantum>,
+    chunks: Vec<RoughChunk>,
 }
 
-/// What a scout knows of a quantum.
+/// What a scout knows of a chunk.
 #[derive(Clone, Debug, Default)]
-struct RoughQuantum {
+struct RoughChunk {
     /// The speed of each rotor in each frame.
     tracks: Vec<Vec<f64>>,
     pace: Pace,
-    /// Order and noise power per Hz of each line: in a wide band the lines themselves take up less.
-    floors: Vec<(f64, f64)>,
+    /// Noise of each line: in a wide band the lines themselves take up less.
+    noise: Vec<NoiseDensity>,
 }
 
 /// Follows the speeds of several rotors through the stretches of sound in which a scout has been before.
@@ -83,7 +84,7 @@ pub(crate) struct RotorTracer {
     steady_resolution_rev_s: f64,
     planner: FftPlanner<f32>,
     identity: Identity,
-    rough: std::vec::IntoIter<RoughQuantum>,
+    rough: std::vec::IntoIter<RoughChunk>,
     tracks: RotorTracks,
 }
 
@@ -123,26 +124,26 @@ impl RotorScout {
         bands: &[ChannelBand],
         mesh_order: Option<f64>,
         count: usize,
-    ) -> InQuanta<Self> {
-        let cutter = QuantumCutter::new(sample_rate_hz, bands);
+    ) -> InChunks<Self> {
+        let cutter = ChunkCutter::new(sample_rate_hz, bands);
         let limits_rev_s = limits_rev_s(bands);
         let scout = Self {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s,
             count,
             planner: FftPlanner::new(),
-            rough: RoughRotors { count, limits_rev_s, quanta: Vec::new() },
+            rough: RoughRotors { count, limits_rev_s, chunks: Vec::new() },
         };
-        InQuanta::new(cutter, scout)
+        InChunks::new(cutter, scout)
     }
 }
 
-impl QuantumListener for RotorScout {
-    type Heard = RoughRotors;
+impl ChunkListener for RotorScout {
+    type Output = RoughRotors;
 
-    fn hear(&mut self, quantum: &Quantum<'_>) {
-        let (tracks, pace) = rough_tracks(quantum, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
-        self.rough.quanta.push(RoughQuantum { tracks, pace, floors: quantum.floors() });
+    fn take_chunk(&mut self, chunk: &Chunk<'_>) {
+        let (tracks, pace) = rough_tracks(chunk, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
+        self.rough.chunks.push(RoughChunk { tracks, pace, noise: chunk.noise_densities() });
     }
 
     fn finish(self) -> RoughRotors {
@@ -153,7 +154,7 @@ impl QuantumListener for RotorScout {
 impl RoughRotors {
     /// The band of speeds in which they all are.
     pub(crate) fn band_rev_s(&self) -> (f64, f64) {
-        band_of_tracks(self.quanta.iter().flat_map(|quantum| &quantum.tracks), self.limits_rev_s)
+        band_of_tracks(self.chunks.iter().flat_map(|chunk| &chunk.tracks), self.limits_rev_s)
     }
 }
 
@@ -164,8 +165,8 @@ impl RotorTracer {
         bands: &[ChannelBand],
         mesh_order: Option<f64>,
         rough: RoughRotors,
-    ) -> InQuanta<Self> {
-        let cutter = QuantumCutter::new(sample_rate_hz, bands);
+    ) -> InChunks<Self> {
+        let cutter = ChunkCutter::new(sample_rate_hz, bands);
         let step_s = cutter.tick_s() * FRAME_TICKS as f64;
         let rotor = RotorTrack { track: HarmonicTrack { step_s, ..HarmonicTrack::default() }, ..RotorTrack::default() };
         let steady_resolution_rev_s = resolution_rev_s(bands);
@@ -180,23 +181,23 @@ impl RotorTracer {
                 resolution_rev_s: steady_resolution_rev_s,
                 ..RotorTracks::default()
             },
-            rough: rough.quanta.into_iter(),
+            rough: rough.chunks.into_iter(),
         };
-        InQuanta::new(cutter, tracer)
+        InChunks::new(cutter, tracer)
     }
 
     /// The blocks from the middle of one to the middle of the next.
-    fn blocks_between(&self, rotor: &HeardRotor, place: (f64, f64)) -> Vec<HarmonicBlock> {
-        let between = rotor.between.iter().map(|fit| block_at(fit, true, place, (rotor.line_count, self.limits_rev_s)));
+    fn blocks_between(&self, rotor: &HeardRotor, place: &ChunkPlace) -> Vec<HarmonicBlock> {
+        let between = rotor.between.iter().map(|fit| block_at(fit, true, place));
         between.filter(|block| block.is_heard).collect()
     }
 
     /// The blocks of a rotor. Where its lines do not keep their phase, or are too weak for that, it goes along the line that the
     /// search followed, known as well as the search resolves.
-    fn blocks_of(&self, rotor: &HeardRotor, place: (f64, f64), resolution_rev_s: f64) -> Vec<HarmonicBlock> {
+    fn blocks_of(&self, rotor: &HeardRotor, place: &ChunkPlace, resolution_rev_s: f64) -> Vec<HarmonicBlock> {
         let mut blocks = Vec::new();
         for fit in &rotor.level.blocks {
-            let block = block_at(fit, true, place, (rotor.line_count, self.limits_rev_s));
+            let block = block_at(fit, true, place);
             if block.is_heard {
                 blocks.push(block);
                 continue;
@@ -204,7 +205,7 @@ impl RotorTracer {
             for tick_from in (fit.tick_from..fit.tick_to).step_by(FRAME_TICKS) {
                 let tick_to = (tick_from + FRAME_TICKS).min(fit.tick_to);
                 let (from, to) = (rotor.traced.speed_rev_s(tick_from), rotor.traced.speed_rev_s(tick_to));
-                let at = |tick: usize| place.0 + tick as f64 * place.1;
+                let at = |tick: usize| place.start_s + tick as f64 * place.tick_s;
                 let span = Span { from_s: at(tick_from), to_s: at(tick_to) };
                 blocks.push(HarmonicBlock {
                     span,
@@ -222,26 +223,28 @@ impl RotorTracer {
     }
 }
 
-impl QuantumListener for RotorTracer {
-    type Heard = RotorTracks;
+impl ChunkListener for RotorTracer {
+    type Output = RotorTracks;
 
-    fn known_floors(&self) -> &[(f64, f64)] {
-        self.rough.as_slice().first().map_or(&[], |rough| &rough.floors)
+    fn known_noise(&self) -> &[NoiseDensity] {
+        self.rough.as_slice().first().map_or(&[], |rough| &rough.noise)
     }
 
-    fn hear(&mut self, quantum: &Quantum<'_>) {
+    fn take_chunk(&mut self, chunk: &Chunk<'_>) {
         let rough = self.rough.next().unwrap_or_default();
-        let (start_s, tick_s, length_s) = (quantum.start_s, quantum.tick_s, quantum.ticks as f64 * quantum.tick_s);
-        let heard = rotors_of_quantum(quantum, &self.atoms, &rough, &mut self.planner);
+        let (start_s, tick_s, length_s) = (chunk.start_s, chunk.tick_s, chunk.ticks as f64 * chunk.tick_s);
+        let heard = rotors_of_chunk(chunk, &self.atoms, &rough, &mut self.planner);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
         let labelling = self.identity.labelled(&frames, frame_s, rough.pace);
-        let place = (start_s, tick_s);
+        let limits_rev_s = self.limits_rev_s;
+        let place = |rotor: &HeardRotor| ChunkPlace { start_s, tick_s, line_count: rotor.line_count, limits_rev_s };
         let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
         self.tracks.resolution_rev_s = self.tracks.resolution_rev_s.max(resolution_rev_s);
         let blocks: Vec<Vec<HarmonicBlock>> =
-            heard.iter().map(|rotor| self.blocks_of(rotor, place, resolution_rev_s)).collect();
-        let between: Vec<Vec<HarmonicBlock>> = heard.iter().map(|rotor| self.blocks_between(rotor, place)).collect();
+            heard.iter().map(|rotor| self.blocks_of(rotor, &place(rotor), resolution_rev_s)).collect();
+        let between: Vec<Vec<HarmonicBlock>> =
+            heard.iter().map(|rotor| self.blocks_between(rotor, &place(rotor))).collect();
         self.tracks.length_s += length_s;
         self.tracks.bobbing_s += if rough.pace == Pace::Bobbing { length_s } else { 0.0 };
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;

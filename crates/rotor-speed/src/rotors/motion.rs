@@ -9,8 +9,8 @@ use super::paths::{offsets_within, path_through};
 use super::scores::{GridScores, Trust};
 use super::spectra::{FRAME_TICKS, Spectra};
 use crate::harmonic::best_path::best_path;
-use crate::harmonic::path::SpeedPath;
-use crate::harmonic::quanta::Quantum;
+use crate::harmonic::chunks::Chunk;
+use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::statistics::{mean, median};
 use rustfft::FftPlanner;
 
@@ -48,7 +48,7 @@ const SECOND_LOOK: Look = Look { frame_hz_s2: 100.0, frames_apart: 1, step_std_s
 /// What speaks for a rotor at each speed is a pattern that moves as a whole. Whichever rotors make it, it is found along the motion, and
 /// the motion by it, in turns.
 pub(super) fn common_motion(
-    quantum: &Quantum<'_>,
+    chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
     limits_rev_s: (f64, f64),
     count: usize,
@@ -57,7 +57,7 @@ pub(super) fn common_motion(
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
     let mut look_along = |path: &SpeedPath, look: &Look| {
         let frame_s = Pace::Steady.frame_s_of_order(look.frame_hz_s2, middle_rev_s);
-        let spectra = Spectra::along(quantum, &quantum.series, path, (frame_s, look.frames_apart), planner);
+        let spectra = Spectra::along(chunk, &chunk.series, path, (frame_s, look.frames_apart), planner);
         let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
         let line_weights = line_weights(&spectra, &grid, count);
         let scores = GridScores::new(
@@ -73,10 +73,10 @@ pub(super) fn common_motion(
         let shifts = common_shifts(&rows, reach, points_of(look.step_std_share));
         let sharper = power(&pattern_along(&rows, &shifts)) / power(&pattern_along(&rows, &vec![0.0; rows.len()]));
         let offsets: Vec<f64> = shifts.into_iter().map(|shift| shift * grid.step_rev_s).collect();
-        let rate_rev_s2 = rms_rate(&offsets, (look.frames_apart * FRAME_TICKS) as f64 * quantum.tick_s);
-        spectra.path_at(&offsets, quantum).map(|path| (path, rate_rev_s2 / middle_rev_s, sharper))
+        let rate_rev_s2 = rms_rate(&offsets, (look.frames_apart * FRAME_TICKS) as f64 * chunk.tick_s);
+        spectra.path_at(&offsets, chunk).map(|path| (path, rate_rev_s2 / middle_rev_s, sharper))
     };
-    let (path, rate_share_per_s, sharper) = look_along(&path_through([middle_rev_s], quantum)?, &FIRST_LOOK)?;
+    let (path, rate_share_per_s, sharper) = look_along(&path_through([middle_rev_s], chunk)?, &FIRST_LOOK)?;
     if rate_share_per_s < RATE_MIN_PER_S || sharper < SHARPER_MIN {
         return None;
     }

@@ -3,8 +3,8 @@
 use super::identity::{Identity, TrackFrame};
 use super::pace::Pace;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks};
-use crate::harmonic::path::SpeedPath;
-use crate::harmonic::quanta::Quantum;
+use crate::harmonic::chunks::Chunk;
+use crate::harmonic::speed_path::{SpeedPath, SpeedPoint};
 
 /// Lowest and highest of all tracks, and a margin beyond.
 pub(super) fn around<'a>(tracks: impl IntoIterator<Item = &'a Vec<f64>>, margin: f64) -> (f64, f64) {
@@ -26,16 +26,19 @@ pub(super) fn offsets_within(limits_rev_s: (f64, f64), common_rev_s: &[f64]) -> 
 }
 
 /// The path through speeds in the middles of all frames.
-pub(super) fn path_through(speeds_rev_s: impl IntoIterator<Item = f64>, quantum: &Quantum<'_>) -> Option<SpeedPath> {
-    let time_s = |frame: usize| frame_middle_ticks(frame) as f64 * quantum.tick_s;
-    let points: Vec<(f64, f64)> =
-        speeds_rev_s.into_iter().enumerate().map(|(frame, speed)| (time_s(frame), speed)).collect();
-    SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+pub(super) fn path_through(speeds_rev_s: impl IntoIterator<Item = f64>, chunk: &Chunk<'_>) -> Option<SpeedPath> {
+    let time_s = |frame: usize| frame_middle_ticks(frame) as f64 * chunk.tick_s;
+    let points: Vec<SpeedPoint> = speeds_rev_s
+        .into_iter()
+        .enumerate()
+        .map(|(frame, speed_rev_s)| SpeedPoint { time_s: time_s(frame), speed_rev_s })
+        .collect();
+    SpeedPath::through(&points, chunk.tick_s, chunk.ticks)
 }
 
 /// Paths through the same speeds, so labelled in each frame that each path is as continuous as it can be.
-pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, quantum: &Quantum<'_>) -> Vec<SpeedPath> {
-    let frame_s = FRAME_TICKS as f64 * quantum.tick_s;
+pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, chunk: &Chunk<'_>) -> Vec<SpeedPath> {
+    let frame_s = FRAME_TICKS as f64 * chunk.tick_s;
     let frames: Vec<Vec<TrackFrame>> = speeds_rev_s
         .iter()
         .map(|track| track.iter().map(|&speed_rev_s| TrackFrame { speed_rev_s, ..TrackFrame::default() }).collect())
@@ -43,10 +46,7 @@ pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, quantum: &
     let labelling = Identity::default().labelled(&frames, frame_s, pace);
     (0..speeds_rev_s.len())
         .filter_map(|rotor| {
-            path_through(
-                labelling.iter().enumerate().map(|(frame, labels)| speeds_rev_s[labels[rotor]][frame]),
-                quantum,
-            )
+            path_through(labelling.iter().enumerate().map(|(frame, labels)| speeds_rev_s[labels[rotor]][frame]), chunk)
         })
         .collect()
 }
@@ -56,10 +56,10 @@ pub(super) fn paths_along(
     offsets_rev_s: &[Vec<f64>],
     common_rev_s: &[f64],
     pace: Pace,
-    quantum: &Quantum<'_>,
+    chunk: &Chunk<'_>,
 ) -> Vec<SpeedPath> {
     let of = |track: &Vec<f64>| track.iter().zip(common_rev_s).map(|(offset, common)| common + offset).collect();
-    continuous_paths(&offsets_rev_s.iter().map(of).collect::<Vec<Vec<f64>>>(), pace, quantum)
+    continuous_paths(&offsets_rev_s.iter().map(of).collect::<Vec<Vec<f64>>>(), pace, chunk)
 }
 
 /// The speeds of paths in each frame.

@@ -1,8 +1,8 @@
 //! Whether the lines of a rotor keep their phase for as long as a frame lasts.
 
 use super::spectra::FRAME_TICKS;
-use crate::harmonic::line::Line;
-use crate::harmonic::path::SpeedPath;
+use crate::harmonic::demodulation::Line;
+use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::statistics::median;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
@@ -13,7 +13,7 @@ const LAG_FRAMES: usize = 5;
 /// How much of its phase a line keeps over 0.2 s, from 1 for all to 0 for nothing: `|Σ z(t + T) z*(t)| / Σ |z(t)|²`, noise taken off
 /// and turned by `path` in place of `traced`; the median of the strong lines. `None` where there is none.
 pub(super) fn phase_kept(lines: &[Line], traced: &SpeedPath, path: &SpeedPath) -> Option<f64> {
-    let turns: Vec<f64> = (0..path.ticks()).map(|tick| path.tick(tick).0 - traced.tick(tick).0).collect();
+    let turns: Vec<f64> = (0..path.ticks()).map(|tick| path.tick(tick).turns - traced.tick(tick).turns).collect();
     let kept_by = |line: &Line| {
         let cells: Vec<Complex<f64>> = line
             .ticks
@@ -64,7 +64,7 @@ mod tests {
                 is_first: true,
                 is_strong: true,
                 noise_variance: 0.2,
-                company_hz: 0.0..0.0,
+                leakage_band_hz: 0.0..0.0,
                 samples_per_tick: 10.0,
                 ticks: turned.collect(),
             };

@@ -3,8 +3,8 @@
 
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks};
 use crate::harmonic::best_path::best_path;
-use crate::harmonic::line::Line;
-use crate::harmonic::path::SpeedPath;
+use crate::harmonic::demodulation::Line;
+use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;

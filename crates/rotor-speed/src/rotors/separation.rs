@@ -5,21 +5,21 @@ use super::atoms::ChannelAtoms;
 use super::mixture::Mixture;
 use super::scores::worth;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks, half_frame_ticks, phasors};
-use crate::harmonic::line::Line;
-use crate::harmonic::map::STRONG_POWER_MIN;
-use crate::harmonic::path::SpeedPath;
-use crate::harmonic::quanta::Quantum;
+use crate::harmonic::chunks::Chunk;
+use crate::harmonic::demodulation::{Line, LinePlace};
+use crate::harmonic::speed_map::STRONG_POWER_MIN;
+use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::channels::TICKS_PER_HOP;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 
-/// Two lines closer than this in a frame cannot be told apart (PHYSICS: order · Δf · T ≥ 1.25).
+/// Two lines closer than this in a frame cannot be told apart: order · Δf · T ≥ 1.25, measured with frames under a Hann window.
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
 /// A rotor of a quarter of another one's power is a faint one.
 const FAINT_SHARE: f64 = 0.25;
 /// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them.
 const GHOST_SHARE: f64 = 1.0 / 100.0;
-/// A line that is apart from all others in less than this share of a quantum is not heard for its speed.
+/// A line that is apart from all others in less than this share of a chunk is not heard for its speed.
 const APART_SHARE_MIN: f64 = 0.5;
 
 /// What belongs to one rotor.
@@ -48,13 +48,13 @@ struct Atom {
 
 /// Takes the rotors apart whose speeds are `paths`, each line being worth its weight; and what is left of each channel.
 pub(super) fn separated(
-    quantum: &Quantum<'_>,
+    chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
     paths: &[SpeedPath],
     frame_s_of_order: impl Fn(f64) -> f64,
     line_weights: &[f64],
 ) -> (Vec<SeparatedRotor>, Vec<Vec<Complex<f32>>>) {
-    let frames = quantum.ticks / FRAME_TICKS;
+    let frames = chunk.ticks / FRAME_TICKS;
     let nothing = || SeparatedRotor {
         lines: Vec::new(),
         levels: Vec::new(),
@@ -65,17 +65,17 @@ pub(super) fn separated(
     let mut rotors: Vec<SeparatedRotor> = paths.iter().map(|_| nothing()).collect();
     let mut rests = Vec::with_capacity(atoms.len());
     for (index, atoms) in atoms.iter().enumerate() {
-        let channel = &quantum.channels[index];
-        let frame_ticks = 2 * half_frame_ticks(frame_s_of_order(channel.order), quantum.tick_s);
-        let mut mixed = MixedChannel::new(quantum, index, atoms, paths);
-        let apart = mixed.solve(quantum, index, paths, frame_ticks);
-        mixed.take_away(quantum.ticks);
+        let channel = &chunk.channels[index];
+        let frame_ticks = 2 * half_frame_ticks(frame_s_of_order(channel.order), chunk.tick_s);
+        let mut mixed = MixedChannel::new(chunk, index, atoms, paths);
+        let apart = mixed.solve(chunk, index, paths, frame_ticks);
+        mixed.take_away(chunk.ticks);
         let samples_per_tick = mixed.samples_per_tick;
         for (rotor, separated) in rotors.iter_mut().enumerate() {
             let own = mixed.atoms.iter().find(|atom| atom.rotor == rotor && atom.order == channel.order);
             let apart = &apart[rotor];
             let power = |amplitude: &Complex<f64>| {
-                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64 / (1.5 * quantum.noise_variances[index])
+                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64 / (1.5 * chunk.noise_variances[index])
             };
             let levels: Vec<f64> = match own {
                 Some(own) => own
@@ -93,10 +93,10 @@ pub(super) fn separated(
                     order: channel.order,
                     is_first: channel.is_first,
                     is_strong: mean_power > STRONG_POWER_MIN,
-                    noise_variance: quantum.noise_variances[index],
-                    company_hz: 0.0..0.0,
+                    noise_variance: chunk.noise_variances[index],
+                    leakage_band_hz: 0.0..0.0,
                     samples_per_tick: samples_per_tick as f64,
-                    ticks: mixed.ticks_of(own, quantum.ticks),
+                    ticks: mixed.ticks_of(own, chunk.ticks),
                 });
             }
             separated.levels.push(levels);
@@ -124,11 +124,11 @@ struct MixedChannel {
 }
 
 impl MixedChannel {
-    fn new(quantum: &Quantum<'_>, index: usize, channel_atoms: &ChannelAtoms, paths: &[SpeedPath]) -> Self {
-        let channel = &quantum.channels[index];
+    fn new(chunk: &Chunk<'_>, index: usize, channel_atoms: &ChannelAtoms, paths: &[SpeedPath]) -> Self {
+        let channel = &chunk.channels[index];
         let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
-        let samples = quantum.ticks * samples_per_tick;
-        let place = |order: f64| (order, channel.centre_hz, channel.rate_hz);
+        let samples = chunk.ticks * samples_per_tick;
+        let place = |order: f64| LinePlace { order, ..LinePlace::of_channel(channel) };
         let atoms = paths
             .iter()
             .enumerate()
@@ -142,23 +142,17 @@ impl MixedChannel {
                 shares: Vec::new(),
             })
             .collect();
-        Self { samples_per_tick, atoms, rest: quantum.series[index].to_vec() }
+        Self { samples_per_tick, atoms, rest: chunk.series[index].to_vec() }
     }
 
     /// Amplitudes of all atoms in all frames; and for each rotor and frame, whether its own line is apart from those of others.
-    fn solve(
-        &mut self,
-        quantum: &Quantum<'_>,
-        index: usize,
-        paths: &[SpeedPath],
-        frame_ticks: usize,
-    ) -> Vec<Vec<bool>> {
+    fn solve(&mut self, chunk: &Chunk<'_>, index: usize, paths: &[SpeedPath], frame_ticks: usize) -> Vec<Vec<bool>> {
         let length = frame_ticks * self.samples_per_tick;
-        let frame_s = frame_ticks as f64 * quantum.tick_s;
+        let frame_s = frame_ticks as f64 * chunk.tick_s;
         let window: Vec<f32> = hann_weights(length).map(|weight| weight as f32).collect();
-        let series = quantum.series[index];
-        let own_order = quantum.channels[index].order;
-        let frames = quantum.ticks / FRAME_TICKS;
+        let series = chunk.series[index];
+        let own_order = chunk.channels[index].order;
+        let frames = chunk.ticks / FRAME_TICKS;
         let mut apart = vec![Vec::with_capacity(frames); paths.len()];
         let mut places = vec![0.0; self.atoms.len()];
         let mut seen = vec![Complex::<f64>::default(); self.atoms.len()];

@@ -1,10 +1,10 @@
 //! Spectra of all lines in short frames, turned back by a speed that all rotors share, so that what is left of each rotor is how
 //! far it is from that.
 
-use crate::harmonic::frame::FrameTransform;
-use crate::harmonic::line::LinePhasors;
-use crate::harmonic::path::SpeedPath;
-use crate::harmonic::quanta::Quantum;
+use crate::harmonic::chunks::Chunk;
+use crate::harmonic::demodulation::{LinePhasors, LinePlace};
+use crate::harmonic::frame_transform::FrameTransform;
+use crate::harmonic::speed_path::{SpeedPath, SpeedPoint};
 use hovertone_signal::channels::TICKS_PER_HOP;
 use realfft::num_complex::Complex;
 use rustfft::FftPlanner;
@@ -27,7 +27,7 @@ pub(super) struct LineSpectra {
     bins: Vec<Complex<f32>>,
 }
 
-/// All lines over a quantum.
+/// All lines over a chunk.
 pub(super) struct Spectra {
     pub(super) lines: Vec<LineSpectra>,
     /// Speed that all rotors share, in the middle of each frame.
@@ -49,30 +49,25 @@ pub(super) fn half_frame_ticks(frame_s: f64, tick_s: f64) -> usize {
 impl Spectra {
     /// Frames along a common path, of a length for each order; every so many'th only.
     pub(super) fn along(
-        quantum: &Quantum<'_>,
+        chunk: &Chunk<'_>,
         series: &[&[Complex<f32>]],
         common: &SpeedPath,
         (frame_s_of_order, frames_apart): (impl Fn(f64) -> f64, usize),
         planner: &mut FftPlanner<f32>,
     ) -> Self {
-        let frames = (quantum.ticks / FRAME_TICKS).div_ceil(frames_apart);
-        let lines = quantum
+        let frames = (chunk.ticks / FRAME_TICKS).div_ceil(frames_apart);
+        let lines = chunk
             .channels
             .iter()
             .zip(series)
-            .zip(&quantum.noise_variances)
+            .zip(&chunk.noise_variances)
             .map(|((channel, series), noise_variance)| {
                 let samples_per_tick = channel.hop_samples / TICKS_PER_HOP;
-                let ticks = 2 * half_frame_ticks(frame_s_of_order(channel.order), quantum.tick_s);
+                let ticks = 2 * half_frame_ticks(frame_s_of_order(channel.order), chunk.tick_s);
                 let length = ticks * samples_per_tick;
                 // nothing before the first frame and after the last
                 let mut turned = vec![Complex::default(); length];
-                turned.extend(turned_back(
-                    series,
-                    (channel.order, channel.centre_hz, channel.rate_hz),
-                    common,
-                    samples_per_tick,
-                ));
+                turned.extend(turned_back(series, LinePlace::of_channel(channel), common, samples_per_tick));
                 turned.resize(turned.len() + length, Complex::default());
                 let mut transform = FrameTransform::new(length, ZERO_PAD_FACTOR, planner);
                 let scale = 1.0 / (transform.energy * noise_variance).sqrt();
@@ -92,12 +87,12 @@ impl Spectra {
                         to_middle.iter().enumerate().map(|(index, turn)| spectrum[(index + count / 2) % count] * turn),
                     );
                 }
-                LineSpectra { order: channel.order, frame_s: ticks as f64 * quantum.tick_s, half_bins: count / 2, bins }
+                LineSpectra { order: channel.order, frame_s: ticks as f64 * chunk.tick_s, half_bins: count / 2, bins }
             })
             .collect();
         let middles = (0..frames).map(|frame| frame_middle_ticks(frame * frames_apart));
         let common_rev_s = middles.map(|tick| common.speed_rev_s(tick)).collect();
-        Self { lines, common_rev_s, frames_apart, length_s: quantum.ticks as f64 * quantum.tick_s }
+        Self { lines, common_rev_s, frames_apart, length_s: chunk.ticks as f64 * chunk.tick_s }
     }
 
     /// The middle of each frame.
@@ -106,11 +101,12 @@ impl Spectra {
     }
 
     /// The path of what is so far from the shared speed in each frame.
-    pub(super) fn path_at(&self, offsets_rev_s: &[f64], quantum: &Quantum<'_>) -> Option<SpeedPath> {
-        let times_s = self.middle_ticks().map(|tick| tick as f64 * quantum.tick_s);
+    pub(super) fn path_at(&self, offsets_rev_s: &[f64], chunk: &Chunk<'_>) -> Option<SpeedPath> {
+        let times_s = self.middle_ticks().map(|tick| tick as f64 * chunk.tick_s);
         let speeds = self.common_rev_s.iter().zip(offsets_rev_s).map(|(common, offset)| common + offset);
-        let points: Vec<(f64, f64)> = times_s.zip(speeds).collect();
-        SpeedPath::through(&points, quantum.tick_s, quantum.ticks)
+        let points: Vec<SpeedPoint> =
+            times_s.zip(speeds).map(|(time_s, speed_rev_s)| SpeedPoint { time_s, speed_rev_s }).collect();
+        SpeedPath::through(&points, chunk.tick_s, chunk.ticks)
     }
 
     /// Frames from one to the next.
@@ -190,7 +186,7 @@ impl LineSpectra {
 /// A channel, turned back by its order times the angle of a path.
 fn turned_back(
     series: &[Complex<f32>],
-    place: (f64, f64, f64),
+    place: LinePlace,
     path: &SpeedPath,
     samples_per_tick: usize,
 ) -> Vec<Complex<f32>> {
@@ -201,7 +197,7 @@ fn turned_back(
 
 /// The phasors of a line at every sample of a channel.
 pub(super) fn phasors(
-    place: (f64, f64, f64),
+    place: LinePlace,
     path: &SpeedPath,
     samples_per_tick: usize,
     samples: usize,

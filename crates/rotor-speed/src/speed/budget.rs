@@ -1,13 +1,13 @@
-//! What makes a speed uncertain: what the sound leaves open, the recorder's clock, and the motion of the vehicle.
+//! Uncertainty budget of a speed: the sound, the recorder's clock, the motion of the vehicle, and the differences of the rotors.
 
 use super::BudgetConfig;
 use hovertone_analysis::{SpeedEstimate, UncertaintySource, UncertaintyTerm};
 use hovertone_vehicle::SOUND_M_S;
 
-/// An estimate with the terms of its uncertainty over a stretch of `length_s`; without terms where the sound itself leaves it unknown.
+/// An estimate with the terms of its uncertainty over a span of length `length_s`. Without an uncertainty from the sound, it has no terms.
 ///
-/// `rotors_std_share` is the standard deviation of the mean of all rotors about this speed, as a share. Terms with a limit are
-/// rectangular: half width / √3 (GUM, JCGM 100, 4.3.7).
+/// `rotors_std_share` is the standard deviation of the mean of all rotors about this speed, as a share. A term with a limit has a
+/// rectangular distribution: its standard uncertainty is half width / √3 (GUM, JCGM 100:2008, 4.3.7).
 pub(crate) fn with_budget(
     mut estimate: SpeedEstimate,
     config: &BudgetConfig,
@@ -70,7 +70,7 @@ mod tests {
         let got = with_budget(estimate.clone(), &config, 0.0, 10.0);
         assert_eq!(got.budget.len(), 2);
         assert!((got.budget[1].std_uncertainty_rev_s - 0.1 / 3f64.sqrt()).abs() < 1e-12);
-        // rotors that were not told apart
+        // rotors that were not separated
         let got = with_budget(estimate, &config, 0.004, 10.0);
         assert_eq!(got.budget[2].source, UncertaintySource::Rotors);
         assert!((got.budget[2].std_uncertainty_rev_s - 0.4).abs() < 1e-12);

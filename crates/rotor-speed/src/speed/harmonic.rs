@@ -1,31 +1,35 @@
-//! Blocks of the harmonic likelihood → shaft speed over a stretch of time, and its track.
+//! Blocks of the harmonic likelihood → mean shaft speed over a span of time, and the track of the speed.
 
-use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, joined_variance_turns2};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, joined_variance_turns2};
 use hovertone_analysis::{HarmonicSpeed, Method, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
 
-/// Uncertainty of the speed at the end of a block over that in its middle: a straight line through phases that scatter is
-/// known four times as well in the middle.
+/// Standard uncertainty of the speed at the end of a block, over the uncertainty in its middle: the variance of the slope of a parabola
+/// fitted to evenly spread phases is 16 times as large at the ends. *Physics.*
 const END_STDS: f64 = 4.0;
 
-/// What a block counts for at its very ends.
+/// Smallest weight of a block, at its ends. *Numeric.*
 const NEARNESS_MIN: f64 = 1e-3;
 
-/// The mean of two that disagree is off by half of that if their errors are independent, and by more because both hear half of the
-/// same sound.
+/// Standard uncertainty of a track point, as a share of the difference between the two blocks there. Independent errors would give one
+/// half; the blocks share half of their sound, which gives more. *Decision.*
 const DISAGREEMENT_SHARE: f64 = 0.7;
 
-/// Borders of blocks nearer than this are one.
+/// Rounding error of the times at which blocks meet, s. *Numeric.*
 const SAME_TIME_S: f64 = 1e-6;
 
+/// Places in a block, as shares of its length, at which it has the same weight as the block between it and its neighbour. *Numeric.*
+const QUARTERS: [f64; 2] = [0.25, 0.75];
+
 impl HarmonicTrack {
-    /// Mean speed over a stretch of time: the turns of the blocks and of the steps between them, over the time that they cover.
-    /// `None` where nothing is heard.
+    /// Mean speed over a span of time, or over the whole track: the turns of the blocks and of the steps between them, over the length of
+    /// the blocks. `None` where no block is heard.
     ///
-    /// - Uncertainty: of a block, from the curvature of its likelihood, which noise makes, widened where its phases scatter more
-    ///   than that explains; of blocks that are joined by phase, from the angle at their two ends.
-    /// - The wander of the rotor itself is no uncertainty of its mean, as long as there are no gaps.
+    /// - The uncertainty of a block follows from the curvature of its likelihood and the scatter of its phases. The uncertainty of blocks that
+    ///   are joined by phase follows from the angle at both ends.
+    /// - The variation of the speed itself is no uncertainty of its mean, where there are no gaps.
+    /// - For several rotors at once, the uncertainty is at least the one of their mean with unknown loudness.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
         let parts: Vec<Part> = self
             .blocks
@@ -76,15 +80,15 @@ impl HarmonicTrack {
         })
     }
 
-    /// Whether a stretch of sound begins or ends here: a block does, and no other ends or begins.
+    /// Whether a stretch of sound begins or ends at this time: one block begins or ends here, and no other.
     fn is_edge(&self, time_s: f64) -> bool {
         let is_here = |border_s: f64| (border_s - time_s).abs() < SAME_TIME_S;
         let touches = |block: &&HarmonicBlock| is_here(block.span.from_s) || is_here(block.span.to_s);
         self.blocks.iter().filter(touches).count() == 1
     }
 
-    /// The speed at every step of the track, gaps left out: of the block around it and the one whose middle is where that ends, each
-    /// counting for how near its own middle is.
+    /// The speed at every step of the track, without points in gaps: the mean of the block around the time and of the block between it and
+    /// its neighbour, each weighted by the nearness of its own middle.
     pub(crate) fn points_in(&self, span: Option<&Span>, order: Order) -> Vec<TrackPoint> {
         let step_s = self.step_s;
         let is_wanted = |block: &&HarmonicBlock| {
@@ -113,11 +117,11 @@ impl HarmonicTrack {
             .collect()
     }
 
-    /// By how much some blocks and those between them differ where each counts for half: by noise, by a speed that bends, and by lines
-    /// that do not keep their phase, of which no block knows. Root mean square.
+    /// Root mean square difference between the blocks and the blocks between them, at the places where both have equal weight, rev/s. It
+    /// contains noise, curvature of the speed, and lines that do not keep their phase; the uncertainty of a block does not contain the
+    /// last.
     fn disagreement_rev_s(&self, blocks: &[&HarmonicBlock]) -> f64 {
-        let quarters =
-            |block: &HarmonicBlock| [0.25, 0.75].map(|share| block.span.from_s + share * block.span.length_s());
+        let quarters = |block: &HarmonicBlock| QUARTERS.map(|share| block.span.from_s + share * block.span.length_s());
         let differences: Vec<f64> = blocks
             .iter()
             .flat_map(|block| quarters(block).map(|time_s| (block, time_s)))
@@ -127,18 +131,19 @@ impl HarmonicTrack {
         mean(&squares).unwrap_or(0.0).sqrt()
     }
 
+    /// The block between two blocks at a time.
     fn between_at(&self, time_s: f64) -> Option<&HarmonicBlock> {
         let begun = self.between.partition_point(|block| block.span.from_s <= time_s);
         self.between[..begun].last().filter(|block| block.span.contains(time_s))
     }
 }
 
-/// What a block says of an instant.
+/// The speed by one block at an instant.
 #[derive(Clone, Copy)]
 struct BlockAt {
     speed_rev_s: f64,
     std_uncertainty_rev_s: f64,
-    /// 1 in the middle of the block, 0 at its ends.
+    /// Weight: 1 in the middle of the block, nearly 0 at its ends.
     nearness: f64,
 }
 
@@ -153,7 +158,7 @@ impl BlockAt {
         }
     }
 
-    /// Both together. They hear the same sound, so that their errors may be the same.
+    /// The weighted mean of both. Its uncertainty is the mean of theirs, because they share sound and so may share errors.
     fn with(&self, other: &Self) -> Self {
         let share = self.nearness / (self.nearness + other.nearness);
         let mixed = |own: f64, other: f64| share * own + (1.0 - share) * other;
@@ -165,36 +170,37 @@ impl BlockAt {
     }
 }
 
-/// Variance of the mean of several rotors' speed: how their loudness shifts it, which all frames share, and how it scatters.
+/// Variance of the mean speed of several rotors: the shift due to their loudness, which is common to all frames, and the scatter.
 fn variance_of_several(blocks: &[&HarmonicBlock]) -> f64 {
     let speeds: Vec<f64> = blocks.iter().map(|block| block.speed_rev_s).collect();
     let shifts: Vec<f64> = blocks.iter().map(|block| block.std_uncertainty_rev_s).collect();
     std_uncertainty_of_mean(&speeds).unwrap_or(0.0).powi(2) + mean(&shifts).unwrap_or(0.0).powi(2)
 }
 
-/// A block, or what a stretch of time holds of it.
+/// A block, or the part of it in a span of time.
 struct Part<'a> {
     block: &'a HarmonicBlock,
     span: Span,
 }
 
-/// Turns over parts that are joined by phase.
+/// Number of turns over parts that are joined by phase.
 fn turns_of(run: &[Part]) -> f64 {
     let within: f64 = run.iter().map(|part| part.block.speed_at(part.span.middle_s()) * part.span.length_s()).sum();
     within + steps_of(run).sum::<f64>()
 }
 
+/// The steps between the parts of a run.
 fn steps_of(run: &[Part]) -> impl Iterator<Item = f64> {
     run.iter().take(run.len() - 1).filter_map(|part| part.block.step_to_next_turns)
 }
 
-/// Variance of the turns over parts that are joined by phase.
+/// Variance of the number of turns over parts that are joined by phase.
 fn turns_variance(run: &[Part], is_edge: &impl Fn(f64) -> bool) -> f64 {
     let (Some(first), Some(last)) = (run.first(), run.last()) else { return 0.0 };
     if run.len() == 1 {
-        // of a part of a block less is known than of all of it
+        // the speed of a part of a block is less certain than the speed of the block
         let longer = first.block.span.length_s() / first.span.length_s();
-        return (first.block.std_uncertainty_rev_s * longer.powf(1.5) * first.span.length_s()).powi(2);
+        return (first.block.std_uncertainty_rev_s * longer.powf(LENGTH_POWER) * first.span.length_s()).powi(2);
     }
     let ends = [(first, first.span.from_s), (last, last.span.to_s)].map(|(part, end_s)| EndBlock {
         length_s: part.block.span.length_s(),
@@ -208,8 +214,14 @@ fn turns_variance(run: &[Part], is_edge: &impl Fn(f64) -> bool) -> f64 {
 mod tests {
     use super::*;
 
-    /// The straight line that a block draws through a speed which bends: n = n₀ + c t².
-    fn block(from_s: f64, to_s: f64, (start_rev_s, bend_rev_s3): (f64, f64)) -> HarmonicBlock {
+    /// A speed n = n₀ + c t².
+    struct CurvedSpeed {
+        start_rev_s: f64,
+        bend_rev_s3: f64,
+    }
+
+    /// The block with the straight line that fits a curved speed best.
+    fn block(from_s: f64, to_s: f64, CurvedSpeed { start_rev_s, bend_rev_s3 }: &CurvedSpeed) -> HarmonicBlock {
         let (middle_s, length_s) = ((from_s + to_s) / 2.0, to_s - from_s);
         HarmonicBlock {
             span: Span { from_s, to_s },
@@ -224,15 +236,15 @@ mod tests {
         }
     }
 
-    /// What a bend leaves at the ends of straight blocks, c T² / 6 at most, is halved by those in between.
+    /// The error of straight blocks at their ends, c T² / 6 at most, is halved by the blocks between them.
     #[test]
     fn a_bend_is_followed_across_the_ends_of_blocks() {
-        let bend = (60.0, 2.0);
+        let bend = CurvedSpeed { start_rev_s: 60.0, bend_rev_s3: 2.0 };
         let at = |index: i32| 0.2 * f64::from(index);
         let track = HarmonicTrack {
             step_s: 0.002,
-            blocks: (0..4).map(|index| block(at(index), at(index + 1), bend)).collect(),
-            between: (0..3).map(|index| block(at(index) + 0.1, at(index + 1) + 0.1, bend)).collect(),
+            blocks: (0..4).map(|index| block(at(index), at(index + 1), &bend)).collect(),
+            between: (0..3).map(|index| block(at(index) + 0.1, at(index + 1) + 0.1, &bend)).collect(),
             ..HarmonicTrack::default()
         };
         let alone = HarmonicTrack { between: Vec::new(), ..track.clone() };
@@ -243,7 +255,9 @@ mod tests {
             points
                 .iter()
                 .filter(|point| (0.1..0.7).contains(&point.time_s))
-                .map(|point| (point.speed_rev_s - bend.0 - bend.1 * point.time_s * point.time_s).abs())
+                .map(|point| {
+                    (point.speed_rev_s - bend.start_rev_s - bend.bend_rev_s3 * point.time_s * point.time_s).abs()
+                })
                 .collect()
         };
         let worst = |errors: &[f64]| errors.iter().copied().fold(0.0, f64::max);

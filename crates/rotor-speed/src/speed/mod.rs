@@ -1,15 +1,15 @@
-//! Ridges → shaft speed: one number per harmonic, combined over harmonics, with spread and uncertainty.
+//! Ridges → shaft speed: the speed of each harmonic, combined over the harmonics, with spread and uncertainty.
 
 mod budget;
+mod excerpts;
 mod harmonic;
 mod sample_settings;
-mod samples;
 mod separated;
 mod settings;
 
 pub(crate) use budget::with_budget;
+pub(crate) use excerpts::excerpts_from_hover;
 pub use sample_settings::SampleConfig;
-pub(crate) use samples::samples_from_hover;
 pub(crate) use separated::mean_track;
 pub use settings::BudgetConfig;
 
@@ -18,29 +18,44 @@ use hovertone_analysis::{HarmonicSpeed, Method, Peak, Ridge, Span, SpeedEstimate
 use hovertone_signal::statistics::{mean, median, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
 
-/// Standard deviation of an interpolated Hann peak, in resolution cells, at a peak as strong as the noise. The
-/// Cramér-Rao bound is √6 / 2π = 0.39; the log parabola reaches 1.6 times that where noise, not its bias, is the limit.
+/// Standard deviation of an interpolated Hann peak, in resolution cells, at a power equal to the mean noise. The Cramér-Rao bound (Rife
+/// and Boorstyn, IEEE Trans. Information Theory 20, 1974) is √6 / 2π = 0.39; the parabola through log powers reaches 1.6 times the bound
+/// where noise exceeds its bias. *Numeric.*
 const PEAK_STD_CELLS: f64 = 0.62;
 
-/// Harmonics of one shaft differ by 0.67 standard deviations in the typical frame. This leaves room for the peak's bias
-/// and for speed that changes within a frame.
+/// Largest median difference of two harmonics of one shaft, in standard deviations of their noise. Noise alone gives 0.67; the rest is for
+/// the bias of the peak and for changes of speed within a frame. *Decision.*
 const ONE_SHAFT_STDS: f64 = 3.0;
 
-/// The harmonics that are used, with their weights. Eq 9 as printed is no average (its weights sum to 1.833 for exact
-/// harmonics); the corrected form weighs each harmonic's speed by the inverse of its variance.
+/// The harmonics that are used, with their weights: the inverse of the variance of their speeds. Eq 9 of the paper as printed is no
+/// average, because its weights sum to 1.833 for exact harmonics.
 ///
-/// - Harmonics that agree frame by frame come from one shaft. Then noise of density Φ is what limits them, and the
-///   weight is o² A² / Φ (Whittle).
-/// - Harmonics that disagree come from several rotors, and what limits them is which rotor wins. The rotors' lines are
-///   parted in proportion to the order, and so grows that variance: the weight is A² / (Φ o).
+/// - Harmonics that agree frame by frame come from one shaft. Noise of density Φ limits them, and a harmonic of order o and amplitude A
+///   has the weight o² A² / Φ.
+/// - Harmonics that disagree come from several rotors. The variance is due to the choice of the loudest rotor in each frame, and grows with
+///   the order as the distance between the lines of the rotors does: the weight is A² / (Φ o).
 #[derive(Clone, Debug)]
 pub(crate) struct HarmonicWeights<'a> {
-    used: Vec<(&'a Ridge, f64)>,
+    used: Vec<WeightedRidge<'a>>,
+}
+
+/// A harmonic and its weight; the weights of all used harmonics sum to 1.
+#[derive(Clone, Copy, Debug)]
+struct WeightedRidge<'a> {
+    ridge: &'a Ridge,
+    weight: f64,
+}
+
+/// The peak of a harmonic in one frame, with the weight of the harmonic.
+struct WeightedPeak<'a> {
+    ridge: &'a Ridge,
+    weight: f64,
+    peak: Peak,
 }
 
 impl<'a> HarmonicWeights<'a> {
-    /// Weighs the ridges and leaves out, with a warning, those that have too few points or disagree with the reference:
-    /// the harmonic that most others agree with, then the clearest, then the lowest.
+    /// Weights of the ridges. Ridges with too few points, and ridges that disagree with the reference, are left out with a warning. The
+    /// reference is the harmonic with which most others agree; among equals the clearest, then the lowest.
     pub(crate) fn from_ridges(ridges: &'a [Ridge], config: &RidgeConfig, warnings: &mut Vec<Warning>) -> Self {
         let speeds: Vec<Option<f64>> = ridges
             .iter()
@@ -49,7 +64,7 @@ impl<'a> HarmonicWeights<'a> {
             .collect();
         let agree = |a: f64, b: f64| (a / b - 1.0).abs() <= config.harmonic_disagreement_share_max;
         let has_points = |ridge: &Ridge| ridge.point_share() >= config.point_share_min;
-        let company = |speed: f64| {
+        let agreeing = |speed: f64| {
             ridges
                 .iter()
                 .zip(&speeds)
@@ -63,7 +78,7 @@ impl<'a> HarmonicWeights<'a> {
             .filter_map(|(ridge, speed)| Some((ridge, (*speed)?)))
             .rev()
             .max_by(|(a, a_speed), (b, b_speed)| {
-                company(*a_speed).cmp(&company(*b_speed)).then(a.line_share.total_cmp(&b.line_share))
+                agreeing(*a_speed).cmp(&agreeing(*b_speed)).then(a.line_share.total_cmp(&b.line_share))
             });
         let mut used = Vec::new();
         for (ridge, speed) in ridges.iter().zip(&speeds) {
@@ -87,14 +102,14 @@ impl<'a> HarmonicWeights<'a> {
         let order_power = if is_one_shaft { 2 } else { -1 };
         let weight = |ridge: &Ridge| ridge.band.order.lines_per_turn().powi(order_power) * typical_over_sides(ridge);
         let total: f64 = used.iter().map(|ridge| weight(ridge)).sum();
-        Self { used: used.into_iter().map(|ridge| (ridge, weight(ridge) / total)).collect() }
+        Self { used: used.into_iter().map(|ridge| WeightedRidge { ridge, weight: weight(ridge) / total }).collect() }
     }
 
-    /// Mean speed over a stretch of time, of a track that this made. `None` where no frame has a point.
+    /// Mean speed over a span of time, or over the whole track, of a track from these weights. `None` where no frame has a point.
     ///
-    /// The harmonics are combined frame by frame and the frames averaged. Where every harmonic has a point in every frame
-    /// that is eq 7 for each harmonic and eq 9 corrected over them; where a harmonic comes and goes, its frames do not pull
-    /// the mean towards the times at which it was heard.
+    /// The harmonics are combined in each frame, and the frames are averaged. Where every harmonic has a point in every frame, this equals
+    /// eq 7 of the paper for each harmonic and the corrected eq 9 over the harmonics. Where a harmonic has gaps, the mean is not drawn
+    /// towards the times at which it has points.
     pub(crate) fn speed_in(&self, span: Option<&Span>, track: &Track) -> Option<SpeedEstimate> {
         let points = track.points_in(span);
         let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
@@ -107,45 +122,42 @@ impl<'a> HarmonicWeights<'a> {
             mean_square_rad2_s2: None,
             frame_count: speeds.len(),
             budget: Vec::new(),
-            harmonics: self
-                .used
-                .iter()
-                .filter_map(|(ridge, weight)| harmonic_in(span, ridge, *weight, track.method))
-                .collect(),
+            harmonics: self.used.iter().filter_map(|&harmonic| harmonic_in(span, harmonic, track.method)).collect(),
         })
     }
 
-    /// The speed of every frame in which at least one harmonic has a point; `None` for a method that does not read ridges.
+    /// The speed of every frame in which at least one harmonic has a point. `None` for a method that does not use ridges.
     pub(crate) fn track(&self, method: Method, order: Order) -> Option<Track> {
         if !method.reads_ridges() {
             return None;
         }
-        let frame_count = self.used.first().map_or(0, |(ridge, _)| ridge.frames.len());
+        let frame_count = self.used.first().map_or(0, |harmonic| harmonic.ridge.frames.len());
         let points = (0..frame_count).filter_map(|index| self.point_of_frame(index, method, order)).collect();
         Some(Track { method, order, points })
     }
 
+    /// The speed of one frame: the weighted mean over the harmonics with a point.
     fn point_of_frame(&self, index: usize, method: Method, order: Order) -> Option<TrackPoint> {
-        let present: Vec<(&Ridge, f64, Peak)> = self
+        let present: Vec<WeightedPeak<'_>> = self
             .used
             .iter()
-            .filter_map(|&(ridge, weight)| Some((ridge, weight, ridge.frames.get(index)?.peak?)))
+            .filter_map(|&WeightedRidge { ridge, weight }| {
+                Some(WeightedPeak { ridge, weight, peak: ridge.frames.get(index)?.peak? })
+            })
             .collect();
-        let (first, ..) = present.first()?;
-        let total: f64 = present.iter().map(|(_, weight, _)| weight).sum();
-        let shares = || {
-            present
-                .iter()
-                .map(|(ridge, weight, peak)| (weight / total / ridge.band.order.lines_per_turn(), *ridge, peak))
-        };
-        let speed_rev_s: f64 = shares().map(|(share, _, peak)| share * peak.hz(method)).sum();
-        let variance: f64 = shares().map(|(share, ridge, peak)| (share * peak_std_hz(ridge, peak)).powi(2)).sum();
+        let first = present.first()?.ridge;
+        let total: f64 = present.iter().map(|harmonic| harmonic.weight).sum();
+        // factor from the frequency of a harmonic to its part of the speed
+        let share = |harmonic: &WeightedPeak<'_>| harmonic.weight / total / harmonic.ridge.band.order.lines_per_turn();
+        let speed_rev_s: f64 = present.iter().map(|harmonic| share(harmonic) * harmonic.peak.hz(method)).sum();
+        let std_hz = |harmonic: &WeightedPeak<'_>| peak_std_hz(harmonic.ridge, &harmonic.peak);
+        let variance: f64 = present.iter().map(|harmonic| (share(harmonic) * std_hz(harmonic)).powi(2)).sum();
         Some(TrackPoint {
             time_s: first.frames[index].time_s,
             tone_hz: speed_rev_s * order.lines_per_turn(),
             speed_rev_s,
             std_uncertainty_rev_s: variance.sqrt(),
-            level_db: present.iter().map(|(_, _, peak)| peak.level_db).fold(f64::MIN, f64::max),
+            level_db: present.iter().map(|harmonic| harmonic.peak.level_db).fold(f64::MIN, f64::max),
         })
     }
 }
@@ -159,6 +171,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
+    /// The points in a span of time, or all without a span.
     fn points_in(&self, span: Option<&Span>) -> &[TrackPoint] {
         let Some(span) = span else { return &self.points };
         let from = self.points.partition_point(|point| point.time_s < span.from_s);
@@ -167,8 +180,9 @@ impl Track {
     }
 }
 
-/// What one harmonic says over a stretch of time.
-fn harmonic_in(span: Option<&Span>, ridge: &Ridge, weight: f64, method: Method) -> Option<HarmonicSpeed> {
+/// The mean frequency of one harmonic over a span of time, or over the whole ridge. `None` where no frame has a point.
+fn harmonic_in(span: Option<&Span>, harmonic: WeightedRidge<'_>, method: Method) -> Option<HarmonicSpeed> {
+    let WeightedRidge { ridge, weight } = harmonic;
     let from = span.map_or(0, |span| ridge.frames.partition_point(|frame| frame.time_s < span.from_s));
     let to = span.map_or(ridge.frames.len(), |span| ridge.frames.partition_point(|frame| frame.time_s < span.to_s));
     let points: Vec<f64> =
@@ -183,13 +197,13 @@ fn harmonic_in(span: Option<&Span>, ridge: &Ridge, weight: f64, method: Method) 
     })
 }
 
-/// Standard deviation of a peak's frequency from the noise around it.
+/// Standard deviation of the frequency of a peak due to the noise around it, Hz. The mean of noise is its median over ln 2.
 fn peak_std_hz(ridge: &Ridge, peak: &Peak) -> f64 {
     let over_mean_noise = 10f64.powf(peak.over_sides_db / 10.0) * std::f64::consts::LN_2;
     PEAK_STD_CELLS * ridge.resolution_hz / over_mean_noise.sqrt()
 }
 
-/// Whether two harmonics agree frame by frame as closely as the noise around them lets them.
+/// Whether two harmonics agree frame by frame within the noise around them.
 fn is_of_one_shaft(a: &Ridge, b: &Ridge) -> bool {
     let over_noise: Vec<f64> = a
         .frames
@@ -205,7 +219,7 @@ fn is_of_one_shaft(a: &Ridge, b: &Ridge) -> bool {
     median(&over_noise).is_none_or(|typical| typical <= ONE_SHAFT_STDS)
 }
 
-/// Power of the typical peak of a ridge over the noise around it.
+/// Median power of the peaks of a ridge over their surroundings.
 fn typical_over_sides(ridge: &Ridge) -> f64 {
     let levels: Vec<f64> = ridge.frames.iter().filter_map(|frame| frame.peak.map(|peak| peak.over_sides_db)).collect();
     10f64.powf(median(&levels).unwrap_or_default() / 10.0)

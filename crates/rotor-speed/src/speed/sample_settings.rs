@@ -1,15 +1,15 @@
-//! How a hover is cut into samples.
+//! Settings: how a hover is cut into excerpts, which the paper calls samples.
 
 use hovertone_vehicle::{ConfigError, check_range};
 use serde::{Deserialize, Serialize};
 
-/// How a hover is cut into samples, the paper's database (figure 5).
+/// How a hover is cut into excerpts, which the paper calls samples (its database, figure 5).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SampleConfig {
-    /// Length of a sample. The paper says "approximately 5 s".
+    /// Length of an excerpt, s. The paper says "approximately 5 s".
     pub length_s: f64,
-    /// Share of a sample that the next one repeats. 40 % gives two samples of 5 s in a trial of 10 s.
+    /// Share of an excerpt that the next one repeats. 40 % gives two excerpts of 5 s in a trial of 10 s.
     pub overlap: f64,
 }
 

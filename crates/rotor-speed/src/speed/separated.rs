@@ -1,4 +1,4 @@
-//! Rotors told apart → the speed of each, their mean and their mean square.
+//! Separated rotors → the speed of each rotor, the mean of all rotors, and their mean square.
 
 use crate::harmonic::HarmonicTrack;
 use crate::rotors::{RotorTrack, RotorTracks};
@@ -8,31 +8,35 @@ use hovertone_signal::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed};
 use std::f64::consts::TAU;
 
-/// A rotor is told apart if it is heard, and apart from the others, for this share of the time.
+/// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
 const RESOLVED_SHARE_MIN: f64 = 0.5;
-/// A track that goes through noise for no more than this share of the time is that of a rotor, even if it is never apart from others: of
-/// four steady rotors that turn alike, what three of the tracks find is lost for 0.38 of it or more.
+/// Largest share of the time in which a track may follow noise to count as a rotor, even where it is never separated from other rotors.
+/// With four equal rotors, three tracks follow noise at least 38 % of the time. *Decision.*
 const LOST_SHARE_MAX: f64 = 0.2;
-/// Where a faint rotor would have been heard for this share of the time, the search has found it, and one that is not told apart turns like
-/// one that is: in 120 simulated clips with three rotors alike and one of down to a tenth of their power elsewhere, in pairs, or all alike, the mean of the
-/// group was within its u in 117.
+/// Smallest share of the time in which the search would have heard a faint rotor, at which it counts as complete: then a rotor that is not
+/// separated turns at the speed of a separated one. In 117 of 120 simulated clips (three equal rotors and a fainter one elsewhere, pairs, or
+/// four equal rotors) the mean of the group was within its standard uncertainty. *Decision.*
 const FAINT_SHARE_MIN: f64 = 0.2;
-/// How far bobbing takes the mean of a rotor from its track's, in resolutions.
+/// Standard uncertainty of the mean of a rotor due to bobbing, in resolutions. Rms errors of simulated flights in a room with rotors 1 and
+/// 2 % apart were 0.011 % in 37 flights, where this gives 0.063 %, and 0.08 % in 16 flights with ten times the gusts and commands.
+/// *Decision.*
 const BOBBING_RESOLUTIONS: f64 = 0.7;
-/// How far another one may turn from the mean of those that are told apart, as a standard deviation: rotors of real quadrotors
-/// spread over 13 to 22 % from slowest to fastest (PHYSICS section 4).
+/// Standard deviation of the speed of a rotor that is not separated, from the mean of the separated ones, as a share: the rotors of real
+/// quadrotors differ by 13 to 22 % from slowest to fastest. *Decision.*
 const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
 
-/// Points of a track further apart than this have a gap between them.
+/// Smallest distance in time of two points of a track with a gap between them, s. *Decision.*
 const GAP_S_MAX: f64 = 0.1;
 
-/// The mean by power of all rotors lies between the slowest and the fastest, or no further beyond than this share.
+/// Largest distance of the mean by power of all rotors beyond the slowest or the fastest rotor, as a share. *Decision.*
 const BEYOND_SHARE_MAX: f64 = 0.02;
 
 impl RotorTracks {
-    /// One group, where no more than half of the rotors are told apart: the others would be heard if they turned unlike these.
-    /// Nothing, where they would not, or where all that are told apart, or are in the group, lie on one side of what is heard of all
-    /// together: then they may be parts of one.
+    /// Decides whether the rotors count as separated, as one group, or not at all, with the speed `all` of all rotors together.
+    ///
+    /// Where at most half of the rotors are resolved, they form one group with a mean: the others turn at the same speeds, or the search would
+    /// have heard them. No rotors remain where the search would not have heard them, or where all rotors that count lie on one side of the
+    /// speed of all together, because then they may be parts of one rotor.
     pub(crate) fn unless_doubtful_beside(mut self, all: &HarmonicTrack, order: Order) -> Self {
         self.are_one_group = 2 * self.resolved(None).count() <= self.rotors.len();
         let heard = self.heard(None).filter(|rotor| self.are_one_group || self.is_resolved(rotor, None));
@@ -47,32 +51,32 @@ impl RotorTracks {
         if is_far || self.are_one_group && !self.would_hear_faint() { Self::default() } else { self }
     }
 
-    /// Whether a faint rotor would have been heard, so that one that is not told apart turns like one that is.
+    /// Whether the search would have heard a faint rotor, so that a rotor that is not separated turns at the speed of a separated one.
     fn would_hear_faint(&self) -> bool {
         self.faint_s >= FAINT_SHARE_MIN * self.length_s
     }
 
-    /// The rotors that are told apart, fastest first; none of one group.
+    /// The resolved rotors, fastest first. Empty for one group.
     pub(crate) fn rotors(&self, order: Order, budget: &BudgetConfig) -> Vec<RotorEstimate> {
         if self.are_one_group {
             return Vec::new();
         }
         let speeds: Vec<f64> =
             self.resolved(None).filter_map(|rotor| Some(rotor.track.speed_in(None, order)?.speed.rev_s())).collect();
-        let among_rev_s = self.among_rev_s(&speeds);
+        let unknown_rotor_rev_s = self.unknown_rotor_std_rev_s(&speeds);
         let mut rotors: Vec<RotorEstimate> = self
             .resolved(None)
             .filter_map(|rotor| {
                 let mut speed = rotor.track.speed_in(None, order)?;
-                let doubt_rev_s = self.doubt_share(rotor, None) * among_rev_s;
+                let doubt_rev_s = self.doubt_share(rotor, None) * unknown_rotor_rev_s;
                 speed.std_uncertainty_rev_s =
-                    speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.of_bobbing_rev_s()));
+                    speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()));
                 let mut track = rotor.track.points_in(None, order);
                 for point in &mut track {
                     if rotor.lost.iter().any(|span| span.contains(point.time_s)) {
-                        point.std_uncertainty_rev_s = point.std_uncertainty_rev_s.max(among_rev_s);
+                        point.std_uncertainty_rev_s = point.std_uncertainty_rev_s.max(unknown_rotor_rev_s);
                     }
-                    // where it is not apart from another rotor, it may be either
+                    // where two rotors are not separated, the track may follow either
                     if rotor.merged.iter().any(|span| span.contains(point.time_s)) {
                         point.std_uncertainty_rev_s = point.std_uncertainty_rev_s.max(self.resolution_rev_s);
                     }
@@ -91,13 +95,13 @@ impl RotorTracks {
         rotors
     }
 
-    /// Mean of all rotors' speeds over a stretch of time, and their mean square; and how far, as a share, that of all may be from it,
-    /// in each hover alike. `None` where none is heard.
+    /// Mean and mean square of the speeds of all rotors over a span of time, or over the whole track; and the standard uncertainty, as a share,
+    /// that is common to all hovers. `None` where no rotor is heard.
     ///
-    /// Uncertainty: that of each rotor, which may be anywhere among the others while it is lost, or close to others for much of the
-    /// time. And in each hover alike: what bobbing does; and of `count` rotors of which k are told apart, what is not known of the
-    /// others, each for itself, `√(count − k) / count` times how far a rotor is from the mean of those that are heard, or from where
-    /// the resolution has it; where a faint rotor would not have been heard, 6 %.
+    /// The uncertainty of the mean follows from the uncertainties of the rotors; a rotor that is lost, or close to others for much of the
+    /// time, may turn at the speed of any other. Common to all hovers are the effect of bobbing, and the unknown speeds of `count − k` of
+    /// `count` rotors of which k are resolved: `√(count − k) / count` times the standard deviation of one rotor. This deviation is the
+    /// spread of the heard rotors with the resolution, or 6 % where the search would not have heard a faint rotor.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<(SpeedEstimate, f64)> {
         let heard: Vec<(&RotorTrack, SpeedEstimate, f64)> = self
             .heard(span)
@@ -113,12 +117,15 @@ impl RotorTracks {
         let mean_rev_s = mean(&speeds)?;
         let stds = heard.iter().filter_map(|(_, speed, _)| speed.std_uncertainty_rev_s);
         let of_rotors: f64 = stds.map(|std| (std / heard_count).powi(2)).sum();
-        let among_rev_s = self.among_rev_s(&speeds);
-        let of_doubt: f64 =
-            heard.iter().map(|(rotor, ..)| (self.doubt_share(rotor, span) * among_rev_s / heard_count).powi(2)).sum();
-        let unknown_rev_s = if self.would_hear_faint() { among_rev_s } else { UNKNOWN_SPREAD_SHARE * mean_rev_s };
+        let unknown_rotor_rev_s = self.unknown_rotor_std_rev_s(&speeds);
+        let of_doubt: f64 = heard
+            .iter()
+            .map(|(rotor, ..)| (self.doubt_share(rotor, span) * unknown_rotor_rev_s / heard_count).powi(2))
+            .sum();
+        let unknown_rev_s =
+            if self.would_hear_faint() { unknown_rotor_rev_s } else { UNKNOWN_SPREAD_SHARE * mean_rev_s };
         let of_unresolved = (count - resolved).max(0.0).sqrt() / count * unknown_rev_s;
-        let rotors_std_share = of_unresolved.hypot(self.of_bobbing_rev_s()) / mean_rev_s;
+        let rotors_std_share = of_unresolved.hypot(self.bobbing_std_rev_s()) / mean_rev_s;
         let (_, first, _) = heard.into_iter().next()?;
         let speed = SpeedEstimate {
             method: Method::Separated,
@@ -132,35 +139,34 @@ impl RotorTracks {
         Some((speed, rotors_std_share))
     }
 
-    /// How far the mean of a rotor may be from its track's, in each hover alike: where all bob, frames cut off where they turn round, and hear
-    /// more of where they are loud. Of 37 simulated flights in a room with rotors 1 and 2 % apart, 0.011 % rms where this is 0.063 %; where
-    /// gusts and commands are ten times as strong, 0.08 % of 16.
-    fn of_bobbing_rev_s(&self) -> f64 {
+    /// Standard uncertainty of the mean of a rotor due to bobbing, common to all hovers, rev/s: frames smooth the turning points of the
+    /// speed, and weight the loud parts of the motion.
+    fn bobbing_std_rev_s(&self) -> f64 {
         BOBBING_RESOLUTIONS * self.resolution_rev_s * self.bobbing_s / self.length_s.max(f64::MIN_POSITIVE)
     }
 
-    /// How far a rotor that may be anywhere among these is from where it is looked for.
-    fn among_rev_s(&self, speeds_rev_s: &[f64]) -> f64 {
+    /// Standard uncertainty of a rotor that may turn at any of these speeds, rev/s.
+    fn unknown_rotor_std_rev_s(&self, speeds_rev_s: &[f64]) -> f64 {
         std(speeds_rev_s).unwrap_or(0.0).hypot(self.resolution_rev_s)
     }
 
-    /// Share of a stretch of time in which a rotor may be anywhere among the others: it is lost, or rotors are so close to each other
-    /// that beats of some can pass for others.
+    /// Share of a span of time in which a rotor may turn at the speed of any other: it is lost, or rotors are so close that beats of some
+    /// look like others.
     fn doubt_share(&self, rotor: &RotorTrack, span: Option<&Span>) -> f64 {
         self.share_of(&rotor.lost, span).max(self.close_s / self.length_s.max(f64::MIN_POSITIVE))
     }
 
-    /// The rotors that are told apart for most of a stretch of time.
+    /// The rotors that are resolved in a span of time.
     fn resolved(&self, span: Option<&Span>) -> impl Iterator<Item = &RotorTrack> {
         self.heard(span).filter(move |rotor| self.is_resolved(rotor, span))
     }
 
-    /// Whether a rotor is apart from the others for most of a stretch of time.
+    /// Whether a rotor is separated from the others for most of a span of time.
     fn is_resolved(&self, rotor: &RotorTrack, span: Option<&Span>) -> bool {
         self.share_of(&rotor.merged, span) <= 1.0 - RESOLVED_SHARE_MIN
     }
 
-    /// The rotors that are heard for most of a stretch of time, by themselves or with others.
+    /// The rotors that are heard for most of a span of time, alone or together with others.
     fn heard(&self, span: Option<&Span>) -> impl Iterator<Item = &RotorTrack> {
         self.rotors.iter().filter(move |rotor| {
             let blocks = rotor.track.blocks.iter().filter(|block| block.is_heard).map(|block| &block.span);
@@ -170,7 +176,7 @@ impl RotorTracks {
         })
     }
 
-    /// Share that some spans have in a stretch of time.
+    /// Share of a span of time, or of the whole track, that lies in other spans.
     fn share_of<'a>(&self, spans: impl IntoIterator<Item = &'a Span>, of: Option<&Span>) -> f64 {
         let within_s = |own: &Span| of.map_or(*own, |of| own.overlap(*of)).length_s().max(0.0);
         let length_s = of.map_or(self.length_s, Span::length_s).min(self.length_s);
@@ -178,7 +184,7 @@ impl RotorTracks {
     }
 }
 
-/// The mean of rotors over time, where each of them has a speed.
+/// The mean speed of all rotors over time, where each rotor has a speed.
 pub(crate) fn mean_track(rotors: &[RotorEstimate]) -> Vec<TrackPoint> {
     let Some((first, others)) = rotors.split_first() else { return Vec::new() };
     let count = rotors.len() as f64;
@@ -200,7 +206,7 @@ pub(crate) fn mean_track(rotors: &[RotorEstimate]) -> Vec<TrackPoint> {
     first.track.iter().filter_map(mean_at).collect()
 }
 
-/// A track at a time between two of its points, or near one.
+/// A track at a time, linear between two points, or the point nearby. `None` in a gap.
 fn point_at(track: &[TrackPoint], time_s: f64) -> Option<TrackPoint> {
     let after = track.partition_point(|point| point.time_s < time_s);
     let (before, after) = (after.checked_sub(1).and_then(|index| track.get(index)), track.get(after));
@@ -222,8 +228,8 @@ fn point_at(track: &[TrackPoint], time_s: f64) -> Option<TrackPoint> {
 }
 
 impl HarmonicTrack {
-    /// Mean of the squared angular speed over a stretch of time, `⟨(2π n)²⟩`: of each block's straight line exactly,
-    /// `n² + γ² T² / 12`.
+    /// Mean square of the angular speed over a span of time, or over the whole track, `⟨(2π n)²⟩`, rad²/s². The mean of n² over a block with
+    /// a straight line of speed is `n² + γ² T² / 12`. `None` where no block is heard.
     fn mean_square_rad2_s2(&self, span: Option<&Span>) -> Option<f64> {
         let (mut total, mut total_s) = (0.0, 0.0);
         for block in self.blocks.iter().filter(|block| block.is_heard) {

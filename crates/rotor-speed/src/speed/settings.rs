@@ -3,18 +3,18 @@
 use hovertone_vehicle::{CLOCK_PPM, ConfigError, DRIFT_M_MAX, ROTOR_SPREAD_SHARE, check_range, loudest_rotor_share};
 use serde::{Deserialize, Serialize};
 
-/// What makes a speed uncertain that its sound does not show.
+/// Sources of uncertainty that the sound does not show.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct BudgetConfig {
-    /// The recorder's clock may be off by this much to either side, in millionths. Phones and cameras keep within 50.
+    /// Largest error of the recorder's clock, in millionths. Phones and cameras stay within 50.
     pub clock_ppm: f64,
-    /// The vehicle may move towards or away from the microphone this fast all the time. A hover does not: 0.
+    /// Largest constant speed of the vehicle towards or away from the microphone, m/s (Doppler effect). For a hover: 0.
     pub radial_speed_m_s_max: f64,
-    /// A hover may be this much nearer to the microphone, or farther from it, at the end of a stretch than at its beginning: over its
-    /// length that is a speed too. Half a metre is what simulated pilots let it drift; say 0 of a bench.
+    /// Largest change of the distance to the microphone over a span of time, m; over the length of the span it gives a Doppler effect too.
+    /// Simulated pilots let a hover drift by half a metre; on a bench: 0.
     pub drift_m_max: f64,
-    /// Standard deviation of the speeds of several rotors about their mean, as a share; counts where one line stands for all.
+    /// Standard deviation of the speeds of several rotors about their mean, as a share. It counts where one line stands for all rotors.
     pub rotor_spread_share: f64,
 }
 
@@ -30,7 +30,7 @@ impl Default for BudgetConfig {
 }
 
 impl BudgetConfig {
-    /// How far the loudest of so many rotors is from their mean, as a share: any of them can be it.
+    /// Standard deviation of the loudest rotor from the mean of all rotors, as a share: each rotor may be the loudest.
     pub(crate) fn loudest_rotor_share(&self, rotor_count: u32) -> f64 {
         loudest_rotor_share(self.rotor_spread_share, rotor_count)
     }

@@ -1,4 +1,4 @@
-//! Stage 2: survey → the shaft speeds that may explain its lines.
+//! Stage 2: survey → candidate shaft speeds that may explain its lines.
 
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
@@ -10,13 +10,14 @@ use hovertone_analysis::{NoTone, Outcome, SpeedAnalysis};
 pub(crate) struct Candidates {
     /// Score of each shaft speed in each row of the survey.
     pub(crate) map: CombMap,
-    /// The speed that explains most.
+    /// The speed that explains most of the survey.
     pub(crate) leading_rev_s: f64,
+    /// Lowest speed of the search.
     rev_s_min: f64,
 }
 
 impl Candidates {
-    /// The slower shaft that an analysis found to be the better explanation of a weak and steady tone.
+    /// The speed of a slower shaft, where an analysis found that it explains a weak, steady tone better. `None` below the range of the search.
     pub(crate) fn slower_than(&self, analysis: &SpeedAnalysis) -> Option<f64> {
         match &analysis.outcome {
             Outcome::NoRotorTone { reason: NoTone::SlowerShaft { speed_rev_s, .. } } => {
@@ -27,7 +28,10 @@ impl Candidates {
     }
 }
 
-/// Scores all shaft speeds in the range of the settings.
+/// Scores all shaft speeds in the range of the settings, and takes the best.
+///
+/// # Errors
+/// A tone above half the sample rate; "no rotor tone" where the survey is too short, silent, or holds no series of lines.
 pub(crate) fn candidates_from_survey(
     surveyed: &Surveyed,
     sample_rate_hz: f64,

@@ -1,5 +1,5 @@
-//! Stage 5: lines → is this a rotor, at this octave, and how many? A pass more where a weak tone is steady, and two more where several
-//! rotors are separated.
+//! Stage 5: lines → decision whether they belong to a rotor, whether its speed is right or a multiple, and which rotors there are. It
+//! makes one more pass where a weak tone is steady, and two more where several rotors are separated.
 
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
@@ -13,14 +13,17 @@ use hovertone_analysis::{Hover, Method, NoTone};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
 
-/// The candidate is a rotor, or several.
+/// A candidate that is one rotor, or several.
 pub(crate) struct Decision {
     pub(crate) lines: Lines,
-    /// Each rotor's track; empty where they are not separated.
+    /// The track of each rotor; empty where the rotors are not separated.
     pub(crate) rotors: RotorTracks,
 }
 
-/// Decides whether the lines are a rotor's, and separates its rotors where the settings want them.
+/// Decides whether the lines belong to a rotor, and separates the rotors where the settings ask for it.
+///
+/// # Errors
+/// A source that fails; "no rotor tone" where the lines belong to something else.
 pub(crate) fn decision_from_lines(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -45,7 +48,7 @@ pub(crate) fn decision_from_lines(
     Ok(Decision { lines, rotors })
 }
 
-/// Why the lines are no rotor's at this speed.
+/// The reason why the lines do not belong to a rotor at this speed. `None` where they do.
 fn why_no_rotor(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -60,7 +63,7 @@ fn why_no_rotor(
     if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
         not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
     }
-    // several rotors crowd each other's lines; two families that agree on the shaft speed are stronger evidence
+    // the lines of several rotors hide each other; two families of lines that agree on the shaft speed are stronger evidence
     let are_crowded = config.rotors.are_several() && matches!(not_a_line, Some(NoTone::NotALine { .. }));
     if are_crowded && families_agree(survey, &candidates.map, &config.tone, passes.sample_rate_hz(), speed_rev_s)? {
         not_a_line = None;
@@ -72,8 +75,8 @@ fn why_no_rotor(
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
-/// One pass, where a steady tone is too weak for the comb to settle its octave: do lines between the assumed ones sound as well? A gear
-/// mesh has no octave to settle.
+/// Tests in one pass whether lines between the assumed ones sound as well, so that a slower shaft explains them better: the comb cannot
+/// decide this for a weak, steady tone. A gear mesh has too high an order for the question.
 fn slower_shaft(
     passes: &mut Passes<'_>,
     hover: &Hover,
@@ -97,8 +100,8 @@ fn slower_shaft(
     }))
 }
 
-/// Two passes: the rotors are located in a wide band of speeds, and then each is followed by itself.
-fn rotors_from_hover(
+/// Separates the rotors in two passes: the first finds their speeds in a wide band, the second follows each rotor.
+pub(crate) fn rotors_from_hover(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
     hover: &Hover,

@@ -1,11 +1,11 @@
-//! Stage 3: candidate → the stretches in which it hovers.
+//! Stage 3: candidate → the spans in which it hovers.
 
 use super::{Candidates, Surveyed};
 use crate::config::Config;
 use crate::hover::{HoverPart, WantedHover, hover_from_survey};
 use hovertone_analysis::Hover;
 
-/// Finds the hover at a candidate's speed. Where the settings give a span, all of it is used.
+/// The hover at the speed of a candidate. Where the settings give a span, the whole span counts as hover.
 pub(crate) fn hover_from_candidate(
     surveyed: &Surveyed,
     candidates: &Candidates,

@@ -1,4 +1,4 @@
-//! Stage 4, one pass: hover → ridges of the tone's harmonics, and the harmonic likelihood along all lines.
+//! Stage 4, one pass: hover → ridges of the harmonics of the tone, and the speed by harmonic likelihood from all lines.
 
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
@@ -10,23 +10,26 @@ use hovertone_analysis::{Band, Hover, NoTone, Ridge, Warning};
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::passes::Passes;
 
-/// The lines of one candidate in its hover.
+/// The lines of one candidate in its hover, as ridges and by harmonic likelihood.
 pub(crate) struct Lines {
-    /// Where ridges were looked for.
+    /// Bands of the ridges.
     pub(crate) bands: Vec<Band>,
-    /// Where the lines of the likelihood were listened to.
+    /// Bands of the lines of the harmonic likelihood.
     pub(crate) channel_bands: Vec<ChannelBand>,
-    /// The ridges in frames of the length that shows most lines.
+    /// The ridges at the frame length that shows lines in most frames.
     pub(crate) clearest: Vec<Ridge>,
-    /// The ridges in frames of the length that the settings ask for; else the clearest.
+    /// The ridges at the frame length of the settings, where given; otherwise the clearest.
     pub(crate) ridges: Vec<Ridge>,
-    /// Speed along the hover by the harmonic likelihood.
+    /// Speed along the hover by harmonic likelihood.
     pub(crate) harmonic: HarmonicTrack,
-    /// Bands that were left out, and why.
+    /// Bands that were left out, with the reasons.
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// Listens to the hover at every frame length that is tried, and to all lines at once.
+/// Analyses the hover at every frame length of the ladder, and all lines together, in one pass.
+///
+/// # Errors
+/// A source that fails, a band above half the sample rate; "no rotor tone" where no band can be followed or no frame fits in the hover.
 pub(crate) fn lines_from_hover(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -60,7 +63,7 @@ pub(crate) fn lines_from_hover(
     }
 }
 
-/// A tracer for each frame length that is tried; last the one that the settings ask for.
+/// A tracer for each frame length of the ladder, and last for the frame length of the settings, where given.
 fn ridge_tracers(bands: &[Band], hover_s: f64, sample_rate_hz: f64, config: &Config) -> Vec<RidgeTracer> {
     let spectrogram = &config.spectrogram;
     let frames_max = if config.wants_ridges() { spectrogram.frames_max } else { spectrogram.verdict_frames_max };
@@ -70,7 +73,7 @@ fn ridge_tracers(bands: &[Band], hover_s: f64, sample_rate_hz: f64, config: &Con
         .chain(spectrogram.window_s)
         .map(|window_s| {
             let hop_s = spectrogram.hop_s(window_s, hover_s, frames_max);
-            RidgeTracer::new((window_s, hop_s), bands, sample_rate_hz, spectrogram, &config.ridge)
+            RidgeTracer::new(window_s, hop_s, bands, sample_rate_hz, spectrogram, &config.ridge)
         })
         .collect()
 }

@@ -1,4 +1,4 @@
-//! The stages of the chain. Each is one function from one typed value to the next; the settings that it needs come from [`Config`].
+//! The stages of the chain: each is one function from one typed value to the next, with its settings from [`Config`].
 //!
 //! [`Config`]: crate::Config
 
@@ -11,7 +11,7 @@ mod stop;
 mod survey;
 
 pub(crate) use candidates::{Candidates, candidates_from_survey};
-pub(crate) use decision::{Decision, decision_from_lines};
+pub(crate) use decision::{Decision, decision_from_lines, rotors_from_hover};
 pub(crate) use hover::hover_from_candidate;
 pub(crate) use lines::{Lines, lines_from_hover};
 pub(crate) use speeds::speeds_from_decision;

@@ -1,13 +1,16 @@
-//! Stage 6: decision → the answer, by every method that is wanted.
+//! Stage 6: decision → the answer, by every wanted method.
 
 use super::{Decision, Lines, Silence, Stop};
 use crate::config::Config;
 use crate::detection::{warning_of_rotors, warning_of_samples, warnings_of_hover, warnings_of_speed};
 use crate::rotors::RotorTracks;
-use crate::speed::{HarmonicWeights, Track, mean_track, samples_from_hover, with_budget};
+use crate::speed::{HarmonicWeights, Track, excerpts_from_hover, mean_track, with_budget};
 use hovertone_analysis::{Hover, Method, NoTone, Outcome, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate};
 
-/// Speeds over the hover and in each of its samples, tracks, rotors, and what weakens them.
+/// Speeds over the hover and in each excerpt (*sample* in the paper), tracks, rotors, and warnings.
+///
+/// # Errors
+/// "No rotor tone" where no method has a speed.
 pub(crate) fn speeds_from_decision(
     heard: Span,
     hover: Hover,
@@ -26,7 +29,7 @@ pub(crate) fn speeds_from_decision(
         let reason = NoTone::NoFrame { window_s, hover_s: hover.length_s() };
         return Err(Silence { reason, hover, warnings }.into());
     }
-    let samples: Vec<SampleSpeeds> = samples_from_hover(&hover, &config.samples, &mut warnings)
+    let samples: Vec<SampleSpeeds> = excerpts_from_hover(&hover, &config.samples, &mut warnings)
         .into_iter()
         .map(|span| SampleSpeeds { speeds: heard_by.speeds_in(Some(&span), span.length_s(), config), span })
         .filter(|sample| !sample.speeds.is_empty())
@@ -48,7 +51,7 @@ pub(crate) fn speeds_from_decision(
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
 
-/// The same hover, as each method hears it.
+/// One hover as each method analyses it.
 struct HeardBy<'a> {
     weights: &'a HarmonicWeights<'a>,
     tracks: &'a [Track],
@@ -57,7 +60,7 @@ struct HeardBy<'a> {
 }
 
 impl HeardBy<'_> {
-    /// The speed in a span of `length_s`, or in all of the hover, by every method that is wanted and hears one there.
+    /// The speed in a span of length `length_s`, or in the whole hover without a span: one estimate for each wanted method that has one.
     fn speeds_in(&self, span: Option<&Span>, length_s: f64, config: &Config) -> Vec<SpeedEstimate> {
         let order = config.tone.order;
         let loudest_share = config.budget.loudest_rotor_share(config.rotors.count);

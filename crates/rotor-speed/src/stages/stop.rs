@@ -1,19 +1,19 @@
-//! Why the chain ends before its last stage: it failed, or there is no rotor tone.
+//! The chain ends before its last stage: by an error, or because there is no rotor tone.
 
 use crate::error::Error;
 use hovertone_analysis::{Hover, NoTone, Outcome, Span, SpeedAnalysis, Warning};
 use hovertone_signal::SignalError;
 
-/// The chain ends here.
+/// The reason for which the chain ends early.
 #[derive(Debug)]
 pub(crate) enum Stop {
-    /// Something failed.
+    /// An error.
     Failed(Error),
-    /// The answer is "no rotor tone".
+    /// The answer "no rotor tone".
     Silent(Silence),
 }
 
-/// "No rotor tone", and what was found out on the way.
+/// The answer "no rotor tone", with the results of the stages before.
 #[derive(Debug)]
 pub(crate) struct Silence {
     pub(crate) reason: NoTone,
@@ -22,12 +22,12 @@ pub(crate) struct Silence {
 }
 
 impl Silence {
-    /// Before any hover was found.
+    /// The answer before any hover was found.
     pub(crate) fn because(reason: NoTone) -> Self {
         Self { reason, hover: Hover::default(), warnings: Vec::new() }
     }
 
-    /// The same as an answer for a recording that was heard over `heard`.
+    /// The analysis of a recording over the span `heard`.
     pub(crate) fn analysis(self, heard: Span) -> SpeedAnalysis {
         let Self { reason, hover, warnings } = self;
         SpeedAnalysis { heard, hover, outcome: Outcome::NoRotorTone { reason }, warnings }
@@ -35,7 +35,7 @@ impl Silence {
 }
 
 impl Stop {
-    /// The answer, where the reason is one.
+    /// The answer, or the error.
     pub(crate) fn answer(self, heard: Span) -> Result<SpeedAnalysis, Error> {
         match self {
             Self::Failed(error) => Err(error),

@@ -1,4 +1,4 @@
-//! Stage 1, one pass: sound → survey of all of it.
+//! Stage 1, one pass: sound → survey of the whole recording.
 
 use super::Silence;
 use crate::config::Config;
@@ -7,7 +7,7 @@ use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
 
-/// A survey, and the span of the recording that it covers.
+/// A survey of a recording, with the span that it covers.
 #[derive(Debug)]
 pub struct Surveyed {
     pub(crate) survey: Survey,
@@ -15,13 +15,15 @@ pub struct Surveyed {
 }
 
 impl Surveyed {
-    /// The span that was heard, on the recording's clock.
+    /// The span of the survey on the recording's clock.
     pub fn heard(&self) -> Span {
         self.heard
     }
 
+    /// Checks that the survey may hold a tone.
+    ///
     /// # Errors
-    /// "No rotor tone" where there is nothing to look for one in.
+    /// "No rotor tone" where the span of the settings is outside the recording, or the survey is too short or silent.
     pub(crate) fn check(&self, config: &Config) -> Result<(), Silence> {
         if config.span.is_given() && self.heard.length_s() <= 0.0 {
             return Err(Silence::because(NoTone::OutsideRecording));
@@ -30,12 +32,15 @@ impl Surveyed {
     }
 }
 
-/// Passes that the survey makes.
+/// Number of passes of the survey.
 pub(crate) fn passes_of_survey() -> u32 {
     1
 }
 
-/// Surveys the span of the settings. Rows of another kind can be built `beside` it in the same pass.
+/// Surveys the span of the settings. The builder `beside` gets the same samples in the same pass.
+///
+/// # Errors
+/// A source that fails.
 pub(crate) fn survey_from_source(
     passes: &mut Passes<'_>,
     config: &Config,

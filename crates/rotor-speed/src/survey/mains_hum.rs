@@ -1,49 +1,58 @@
-//! Fine rows → mains hum: lines at multiples of 50 or 60 Hz that do not move.
+//! Fine rows → mains hum: lines of constant frequency at multiples of 50 or 60 Hz.
 
 use crate::survey::Rows;
 use hovertone_signal::peak::peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
 
-/// Frequencies of the world's mains.
+/// Frequencies of the electric grids of the world, Hz. *Physics.*
 const GRIDS_HZ: [f64; 2] = [50.0, 60.0];
-/// Grids keep their frequency within this share nearly always (ENTSO-E: ±0.05 Hz), and a recorder's clock within a tenth.
+/// Largest deviation of a grid from its frequency, as a share (ENTSO-E: ±0.05 Hz nearly always). The clock of a recorder deviates by a
+/// tenth of it. *Decision.*
 const GRID_SHARE: f64 = 0.001;
-/// Of the frequency that all lines together tell, with the recorder's clock.
+/// Largest deviation of the frequency from all lines together, with the clock of the recorder, as a share. *Decision.*
 const GRID_SHARE_MAX: f64 = 0.0012;
-/// Error of an interpolated peak, in bins.
-const PEAK_BINS: f64 = 0.08;
-/// A multiple of the hum as heard is this near to where it should be: the drift within a recording, and the peak's error.
+/// Error of an interpolated peak, in bins. *Numeric.*
+const PEAK_ERROR_BINS: f64 = 0.08;
+/// Largest deviation of a line of hum from its multiple of the measured frequency, as a share: the drift of the grid within a recording.
+/// *Decision.*
 const OWN_SHARE: f64 = 0.0003;
+/// The same in addition, Hz: the error of the peak. *Numeric.*
 const OWN_HZ: f64 = 0.15;
-/// A series whose fundamental is this near to the hum's is the hum's.
+/// Largest deviation of the fundamental of a series from the frequency of the hum, as a share, at which the series is hum. *Decision.*
 const SERIES_SHARE: f64 = 0.01;
-/// Hum stands this far over its surroundings.
+/// Smallest height of a line of hum over its surroundings, dB. *Decision.*
 const OVER_DB_MIN: f64 = 10.0;
-/// Where there is hum, its weaker lines stand this far over theirs.
+/// The same for further lines, once there is hum, dB. *Decision.*
 const WEAK_OVER_DB_MIN: f64 = 5.0;
-/// A line is hum when it is in its place in this share of the rows: noise moves the weakest, a wandering rotor leaves soon.
+/// Smallest share of rows in which a line of hum is in its place: noise moves weak lines, and a rotor of varying speed leaves the place
+/// soon. *Decision.*
 const ROWS_IN_PLACE_MIN: f64 = 0.8;
-/// Of the multiples up to the highest that is heard, this share is heard: all, or the odd, or the even.
+/// Smallest share of lines that are heard, among all multiples up to the highest one heard, or among the odd or the even multiples.
+/// *Decision.*
 const HEARD_SHARE_MIN: f64 = 0.65;
-/// Hum has its strength in its first multiples: one of the first three is at most this much weaker than the strongest.
+/// Largest distance of the strongest of the first lines below the strongest line, dB: hum is strong in its first multiples. *Decision.*
 const LOW_MULTIPLES_DB: f64 = 15.0;
-/// So many multiples are looked at for its pattern.
+/// Number of first lines of which one must be strong. *Decision.*
+const LOW_MULTIPLES: usize = 3;
+/// Number of multiples whose presence is examined. *Decision.*
 const PATTERN_MULTIPLES: usize = 8;
+/// Largest fraction of the mains frequency that a fundamental may be: an eighth. *Decision.*
+const FRACTIONS_MAX: u32 = 8;
 
 /// Mains hum of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MainsHum {
-    /// Frequency of the mains as heard.
+    /// Frequency of the grid by the clock of the recorder.
     pub(crate) mains_hz: f64,
-    /// Its lines, in order.
+    /// Lines of the hum, from low to high.
     pub(crate) lines_hz: Vec<f64>,
 }
 
 impl MainsHum {
-    /// Replaces the hum's lines in a power spectrum by what lies beside them.
-    pub(crate) fn take_out(&self, power: &mut [f64], bin_hz: f64) {
+    /// Replaces the lines of the hum in a power spectrum by the power beside them.
+    pub(crate) fn remove_from(&self, power: &mut [f64], bin_hz: f64) {
         for line_hz in &self.lines_hz {
-            // the main lobe of a Hann window is two bins either way
+            // the main lobe of a Hann window reaches two bins to either side
             let (first, last) = ((line_hz / bin_hz).floor() as usize - 1, (line_hz / bin_hz).ceil() as usize + 1);
             let beside = |bin: usize| power.get(bin).copied();
             let Some(before) = first.checked_sub(1).and_then(beside) else { continue };
@@ -53,47 +62,64 @@ impl MainsHum {
         }
     }
 
-    /// Whether a line of that mean and spread over its frames is one of the hum's.
+    /// Whether a line with this mean and standard deviation over its frames is a line of the hum.
     pub(crate) fn holds(&self, mean_hz: f64, std_hz: f64) -> bool {
         let multiple = (mean_hz / self.mains_hz).round().max(1.0);
         let off_hz = (mean_hz - multiple * self.mains_hz).abs();
         off_hz <= OWN_SHARE * mean_hz + OWN_HZ && std_hz <= GRID_SHARE * mean_hz + OWN_HZ
     }
 
-    /// Whether a series on that fundamental is the hum's, or a fraction of it.
+    /// Whether a series with this fundamental is hum: the fundamental is a multiple of the mains frequency, or a simple fraction of one.
     pub(crate) fn explains(&self, fundamental_hz: f64) -> bool {
-        (1..=8).any(|part| {
+        (1..=FRACTIONS_MAX).any(|part| {
             let multiple = (f64::from(part) * fundamental_hz / self.mains_hz).round().max(1.0);
             (f64::from(part) * fundamental_hz / (multiple * self.mains_hz) - 1.0).abs() < SERIES_SHARE
         })
     }
 
-    /// The hum's line nearest to the middle of a band, if one is inside.
+    /// The lowest line of the hum in a band.
     pub(crate) fn line_in(&self, low_hz: f64, high_hz: f64) -> Option<f64> {
         self.lines_hz.iter().copied().find(|line_hz| (low_hz..=high_hz).contains(line_hz))
     }
 }
 
-/// The mains hum that a recording holds, if any.
+/// A line of constant frequency.
+#[derive(Clone, Copy, Debug)]
+struct StillLine {
+    hz: f64,
+    power: f64,
+}
+
+/// The mean spectrum of the fine rows.
+struct FineSpectrum<'a> {
+    rows: &'a Rows,
+    /// Mean power of each bin.
+    power: Vec<f64>,
+    /// Level of each bin over the noise floor.
+    over_db: Vec<f64>,
+}
+
+/// The mains hum of a recording, from its low frequencies up to `hz_max`. `None` where there is none.
 ///
-/// A rotor is not taken for hum unless its lines stand still within 0.1 % of multiples of 50 or 60 Hz, with the first, the
-/// second or the third among them, and without leaving out more than a third: a blade pass at 180 Hz, for one, has no lines at
-/// 60 and 120 Hz.
+/// Hum is a series of lines that stay within 0.1 % of multiples of 50 or 60 Hz, with a strong line among the first three, and at most
+/// about a third of the lines missing. So a rotor at 180 Hz is no hum, because it has no lines at 60 and 120 Hz.
 pub(crate) fn mains_hum(fine: &Rows, hz_max: f64) -> Option<MainsHum> {
     let power = fine.mean_power(|_| true)?;
-    let over_db = whitened_db(&power);
+    let spectrum = FineSpectrum { rows: fine, over_db: whitened_db(&power), power };
     GRIDS_HZ
         .into_iter()
-        .filter_map(|grid_hz| hum_of_grid(fine, &power, &over_db, grid_hz, hz_max))
+        .filter_map(|grid_hz| hum_of_grid(&spectrum, grid_hz, hz_max))
         .max_by_key(|hum| hum.lines_hz.len())
 }
 
-fn hum_of_grid(fine: &Rows, power: &[f64], over_db: &[f64], grid_hz: f64, hz_max: f64) -> Option<MainsHum> {
+/// The hum of a grid of 50 or 60 Hz.
+fn hum_of_grid(spectrum: &FineSpectrum<'_>, grid_hz: f64, hz_max: f64) -> Option<MainsHum> {
+    let FineSpectrum { rows, power, over_db } = spectrum;
+    let bin_hz = rows.bin_hz;
     let multiples = (hz_max / grid_hz) as usize;
-    let lines: Vec<Option<(f64, f64)>> =
-        (1..=multiples).map(|k| still_line(fine, power, over_db, k as f64 * grid_hz)).collect();
-    let strongest = |lines: &[Option<(f64, f64)>]| lines.iter().flatten().map(|line| line.1).fold(0.0, f64::max);
-    let low = strongest(&lines[..lines.len().min(3)]);
+    let lines: Vec<Option<StillLine>> = (1..=multiples).map(|k| still_line(spectrum, k as f64 * grid_hz)).collect();
+    let strongest = |lines: &[Option<StillLine>]| lines.iter().flatten().map(|line| line.power).fold(0.0, f64::max);
+    let low = strongest(&lines[..lines.len().min(LOW_MULTIPLES)]);
     if low <= 0.0 || low < strongest(&lines) * 10f64.powf(-LOW_MULTIPLES_DB / 10.0) {
         return None;
     }
@@ -102,59 +128,69 @@ fn hum_of_grid(fine: &Rows, power: &[f64], over_db: &[f64], grid_hz: f64, hz_max
     let is_heard = |first: usize, step: usize| {
         let expected: Vec<bool> = (first..=highest).step_by(step).map(|k| pattern[k - 1].is_some()).collect();
         let heard = expected.iter().filter(|&&is_heard| is_heard).count();
-        // the lowest of them is heard, for else a rotor's own multiples would do
+        // the lowest line must be heard; otherwise the multiples of a rotor would qualify
         expected.first() == Some(&true) && heard as f64 >= HEARD_SHARE_MIN * expected.len() as f64
     };
     if !(is_heard(1, 1) || is_heard(1, 2) || is_heard(2, 2)) {
         return None;
     }
-    // all lines together know the frequency better than the first alone: a rotor at 60.17 rev/s is none
+    // all lines together give a more precise frequency than one line: a rotor at 60.17 rev/s is no hum
     let mains_hz = mains_hz_of(&lines).filter(|mains_hz| (mains_hz / grid_hz - 1.0).abs() <= GRID_SHARE_MAX)?;
-    // where there is hum, what stands in its place is hum too, however weak
+    // where there is hum, weaker lines in its places are hum too
     let in_place = (1..=multiples).filter_map(|k| {
         let hz = k as f64 * mains_hz;
-        let (place, bin) = peak_near(power, hz / fine.bin_hz)?;
-        let is_line = *over_db.get(bin)? >= WEAK_OVER_DB_MIN && (place - hz / fine.bin_hz).abs() <= 2.0 * PEAK_BINS;
-        is_line.then_some(place * fine.bin_hz)
+        let PlacedPeak { place, bin } = peak_near(power, hz / bin_hz)?;
+        let is_line = *over_db.get(bin)? >= WEAK_OVER_DB_MIN && (place - hz / bin_hz).abs() <= 2.0 * PEAK_ERROR_BINS;
+        is_line.then_some(place * bin_hz)
     });
     Some(MainsHum { mains_hz, lines_hz: in_place.collect() })
 }
 
-/// The frequency whose multiples fit these lines best, each by its power.
-fn mains_hz_of(lines: &[Option<(f64, f64)>]) -> Option<f64> {
+/// The frequency whose multiples k = 1, 2, … fit the lines best: least squares, weighted by their power.
+fn mains_hz_of(lines: &[Option<StillLine>]) -> Option<f64> {
     let (weighted, weights) = lines
         .iter()
         .enumerate()
         .filter_map(|(index, line)| Some((index as f64 + 1.0, (*line)?)))
-        .fold((0.0, 0.0), |(sum, weights), (k, (hz, power))| (sum + k * hz * power, weights + k * k * power));
+        .fold((0.0, 0.0), |(sum, weights), (k, StillLine { hz, power })| {
+            (sum + k * hz * power, weights + k * k * power)
+        });
     (weights > 0.0).then(|| weighted / weights)
 }
 
-/// Frequency and power of a line at `hz`, if there is one and it does not move from row to row.
-fn still_line(fine: &Rows, power: &[f64], over_db: &[f64], hz: f64) -> Option<(f64, f64)> {
-    let reach_hz = GRID_SHARE * hz + PEAK_BINS * fine.bin_hz;
-    let (heard_hz, bin) = peak_near(power, hz / fine.bin_hz)?;
-    let heard_hz = heard_hz * fine.bin_hz;
+/// The line at `hz`, where there is one and its frequency is constant from row to row.
+fn still_line(spectrum: &FineSpectrum<'_>, hz: f64) -> Option<StillLine> {
+    let FineSpectrum { rows: fine, power, over_db } = spectrum;
+    let reach_hz = GRID_SHARE * hz + PEAK_ERROR_BINS * fine.bin_hz;
+    let PlacedPeak { place, bin } = peak_near(power, hz / fine.bin_hz)?;
+    let heard_hz = place * fine.bin_hz;
     let is_in_place = |at_hz: f64| (at_hz - hz).abs() <= reach_hz;
     if !is_in_place(heard_hz) || *over_db.get(bin)? < OVER_DB_MIN {
         return None;
     }
-    // a row is one or a few frames, so that noise moves a weak line by more
+    // a row has one frame or few, so that noise moves a weak line further
     let in_place = fine
         .rows
         .iter()
         .filter_map(|row| peak_near(&row.power, hz / fine.bin_hz))
-        .filter(|(at, _)| (at * fine.bin_hz - heard_hz).abs() <= reach_hz)
+        .filter(|peak| (peak.place * fine.bin_hz - heard_hz).abs() <= reach_hz)
         .count();
-    (in_place as f64 >= ROWS_IN_PLACE_MIN * fine.rows.len() as f64).then_some((heard_hz, power[bin]))
+    (in_place as f64 >= ROWS_IN_PLACE_MIN * fine.rows.len() as f64)
+        .then_some(StillLine { hz: heard_hz, power: power[bin] })
 }
 
-/// The highest bin within two of a place, interpolated.
-fn peak_near(power: &[f64], place: f64) -> Option<(f64, usize)> {
+/// A peak of a spectrum: its loudest bin, and its place between bins.
+struct PlacedPeak {
+    place: f64,
+    bin: usize,
+}
+
+/// The highest bin within two bins of a place, interpolated. `None` where it is no peak.
+fn peak_near(power: &[f64], place: f64) -> Option<PlacedPeak> {
     let centre = place.round() as usize;
     let bin = (centre.saturating_sub(2).max(1)..=centre + 2)
         .filter(|&bin| bin + 1 < power.len())
         .max_by(|&a, &b| power[a].total_cmp(&power[b]))?;
     let offset = peak_offset_bins(power[bin - 1], power[bin], power[bin + 1])?;
-    Some((bin as f64 + offset, bin))
+    Some(PlacedPeak { place: bin as f64 + offset, bin })
 }

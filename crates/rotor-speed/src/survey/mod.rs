@@ -1,12 +1,11 @@
-//! Signal → survey: the whole recording as a coarse spectrogram that fits in memory whatever its length, and its low
-//! frequencies as a fine one.
+//! Signal → survey: a coarse spectrogram of the whole recording in bounded memory, and a fine one of its low frequencies.
 
 mod mains_hum;
 mod rows;
 mod span;
 
 pub(crate) use mains_hum::MainsHum;
-pub(crate) use rows::{Row, Rows, RowsBuilder};
+pub(crate) use rows::{Row, RowSettings, Rows, RowsBuilder};
 pub use span::SpanConfig;
 
 use hovertone_analysis::NoTone;
@@ -14,42 +13,44 @@ use hovertone_signal::spectrogram::Decimator;
 use mains_hum::mains_hum;
 use rows::mean_power;
 
-/// Sound quieter than this is silence: the last bit of 24, and what rounding makes of an offset of full scale.
+/// Highest level of silence, dB re a sine of full scale: the last of 24 bits, and the rounding noise of an offset of full scale.
+/// *Numeric.*
 const SILENCE_DB: f64 = -138.0;
 
 /// The recording in rows of equal length.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Survey {
-    /// All frequencies, coarsely. Mains hum is taken out.
+    /// Coarse rows of all frequencies, without mains hum.
     pub(crate) rows: Vec<Row>,
+    /// Distance between bins of the coarse rows.
     pub(crate) bin_hz: f64,
-    /// The same as they were, where hum was taken out.
+    /// The coarse rows with hum, where there is hum.
     rows_with_hum: Option<Vec<Row>>,
-    /// The low frequencies, finely, as they are.
+    /// Fine rows of the low frequencies, with hum.
     pub(crate) fine: Rows,
-    /// Highest frequency that the fine rows hold.
+    /// Highest frequency of the fine rows.
     pub(crate) fine_hz_max: f64,
-    /// The mains hum that was found.
+    /// The mains hum of the recording.
     pub(crate) hum: Option<MainsHum>,
 }
 
 impl Survey {
-    /// A survey of rows alone.
+    /// A survey of coarse rows alone.
     pub(crate) fn of_rows(Rows { rows, bin_hz }: Rows) -> Self {
         Self { rows, bin_hz, ..Self::default() }
     }
 
-    /// The rows as they were heard, hum included.
+    /// The coarse rows with hum.
     pub(crate) fn rows_with_hum(&self) -> &[Row] {
         self.rows_with_hum.as_ref().unwrap_or(&self.rows)
     }
 
-    /// Mean power spectrum of all that was heard.
+    /// Mean power spectrum of the coarse rows. `None` without rows.
     pub(crate) fn mean_power(&self) -> Option<Vec<f64>> {
         mean_power(self.rows.iter())
     }
 
-    /// Why nothing can be found in it; `None` when something sounds.
+    /// The reason why the survey can hold no tone: it is too short, or silent. `None` otherwise.
     pub(crate) fn why_nothing(&self, heard_s: f64) -> Option<NoTone> {
         if self.rows.is_empty() {
             return Some(NoTone::TooShort { heard_s });
@@ -58,18 +59,18 @@ impl Survey {
     }
 }
 
-/// Frames and rows of a survey.
+/// Settings of a survey.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SurveySettings {
-    /// Length of a frame of all frequencies.
+    /// Length of a frame of the coarse rows.
     pub(crate) window_s: f64,
-    /// Length of a row.
+    /// Length of a coarse row.
     pub(crate) row_s: f64,
-    /// Most rows; a longer recording gets longer rows.
+    /// Largest number of coarse rows: a longer recording gets longer rows. The fine rows are at most half as many.
     pub(crate) rows_max: usize,
-    /// Length of a frame of the low frequencies, and of their rows.
+    /// Length of a frame and of a row of the low frequencies.
     pub(crate) fine_window_s: f64,
-    /// Highest of the low frequencies.
+    /// Highest frequency of the fine rows.
     pub(crate) fine_hz_max: f64,
 }
 
@@ -89,13 +90,23 @@ pub(crate) struct SurveyBuilder {
 
 impl SurveyBuilder {
     pub(crate) fn new(settings: SurveySettings, sample_rate_hz: f64, start_s: f64) -> Self {
-        let rows_max = settings.rows_max;
         let decimator = Decimator::new(sample_rate_hz, settings.fine_hz_max);
-        let fine_s = settings.fine_window_s;
         let fine_start_s = start_s + decimator.delay_s();
+        let coarse = RowSettings {
+            window_s: settings.window_s,
+            hop_s: settings.window_s / 2.0,
+            row_s: settings.row_s,
+            rows_max: settings.rows_max,
+        };
+        let fine = RowSettings {
+            window_s: settings.fine_window_s,
+            hop_s: settings.fine_window_s / 2.0,
+            row_s: settings.fine_window_s,
+            rows_max: settings.rows_max / 2,
+        };
         Self {
-            coarse: RowsBuilder::new(sample_rate_hz, start_s, settings.window_s, settings.row_s, rows_max),
-            fine: RowsBuilder::new(decimator.rate_hz(), fine_start_s, fine_s, fine_s, rows_max / 2),
+            coarse: RowsBuilder::new(sample_rate_hz, start_s, coarse),
+            fine: RowsBuilder::new(decimator.rate_hz(), fine_start_s, fine),
             decimator,
         }
     }
@@ -112,7 +123,7 @@ impl SurveyBuilder {
         let hum = mains_hum(&fine, fine_hz_max);
         let rows_with_hum = hum.is_some().then(|| rows.clone());
         if let Some(hum) = &hum {
-            rows.iter_mut().for_each(|row| hum.take_out(&mut row.power, bin_hz));
+            rows.iter_mut().for_each(|row| hum.remove_from(&mut row.power, bin_hz));
         }
         Survey { rows, bin_hz, rows_with_hum, fine, fine_hz_max, hum }
     }

@@ -1,23 +1,24 @@
-//! Frames → rows: mean power spectra of stretches of equal length, never more than a number of them.
+//! Frames → rows: mean power spectra of spans of equal length, in a bounded number.
 
 use hovertone_analysis::Span;
 use hovertone_signal::spectrogram::{Stft, Window, power_db};
 
-/// Sound below this is handling, wind and traffic; it does not count for how loud a row is.
+/// Lowest frequency that counts for the loudness of a row, Hz: below are handling noise, wind and traffic. *Decision.*
 const LEVEL_HZ_MIN: f64 = 60.0;
-/// Rows of more frames than this know their mean well enough without frames that overlap.
+/// Largest number of overlapping frames in a row: a row of more frames has a precise mean without overlap. *Numeric.*
 const OVERLAPPING_FRAMES_MAX: u32 = 20;
 
-/// One row: the mean power spectrum of a stretch of sound.
+/// One row: the mean power spectrum of a span of time.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) span: Span,
+    /// Mean power of each bin; the sum over the frames while the row is built.
     pub(crate) power: Vec<f64>,
     frame_count: u32,
 }
 
 impl Row {
-    /// Loudness of the row above the lowest frequencies, in dB re a full-scale sine.
+    /// Level of the power above 60 Hz, dB re a sine of full scale.
     pub(crate) fn level_db(&self, bin_hz: f64) -> f64 {
         let first = ((LEVEL_HZ_MIN / bin_hz).ceil() as usize).min(self.power.len());
         power_db(self.power[first..].iter().sum())
@@ -32,13 +33,13 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// Mean power spectrum of the rows that are wanted; `None` where there are none.
+    /// Mean power spectrum of the wanted rows. `None` where no row is wanted.
     pub(crate) fn mean_power(&self, is_wanted: impl Fn(&Row) -> bool) -> Option<Vec<f64>> {
         mean_power(self.rows.iter().filter(|row| is_wanted(row)))
     }
 }
 
-/// Mean power spectrum of rows; `None` of nothing.
+/// Mean power spectrum of rows. `None` without rows.
 pub(super) fn mean_power<'a>(rows: impl Iterator<Item = &'a Row> + Clone) -> Option<Vec<f64>> {
     let count = rows.clone().count();
     let mut sum = vec![0.0; rows.clone().next()?.power.len()];
@@ -48,8 +49,21 @@ pub(super) fn mean_power<'a>(rows: impl Iterator<Item = &'a Row> + Clone) -> Opt
     Some(sum)
 }
 
-/// Builds rows from a stream of samples. When there are too many, neighbours are merged and rows become twice as long, so
-/// that memory stays the same for a minute and for a day; and once they hold many frames, these stand side by side.
+/// Frames and rows of a spectrogram.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowSettings {
+    /// Length of a frame.
+    pub(crate) window_s: f64,
+    /// Step between frames.
+    pub(crate) hop_s: f64,
+    /// Length of a row.
+    pub(crate) row_s: f64,
+    /// Largest number of rows.
+    pub(crate) rows_max: usize,
+}
+
+/// Builds rows from a stream of samples. Where their number reaches the limit, pairs of neighbours are merged and the length of a row
+/// doubles, so that memory does not grow with the length of the recording. Once a row holds many frames, frames no longer overlap.
 pub(crate) struct RowsBuilder {
     stft: Stft<f32>,
     start_s: f64,
@@ -61,19 +75,9 @@ pub(crate) struct RowsBuilder {
 }
 
 impl RowsBuilder {
-    /// Frames of `window_s` that overlap by half, rows of `row_s`.
-    pub(crate) fn new(sample_rate_hz: f64, start_s: f64, window_s: f64, row_s: f64, rows_max: usize) -> Self {
-        Self::with_hop(sample_rate_hz, start_s, (window_s, window_s / 2.0), row_s, rows_max)
-    }
-
-    /// Frames of another step than half their length.
-    pub(crate) fn with_hop(
-        sample_rate_hz: f64,
-        start_s: f64,
-        (window_s, hop_s): (f64, f64),
-        row_s: f64,
-        rows_max: usize,
-    ) -> Self {
+    /// Rows of a recording that starts at `start_s`.
+    pub(crate) fn new(sample_rate_hz: f64, start_s: f64, settings: RowSettings) -> Self {
+        let RowSettings { window_s, hop_s, row_s, rows_max } = settings;
         let mut stft = Stft::new(sample_rate_hz, Window::Hann, window_s, hop_s, 1);
         stft.restart(start_s);
         let frames_per_row = (row_s / hop_s).round().max(1.0) as u32;
@@ -100,7 +104,7 @@ impl RowsBuilder {
                 }
             }
         });
-        // from the next block on: where that begins makes rows differ by less than a frame or two
+        // This takes effect with the next call: the size of the pushed pieces changes rows by less than two frames.
         if self.frames_per_row > OVERLAPPING_FRAMES_MAX && self.hop_s < self.window_s {
             self.frames_per_row = (f64::from(self.frames_per_row) * self.hop_s / self.window_s).round().max(1.0) as u32;
             self.hop_s = self.window_s;
@@ -115,7 +119,7 @@ impl RowsBuilder {
         for row in &mut rows {
             row.power.iter_mut().for_each(|sum| *sum /= f64::from(row.frame_count));
         }
-        // the last half window belongs to the last row
+        // the last half frame belongs to the last row
         if let Some(last) = rows.last_mut() {
             last.span.to_s = end_s;
         }
@@ -123,6 +127,7 @@ impl RowsBuilder {
     }
 }
 
+/// Merges each pair of neighbouring rows.
 fn merge_pairs(rows: &mut Vec<Row>) {
     let mut merged: Vec<Row> = Vec::with_capacity(rows.len());
     for (index, row) in rows.drain(..).enumerate() {

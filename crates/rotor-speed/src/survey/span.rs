@@ -1,25 +1,25 @@
-//! Which part of a recording is used.
+//! Settings: the part of a recording that is analysed.
 
 use hovertone_vehicle::ConfigError;
 use serde::Serialize;
 
-/// Which part of the recording is used.
+/// The part of the recording that is analysed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SpanConfig {
-    /// Start of the part to use, on the recording's clock. Where a start or end is given, all between is used and
-    /// nothing is cut away as not hovering.
+    /// Start on the recording's clock, s. Where a start or an end is given, the whole part is used, and nothing is cut away as not
+    /// hovering.
     pub from_s: Option<f64>,
-    /// End of the part to use.
+    /// End on the recording's clock, s.
     pub to_s: Option<f64>,
 }
 
 impl SpanConfig {
-    /// Whether the user says what to use.
+    /// Whether a start or an end is given.
     pub fn is_given(&self) -> bool {
         self.from_s.is_some() || self.to_s.is_some()
     }
 
-    /// Refuses a span that ends before it starts.
+    /// Refuses an end at or before the start.
     ///
     /// # Errors
     /// [`ConfigError::EmptySpan`].

@@ -1,26 +1,35 @@
-//! Mean spectrum → the frequency above which a codec or a recorder left nothing.
+//! Mean spectrum → the cutoff frequency of a lossy codec or a recorder's filter.
 
 use super::power_db;
 use crate::statistics::median;
 
-/// The spectrum is read in strips this wide: wide against a line and its lobes, narrow against a filter's flank.
+/// Width of the strips of spectrum that are compared, Hz: wide against a line and its lobes, narrow against the flank of a
+/// filter. *Numeric.*
 const STRIP_HZ: f64 = 150.0;
-/// A codec's edge falls within this many strips. Microphones and rooms lose no more than a few dB over so little.
+/// Width of the flank of a codec's filter, in strips. Over this width, microphones and rooms lose no more than a few dB.
+/// *Decision.*
 const FLANK_STRIPS: usize = 3;
-/// Below the edge, the sound reaches over so many strips (2 kHz), three quarters of them, to that level: a rotor's highest line is an
-/// edge too, but stands alone.
+/// Strips below the cutoff (2 kHz) of which three quarters must be loud. The highest line of a rotor ends in a flank too, but
+/// has no loud plateau below it. *Decision.*
 const PLATEAU_STRIPS: usize = 13;
-/// A codec's edge is at least this deep. What remains above is the last bit, or what the decoder's filter lets through.
+/// Smallest drop of level over the flank, dB. Above the cutoff remain the rounding noise and the stop band of the decoder's
+/// filter. *Decision.*
 const CLIFF_DB: f64 = 18.0;
-/// Above the edge no strip rises to within this of what was just below it.
+/// Smallest distance of every strip above the flank from the plateau below it, dB. *Decision.*
 const STAYS_DB: f64 = 12.0;
 
-/// The highest frequency that a recording holds, where it ends in a cliff below half the sample rate; `None` where it reaches
-/// up to there or just grows quieter.
+/// Cutoff frequency of a recording, Hz: the lower edge of a steep flank below half the sample rate. `None` where the sound
+/// reaches up to half the sample rate, or falls off gradually.
+///
+/// Method: the median level of strips of 150 Hz. The cutoff is the first strip after which the level falls by 18 dB within
+/// three strips and stays low, with a loud plateau of 2 kHz before it.
+///
+/// - `power`: mean one-sided power spectrum, any unit, from 0 Hz to half the sample rate; `bin_hz`: distance between bins.
+/// - Accuracy: two strips (tested between 3.4 and 16 kHz).
 pub fn band_limit_hz(power: &[f64], bin_hz: f64) -> Option<f64> {
     let bins = ((STRIP_HZ / bin_hz).round() as usize).max(1);
     let strips_db: Vec<f64> = power.chunks_exact(bins).filter_map(median).map(power_db).collect();
-    // the last strip holds the recorder's own filter
+    // the last strip holds the flank of the recorder's anti-aliasing filter
     let strips_db = &strips_db[..strips_db.len().saturating_sub(1)];
     let loudest_from = |strip: usize| strips_db[strip..].iter().copied().fold(f64::MIN, f64::max);
     (1..strips_db.len().saturating_sub(2 * FLANK_STRIPS))
@@ -33,7 +42,7 @@ pub fn band_limit_hz(power: &[f64], bin_hz: f64) -> Option<f64> {
         .map(|strip| (strip + 1) as f64 * bins as f64 * bin_hz)
 }
 
-/// The level that three quarters of the strips reach.
+/// Lower quartile: three quarters of the values reach it.
 fn lower_quartile(levels_db: &[f64]) -> f64 {
     let mut levels_db = levels_db.to_vec();
     levels_db.sort_by(f64::total_cmp);

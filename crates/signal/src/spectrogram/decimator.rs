@@ -1,14 +1,18 @@
-//! Samples → fewer samples of the low frequencies, so that long frames of them cost little.
+//! Low-pass filter and decimation: samples of the low frequencies at a low rate, so that long frames of them cost little.
 
+use super::window::BLACKMAN_TERMS;
 use std::f64::consts::TAU;
 
-/// Length of the filter in output samples. With a Blackman window its transition is 0.46 of the output rate wide, so that
-/// what folds back onto frequencies below [`USABLE_SHARE`] is 54 dB down and more.
+/// Length of the filter in output samples. With a Blackman window the transition band is 0.46 of the output rate wide, so that
+/// aliases below [`USABLE_SHARE`] of the output rate are at least 54 dB down. *Numeric.*
 const FILTER_OUTPUT_SAMPLES: usize = 12;
-/// Frequencies up to this share of the output rate are free of what folds back.
+/// Highest frequency without aliases, as a share of the output rate. *Numeric.*
 const USABLE_SHARE: f64 = 0.3;
 
-/// Low-pass and one sample in `factor`. State of one stretch of sound without gaps.
+/// Low-pass filter that keeps one sample in `factor`. Holds the state of one stretch of sound without gaps.
+///
+/// The filter is a windowed sinc (finite impulse response, linear phase, gain 1 at 0 Hz) with a Blackman window (Harris,
+/// Proc. IEEE 66, 1978). Aliases below [`Decimator::hz_max`] are at least 54 dB down.
 pub struct Decimator {
     filter: Vec<f32>,
     factor: usize,
@@ -18,7 +22,8 @@ pub struct Decimator {
 }
 
 impl Decimator {
-    /// The slowest output that keeps everything below `hz_max` (or all that the source has).
+    /// The lowest output rate that keeps all frequencies below `hz_max` (Hz). Where `hz_max` is above 0.15 of the sample rate,
+    /// the output is the input.
     pub fn new(sample_rate_hz: f64, hz_max: f64) -> Self {
         let factor = ((sample_rate_hz * USABLE_SHARE / hz_max) as usize).max(1);
         let length = if factor == 1 { 1 } else { FILTER_OUTPUT_SAMPLES * factor + 1 };
@@ -26,7 +31,8 @@ impl Decimator {
         let mut filter: Vec<f64> = (0..length)
             .map(|n| {
                 let share = if length == 1 { 0.5 } else { n as f64 / (length - 1) as f64 };
-                let blackman = 0.42 - 0.5 * (TAU * share).cos() + 0.08 * (2.0 * TAU * share).cos();
+                let [a0, a1, a2] = BLACKMAN_TERMS;
+                let blackman = a0 + a1 * (TAU * share).cos() + a2 * (2.0 * TAU * share).cos();
                 let turn = TAU / 2.0 * (n as f64 - centre) / factor as f64;
                 blackman * if turn == 0.0 { 1.0 } else { turn.sin() / turn }
             })
@@ -42,22 +48,22 @@ impl Decimator {
         }
     }
 
-    /// Rate of what comes out.
+    /// Output rate, samples per s.
     pub fn rate_hz(&self) -> f64 {
         self.rate_hz
     }
 
-    /// Highest frequency that comes out as it went in.
+    /// Highest frequency that passes unchanged, Hz.
     pub fn hz_max(&self) -> f64 {
         if self.factor == 1 { self.rate_hz / 2.0 } else { USABLE_SHARE * self.rate_hz }
     }
 
-    /// How much later than the first sample that goes in the first that comes out lies.
+    /// Time from the first input sample to the first output sample, s: half the length of the filter.
     pub fn delay_s(&self) -> f64 {
         (self.filter.len() - 1) as f64 / 2.0 / (self.rate_hz * self.factor as f64)
     }
 
-    /// Takes in samples and returns what they complete.
+    /// Takes in samples and returns the output samples that they complete.
     pub fn push(&mut self, samples: &[f32]) -> &[f32] {
         self.pending.extend_from_slice(samples);
         self.output.clear();
@@ -72,7 +78,7 @@ impl Decimator {
     }
 }
 
-/// Sum of products in eight lanes, which a compiler turns into vector instructions.
+/// Sum of products in eight lanes, which the compiler turns into vector instructions.
 fn dot(a: &[f32], b: &[f32]) -> f32 {
     let mut lanes = [0.0f32; 8];
     let (a_lanes, b_lanes) = (a.chunks_exact(8), b.chunks_exact(8));

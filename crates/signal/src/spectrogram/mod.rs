@@ -1,8 +1,9 @@
-//! Signal → frames of power spectrum, streamed (paper, eq 5, with its two uses of `k` told apart):
+//! Signal → power spectra of overlapping frames, streamed (short-time Fourier transform).
 //!
-//! `X[m, k] = Σ_n x[n] w[n − mH] e^(−j2πkn/N)`, H the hop, N the length of the transform.
+//! `X[m, k] = Σ_n x[n] w[n − mH] e^(−j2πkn/N)`, with the frame number m, the bin k, the hop H and the length N of the
+//! transform. This is eq 5 of the paper, which uses the letter `k` for both the frame and the bin.
 //!
-//! The definition itself stands in `dft.rs` as the tests' oracle.
+//! The definition stands in `dft.rs`; the tests compare the fast transform with it.
 
 mod band_limit;
 mod decimator;
@@ -21,28 +22,31 @@ use realfft::num_complex::Complex;
 use realfft::{FftNum, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
-/// Power of a bin that holds nothing, in dB re a full-scale sine: what 24-bit silence would not reach.
+/// Lowest level, dB re a sine of full scale. It lies below the rounding noise of 24 bits, and keeps the level of silence
+/// finite. *Numeric.*
 const SILENCE_DB: f64 = -200.0;
 
-/// Power → dB, with a floor so that silence stays finite.
+/// Level of a power in dB, 10 log₁₀(power), at least −200 dB so that silence stays finite.
 pub fn power_db(power: f64) -> f64 {
     (10.0 * power.log10()).max(SILENCE_DB)
 }
 
-/// One frame: the power spectrum around its centre.
+/// Power spectrum of one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
-    /// Middle of the frame on the recording's clock.
+    /// Middle of the frame on the recording's clock, s.
     pub centre_s: f64,
-    /// Power per bin, one-sided, scaled so that a sine of full scale peaks at 1 (0 dB). Length N/2 + 1.
+    /// Power of each bin, one-sided: N/2 + 1 values from 0 Hz to half the sample rate. A sine of full scale at the middle of a
+    /// bin gives 1 (0 dB).
     pub power: &'a [f64],
-    /// Distance between bins, sample rate / N.
+    /// Distance between bins, Hz: sample rate / N.
     pub bin_hz: f64,
 }
 
-/// Cuts a stream of samples into frames and transforms each. State of one stretch of sound without gaps.
+/// Cuts a stream of samples into frames and transforms each. Holds the state of one stretch of sound without gaps.
 ///
-/// It calculates in `T`: `f64`, or `f32` in half the time, where what is 130 dB weaker than the loudest drowns in rounding.
+/// The number type `T` is `f64`, or `f32` in half the time; with `f32`, rounding hides a line that is 130 dB weaker than the
+/// loudest.
 pub struct Stft<T = f64> {
     plan: Arc<dyn RealToComplex<T>>,
     window: Vec<T>,
@@ -51,7 +55,7 @@ pub struct Stft<T = f64> {
     sample_rate_hz: f64,
     pending: Vec<f32>,
     pending_start_s: f64,
-    /// Samples still to pass over, where the hop is longer than the window.
+    /// Samples left to skip, where the hop is longer than the window.
     skip_samples: usize,
     input: Vec<T>,
     output: Vec<Complex<T>>,
@@ -60,7 +64,8 @@ pub struct Stft<T = f64> {
 }
 
 impl<T: FftNum + From<f32> + Into<f64>> Stft<T> {
-    /// Frames of `window_s`, `hop_s` apart; the transform is at least `zero_pad_factor` windows long.
+    /// Frames of length `window_s` at steps of `hop_s`. The transform is at least `zero_pad_factor` windows long; its length has
+    /// only the prime factors 2, 3 and 5.
     pub fn new(sample_rate_hz: f64, window: Window, window_s: f64, hop_s: f64, zero_pad_factor: u32) -> Self {
         let window_samples = ((window_s * sample_rate_hz).round() as usize).max(8);
         let transform_samples = smooth_at_least(window_samples * zero_pad_factor.max(1) as usize, 2);
@@ -83,29 +88,29 @@ impl<T: FftNum + From<f32> + Into<f64>> Stft<T> {
         }
     }
 
-    /// Distance between bins.
+    /// Distance between bins, Hz.
     pub fn bin_hz(&self) -> f64 {
         self.sample_rate_hz / self.input.len() as f64
     }
 
-    /// Distance between bins that are independent in noise: one over the length of the window.
+    /// Frequency resolution, Hz: 1 / window length. Bins at this distance are nearly independent in noise.
     pub fn resolution_hz(&self) -> f64 {
         self.sample_rate_hz / self.window.len() as f64
     }
 
-    /// From the next frame on, frames are `hop_s` apart.
+    /// Sets the step between frames from the next frame on, s.
     pub fn set_hop(&mut self, hop_s: f64) {
         self.hop_samples = hop_samples(hop_s, self.sample_rate_hz);
     }
 
-    /// Forgets what came before; the next pushed sample is at `start_s`.
+    /// Begins a new stretch of sound: the next pushed sample is at `start_s`, and earlier samples are dropped.
     pub fn restart(&mut self, start_s: f64) {
         self.pending.clear();
         self.pending_start_s = start_s;
         self.skip_samples = 0;
     }
 
-    /// Takes in samples and hands out every frame that they complete.
+    /// Takes in samples and calls `on_frame` with every frame that they complete.
     pub fn push(&mut self, samples: &[f32], mut on_frame: impl FnMut(Frame<'_>)) {
         let skipped = self.skip_samples.min(samples.len());
         self.skip_samples -= skipped;
@@ -131,7 +136,7 @@ impl<T: FftNum + From<f32> + Into<f64>> Stft<T> {
             *into = T::from(*sample) * *weight;
         }
         self.input[self.window.len()..].fill(T::zero());
-        // the three buffers are the plan's own, so that their lengths cannot be wrong
+        // the plan made the three buffers, so that their lengths are right
         let is_done = self.plan.process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch);
         debug_assert!(is_done.is_ok());
         for (into, bin) in self.power.iter_mut().zip(&self.output) {
@@ -144,7 +149,8 @@ fn hop_samples(hop_s: f64, sample_rate_hz: f64) -> usize {
     ((hop_s * sample_rate_hz).round() as usize).max(1)
 }
 
-/// The next multiple of `step` whose only prime factors are 2, 3 and 5: those transform fast.
+/// The smallest multiple of `step` that is at least `length` and has only the prime factors 2, 3 and 5: the FFT of such a length
+/// is fast. `step` must have no other prime factor either: no multiple of it would qualify, and the search would not end.
 pub fn smooth_at_least(length: usize, step: usize) -> usize {
     let is_smooth = |mut n: usize| {
         for factor in [2, 3, 5] {

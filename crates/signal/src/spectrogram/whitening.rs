@@ -1,19 +1,27 @@
-//! Levels over the floor around them, so that a line counts for how far it stands out and not for how loud it is.
+//! Spectrum → level of each bin over the local noise floor, so that a line counts by its height over the noise and not by its
+//! loudness.
 
 use super::power_db;
 use crate::statistics::median;
 
-/// Half width of the floor's surroundings as a share of the frequency: wide against a rotor's lines, narrow against
-/// the colour of noise and rooms.
+/// Half width of the surroundings of a bin, as a share of its frequency: wide against the lines of a rotor, narrow against the
+/// changes of the noise spectrum with frequency. *Decision.*
 const FLOOR_HALF_WIDTH_SHARE: f64 = 0.12;
-/// The floor's surroundings hold at least this many bins on either side, so that a line cannot be its own floor.
+/// Smallest number of bins of the surroundings on either side, so that the median of the surroundings lies below a line.
+/// *Numeric.*
 const FLOOR_HALF_WIDTH_BINS_MIN: usize = 8;
-/// The floor is taken at points this share of its surroundings apart, and interpolated between.
+/// Distance between the bins at which the floor is computed, as a share of the half width; between them the floor is
+/// interpolated. *Numeric.*
 const FLOOR_STEP_SHARE: f64 = 0.25;
 
-/// Level of each bin over the median level of its surroundings, in dB. Where nothing sounds, 0.
+/// Level of each bin over the noise floor, dB. The floor is the median level of the surroundings: ±12 % of the frequency, at
+/// least ±8 bins, interpolated linearly between the bins at which it is computed.
+///
+/// - Input: one-sided power spectrum from 0 Hz, any unit. Output: as many levels. Silence gives 0 dB.
+/// - At either end of the spectrum the surroundings lie on one side, and a sloping floor is off by its slope there.
 pub fn whitened_db(power: &[f64]) -> Vec<f64> {
     let level_db: Vec<f64> = power.iter().map(|&power| power_db(power)).collect();
+    // bin and level of the floor at a few bins
     let mut floors: Vec<(usize, f64)> = Vec::new();
     let mut bin = 0;
     while bin < level_db.len() {

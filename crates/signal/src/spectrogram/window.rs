@@ -1,30 +1,37 @@
-//! Windows of a frame.
+//! Window functions of a frame (Harris, Proc. IEEE 66, 1978).
 
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Weights of a Hann window that is symmetric about the middle of its samples.
+/// Cosine terms a_k of the Hann window, `w[n] = Σ a_k cos(2πkn/N)`. *Physics.*
+const HANN_TERMS: [f64; 2] = [0.5, -0.5];
+/// Cosine terms of the Hamming window. *Physics.*
+const HAMMING_TERMS: [f64; 2] = [0.54, -0.46];
+/// Cosine terms of the Blackman window. *Physics.*
+pub(super) const BLACKMAN_TERMS: [f64; 3] = [0.42, -0.5, 0.08];
+
+/// Weights `w[n] = 0.5 − 0.5 cos(2π (n + ½) / N)`, n = 0 … N − 1: a Hann window symmetric about the middle of its N samples.
 pub fn hann_weights(length: usize) -> impl Iterator<Item = f64> {
     (0..length).map(move |n| 0.5 - 0.5 * (TAU * (n as f64 + 0.5) / length as f64).cos())
 }
 
-/// Shape of the window `w[n]` in eq 5, periodic form (as spectral analysis wants it).
+/// Shape of the window `w[n]` in eq 5 of the paper, in the periodic form: N cosines of period N, as spectral analysis uses it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Window {
-    /// Main lobe 4 bins wide, side lobes falling by 18 dB per octave from -31 dB.
+    /// Main lobe 4 bins wide; side lobes fall by 18 dB per octave from −31 dB.
     Hann,
-    /// Main lobe 4 bins wide, side lobes flat near -43 dB.
+    /// Main lobe 4 bins wide; side lobes flat near −43 dB.
     Hamming,
-    /// Main lobe 6 bins wide, side lobes below -58 dB.
+    /// Main lobe 6 bins wide; side lobes below −58 dB.
     Blackman,
-    /// Main lobe 2 bins wide, side lobes from -13 dB: hides weak lines beside strong ones.
+    /// Main lobe 2 bins wide; side lobes from −13 dB, so that weak lines vanish beside strong ones.
     Rectangular,
 }
 
 impl Window {
-    /// The window's values over a frame of `sample_count` samples.
+    /// The weights `w[0] … w[N − 1]` of a frame of N = `sample_count` samples.
     pub fn values(self, sample_count: usize) -> Vec<f64> {
         let cosine = |terms: &[f64]| {
             (0..sample_count)
@@ -35,14 +42,14 @@ impl Window {
                 .collect()
         };
         match self {
-            Self::Hann => cosine(&[0.5, -0.5]),
-            Self::Hamming => cosine(&[0.54, -0.46]),
-            Self::Blackman => cosine(&[0.42, -0.5, 0.08]),
+            Self::Hann => cosine(&HANN_TERMS),
+            Self::Hamming => cosine(&HAMMING_TERMS),
+            Self::Blackman => cosine(&BLACKMAN_TERMS),
             Self::Rectangular => cosine(&[1.0]),
         }
     }
 
-    /// Half the width of the main lobe, in bins of an unpadded frame: lines closer than this melt into one.
+    /// Half width of the main lobe, in bins of a transform without zero padding: two lines closer than this form one peak.
     pub fn main_lobe_half_bins(self) -> f64 {
         match self {
             Self::Hann | Self::Hamming => 2.0,

@@ -1,29 +1,29 @@
-//! The thrust constant of one rotor without its dimension, and whether a propeller can have it.
+//! Dimensionless thrust coefficients, figure of merit and torque constant of one rotor.
 
 use crate::regression::{FitPoint, proportional_fit};
 use hovertone_vehicle::{RotorSpeed, THRUST_COEFFICIENT};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
-/// Figures of merit that are believed. The best rotors of helicopters reach 0.8, and momentum theory allows no 1; the smallest
-/// brushed motors, whose electrical power is taken, have 0.15.
+/// Plausible figures of merit. The best rotors of helicopters reach 0.8, and momentum theory allows less than 1. The smallest
+/// brushed motors have 0.15 with their electrical power. *Physics.*
 const FIGURE_OF_MERIT: std::ops::RangeInclusive<f64> = 0.05..=0.85;
 
-/// The thrust constant of one rotor without its dimension, in both conventions.
+/// The thrust coefficient C_T of one rotor, in both conventions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ThrustCoefficients {
     /// T / (ρ n² D⁴), n in turns per second.
     pub propeller: f64,
-    /// T / (ρ A (ω R)²), A the disc's area.
+    /// T / (ρ A (ω R)²), with the area A of the disc.
     pub rotorcraft: f64,
-    /// Air density that was used.
+    /// Air density ρ that was used.
     pub density_kg_m3: f64,
-    /// Whether propellers have such a coefficient.
+    /// Whether a propeller can have this coefficient.
     pub is_plausible: bool,
 }
 
 impl ThrustCoefficients {
-    /// From the constant of one rotor.
+    /// The coefficients from the constant of one rotor, the diameter of its propeller and the density of the air.
     pub fn of_rotor(thrust_constant_n_s2: f64, propeller_diameter_m: f64, density_kg_m3: f64) -> Self {
         let radius_m = propeller_diameter_m / 2.0;
         let propeller = thrust_constant_n_s2 * TAU.powi(2) / (density_kg_m3 * propeller_diameter_m.powi(4));
@@ -36,23 +36,32 @@ impl ThrustCoefficients {
     }
 }
 
-/// Figure of merit of a rotor: the power that the thrust needs by momentum theory, T √(T/(2 ρ A)), over the power that it takes.
-/// With the power of the shaft it is the rotor's; with electrical power, that of motor and controller as well.
+/// Figure of merit: the ideal power of momentum theory, T √(T/(2 ρ A)), over the real power. With the power of the shaft it describes
+/// the rotor alone; with electrical power it includes motor and controller.
 pub fn figure_of_merit(thrust_n: f64, power_w: f64, propeller_diameter_m: f64, density_kg_m3: f64) -> f64 {
     let area_m2 = PI * propeller_diameter_m.powi(2) / 4.0;
     thrust_n * (thrust_n / (2.0 * density_kg_m3 * area_m2)).sqrt() / power_w
 }
 
-/// Whether a rotor can have that figure of merit: from 0.05 to 0.85.
+/// Whether a rotor can have this figure of merit.
 pub fn is_plausible_merit(figure_of_merit: f64) -> bool {
     FIGURE_OF_MERIT.contains(&figure_of_merit)
 }
 
-/// Torque of one rotor over its squared speed, N m/(rad/s)²: least squares through the origin over pairs of speed and torque,
-/// whose sign is the direction of the rotor and left out. `None` without pairs.
-pub fn torque_constant_n_m_s2(pairs: &[(RotorSpeed, f64)]) -> Option<f64> {
-    let point = |(speed, torque): &(RotorSpeed, f64)| FitPoint::with_y_std(speed.rad_s().powi(2), *torque, 1.0);
-    let points: Vec<FitPoint> = pairs.iter().map(point).collect();
+/// A torque of one rotor at a speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TorqueReading {
+    /// Shaft speed.
+    pub speed: RotorSpeed,
+    /// Torque; its sign is the direction of the rotor.
+    pub torque_n_m: f64,
+}
+
+/// Torque of one rotor over its squared speed, N m/(rad/s)²: least squares through the origin, without the sign. `None` without
+/// readings.
+pub fn torque_constant_n_m_s2(readings: &[TorqueReading]) -> Option<f64> {
+    let point = |reading: &TorqueReading| FitPoint::with_y_std(reading.speed.rad_s().powi(2), reading.torque_n_m, 1.0);
+    let points: Vec<FitPoint> = readings.iter().map(point).collect();
     proportional_fit(&points).ok().map(|fit| fit.slope.abs())
 }
 
@@ -77,7 +86,7 @@ mod tests {
 
     #[test]
     fn the_papers_rotor_has_a_third_of_the_ideal() {
-        // PHYSICS, section 8: 11.44 W for a quarter of 0.429 kg with D = 0.2 m and ρ = 1.2 is 0.34
+        // 11.44 W for a quarter of 0.429 kg (the authors' own simulator, AuRoRA) with D = 0.2 m and ρ = 1.2 kg/m³ give 0.34
         let merit = figure_of_merit(0.429 * 9.8 / 4.0, 11.44, 0.2, 1.2);
         assert!((merit - 0.34).abs() < 0.005, "{merit}");
         assert!(is_plausible_merit(merit));

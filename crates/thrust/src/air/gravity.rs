@@ -1,14 +1,24 @@
-//! Force balance: what a known force and a measured speed say of the thrust constant (paper, eq 3).
+//! Local gravity, and the force balance of eq 3 of the paper.
 
 use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, RotorSpeed};
 
-/// Standard uncertainty of gravity by latitude and height, or as somebody wrote it: rock below, and heights as people know them.
+/// Normal gravity at the equator, m/s² (WGS 84, NIMA TR8350.2, 2000). *Physics.*
+const GRAVITY_EQUATOR_M_S2: f64 = 9.7803253359;
+/// k of Somigliana's formula (WGS 84). *Physics.*
+const SOMIGLIANA_K: f64 = 0.00193185265241;
+/// Squared first eccentricity of the ellipsoid (WGS 84). *Physics.*
+const ECCENTRICITY_SQUARED: f64 = 0.00669437999013;
+/// Decrease of gravity with the height in free air, 1/s². *Physics.*
+const FREE_AIR_GRADIENT_1_S2: f64 = 3.086e-6;
+
+/// Standard uncertainty of gravity from latitude and height, or as somebody stated it, m/s²: a typical gravity anomaly of 50 mGal
+/// by local rock, and heights that are known to some 100 m. *Physics.*
 const GRAVITY_STD_M_S2: f64 = 0.0005;
-/// Where neither gravity nor place is given it may be anything from 9.780 at the equator to 9.832 at the poles: the standard
-/// deviation of a rectangle of that width.
+/// Standard uncertainty of gravity at an unknown place, m/s². It lies between 9.780 at the equator and 9.832 at the poles; a
+/// rectangular distribution of that width has this standard deviation. *Physics.*
 const GRAVITY_UNKNOWN_STD_M_S2: f64 = 0.015;
 
-/// Local gravity, as well as it is known.
+/// Local gravity with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity {
     /// The value.
@@ -18,35 +28,35 @@ pub struct Gravity {
 }
 
 impl Gravity {
-    /// Somewhere on Earth.
+    /// Standard gravity, for an unknown place on Earth. *Physics.*
     pub const UNKNOWN: Self = Self { m_s2: GRAVITY_STANDARD_M_S2, std_m_s2: GRAVITY_UNKNOWN_STD_M_S2 };
 
-    /// As somebody wrote it.
+    /// A stated value.
     pub fn given(m_s2: f64) -> Self {
         Self { m_s2, std_m_s2: GRAVITY_STD_M_S2 }
     }
 
-    /// At a latitude and a height above the sea.
+    /// Gravity at a latitude and a height above the sea.
     pub fn at_place(latitude_deg: f64, height_m: f64) -> Self {
         Self::given(gravity_m_s2(latitude_deg, height_m))
     }
 }
 
-/// C = f / ω² in N s² (N per (rad/s)²), eq 3 solved for the constant.
+/// C = f / ω² in N s² (N per (rad/s)²): eq 3 of the paper, solved for the constant.
 ///
-/// With `force_n` the whole weight, as in the paper's tables, it is the constant of the whole vehicle: the sum over its
-/// rotors. With the force of one rotor it is that rotor's.
+/// With the whole weight as `force_n`, as in the tables of the paper, C is the constant of the whole vehicle, the sum over its
+/// rotors. With the force of one rotor, C is the constant of that rotor.
 pub fn thrust_constant_n_s2(force_n: f64, speed: RotorSpeed) -> f64 {
     force_n / speed.rad_s().powi(2)
 }
 
-/// Normal gravity at a latitude and height: Somigliana's formula on the WGS84 ellipsoid with the free-air gradient, good
-/// to about 0.0005 m/s² where the ground is not unusual.
+/// Normal gravity at a latitude φ and a height h: γ = γ_e (1 + k sin²φ) / √(1 − e² sin²φ) − 3.086e-6 h (Somigliana 1929, on the
+/// WGS 84 ellipsoid, with the free-air gradient). It is correct to about 0.0005 m/s² where no large gravity anomaly lies.
 pub fn gravity_m_s2(latitude_deg: f64, height_m: f64) -> f64 {
     let sine_squared = latitude_deg.to_radians().sin().powi(2);
     let on_ellipsoid =
-        9.7803253359 * (1.0 + 0.00193185265241 * sine_squared) / (1.0 - 0.00669437999013 * sine_squared).sqrt();
-    on_ellipsoid - 3.086e-6 * height_m
+        GRAVITY_EQUATOR_M_S2 * (1.0 + SOMIGLIANA_K * sine_squared) / (1.0 - ECCENTRICITY_SQUARED * sine_squared).sqrt();
+    on_ellipsoid - FREE_AIR_GRADIENT_1_S2 * height_m
 }
 
 #[cfg(test)]

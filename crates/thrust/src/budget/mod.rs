@@ -1,23 +1,20 @@
-//! The uncertainty of a thrust constant in the form of the GUM (JCGM 100): every input with its standard uncertainty, its
-//! sensitivity and its share.
-
-mod inputs;
-
-pub use inputs::UncertaintyInputs;
+//! The uncertainty budget of a thrust constant in the form of the GUM (JCGM 100:2008): every input with its standard uncertainty,
+//! its sensitivity and its share of the variance.
 
 use crate::campaign::{Campaign, HeardLoad};
 use crate::force::Force;
 use crate::regression::Agreement;
-use crate::settings::ThrustSettings;
+use crate::settings::{ThrustSettings, UncertaintyInputs};
 use crate::square_law::{LawAgreement, SquareLawFit, scatter_factor};
 use crate::statistics::mean;
 use hovertone_vehicle::SOUND_M_S;
 use serde::Serialize;
 
-/// Coverage factor of the expanded uncertainty: about 95 %.
+/// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
 pub const COVERAGE_FACTOR: f64 = 2.0;
 
-/// The t distribution of fewer degrees of freedom has no standard deviation; that of this many is taken.
+/// Fewest degrees of freedom for the standard deviation of Student's t, which is infinite with 2 or fewer. With fewer degrees the
+/// standard deviation at this number is used. *Numeric.*
 const FREEDOM_MIN: f64 = 3.0;
 
 /// Inputs of a thrust constant.
@@ -25,40 +22,40 @@ const FREEDOM_MIN: f64 = 3.0;
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum BudgetInput {
-    /// The vehicle's mass: weighed once, for all loads.
+    /// Mass of the vehicle, weighed once for all loads.
     VehicleMass,
-    /// What the loads add, each weighed by itself.
+    /// Added masses of the loads, each weighed separately.
     AddedMass,
-    /// The scale's own calibration.
+    /// Calibration of the scale.
     Scale,
-    /// A bench run's thrust.
+    /// Thrust of a bench run.
     Thrust,
     /// Local gravity.
     Gravity,
     /// Mean shaft speed, from the scatter of the trials.
     SpeedStatistics,
-    /// Mean shaft speed, from what the method says of each trial.
+    /// Mean shaft speed, from the uncertainty that the estimator states for each trial.
     SpeedEstimator,
-    /// The recorder's clock.
+    /// Clock of the recorder.
     RecorderClock,
-    /// That one ridge follows the loudest rotor, or that not all rotors are told apart.
+    /// One ridge follows the loudest rotor, or not all rotors are separated.
     LoudestRotor,
-    /// A steady climb or sink that changes over the hover.
+    /// A climb or sink rate that changes over the hover.
     VerticalAcceleration,
-    /// How much nearer to the microphone, or farther, hovers end than they began.
+    /// Change of the distance to the microphone during a hover.
     Drift,
-    /// Leaning against a draught.
+    /// Tilt against a draught.
     Tilt,
-    /// The floor below.
+    /// Ground effect of the floor.
     GroundEffect,
-    /// The wake on the airframe and its load.
+    /// Wake of the rotors on the airframe and its load.
     Downwash,
-    /// The loads scatter more than all this says.
+    /// Scatter of the loads beyond all other inputs.
     LoadScatter,
 }
 
 impl BudgetInput {
-    /// As people call it.
+    /// Name for people.
     pub fn title(self) -> &'static str {
         match self {
             Self::VehicleMass => "mass of the vehicle",
@@ -79,7 +76,7 @@ impl BudgetInput {
         }
     }
 
-    /// Whether it comes from what was measured here (weighing and speeds), not from a limit that is assumed.
+    /// Whether the uncertainty comes from a measurement of this campaign (weighing and speeds), not from an assumed limit.
     fn is_measured(self) -> bool {
         matches!(
             self,
@@ -96,50 +93,50 @@ impl BudgetInput {
 /// One input of the budget.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct BudgetLine {
-    /// Which.
+    /// Which input.
     pub input: BudgetInput,
-    /// Its estimate, in `unit`; 0 for a correction that is not made.
+    /// Its estimate, in `unit`; 0 for a correction that is not applied.
     pub value: f64,
     /// Its standard uncertainty, in `unit`.
     pub std_uncertainty: f64,
     /// Its unit; "1" for a share.
     pub unit: &'static str,
-    /// Change of the constant for each unit of the input.
+    /// Change of the constant per unit of the input.
     pub sensitivity_n_s2_per_unit: f64,
-    /// What it contributes: sensitivity times standard uncertainty.
+    /// Contribution to the standard uncertainty of the constant: sensitivity times standard uncertainty.
     pub contribution_n_s2: f64,
     /// Its share of the combined variance.
     pub share: f64,
-    /// Degrees of freedom; absent for what is not evaluated from observations (type B).
+    /// Degrees of freedom; absent for a type B evaluation, which uses no repeated observations.
     pub degrees_of_freedom: Option<f64>,
 }
 
 /// The budget of the constant of the whole vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UncertaintyBudget {
-    /// Every input, also those that contribute nothing here.
+    /// Every input, including inputs that contribute nothing here.
     pub lines: Vec<BudgetLine>,
-    /// Root of the sum of squares.
+    /// Combined standard uncertainty: root of the sum of the squared contributions.
     pub combined_std_uncertainty_n_s2: f64,
-    /// k.
+    /// Coverage factor k.
     pub coverage_factor: f64,
-    /// k times the combined one.
+    /// k times the combined standard uncertainty.
     pub expanded_uncertainty_n_s2: f64,
-    /// The expanded one over the constant.
+    /// Expanded uncertainty over the constant.
     pub expanded_share: f64,
-    /// Effective degrees of freedom (Welch and Satterthwaite); absent where only type B inputs contribute.
+    /// Effective degrees of freedom (Welch and Satterthwaite, JCGM 100:2008, G.4); absent where only type B inputs contribute.
     pub effective_degrees_of_freedom: Option<f64>,
 }
 
 impl UncertaintyBudget {
-    /// The part that comes from weighing and speeds, without what is only assumed to be small.
+    /// Standard uncertainty from weighing and speeds, without the inputs that are assumed limits.
     pub(crate) fn measured_std_n_s2(&self) -> f64 {
         let measured = self.lines.iter().filter(|line| line.input.is_measured());
         measured.map(|line| line.contribution_n_s2.powi(2)).sum::<f64>().sqrt()
     }
 }
 
-/// The budget of a fit.
+/// The budget of the constant of a fit.
 pub(crate) fn budget_of_fit(
     campaign: &Campaign<'_>,
     fit: &SquareLawFit,
@@ -171,14 +168,14 @@ fn summed(mut lines: Vec<BudgetLine>, constant_n_s2: f64) -> UncertaintyBudget {
     }
 }
 
-/// How much each load decides of the constant.
+/// Contributions of the loads to the constant.
 struct Sensitivity {
     constant_n_s2: f64,
-    /// For each load, its part of the constant: the parts add up to the constant.
+    /// For each load, its part of the constant; the parts add up to the constant.
     parts_n_s2: Vec<f64>,
-    /// Part of the hovers.
+    /// Sum of the parts of the hovers.
     hover_n_s2: f64,
-    /// Root of the sum of squared contributions of a relative error of 1 of each load by itself.
+    /// Mean speed over the loads.
     mean_speed_rad_s: f64,
 }
 
@@ -200,14 +197,14 @@ impl Sensitivity {
         }
     }
 
-    /// Root of the sum of squares of what independent errors of the loads contribute.
+    /// Root of the sum of squares of part times relative error, for errors that are independent from load to load.
     fn independent(&self, campaign: &Campaign<'_>, of: impl Fn(&HeardLoad<'_>) -> f64) -> f64 {
         let squares: f64 =
             campaign.loads.iter().zip(&self.parts_n_s2).map(|(load, part)| (part * of(load)).powi(2)).sum();
         squares.sqrt()
     }
 
-    /// Sum of what an error that all loads share contributes.
+    /// Sum of part times relative error, for an error that all loads share.
     fn shared(&self, campaign: &Campaign<'_>, of: impl Fn(&HeardLoad<'_>) -> f64) -> f64 {
         campaign.loads.iter().zip(&self.parts_n_s2).map(|(load, part)| part * of(load)).sum()
     }
@@ -226,7 +223,7 @@ fn line(input: BudgetInput, unit: &'static str, value: f64, std_uncertainty: f64
     }
 }
 
-/// A line whose contribution is known and whose sensitivity follows.
+/// A line from its contribution; the sensitivity follows from it.
 fn contributed(
     input: BudgetInput,
     unit: &'static str,
@@ -250,7 +247,7 @@ fn of_forces(campaign: &Campaign<'_>, sensitivity: &Sensitivity) -> Vec<BudgetLi
     };
     if let Some((mass_kg, mass_std_kg, gravity_m_s2, gravity_std_m_s2)) = weights().next() {
         let per_kg = |load: &HeardLoad<'_>| load.load.force.mass_kg().map_or(0.0, f64::recip);
-        let added = |load: &HeardLoad<'_>| if load.load.force.relative_std().0 > 0.0 { per_kg(load) } else { 0.0 };
+        let added = |load: &HeardLoad<'_>| if load.load.force.relative_std().own > 0.0 { per_kg(load) } else { 0.0 };
         lines.push(line(BudgetInput::VehicleMass, "kg", mass_kg, mass_std_kg, sensitivity.shared(campaign, per_kg)));
         let added_masses: Vec<f64> = campaign
             .loads
@@ -272,7 +269,7 @@ fn of_forces(campaign: &Campaign<'_>, sensitivity: &Sensitivity) -> Vec<BudgetLi
     let bench: Vec<&HeardLoad<'_>> = campaign.loads.iter().filter(|load| !load.is_hover()).collect();
     if !bench.is_empty() {
         let mean_n = mean(&bench.iter().map(|load| load.load.force.newtons()).collect::<Vec<_>>()).unwrap_or_default();
-        let share = |load: &HeardLoad<'_>| if load.is_hover() { 0.0 } else { load.load.force.relative_std().0 };
+        let share = |load: &HeardLoad<'_>| if load.is_hover() { 0.0 } else { load.load.force.relative_std().own };
         let std_n = mean(&bench.iter().map(|load| share(load) * load.load.force.newtons()).collect::<Vec<_>>());
         let contribution = sensitivity.independent(campaign, share);
         lines.push(contributed(BudgetInput::Thrust, "N", mean_n, std_n.unwrap_or_default(), contribution));
@@ -284,7 +281,7 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     let rad_s = sensitivity.mean_speed_rad_s;
     let per_rad_s = -2.0 * sensitivity.constant_n_s2 / rad_s;
     let freedom = campaign.speed_freedom;
-    // a mean of few trials is more uncertain than its standard error (JCGM 101: the t distribution's standard deviation)
+    // a mean of few trials is more uncertain than its standard error: standard deviation of Student's t (JCGM 101:2008, 6.4.9)
     let known = freedom.max(FREEDOM_MIN);
     let few = (known / (known - 2.0)).sqrt();
     let statistics = few
@@ -312,7 +309,7 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     ]
 }
 
-/// How far the loudest of several rotors is from their mean: any of them can be it, at every load the same one.
+/// Standard deviation of the difference between the loudest rotor and the mean of all, as a share. It is the same rotor at all loads.
 fn loudest_std_share(campaign: &Campaign<'_>, inputs: &UncertaintyInputs) -> f64 {
     let rotors = campaign.loads.iter().map(|load| load.load.rotors_running).max().unwrap_or(1);
     inputs.loudest_std_share(rotors)
@@ -330,13 +327,14 @@ fn of_flight(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     let of_hover = sensitivity.hover_n_s2;
     let trial_s = mean(&hovers.iter().filter_map(|load| load.trial_s()).collect::<Vec<_>>());
     let acceleration = trial_s.filter(|s| *s > 0.0).map_or(0.0, |s| inputs.climb_rate_m_s_max / s / 3f64.sqrt());
-    // every trial drifts for itself
+    // each trial drifts independently; the drift is uniform within its limits, hence the 3
     let trials = hovers.iter().map(|load| load.trials_rad_s.len()).sum::<usize>() as f64;
     let drift =
         trial_s.filter(|s| *s > 0.0).map_or(0.0, |s| inputs.drift_m_max / (s * SOUND_M_S) / (3.0 * trials).sqrt());
     let tilt = (inputs.tilt_deg_max.to_radians().cos().recip() - 1.0) / 3f64.sqrt();
     let radius_m = settings.propeller_diameter_m.map_or(inputs.rotor_radius_m, |diameter_m| diameter_m / 2.0);
-    // Cheeseman and Bennett's whole effect as one standard uncertainty: that of several rotors is larger
+    // T/T∞ = 1/(1 − (R/4z)²) for one rotor (Cheeseman and Bennett 1955). The whole effect counts as one standard uncertainty, since
+    // the effect of several rotors is larger.
     let ground = (radius_m / (4.0 * inputs.hover_height_m)).powi(2);
     vec![
         line(BudgetInput::Scale, "1", 0.0, inputs.scale_share_max / 3f64.sqrt(), of_hover),
@@ -348,7 +346,7 @@ fn of_flight(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     ]
 }
 
-/// What the scatter of the loads adds to what their uncertainties say: where they disagree, and where nobody knows any.
+/// The scatter of the loads beyond their stated uncertainties, where they disagree or state none.
 fn of_scatter(fit: &SquareLawFit, campaign: &Campaign<'_>) -> Option<BudgetLine> {
     let compared = fit.points.iter().filter(|point| !point.is_gross).count();
     let (extra, freedom) = match fit.agreement {

@@ -1,4 +1,4 @@
-//! The uncertainty again, by drawing trials anew: a cross-check that uses no formula of the budget.
+//! Bootstrap over trials (Efron 1979): a cross-check of the uncertainty without any formula of the budget.
 
 use crate::campaign::Campaign;
 use crate::square_law::SquareLawFit;
@@ -6,28 +6,33 @@ use crate::statistics::{mean, std};
 use rand::{RngExt, SeedableRng};
 use serde::Serialize;
 
-/// Draws: their own scatter then is 1.6 % of the result.
+/// Number of resamples. The standard deviation that they give scatters by 1/√(2 · 2000) = 1.6 %. *Numeric.*
 const DRAWS: usize = 2000;
-/// Everything random comes from here; the same trials give the same number.
+/// Seed of the random numbers: the same trials give the same result. *Numeric.*
 const SEED: u64 = 1;
+/// Lower end of the 95 % interval, as a share of the sorted resamples. *Decision.*
+const QUANTILE_LOW: f64 = 0.025;
+/// Upper end of the 95 % interval. *Decision.*
+const QUANTILE_HIGH: f64 = 0.975;
 
-/// Scatter of the constant when trials are drawn with replacement, load by load.
+/// Scatter of the constant over resamples: trials are drawn with replacement, load by load.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TrialBootstrap {
-    /// Standard deviation over the draws, times √(n/(n−1)) for n trials a load, by which drawing from few falls short.
+    /// Standard deviation over the resamples, times √(n/(n−1)) for n trials of a load: a bootstrap over few trials is too small by
+    /// this factor.
     pub std_uncertainty_n_s2: f64,
-    /// 2.5 % of the draws lie below …
+    /// 2.5 % of the resamples lie below this constant …
     pub low_n_s2: f64,
-    /// … and 2.5 % above.
+    /// … and 2.5 % lie above this one.
     pub high_n_s2: f64,
-    /// How many.
+    /// Number of resamples.
     pub draws: usize,
-    /// Where they come from.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Draws trials, never samples: those of a trial overlap and share a flight. `None` where a load has a single trial: there is
-/// nothing to draw.
+/// Bootstrap over trials, not over samples: the samples of a trial overlap and share a flight. `None` where a load has a single
+/// trial, since one trial shows no scatter.
 pub(crate) fn trial_bootstrap(campaign: &Campaign<'_>, fit: &SquareLawFit) -> Option<TrialBootstrap> {
     let decides = || campaign.loads.iter().zip(&fit.shares).filter(|(_, share)| **share > 0.0);
     if decides().any(|(load, _)| load.trials_rad_s.len() < 2) {
@@ -49,5 +54,11 @@ pub(crate) fn trial_bootstrap(campaign: &Campaign<'_>, fit: &SquareLawFit) -> Op
     let std_uncertainty_n_s2 = std(&draws)? * (trials / (trials - 1.0)).sqrt();
     draws.sort_by(f64::total_cmp);
     let at = |share: f64| draws[((DRAWS as f64 * share) as usize).min(DRAWS - 1)];
-    Some(TrialBootstrap { std_uncertainty_n_s2, low_n_s2: at(0.025), high_n_s2: at(0.975), draws: DRAWS, seed: SEED })
+    Some(TrialBootstrap {
+        std_uncertainty_n_s2,
+        low_n_s2: at(QUANTILE_LOW),
+        high_n_s2: at(QUANTILE_HIGH),
+        draws: DRAWS,
+        seed: SEED,
+    })
 }

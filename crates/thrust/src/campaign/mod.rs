@@ -1,66 +1,75 @@
-//! Loads and their trials → points of force and squared speed with what is uncertain about each.
+//! Loads and their trials → points of force and squared speed with their uncertainties.
 
-pub(crate) mod bootstrap;
+mod bootstrap;
 
 pub use bootstrap::TrialBootstrap;
+pub(crate) use bootstrap::trial_bootstrap;
 
 use crate::force::Force;
-use crate::speeds::LoadSpeeds;
-use crate::speeds::TrialSpeeds;
-use crate::square_law::point_verdict::{CONSTANTS_FOR_GROSS, are_split, is_off_by_a_factor};
-use crate::square_law::{ForcePoint, PointNoise};
+use crate::speeds::{LoadSpeeds, TrialSpeeds};
+use crate::square_law::{CONSTANTS_FOR_GROSS, ForcePoint, PointNoise, are_split, is_off_by_a_factor};
 use crate::statistics::{mean, median};
 use hovertone_vehicle::RotorSpeed;
 
-/// Degrees of freedom of an uncertainty that comes from the frames of one trial: some hundred frames of a hover are worth
-/// about so many independent ones.
-pub(crate) const FREEDOM_OF_FRAMES: f64 = 20.0;
-/// Degrees of freedom from which the scatter of the trials tells their uncertainty better than the frames do.
+/// Degrees of freedom of an uncertainty from the frames of one trial. The frames of a hover are correlated: about a hundred of them
+/// count as this many independent ones. *Decision.*
+const FREEDOM_OF_FRAMES: f64 = 20.0;
+/// Degrees of freedom from which the scatter of the trials is a better estimate of their uncertainty than the frames. *Decision.*
 const FREEDOM_OF_TRIALS_MIN: usize = 4;
-/// Degrees of freedom from which Student's distribution is the normal one, and F is chi-square: p differs by less than 1e-5.
+/// Degrees of freedom from which an uncertainty counts as exactly known. Student's distribution is then the normal one and F is
+/// chi-square, with p-values that differ by less than 1e-5. *Numeric.*
 const FREEDOM_KNOWN: f64 = 1e5;
-/// A load in which a rotor was heard.
+
+/// A load with a speed.
 pub(crate) struct HeardLoad<'a> {
-    /// Its place among all loads.
+    /// Its index among all loads.
     pub(crate) index: usize,
     pub(crate) load: &'a LoadSpeeds,
-    /// Mean shaft speeds of its trials, those that are off by a factor left out.
+    /// Mean shaft speed of each of its trials, without trials that are off by a factor.
     pub(crate) trials_rad_s: Vec<f64>,
-    /// Mean of those.
+    /// Mean over these trials.
     pub(crate) speed_rad_s: f64,
     /// Relative standard uncertainty of that mean …
     pub(crate) speed_std_share: f64,
-    /// … and the part of it that the method itself says.
+    /// … and the part of it that the estimator of the speed states.
     pub(crate) estimator_std_share: f64,
     /// Force of the whole vehicle.
     pub(crate) force_n: f64,
-    /// What this load's force is uncertain by alone, not together with others.
+    /// Standard uncertainty of the force, without the part that all loads share.
     pub(crate) own_force_std_n: f64,
 }
 
-/// All that was heard, ready to be fitted.
+/// All loads with a speed, as points for the fit.
 pub(crate) struct Campaign<'a> {
     pub(crate) loads: Vec<HeardLoad<'a>>,
     pub(crate) points: Vec<ForcePoint>,
     pub(crate) noise: PointNoise,
-    /// Degrees of freedom of the speeds' uncertainty.
+    /// Degrees of freedom of the uncertainty of the speeds.
     pub(crate) speed_freedom: f64,
-    /// Trials that are off by a factor: load and recording.
-    pub(crate) gross_trials: Vec<(String, String)>,
+    /// Trials that are off by a factor.
+    pub(crate) gross_trials: Vec<GrossTrial>,
     /// Half of the trials or more are off by a factor from the others.
     pub(crate) are_split: bool,
 }
 
+/// A trial that is off by a factor from all others.
+pub(crate) struct GrossTrial {
+    /// Name of its load.
+    pub(crate) load: String,
+    /// Name of its recording.
+    pub(crate) recording: String,
+}
+
 /// Which trials are off by a factor.
 struct GrossTrials {
-    /// For each load, each of its trials.
+    /// For each load, one entry for each of its trials.
     by_load: Vec<Vec<bool>>,
-    /// So many that nobody knows which of them.
+    /// Half of all trials or more: nothing shows which half is right.
     are_split: bool,
 }
 
 impl<'a> Campaign<'a> {
-    /// Trial means are what counts: the samples of a trial overlap and share a flight.
+    /// The points are means over trials, since the samples of a trial overlap and share a flight.
     pub(crate) fn of(loads: &'a [LoadSpeeds], rotor_count: u32) -> Self {
         let GrossTrials { by_load: gross, are_split } = gross_trials(loads, rotor_count);
         let mut heard: Vec<HeardLoad<'a>> = loads
@@ -73,13 +82,12 @@ impl<'a> Campaign<'a> {
         let share = |of: &dyn Fn(&HeardLoad<'_>) -> f64| heard.iter().map(|load| of(load).powi(2)).sum::<f64>();
         let speed_share = share(&|load| 2.0 * load.speed_std_share);
         let all_share = speed_share + share(&|load| load.own_force_std_n / load.force_n);
-        // Welch and Satterthwaite: what is known beside the scatter makes the whole better known
+        // Welch and Satterthwaite: the stated part of the uncertainty raises the effective degrees of freedom
         let degrees_of_freedom = speed_freedom * (all_share / speed_share.max(f64::MIN_POSITIVE)).powi(2);
         let names = gross.iter().zip(loads).flat_map(|(gross, load)| {
             let named = load.trials.iter().zip(gross).filter(|(_, gross)| **gross);
-            named.map(|(trial, _)| (load.name.clone(), trial.recording.clone()))
+            named.map(|(trial, _)| GrossTrial { load: load.name.clone(), recording: trial.recording.clone() })
         });
-        // where the scatter hardly counts beside what is stated, its degrees of freedom are as good as infinite
         let is_known = degrees_of_freedom > FREEDOM_KNOWN;
         Self {
             points,
@@ -104,18 +112,18 @@ impl HeardLoad<'_> {
         }
     }
 
-    /// Whether the whole vehicle flies: a hover, not a bench.
+    /// Whether the whole vehicle flies, in contrast to a bench run.
     pub(crate) fn is_hover(&self) -> bool {
         matches!(self.load.force, Force::Weight { .. })
     }
 
-    /// Mean length of a trial's hover.
+    /// Mean length of the hovers of its trials.
     pub(crate) fn trial_s(&self) -> Option<f64> {
         mean(&self.load.trials.iter().map(|trial| trial.hover_s).collect::<Vec<_>>())
     }
 }
 
-/// Factor from the force of the rotors that run to that of the whole vehicle: 1 in a hover.
+/// Factor from the force of the running rotors to the force of the whole vehicle: 1 in a hover.
 pub(crate) fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64 {
     f64::from(rotor_count) / f64::from(rotors_running.max(1))
 }
@@ -124,8 +132,8 @@ fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
     mean(&trial.counted().iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
 }
 
-/// For each load, which of its trials are off by a factor. A load all of whose trials are is judged as a load; where half of
-/// all trials are, nobody knows which half, and none is left out.
+/// For each load, which of its trials are off by a factor from the median constant. If all trials of a load are, none is marked: the
+/// load is judged as a whole later. If half of all trials are, none is marked either.
 fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> GrossTrials {
     let constants: Vec<Vec<Option<f64>>> = loads
         .iter()
@@ -168,12 +176,13 @@ fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &
         speed_std_share: estimator / speed_rad_s,
         estimator_std_share: estimator / speed_rad_s,
         force_n,
-        own_force_std_n: force_n * load.force.relative_std().0,
+        own_force_std_n: force_n * load.force.relative_std().own,
     })
 }
 
-/// Settles the uncertainty of every load's speed: from the scatter of all trials about the means of their loads, pooled, since
-/// five trials alone tell theirs to a third only. Gives back its degrees of freedom.
+/// Sets the uncertainty of the speed of every load from the scatter of all trials about the means of their loads. The scatter is
+/// pooled over the loads, because the standard deviation of five trials alone has an uncertainty of a third. Returns its degrees of
+/// freedom.
 fn settle_speed_std(loads: &mut [HeardLoad<'_>]) -> f64 {
     let freedom: usize = loads.iter().map(|load| load.trials_rad_s.len() - 1).sum();
     let squares: f64 = loads
@@ -189,7 +198,7 @@ fn settle_speed_std(loads: &mut [HeardLoad<'_>]) -> f64 {
                 by_frames = false;
                 of_scatter
             }
-            // two or three trials can agree by chance better than their frames allow
+            // two or three trials can agree better by chance than the uncertainty of their frames allows
             Some(of_scatter) => of_scatter.max(load.estimator_std_share),
             None => load.estimator_std_share,
         };

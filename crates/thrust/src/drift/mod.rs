@@ -1,51 +1,50 @@
-//! Whether the constant drifts: from trial to trial, or within them. At a constant weight no battery changes Σω², so a drift is
-//! height, draught, another loudest rotor, or a load that shifts.
+//! Whether the constant drifts from trial to trial, or within trials. At a constant weight the battery does not change Σω², so a drift
+//! comes from the height, a draught, another loudest rotor, or a load that shifts.
 
 mod rows;
 
 pub use rows::row_drifts;
 
 use crate::campaign::Campaign;
-use crate::square_law::point_verdict::two_sided_chance;
-use crate::statistics::{mean, std};
+use crate::statistics::{mean, std, two_sided_chance};
 use serde::Serialize;
 
-/// Chance of calling chance a drift: two are looked for in every experiment, so rarer than other tests.
+/// Probability of a false alarm of one test. It is below the usual 5 %, since every experiment is tested for two drifts. *Decision.*
 const FALSE_ALARM_CHANCE: f64 = 0.01;
-/// Fewest trials with a slope of their own.
+/// Fewest trials for a drift within trials: the scatter of their slopes is its uncertainty. *Decision.*
 const TRIALS_MIN: usize = 3;
-/// Fewest samples that have a slope.
+/// Fewest samples of a trial for a slope. *Decision.*
 const SAMPLES_MIN: usize = 3;
 
-/// How a drift was seen.
+/// The variable of a drift.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum DriftKind {
-    /// From one trial of a load to the next, in the order in which they are listed.
+    /// From one trial of a load to the next, in the listed order.
     PerTrial,
-    /// Within the trials, for each second.
+    /// Per second within the trials.
     PerSecond,
     /// From one row of a table to the next.
     PerRow,
-    /// With the voltage of the supply, for each volt.
+    /// Per volt of the supply voltage.
     PerVolt,
 }
 
-/// A change of the constant that is not chance.
+/// A significant change of the constant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Drift {
-    /// Over what.
+    /// The variable.
     pub kind: DriftKind,
-    /// Relative change of the constant for each step.
+    /// Relative change of the constant per unit of the variable.
     pub constant_share: f64,
     /// Its standard uncertainty.
     pub std_uncertainty_share: f64,
-    /// Chance of so much without any drift.
+    /// Probability of a change at least this large without any drift.
     pub p_value: f64,
 }
 
-/// What drifts beyond chance.
+/// The significant drifts of a campaign.
 pub(crate) fn drifts(campaign: &Campaign<'_>) -> Vec<Drift> {
     [drift_per_trial(campaign), drift_per_second(campaign)]
         .into_iter()
@@ -54,9 +53,15 @@ pub(crate) fn drifts(campaign: &Campaign<'_>) -> Vec<Drift> {
         .collect()
 }
 
+/// A value at a place or a time.
+struct At {
+    x: f64,
+    value: f64,
+}
+
+/// Slope of the relative speed over the index of the trial, by least squares about the mean of each load.
 fn drift_per_trial(campaign: &Campaign<'_>) -> Option<Drift> {
-    // place of a trial and its speed, both from the mean of its load
-    let steps: Vec<(f64, f64)> = campaign
+    let steps: Vec<At> = campaign
         .loads
         .iter()
         .flat_map(|load| {
@@ -64,30 +69,30 @@ fn drift_per_trial(campaign: &Campaign<'_>) -> Option<Drift> {
             load.trials_rad_s
                 .iter()
                 .enumerate()
-                .map(move |(place, rad_s)| (place as f64 - middle, rad_s / load.speed_rad_s - 1.0))
+                .map(move |(place, rad_s)| At { x: place as f64 - middle, value: rad_s / load.speed_rad_s - 1.0 })
         })
         .collect();
-    let squares: f64 = steps.iter().map(|(place, _)| place * place).sum();
+    let squares: f64 = steps.iter().map(|step| step.x * step.x).sum();
     let freedom = steps.len() as f64 - campaign.loads.len() as f64 - 1.0;
     if squares == 0.0 || freedom < 1.0 {
         return None;
     }
-    let slope = steps.iter().map(|(place, change)| place * change).sum::<f64>() / squares;
-    let residuals: f64 = steps.iter().map(|(place, change)| (change - slope * place).powi(2)).sum();
+    let slope = steps.iter().map(|step| step.x * step.value).sum::<f64>() / squares;
+    let residuals: f64 = steps.iter().map(|step| (step.value - slope * step.x).powi(2)).sum();
     judged(DriftKind::PerTrial, slope, (residuals / freedom / squares).sqrt(), freedom)
 }
 
-/// One slope for each trial, whose samples are correlated; their scatter says what a slope is worth.
+/// Mean over the slopes of the trials. Its uncertainty is the scatter of the slopes, because the samples of a trial are correlated.
 fn drift_per_second(campaign: &Campaign<'_>) -> Option<Drift> {
     let slopes: Vec<f64> = campaign
         .loads
         .iter()
         .flat_map(|load| &load.load.trials)
         .filter_map(|trial| {
-            let samples: Vec<(f64, f64)> = trial
+            let samples: Vec<At> = trial
                 .samples
                 .iter()
-                .map(|sample| ((sample.span.from_s + sample.span.to_s) / 2.0, sample.speed.rad_s().ln()))
+                .map(|sample| At { x: (sample.span.from_s + sample.span.to_s) / 2.0, value: sample.speed.rad_s().ln() })
                 .collect();
             slope_of(&samples)
         })
@@ -100,14 +105,15 @@ fn drift_per_second(campaign: &Campaign<'_>) -> Option<Drift> {
     judged(DriftKind::PerSecond, slope, scatter / count.sqrt(), count - 1.0)
 }
 
-fn slope_of(points: &[(f64, f64)]) -> Option<f64> {
-    let time = mean(&points.iter().map(|point| point.0).collect::<Vec<_>>())?;
-    let squares: f64 = points.iter().map(|(s, _)| (s - time).powi(2)).sum();
-    let products: f64 = points.iter().map(|(s, value)| (s - time) * value).sum();
+/// Slope by least squares; `None` with fewer than [`SAMPLES_MIN`] points.
+fn slope_of(points: &[At]) -> Option<f64> {
+    let middle = mean(&points.iter().map(|point| point.x).collect::<Vec<_>>())?;
+    let squares: f64 = points.iter().map(|point| (point.x - middle).powi(2)).sum();
+    let products: f64 = points.iter().map(|point| (point.x - middle) * point.value).sum();
     (points.len() >= SAMPLES_MIN && squares > 0.0).then(|| products / squares)
 }
 
-/// The constant goes with the inverse square of the speed.
+/// The drift of the constant from the drift of the speed: C ∝ 1/ω², so δC/C = −2 δω/ω.
 fn judged(kind: DriftKind, speed_slope: f64, speed_slope_std: f64, freedom: f64) -> Option<Drift> {
     let is_judged = speed_slope_std > 0.0;
     Some(Drift {

@@ -1,25 +1,25 @@
-//! Whether the constant of a table's rows drifts: down the table, or with the battery's voltage. At a given speed neither changes
-//! a rotor's thrust; what changes with them is the stand (a warming load cell, a slipping zero), the air, or a bent propeller.
+//! Whether the constant of the rows of a table drifts down the table or with the voltage of the battery. At a given speed neither
+//! changes the thrust of a rotor, so a drift comes from the stand (a load cell that warms up, a zero that moves), the air, or a bent
+//! propeller.
 
-use crate::drift::{Drift, DriftKind};
-use crate::square_law::ForcePoint;
-use crate::square_law::point_verdict::{gross_points, two_sided_chance};
-use crate::statistics::mean;
+use super::{Drift, DriftKind, FALSE_ALARM_CHANCE};
+use crate::square_law::{ForcePoint, gross_points};
+use crate::statistics::{mean, two_sided_chance};
 
-/// Chance of calling chance a drift, as in flights.
-const FALSE_ALARM_CHANCE: f64 = 0.01;
-/// Terms beside the drift: constant, slope and curve of the logarithms, so that another law than the square one is no drift.
+/// Terms of the speed beside the drift: constant, slope and curvature of ln(F/ω²) over ln ω. They describe a law with another
+/// exponent, which is no drift. *Decision.*
 const SPEED_TERMS: usize = 3;
-/// Where speeds explain more than this share of what the rows' places or voltages vary, as when a stand is swept up once, the
-/// two cannot be told apart.
+/// A drift is not tested where the speeds explain more than this share of the variance of the row numbers or voltages, as in a
+/// single sweep of the speed. *Decision.*
 const EXPLAINED_SHARE_MAX: f64 = 0.9;
-/// Fewest independent rows beyond the terms that are fitted.
+/// Fewest degrees of freedom: independent rows minus fitted terms. *Decision.*
 const FREEDOM_MIN: f64 = 3.0;
 
-/// What drifts beyond chance: the constant against the place in the table, and against the voltage (V) where every row has one.
+/// The significant drifts of the constant over the row number, and over the voltage (V) where every row has one.
 ///
-/// ln(F/ω²) = a + b ln ω + c ln² ω + d z, z the place or the voltage; d is judged by Student's t, with as many rows as the
-/// residuals' correlation from row to row leaves independent. Rows that are off by a factor are left out.
+/// Least squares with ln(F/ω²) = a + b ln ω + c ln² ω + d z, where z is the row number or the voltage. Student's t tests d; its
+/// degrees of freedom count the rows that are independent after the correlation of the residuals from row to row. Rows that are off
+/// by a factor are left out.
 pub fn row_drifts(points: &[ForcePoint], voltages_v: &[Option<f64>]) -> Vec<Drift> {
     let gross = gross_points(points);
     let kept: Vec<usize> = (0..points.len()).filter(|&index| !gross[index]).collect();
@@ -40,7 +40,7 @@ fn drift_along(points: &[&ForcePoint], along: &[f64], kind: DriftKind) -> Option
     for power in 0..SPEED_TERMS as i32 {
         let term: Vec<f64> = log_speeds.iter().map(|log_speed| (log_speed - middle).powi(power)).collect();
         let rest = without(&term, &terms);
-        // equal speeds have no slope to take out
+        // with equal speeds the higher terms are zero
         if dot(&rest, &rest) > f64::EPSILON * dot(&term, &term) {
             terms.push(rest);
         }
@@ -66,14 +66,15 @@ fn drift_along(points: &[&ForcePoint], along: &[f64], kind: DriftKind) -> Option
     Some(Drift { kind, constant_share: slope, std_uncertainty_share, p_value })
 }
 
-/// Share of the rows that are independent, where each remembers the one before: (1 − r)/(1 + r).
+/// Share of the rows that count as independent, for residuals of a first-order autoregressive process with the correlation r between
+/// neighbours: (1 − r)/(1 + r).
 fn independent_share(residuals: &[f64], squares: f64) -> f64 {
     let products: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
     let correlation = if squares > 0.0 { (products / squares).clamp(0.0, 1.0) } else { 0.0 };
     (1.0 - correlation) / (1.0 + correlation)
 }
 
-/// What of values no linear combination of orthogonal terms explains.
+/// Remainder of the values after the projection on orthogonal terms.
 fn without(values: &[f64], terms: &[Vec<f64>]) -> Vec<f64> {
     let mut rest = values.to_vec();
     for term in terms {

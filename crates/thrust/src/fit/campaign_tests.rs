@@ -1,4 +1,4 @@
-//! Whole campaigns, simulated as numbers: what is stated against the truth.
+//! Simulated campaigns with known truth: stated uncertainties against real errors.
 
 use crate::*;
 use hovertone_analysis::{Method, Span};
@@ -11,9 +11,9 @@ pub(crate) const GRAVITY_M_S2: f64 = 9.785;
 pub(crate) const VEHICLE_KG: f64 = 0.413;
 const MASS_STD_KG: f64 = 0.0005;
 const GRAVITY_STD_M_S2: f64 = 0.0005;
-/// In each block …
+/// Number of campaigns in each block.
 const CAMPAIGNS: u64 = 500;
-/// … of which each has seeds of its own, from here on.
+/// First seed of each block; the blocks share no seed.
 const SEEDS: [u64; 3] = [0, 10_000, 20_000];
 
 fn sample(rad_s: f64, std_share: f64) -> SampleSpeed {
@@ -53,7 +53,7 @@ pub(crate) fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds
     }
 }
 
-/// Hovers with exact speeds.
+/// Hovers whose trials have known speeds.
 pub(crate) fn exact_hovers(added_kg: &[f64], trials: usize) -> Vec<LoadSpeeds> {
     let speed = |added_kg: f64| ((VEHICLE_KG + added_kg) * GRAVITY_M_S2 / TRUTH_N_S2).sqrt();
     // 0.1 % apart, so that there is a scatter to measure
@@ -69,7 +69,7 @@ pub(crate) fn fitted(loads: &[LoadSpeeds]) -> ThrustTable {
     thrust_from_loads(loads, Method::Harmonic, &ThrustSettings::for_rotors(4))
 }
 
-/// A campaign with everything that the budget knows drawn from what the budget says of it.
+/// A campaign in which every input of the budget has a random error from the distribution that the budget states.
 fn campaign(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usize, trial_std: f64) -> ThrustTable {
     let mut random = rand_pcg::Pcg64::seed_from_u64(seed);
     let inputs = &settings.uncertainty;
@@ -104,7 +104,7 @@ fn campaign(seed: u64, settings: &ThrustSettings, added_kg: &[f64], trials: usiz
     thrust_from_loads(&loads, Method::Harmonic, settings)
 }
 
-/// How often the truth lies within U, and how often a load that is right is named as one that is not, or a trial left out.
+/// How often the truth lies within the expanded uncertainty, and how often a correct load or trial is called wrong.
 fn coverage_and_alarms(
     seeds: std::ops::Range<u64>,
     settings: &ThrustSettings,
@@ -125,8 +125,8 @@ fn coverage_and_alarms(
     (covered as f64 / campaigns as f64, alarms as f64 / campaigns as f64)
 }
 
-/// The promise of k = 2: 93 to 97 %. The paper's campaign by a single ridge, then with every rotor told apart, where scatter
-/// of few trials decides, then with more and heavier loads.
+/// The expanded uncertainty (k = 2) must cover the truth in 93 to 97 % of the campaigns: the paper's campaign by a single ridge, then
+/// with all rotors separated, where the scatter of few trials dominates, then with more and heavier loads.
 #[test]
 fn five_hundred_campaigns_are_covered_as_stated() {
     let ridge = ThrustSettings::for_rotors(4);
@@ -148,14 +148,14 @@ fn five_hundred_campaigns_are_covered_as_stated() {
             100.0 * alarms
         );
         assert!((0.93..=0.97).contains(&coverage), "{name}: {coverage}");
-        // 500 campaigns show their coverage to 1 %: three times that beyond the promise, for each block
+        // 500 campaigns give the coverage to 1 % (standard deviation): each block may exceed the limits by three times that
         assert!(blocks.iter().all(|block| (0.92..=0.99).contains(&block.0)), "{name}: {blocks:?}");
-        // one campaign in twenty is what the test promises; 1500 show that to 0.6 %
+        // the test has a false alarm in 5 % of the campaigns; 1500 campaigns give that share to 0.6 %
         assert!(alarms <= 0.07, "{name}: {alarms}");
     }
 }
 
-/// The test of coverage can fail: stated uncertainties that are a quarter too small or too large are seen.
+/// The test of coverage can fail: it detects uncertainties that are a quarter too small or too large.
 #[test]
 fn coverage_would_show_wrong_uncertainties() {
     let settings = ThrustSettings { follows_loudest: false, ..ThrustSettings::for_rotors(4) };
@@ -170,9 +170,9 @@ fn coverage_would_show_wrong_uncertainties() {
     assert!(covered_by(0.75) < 0.93 && covered_by(1.25) > 0.97, "{} {}", covered_by(0.75), covered_by(1.25));
 }
 
-/// A plan, flown: speeds that wander as the plan says (an Ornstein-Uhlenbeck process, averaged over each trial), everything else
-/// by chance as in the budget. Half of the campaigns or more state no more than was wanted, and the truth lies within what was
-/// planned at least as often as k = 2 says.
+/// A planned campaign: speeds wander as the plan assumes (an Ornstein-Uhlenbeck process, averaged over each trial), all other inputs
+/// have random errors as in the budget. At least half of the campaigns state no more than the wanted uncertainty, and the truth lies
+/// within the planned uncertainty at least as often as k = 2 promises.
 #[test]
 fn a_planned_campaign_reaches_the_wanted_uncertainty() {
     for (wanted, gust_s) in [(0.008, 0.3), (0.005, 0.3), (0.01, 1.0)] {
@@ -212,7 +212,7 @@ fn a_planned_campaign_reaches_the_wanted_uncertainty() {
     }
 }
 
-/// PHYSICS, section 7: the budget of one load of the paper, in per cent of the constant.
+/// The budget of one load of the paper, in per cent of the constant, computed by hand from each input.
 #[test]
 fn the_budget_of_the_papers_flight() {
     let loads = exact_hovers(&[0.0], 5);

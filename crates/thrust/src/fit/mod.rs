@@ -7,46 +7,37 @@ mod suspicious_tests;
 #[cfg(test)]
 mod tests;
 
-use crate::air::thrust_constant_n_s2;
-use crate::air::{ThrustCoefficients, figure_of_merit, is_plausible_merit};
-use crate::budget::UncertaintyBudget;
-use crate::budget::budget_of_fit;
-use crate::campaign::bootstrap::trial_bootstrap;
-use crate::campaign::{Campaign, HeardLoad, whole_vehicle_factor};
+use crate::air::{ThrustCoefficients, figure_of_merit, is_plausible_merit, thrust_constant_n_s2};
+use crate::budget::{UncertaintyBudget, budget_of_fit};
+use crate::campaign::{Campaign, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
 use crate::drift::drifts;
 use crate::force::Force;
 use crate::settings::ThrustSettings;
-use crate::speeds::LoadSpeeds;
-use crate::speeds::TrialSpeeds;
-use crate::square_law::load_range::LoadRange;
-use crate::square_law::point_verdict::{PointVerdict, are_split};
-use crate::square_law::{ForceLaw, ForcePoint, SquareLawFit, square_law_fit};
+use crate::speeds::{LoadSpeeds, TrialSpeeds};
+use crate::square_law::{ForceLaw, ForcePoint, LoadRange, PointVerdict, SquareLawFit, are_split, square_law_fit};
 use crate::statistics::{mean, std};
-use crate::table::LoadThrust;
-use crate::table::SampleThrust;
-use crate::table::ThrustTable;
-use crate::table::TrialThrust;
+use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
 use hovertone_analysis::Method;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 
-/// Loads whose forces differ by less than this share are equal: nothing of the law can be seen.
+/// Loads whose forces differ by less than this share count as equal: they show nothing of the law. *Decision.*
 const EQUAL_FORCES_SHARE: f64 = 0.005;
 
-/// Rows of a table that are each worth a warning of their own.
+/// Up to this many misfits of a table have a warning each; more are listed in one. *Decision.*
 const MISFITS_BY_NAME: usize = 3;
 
 /// The thrust constant from loads.
 ///
-/// The answer is the constant of the square law through all loads, each with the uncertainty of its force and of its speed
-/// (York). Speeds are means of trials; their uncertainty is the scatter of the trials about the means of their loads, all
-/// pooled. What all loads share (the vehicle's weighing) does not average out; where loads disagree, their scatter is taken.
-/// The stated standard uncertainty is that of weighing and speeds; the budget adds what nobody measured, foremost that a single
-/// ridge follows the loudest rotor.
+/// The result is the constant of the square law through all loads, with the uncertainties of forces and speeds (York et al. 2004).
+/// Speeds are means over trials; their uncertainty is the scatter of the trials about the means of their loads, pooled over the
+/// loads. The error of the weighing of the vehicle is common to all loads and does not average out. Where loads disagree, their
+/// scatter enlarges the uncertainty. The stated standard uncertainty covers weighing and speeds; the budget adds the assumed limits
+/// of other effects, of which the largest is that a single ridge follows the loudest rotor.
 ///
-/// Beside it stands what the paper's tables have: per load from the mean speed of all its samples (C = F / ω̄², not the mean
-/// of the samples' constants), over all as the plain mean of the loads. The square of the mean in place of the mean of the
-/// squares makes C too large by the square of the relative spread: 0.015 % at the paper's 1.23 %.
+/// The averages of the paper's tables stand beside it: for each load from the mean speed of all its samples (C = F / ω̄², not the
+/// mean over the constants of the samples), for all loads the plain mean. The squared mean in place of the mean square makes C too
+/// large by the square of the relative spread: 0.015 % at the spread of 1.23 % in the paper.
 pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &ThrustSettings) -> ThrustTable {
     let rotor_count = settings.rotor_count.max(1);
     let campaign = Campaign::of(loads, rotor_count);
@@ -142,14 +133,14 @@ fn row_of_load(
     let speed = mean(&speeds).map(RotorSpeed::from_rad_s);
     let speed_std_share = heard.map(|heard| heard.speed_std_share).filter(|share| *share > 0.0);
     let total = speed.map(|speed| {
-        let (alone, shared) = load.force.relative_std();
-        let relative = speed_std_share.map(|share| (2.0 * share).hypot(alone).hypot(shared));
+        let force = load.force.relative_std();
+        let relative = speed_std_share.map(|share| (2.0 * share).hypot(force.own).hypot(force.shared));
         let heard = trials.iter().filter(|trial| trial.speed.is_some()).count();
         let ending = if heard > 1 { Ending::Solved } else { Ending::SingleObservation };
         let value = constant(speed);
         Estimate { value, std_uncertainty: relative.map(|relative| relative * value), ending }
     });
-    // forces of the verdict are those of the whole vehicle
+    // the verdict has forces of the whole vehicle
     let mass_of = |force_n: Option<f64>| {
         let (force_n, mass_kg) = (force_n?, load.force.mass_kg()?);
         Some(mass_kg * force_n / load.force.newtons())
@@ -173,7 +164,7 @@ fn row_of_load(
     }
 }
 
-/// Of one of the rotors that run, which share thrust and power alike.
+/// Figure of merit of one running rotor; all running rotors have equal thrust and power.
 fn figure_of_merit_of(load: &LoadSpeeds, settings: &ThrustSettings) -> Option<f64> {
     let running = f64::from(load.rotors_running.max(1));
     let (thrust_n, power_w) = (load.force.newtons() / running, load.power_w? / running);
@@ -195,7 +186,7 @@ fn row_of_trial(trial: &TrialSpeeds, constant: &dyn Fn(RotorSpeed) -> f64) -> Tr
     }
 }
 
-/// Spread of the speed over all frames of a load: within the samples and between them.
+/// Standard deviation of the speed over all frames of a load: spread within the samples and between them, added in squares.
 fn spread_rad_s(load: &LoadSpeeds, speeds: &[f64]) -> Option<f64> {
     let squares: Vec<f64> = load
         .trials
@@ -206,8 +197,8 @@ fn spread_rad_s(load: &LoadSpeeds, speeds: &[f64]) -> Option<f64> {
     Some((mean(&squares)? + std(speeds).unwrap_or_default().powi(2)).sqrt())
 }
 
-/// The paper's average: the plain mean of the loads. Its uncertainty is what the loads' own and shared ones make of it, or the
-/// loads' scatter where that is larger.
+/// The average of the paper: the plain mean over the loads. Its uncertainty follows from the uncertainties of the loads, or from their
+/// scatter where that is larger; the shared part of the forces is added.
 fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estimate> {
     let heard: Vec<(&HeardLoad<'_>, Estimate)> = campaign
         .loads
@@ -222,7 +213,8 @@ fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estim
     };
     let by_parts = heard.iter().map(|load| alone(load).powi(2)).sum::<f64>().sqrt() / count;
     let by_scatter = std(&values).map_or(0.0, |scatter| scatter / count.sqrt());
-    let shared: Vec<f64> = heard.iter().map(|(load, total)| total.value * load.load.force.relative_std().1).collect();
+    let shared: Vec<f64> =
+        heard.iter().map(|(load, total)| total.value * load.load.force.relative_std().shared).collect();
     let std_uncertainty = by_parts.max(by_scatter).hypot(mean(&shared).unwrap_or_default());
     let trials: usize = campaign.loads.iter().map(|load| load.trials_rad_s.len()).sum();
     Some(Estimate {
@@ -233,7 +225,7 @@ fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estim
 }
 
 fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&SquareLawFit>) -> Vec<ThrustWarning> {
-    let left_out = |(load, recording): &(String, String)| ThrustWarning::TrialLeftOut {
+    let left_out = |GrossTrial { load, recording }: &GrossTrial| ThrustWarning::TrialLeftOut {
         load: load.clone(),
         recording: recording.clone(),
     };
@@ -259,12 +251,12 @@ fn are_split_points(points: &[ForcePoint]) -> bool {
     are_split(&points.iter().map(ForcePoint::thrust_constant_n_s2).collect::<Vec<_>>())
 }
 
-/// That loads contradict each other, are too few or too much alike, or ask for another law.
+/// Warnings about the set of loads: they contradict each other, are too few or too similar, or another law describes them better.
 fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) -> Vec<ThrustWarning> {
     let forces = || points.iter().map(|point| point.force_n);
     let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
     if are_split {
-        // no range of loads and no law makes that good
+        // where half of the constants are wrong, range and law of the loads mean nothing
         vec![ThrustWarning::ConstantsSplit]
     } else if points.len() == 1 {
         vec![ThrustWarning::SingleLoad]
@@ -279,7 +271,7 @@ fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) ->
     }
 }
 
-/// What weakens a fit of the rows of a table. Gravity is given where the rows are masses that hover.
+/// Warnings about a fit of the rows of a table. `gravity_m_s2` is given where the rows are masses that hover.
 pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s2: Option<f64>) -> Vec<ThrustWarning> {
     let mass_kg = |force_n: Option<f64>| Some(force_n? / gravity_m_s2?);
     let misfit = |point: &PointVerdict| ThrustWarning::LoadDoesNotFit {
@@ -306,7 +298,7 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     warnings
 }
 
-/// That the evidence prefers another law than the one that simulators have.
+/// The warning that the evidence prefers another law to the square law, which simulators use.
 fn law_warning(fit: &SquareLawFit) -> Option<ThrustWarning> {
     let law = fit.laws.iter().find(|law| law.law == fit.preferred && law.law != ForceLaw::Square)?;
     Some(ThrustWarning::OtherLawPreferred { law: law.law, probability: law.probability })

@@ -1,4 +1,4 @@
-//! Input that should make anybody suspicious: it is refused, or its result is flagged.
+//! Suspicious input: it is refused, or its result has a warning.
 
 use super::campaign_tests::{GRAVITY_M_S2, TRUTH_N_S2, VEHICLE_KG, exact_hovers, fitted, load, weight};
 use crate::*;
@@ -132,7 +132,7 @@ fn points_that_mean_nothing_are_refused_by_number() {
     assert!(square_law_fit(&[], PointNoise::Stated).is_err());
 }
 
-/// Two loads of which one is wrong, or half of the trials of each: nobody knows which, and no number is passed off as right.
+/// One of two loads is wrong, or half of the trials of each: nothing shows which, and the result says so.
 #[test]
 fn halves_that_are_off_by_a_factor_are_not_averaged_in_silence() {
     let mut two = exact_hovers(&[0.0, 0.05], 3);
@@ -159,7 +159,7 @@ fn halves_that_are_off_by_a_factor_are_not_averaged_in_silence() {
     assert!(fitted(&exact_hovers(&[0.0, 0.05], 3)).warnings.iter().all(|w| *w != ThrustWarning::ConstantsSplit));
 }
 
-/// Copies of one recording, rows copied into a table: no scatter at all, and no panic.
+/// Copies of one recording, or of the rows of a table: no scatter, and no panic.
 #[test]
 fn copies_are_fitted() {
     let rad_s = (VEHICLE_KG * GRAVITY_M_S2 / TRUTH_N_S2).sqrt();
@@ -172,7 +172,7 @@ fn copies_are_fitted() {
         assert!((fit.thrust_constant_n_s2.value / row.thrust_constant_n_s2() - 1.0).abs() < 1e-12);
         assert!(fit.points.iter().all(|point| point.fits != Some(false)), "{fit:?}");
     }
-    // exact but for one: it is named
+    // all points exact except one, which is named
     let mut rows = vec![row.clone(); 5];
     rows[2].force_n *= 1.1;
     let fit = square_law_fit(&rows, PointNoise::FromResiduals).unwrap();

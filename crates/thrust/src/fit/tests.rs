@@ -1,4 +1,4 @@
-//! The paper's tables by the code that makes everybody else's.
+//! The paper's tables, made by the same code as every other table.
 
 use crate::*;
 use hovertone_analysis::{Method, Span};

@@ -1,27 +1,28 @@
-//! Whether points speak for one parameter more: evidence, not fit, so that a law is not preferred for bending further.
+//! Evidence for a law with one more parameter (MacKay 1992). Evidence charges a law for its freedom; the residuals alone always prefer
+//! the law with more parameters.
 
 use statrs::distribution::{Continuous, Normal, StudentsT};
 
-/// Steps of the integral over the prior where the noise has to be taken from the residuals.
+/// Steps of the integral over the prior, which is needed where the noise comes from the residuals. *Numeric.*
 const STEPS: usize = 4000;
-/// Half width of that integral in standard deviations of the prior.
+/// Half width of that integral, in standard deviations of the prior. *Numeric.*
 const HALF_WIDTH_STDS: f64 = 8.0;
 
-/// A parameter that a smaller law does without: how large it may be before anybody has measured.
+/// Normal prior on a parameter that the smaller law has not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParameterPrior {
-    /// Its value in the smaller law, and the middle of the prior.
+    /// Value that makes the larger law equal to the smaller one; the middle of the prior.
     pub null: f64,
-    /// Standard deviation of the prior, a normal one.
+    /// Standard deviation of the prior.
     pub std: f64,
 }
 
-/// Logarithm of the evidence of the law with the parameter over that of the law without (Savage and Dickey's ratio of the
-/// densities at the null): positive where the points ask for the parameter.
+/// Natural logarithm of the evidence of the law with the parameter over the evidence of the law without it, as the Savage–Dickey
+/// density ratio at the null (Dickey 1971). It is positive where the points favour the parameter.
 ///
-/// `noise_degrees_of_freedom` is given where the uncertainty of the estimate was taken from the residuals: then one of few
-/// points counts for less. Exact for a linear parameter and known noise:
-/// −½ ln(1 + s²/u²) + ½ z² s²/(u² + s²), z = (estimate − null)/u.
+/// `noise_degrees_of_freedom` is given where the uncertainty u of the estimate comes from the residuals; its distribution is then
+/// Student's t. With known noise and a linear parameter the ratio is exact:
+/// −½ ln(1 + s²/u²) + ½ z² s²/(u² + s²), with z = (estimate − null)/u and the standard deviation s of the prior.
 pub fn log_evidence_ratio(
     estimate: f64,
     estimate_std: f64,
@@ -39,7 +40,7 @@ pub fn log_evidence_ratio(
     };
     let at_null = student.ln_pdf(offset / estimate_std);
     if ratio * HALF_WIDTH_STDS / STEPS as f64 > 0.5 {
-        // the prior is flat over the width of the estimate
+        // one step is wider than half of u: the prior is flat over the width of the estimate
         return normal.ln_pdf(offset / prior.std) - ratio.ln() - at_null;
     }
     let step = 2.0 * HALF_WIDTH_STDS / STEPS as f64;

@@ -7,22 +7,22 @@ use super::{Agreement, FitError, FitPoint, check, settled};
 pub struct LineFit {
     /// Intercept.
     pub intercept: f64,
-    /// Its standard uncertainty, from those of the points alone.
+    /// Standard uncertainty of the intercept, from the uncertainties of the points without their scatter.
     pub intercept_std: f64,
     /// Slope.
     pub slope: f64,
-    /// Its standard uncertainty, from those of the points alone.
+    /// Standard uncertainty of the slope, from the uncertainties of the points without their scatter.
     pub slope_std: f64,
-    /// Where along x slope and intercept do not trade: the weighted mean of the adjusted abscissas.
+    /// Weighted mean of the adjusted abscissas. The slope and the value of the line at this x are uncorrelated.
     pub x_centre: f64,
-    /// How well the points agree with it.
+    /// How well the points agree with the line.
     pub agreement: Agreement,
 }
 
-/// York's line (2004, eqs 13): the minimum of Σ (y − a − b x)² / (u_y² + b² u_x²).
+/// The line that minimises Σ (y − a − b x)² / (u_y² + b² u_x²) (York et al. 2004, eqs 13).
 ///
 /// # Errors
-/// Fewer than two points, coordinates that are no numbers, all of them at the same x, points that fit no line.
+/// Fewer than two points, a coordinate that is not a number, all points at the same x, an iteration that does not converge.
 pub fn line_fit(points: &[FitPoint]) -> Result<LineFit, FitError> {
     check(points, 2)?;
     if points.iter().all(|point| point.x == points[0].x) {
@@ -61,7 +61,7 @@ fn sum(points: &[FitPoint], of: impl Fn(&FitPoint) -> f64) -> f64 {
     points.iter().map(of).sum()
 }
 
-/// Weighted means, about which everything is computed: what is far from the origin keeps its digits.
+/// Weighted means of the coordinates. Sums about them lose no digits where the points are far from the origin.
 struct Centred {
     slope: f64,
     x: f64,
@@ -78,7 +78,7 @@ impl Centred {
         }
     }
 
-    /// York's β: how far along x from the mean the point of the line is that a point most probably comes from.
+    /// β of York et al. (2004): distance along x from the mean to the most probable true position of a point on the line.
     fn beta(&self, point: &FitPoint) -> f64 {
         point.weight(self.slope)
             * ((point.x - self.x) * point.y_std.powi(2) + self.slope * (point.y - self.y) * point.x_std.powi(2))

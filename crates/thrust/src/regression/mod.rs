@@ -1,8 +1,8 @@
-//! Lines through points whose both coordinates are uncertain, and which of several laws the points speak for. Knows no
-//! rotors: x, y and their standard uncertainties.
+//! Straight lines through points with uncertainty in both coordinates, and the evidence for an additional parameter. The input is x, y
+//! and their standard uncertainties; nothing here knows of rotors.
 //!
 //! York, Evensen, Martínez and De Basabe Delgado, "Unified equations for the slope, intercept, and standard errors of the
-//! best straight line", American Journal of Physics 72, 367 (2004); the line through the origin is the same minimum,
+//! best straight line", American Journal of Physics 72, 367 (2004). The line through the origin minimises the same sum,
 //! Σ (y − b x)² / (u_y² + b² u_x²), without an intercept.
 
 mod evidence;
@@ -17,28 +17,28 @@ pub use proportional::{ProportionalFit, proportional_fit};
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-/// Iterations after which a slope that still moves is given up: sound data need five to ten.
+/// Most iterations of the slope. Normal data need five to ten. *Numeric.*
 const ITERATIONS_MAX: usize = 200;
-/// Relative change of the slope that counts as none: a few roundings.
+/// Relative change of the slope at which the iteration has converged: a few rounding errors. *Numeric.*
 const SETTLED_SHARE: f64 = 4.0 * f64::EPSILON;
-/// Relative change that is accepted after the last iteration, where roundings keep the slope trembling.
+/// Relative change that is accepted after the last iteration, when rounding errors make the slope alternate. *Numeric.*
 const TREMBLING_SHARE: f64 = 1e-10;
 
-/// A point whose coordinates are uncertain, independently of each other and of the other points.
+/// A point. The errors of its coordinates are independent of each other and of the other points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FitPoint {
     /// Abscissa.
     pub x: f64,
-    /// Its standard uncertainty; 0 where it is exact.
+    /// Standard uncertainty of the abscissa; 0 where it is exact.
     pub x_std: f64,
     /// Ordinate.
     pub y: f64,
-    /// Its standard uncertainty; 0 where it is exact.
+    /// Standard uncertainty of the ordinate; 0 where it is exact.
     pub y_std: f64,
 }
 
 impl FitPoint {
-    /// A point of which only the ordinate is uncertain.
+    /// A point with an exact abscissa.
     pub fn with_y_std(x: f64, y: f64, y_std: f64) -> Self {
         Self { x, x_std: 0.0, y, y_std }
     }
@@ -56,49 +56,49 @@ impl FitPoint {
     }
 }
 
-/// Why there is no line.
+/// Reason for a missing line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
     /// Not enough points.
     #[error("{given} points, this law needs at least {needed}")]
     TooFewPoints {
-        /// Points that were given.
+        /// Number of given points.
         given: usize,
-        /// Points that it takes.
+        /// Number of points that the law needs.
         needed: usize,
     },
-    /// A coordinate that is no number, or a point without any uncertainty among others.
+    /// A coordinate that is not a number, or a point without any uncertainty.
     #[error("point number {number} has a coordinate that is no number, or no uncertainty at all")]
     UnusablePoint {
-        /// Which, counted from 1.
+        /// Number of the point, counted from 1.
         number: usize,
     },
-    /// All points at the same place along x.
+    /// All points have the same x.
     #[error("all points have the same x: they leave the slope open")]
     NoSpread,
-    /// The iteration did not settle.
+    /// The iteration did not converge.
     #[error("the points fit no line well enough for its slope to settle")]
     NotSettled,
 }
 
-/// How well points agree with a law: the sum of squared residuals in units of their uncertainties.
+/// How well points agree with a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Agreement {
     /// Σ (y − law)² / u².
     pub chi_square: f64,
-    /// Points less parameters.
+    /// Number of points minus number of parameters.
     pub degrees_of_freedom: usize,
 }
 
 impl Agreement {
-    /// Chance of a chi-square at least so large if law and uncertainties are right; `None` without degrees of freedom.
+    /// Probability of a chi-square at least this large if law and uncertainties are right; `None` without degrees of freedom.
     pub fn p_value(&self) -> Option<f64> {
         let distribution = ChiSquared::new(self.degrees_of_freedom as f64).ok()?;
         Some(distribution.sf(self.chi_square))
     }
 
-    /// Factor by which the stated uncertainties would have to grow for chi-square to be as expected (Birge's ratio); with
+    /// Birge's ratio √(χ²/ν) (Birge 1932): the factor on all uncertainties that makes chi-square equal to the degrees of freedom ν. With
     /// uncertainties of 1 it is the standard deviation of the residuals.
     pub fn scatter_factor(&self) -> Option<f64> {
         (self.degrees_of_freedom > 0).then(|| (self.chi_square / self.degrees_of_freedom as f64).sqrt())
@@ -115,7 +115,7 @@ fn check(points: &[FitPoint], needed: usize) -> Result<(), FitError> {
     }
 }
 
-/// Repeats a step of a slope until it stands still.
+/// Iterates the slope until it converges.
 fn settled(start: f64, mut step: impl FnMut(f64) -> f64) -> Result<f64, FitError> {
     let mut slope = start;
     let mut change_share = f64::INFINITY;

@@ -7,20 +7,20 @@ use super::{Agreement, FitError, FitPoint, check, settled};
 pub struct ProportionalFit {
     /// Slope.
     pub slope: f64,
-    /// Its standard uncertainty, from those of the points alone.
+    /// Standard uncertainty of the slope, from the uncertainties of the points without their scatter.
     pub slope_std: f64,
-    /// How well the points agree with it.
+    /// How well the points agree with the line.
     pub agreement: Agreement,
 }
 
-/// The slope that minimises Σ (y − b x)² / (u_y² + b² u_x²), at its exact minimum.
+/// The slope that minimises Σ (y − b x)² / (u_y² + b² u_x²).
 ///
-/// With w = 1/(u_y² + b² u_x²) and the adjusted abscissa x' = x + b u_x² w (y − b x), the minimum is where
-/// b = Σ w x' y / Σ w x' x, and the standard uncertainty is 1/√(Σ w x'²). For exact abscissas this is the weighted mean of
-/// the ratios, for exact ordinates the inverse of that of the inverse ratios.
+/// With w = 1/(u_y² + b² u_x²) and the adjusted abscissa x' = x + b u_x² w (y − b x), the minimum satisfies
+/// b = Σ w x' y / Σ w x' x, and the standard uncertainty is 1/√(Σ w x'²) (York et al. 2004). With exact abscissas the slope is the
+/// weighted mean of y/x, with exact ordinates the inverse of the weighted mean of x/y.
 ///
 /// # Errors
-/// No point, coordinates that are no numbers, all of them at x = 0, points that fit no line.
+/// No point, a coordinate that is not a number, all points at x = 0, an iteration that does not converge.
 pub fn proportional_fit(points: &[FitPoint]) -> Result<ProportionalFit, FitError> {
     check(points, 1)?;
     if points.iter().all(|point| point.x == 0.0) {
@@ -29,7 +29,7 @@ pub fn proportional_fit(points: &[FitPoint]) -> Result<ProportionalFit, FitError
     let products = |slope: f64, of: &dyn Fn(&FitPoint, f64) -> f64| -> f64 {
         points.iter().map(|point| point.weight(slope) * adjusted_x(point, slope) * of(point, slope)).sum()
     };
-    // a start that no uncertainty can spoil: the plain least squares
+    // start with plain least squares, which exists for any uncertainties
     let squares: f64 = points.iter().map(|point| point.x * point.x).sum();
     let start = points.iter().map(|point| point.x * point.y).sum::<f64>() / squares;
     let slope = settled(start, |slope| products(slope, &|point, _| point.y) / products(slope, &|point, _| point.x))?;
@@ -41,7 +41,7 @@ pub fn proportional_fit(points: &[FitPoint]) -> Result<ProportionalFit, FitError
     })
 }
 
-/// The point of the line that a point most probably comes from: its abscissa.
+/// Abscissa of the most probable true position of a point on the line.
 fn adjusted_x(point: &FitPoint, slope: f64) -> f64 {
     point.x + slope * point.x_std.powi(2) * point.weight(slope) * (point.y - slope * point.x)
 }

@@ -133,7 +133,7 @@ fn the_slope_through_the_origin_is_the_minimum_of_its_sum() {
     assert!((fit.slope_std / (2.0 / curvature).sqrt() - 1.0).abs() < 0.1, "{} {curvature}", fit.slope_std);
 }
 
-/// The paper's rows (PHYSICS): masses in g, speeds and their STD in rpm, 25 samples each, masses known to 0.5 g.
+/// The rows of the paper's tables 1 and 2: masses in g, speeds and their STD in rpm, 25 samples each, masses known to 0.5 g.
 #[test]
 fn the_papers_rows() {
     let std_rpm = [44.4916, 48.3813, 47.7473];

@@ -1,15 +1,18 @@
-//! How far apart loads must lie to tell the square law from one with an intercept.
+//! How far apart the loads must be to distinguish the square law from one with an intercept.
 
+use super::agreement::scatter_factor;
+use super::point::{ForcePoint, PointNoise};
 use crate::regression::{FitPoint, LineFit, line_fit};
-use crate::square_law::{ForcePoint, PointNoise, scatter_factor};
 use serde::Serialize;
 
-/// An intercept is looked for usefully where its uncertainty is below this share of the mean force: the size of what airframe,
-/// hull and cable do.
+/// An intercept is visible where its standard uncertainty is below this share of the mean force. Airframe, hull and cable cause
+/// intercepts of that size. *Decision.*
 const INTERCEPT_STD_SHARE_MAX: f64 = 0.02;
-/// Widest range that is recommended: no multirotor hovers over more.
+
+/// Largest ratio of forces that is recommended. No multirotor hovers over a wider range of loads. *Decision.*
 const RATIO_MAX: f64 = 10.0;
-/// Step of the search for the range, a hundredth of what anybody can load.
+
+/// Step of the search for the ratio. A hundredth is finer than anybody can choose a load. *Numeric.*
 const RATIO_STEP: f64 = 0.01;
 
 /// The range of the loads.
@@ -17,21 +20,22 @@ const RATIO_STEP: f64 = 0.01;
 pub struct LoadRange {
     /// Largest over smallest force.
     pub force_ratio: f64,
-    /// Uncertainty of an intercept over the mean force.
+    /// Standard uncertainty of an intercept over the mean force.
     pub intercept_std_share: f64,
-    /// Whether that is small enough to see what an intercept may be.
+    /// Whether that is small enough to see an intercept.
     pub shows_intercept: bool,
-    /// Ratio of forces that would do, with as many loads as exact as these; absent where none would.
+    /// Ratio of forces that would be enough for the same number of loads with the same uncertainties; absent where no ratio is.
     pub force_ratio_needed: Option<f64>,
 }
 
-pub(crate) fn load_range(points: &[&ForcePoint], line: &LineFit, noise: PointNoise) -> Option<LoadRange> {
+/// The range of the loads, from the line with an intercept through them. `None` where the scatter of the points is unknown.
+pub(super) fn load_range(points: &[&ForcePoint], line: &LineFit, noise: PointNoise) -> Option<LoadRange> {
     let factor = scatter_factor(line.agreement, noise)?;
     let forces = || points.iter().map(|point| point.force_n);
     let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
     let mean = forces().sum::<f64>() / points.len() as f64;
     let intercept_std_share = factor * line.intercept_std / mean;
-    // what each load leaves open, in its own force: the same at any range
+    // relative uncertainty of each load: it is assumed to be the same at any range
     let squares: f64 = points
         .iter()
         .map(|point| match noise {
@@ -50,15 +54,17 @@ pub(crate) fn load_range(points: &[&ForcePoint], line: &LineFit, noise: PointNoi
     })
 }
 
-/// Ratio of the largest to the smallest of so many evenly spaced loads, each known to `std_share`, that shows an intercept.
+/// Smallest ratio of the largest to the smallest force that shows an intercept, for `load_count` evenly spaced loads, each with
+/// the relative standard uncertainty `std_share`. `None` where no ratio up to [`RATIO_MAX`] does.
 pub(crate) fn force_ratio_for_intercept(std_share: f64, load_count: usize) -> Option<f64> {
     let shows = |ratio: f64| intercept_std_share(std_share, load_count, ratio) <= INTERCEPT_STD_SHARE_MAX;
     let steps = ((RATIO_MAX - 1.0) / RATIO_STEP) as usize;
     (1..=steps).map(|step| 1.0 + step as f64 * RATIO_STEP).find(|&ratio| shows(ratio))
 }
 
-/// Uncertainty of the intercept over the mean force, for evenly spaced loads from 1 to `ratio`, each known to `std_share`.
-pub(crate) fn intercept_std_share(std_share: f64, load_count: usize, ratio: f64) -> f64 {
+/// Standard uncertainty of the intercept over the mean force, for evenly spaced loads from 1 to `ratio`, each with the relative
+/// standard uncertainty `std_share`.
+fn intercept_std_share(std_share: f64, load_count: usize, ratio: f64) -> f64 {
     let step = (ratio - 1.0) / (load_count.max(2) - 1) as f64;
     let loads: Vec<FitPoint> = (0..load_count.max(2))
         .map(|index| 1.0 + index as f64 * step)

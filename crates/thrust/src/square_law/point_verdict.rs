@@ -1,30 +1,22 @@
 //! Whether each point agrees with the others, and which force would.
 
-use crate::square_law::{
-    DISAGREEMENT_CHANCE, ForcePoint, PointNoise, agreement_of, law_through_origin, scatter_factor,
-};
-use crate::statistics::median;
+use super::agreement::{DISAGREEMENT_CHANCE, agreement_of, scatter_factor};
+use super::point::{ForcePoint, PointNoise, law_through_origin};
+use crate::statistics::two_sided_chance;
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
-
-/// A point whose constant is so many times the median, or so many times below it, is another unit, another octave or another
-/// flight, and no load.
-const GROSS_FACTOR: f64 = 2.0;
-/// Fewest constants among which one can be told to be off by a factor.
-pub(crate) const CONSTANTS_FOR_GROSS: usize = 3;
 
 /// One point against the others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PointVerdict {
     /// Name of the load or row.
     pub name: String,
-    /// How much its force is above what the others' constant gives at its speed, as a share; absent for a single point.
+    /// Its force over C ω² − 1, with the constant C of the other points; absent for a single point.
     pub deviation_share: Option<f64>,
-    /// Constant from the others (leave one out).
+    /// Constant from all other points (leave one out).
     pub thrust_constant_of_others_n_s2: Option<f64>,
-    /// Chance that a right point deviates so much.
+    /// Probability that a correct point deviates at least this much.
     pub p_value: Option<f64>,
-    /// Whether it agrees with the others; absent where nothing tells.
+    /// Whether it agrees with the others; absent where there is no p-value.
     pub fits: Option<bool>,
     /// Off by a factor, and left out of the fit.
     pub is_gross: bool,
@@ -34,29 +26,9 @@ pub struct PointVerdict {
     pub force_that_fits_std_n: Option<f64>,
 }
 
-/// Whether a constant is another unit's, another octave's or another flight's than that of most.
-pub(crate) fn is_off_by_a_factor(constant_n_s2: f64, middle_n_s2: f64) -> bool {
-    !(middle_n_s2 / GROSS_FACTOR..=middle_n_s2 * GROSS_FACTOR).contains(&constant_n_s2)
-}
-
-/// Points whose own constant is off by a factor from the median.
-pub(crate) fn gross_points(points: &[ForcePoint]) -> Vec<bool> {
-    let constants: Vec<f64> = points.iter().map(ForcePoint::thrust_constant_n_s2).collect();
-    let middle = median(&constants).filter(|_| points.len() >= CONSTANTS_FOR_GROSS && !are_split(&constants));
-    let is_gross = |constant: &f64| middle.is_some_and(|middle| is_off_by_a_factor(*constant, middle));
-    constants.iter().map(is_gross).collect()
-}
-
-/// Whether half of the constants or more are off by a factor from the others: nobody knows which half.
-pub(crate) fn are_split(constants_n_s2: &[f64]) -> bool {
-    let Some(middle) = median(constants_n_s2) else { return false };
-    let off = constants_n_s2.iter().filter(|constant| is_off_by_a_factor(**constant, middle)).count();
-    off > 0 && 2 * off >= constants_n_s2.len()
-}
-
-/// Judges every point against those that are kept. As long as they disagree together, the one that deviates most is named
-/// and set aside; of two that disagree nobody knows which, and both are named.
-pub(crate) fn verdicts(points: &[ForcePoint], gross: &[bool], noise: PointNoise) -> Vec<PointVerdict> {
+/// Judges every point against the kept points. While the kept points disagree with one law, the point with the largest deviation
+/// is a misfit and no longer kept. Of two points that disagree both are misfits, since nothing shows which one is wrong.
+pub(super) fn verdicts(points: &[ForcePoint], gross: &[bool], noise: PointNoise) -> Vec<PointVerdict> {
     let mut kept: Vec<usize> = (0..points.len()).filter(|&index| !gross[index]).collect();
     let mut misfits: Vec<usize> = Vec::new();
     while kept.len() > 1 && together_disagree(points, &kept, noise) {
@@ -108,7 +80,7 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     let others: Vec<&ForcePoint> = kept.iter().filter(|&&other| other != index).map(|&other| &points[other]).collect();
     let fit = law_through_origin(&others, noise).ok()?;
     let factor = match noise {
-        // the residuals of the others are all that tells
+        // only the residuals of the others show the noise
         PointNoise::FromResiduals => fit.agreement.scatter_factor(),
         _ => scatter_factor(fit.agreement, noise),
     };
@@ -135,25 +107,13 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     })
 }
 
-/// A deviation in standard uncertainties. Points that agree to the last digit have none of either: they do not deviate.
+/// A deviation in standard uncertainties; 0 for points that agree to the last digit, whose scatter is 0 as well.
 fn stds_of(deviation: f64, std: f64) -> f64 {
     if deviation == 0.0 { 0.0 } else { deviation / std }
 }
 
-/// Chance of a deviation at least so large either way: normal, or Student's where the uncertainty has degrees of freedom.
-/// `None` without any.
-pub(crate) fn two_sided_chance(stds: f64, degrees_of_freedom: Option<f64>) -> Option<f64> {
-    let tail = match degrees_of_freedom {
-        // the library's tails take no infinity
-        _ if stds.is_infinite() => 0.0,
-        None => Normal::new(0.0, 1.0).ok()?.sf(stds.abs()),
-        Some(freedom) => StudentsT::new(0.0, 1.0, freedom).ok()?.sf(stds.abs()),
-    };
-    Some((2.0 * tail).min(1.0)).filter(|chance| chance.is_finite())
-}
-
-/// Whether points disagree with one law together. Where nobody states uncertainties the largest deviation among so many
-/// decides (Bonferroni).
+/// Whether the kept points disagree with one law. Without stated uncertainties the smallest p-value of the points decides, times
+/// their number (Bonferroni 1936).
 fn together_disagree(points: &[ForcePoint], kept: &[usize], noise: PointNoise) -> bool {
     let p_value = match noise {
         PointNoise::FromResiduals => {

@@ -1,7 +1,7 @@
-//! What a flight of a multirotor needs beyond its sound: inertia, rotors, motors, battery, embedded controller.
+//! Parameters of a flight model: inertia, rotors, motors, battery, embedded controller.
 //!
-//! The symbols are those of the paper (Pizetta et al., preprints201808.0313 v1), section 3; every number carries its
-//! source, and says so where it is an estimate. Overriding one is `parameters.mass_kg.value = 0.444`.
+//! The symbols are those of section 3 of the paper (Pizetta et al., preprints201808.0313 v1). Every number has its source, which says
+//! where it is an estimate. To override one, write `parameters.mass_kg.value = 0.444`.
 
 mod presets;
 
@@ -10,20 +10,21 @@ pub use presets::{find_flight_parameters, flight_presets};
 use crate::{QuantityError, Sourced, Vehicle};
 use serde::Serialize;
 
-/// Where the four rotors stand, seen from above with the nose (x) ahead and y to the left. Rotors 1 and 3 turn
-/// clockwise, 2 and 4 counter-clockwise, so that the signs of the paper's mixer (eq 1) hold.
+/// Positions of the four rotors, seen from above with the nose (x) ahead and y to the left. Rotors 1 and 3 turn clockwise, 2 and 4
+/// counter-clockwise, as the signs of the mixer in eq 1 of the paper require.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layout {
-    /// Arms at 45° to the axes (the paper's remark 2): 1 front left, 2 rear left, 3 rear right, 4 front right.
+    /// Arms at 45° to the axes (remark 2 of the paper): 1 front left, 2 rear left, 3 rear right, 4 front right.
     X,
     /// Arms along the axes: 1 front, 2 left, 3 rear, 4 right.
     Plus,
 }
 
 impl Layout {
-    /// Directions of the hubs from the centre, unit vectors (x forward, y left).
+    /// Directions of the hubs from the centre, as unit vectors (x forward, y left).
     pub fn hub_directions(self) -> [[f64; 2]; 4] {
+        /// Cosine and sine of 45°. *Physics.*
         const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
         match self {
             Self::X => [[D, D], [-D, D], [-D, -D], [D, -D]],
@@ -31,74 +32,75 @@ impl Layout {
         }
     }
 
-    /// Sense of turning seen from above: +1 counter-clockwise, -1 clockwise.
+    /// Directions of rotation seen from above: +1 counter-clockwise, -1 clockwise.
     pub fn spins(self) -> [f64; 4] {
         [-1.0, 1.0, -1.0, 1.0]
     }
 }
 
-/// One rotor's aerodynamics, eqs 3 and 4: f = C_f ω², τ_l = C_τ ω², both of the rotor's shaft.
+/// Aerodynamics of one rotor, eqs 3 and 4 of the paper: f = C_f ω², τ_l = C_τ ω², with the speed ω and the torque τ_l at the shaft of
+/// the rotor.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorParameters {
     /// C_f of one rotor, N s².
     pub thrust_constant_n_s2: Sourced<f64>,
     /// C_τ of one rotor, N m s².
     pub torque_constant_n_m_s2: Sourced<f64>,
-    /// Radius of the disc: for the ground effect only.
+    /// Radius of the disc, for the ground effect only.
     pub radius_m: Sourced<f64>,
-    /// Density of the air that both constants belong to: used only when the air is set.
+    /// Density of the air to which both constants belong; used only where a scenario sets the air.
     pub air_density_kg_m3: Sourced<f64>,
 }
 
-/// One DC motor behind its gear, eq 2 in SI, where k_m = k_b (N m/A is V s/rad):
-/// R J/k · ω_m' + (R B/k + k) ω_m = v - R/(r k) · τ_l, with the motor's shaft ω_m = r ω.
+/// One DC motor with its gear, eq 2 of the paper in SI units, in which k_m = k_b (N m/A equals V s/rad):
+/// R J/k · ω_m' + (R B/k + k) ω_m = v − R/(r k) · τ_l, with the speed of the motor's shaft ω_m = r ω.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MotorParameters {
     /// R, ohm.
     pub resistance_ohm: Sourced<f64>,
-    /// k_m = k_b, of the motor's own shaft.
+    /// k_m = k_b, at the motor's shaft.
     pub constant_v_s_rad: Sourced<f64>,
     /// B_m, viscous loss at the motor's shaft.
     pub viscous_n_m_s: Sourced<f64>,
-    /// J_m, all that turns, as felt at the motor's shaft: armature plus rotor over r².
+    /// J_m, inertia of all rotating parts at the motor's shaft: armature plus rotor inertia over r².
     pub inertia_kg_m2: Sourced<f64>,
-    /// Part of it that turns with the rotor, about the rotor's shaft: for the gyroscopic torque, since the armature
-    /// of a geared motor turns the other way. The same as the above for direct drive.
+    /// Inertia of the parts that turn with the rotor, about the rotor's shaft. The gyroscopic torque needs it alone, since the armature
+    /// of a geared motor turns in the opposite direction. Equal to `inertia_kg_m2` for direct drive.
     pub rotor_inertia_kg_m2: Sourced<f64>,
     /// r, motor turns per rotor turn; 1 for direct drive.
     pub gear_ratio: Sourced<f64>,
 }
 
-/// The battery. Only the nominal voltage matters unless sag is switched on.
+/// The battery. Without voltage sag only the nominal voltage matters.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BatteryParameters {
-    /// Voltage that limits the motors: nominal, as on the label.
+    /// Voltage limit of the motors: the nominal voltage.
     pub voltage_v: Sourced<f64>,
     /// Open-circuit voltage when full.
     pub full_v: Sourced<f64>,
     /// Open-circuit voltage when the capacity is used up.
     pub empty_v: Sourced<f64>,
-    /// Charge between the two, ampere hours.
+    /// Charge between full and empty, ampere hours.
     pub capacity_a_h: Sourced<f64>,
-    /// Internal resistance with leads.
+    /// Internal resistance including leads.
     pub resistance_ohm: Sourced<f64>,
 }
 
-/// One loop of eq 1: Δv = k_p e + k_d de/dt, softly limited to ±limit as the authors' own code does with tanh.
+/// One loop of eq 1 of the paper: Δv = k_p e + k_d de/dt, limited smoothly to ±limit by a tanh as in the code of the authors.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LoopGains {
     /// k_p, volts per rad (roll, pitch), per rad/s (yaw rate), per m/s (vertical rate).
     pub proportional: f64,
-    /// k_d, volts per the derivative of that.
+    /// k_d, volts per unit of the derivative of the error.
     pub derivative: f64,
-    /// The most the loop can ask for, volts.
+    /// Largest output of the loop, volts.
     pub limit_v: f64,
 }
 
-/// The embedded low-level controller, eq 1 and remark 1.
+/// The embedded low-level controller, eq 1 and remark 1 of the paper.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ControllerParameters {
-    /// Time between two runs of the controller; the voltages hold in between.
+    /// Time between two runs of the controller, in which the voltages are constant.
     pub period_s: Sourced<f64>,
     /// Time constant of the filter on the derivatives of the two rate errors.
     pub derivative_filter_s: Sourced<f64>,
@@ -110,30 +112,30 @@ pub struct ControllerParameters {
     pub yaw_rate: Sourced<LoopGains>,
     /// Vertical rate.
     pub climb: Sourced<LoopGains>,
-    /// φ_max and θ_max, that a command of 1 means.
+    /// φ_max and θ_max: roll and pitch at a command of 1.
     pub tilt_rad_max: Sourced<f64>,
-    /// Yaw rate that a command of 1 means.
+    /// Yaw rate at a command of 1.
     pub yaw_rate_rad_s_max: Sourced<f64>,
-    /// Vertical rate that a command of 1 means.
+    /// Vertical rate at a command of 1.
     pub climb_m_s_max: Sourced<f64>,
 }
 
-/// All that the flight model takes of a vehicle with four rotors.
+/// All parameters of the flight model of a vehicle with four rotors.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FlightParameters {
-    /// The [`Vehicle::id`] these numbers are of.
+    /// The [`Vehicle::id`] of the vehicle.
     pub id: &'static str,
     /// Take-off mass with battery.
     pub mass_kg: Sourced<f64>,
     /// Ixx, Iyy, Izz about the centre of mass, body axes.
     pub inertia_kg_m2: Sourced<[f64; 3]>,
-    /// Where the rotors stand.
+    /// Positions of the rotors.
     pub layout: Sourced<Layout>,
-    /// Centre to rotor shaft; the lever of an X layout is this over √2.
+    /// Distance from the centre to a rotor's shaft. The lever of an X layout is this length over √2.
     pub arm_length_m: Sourced<f64>,
-    /// Height of the centre of mass, and of the rotors' plane, above the ground when it stands there.
+    /// Height of the centre of mass and of the plane of the rotors when the vehicle stands on the ground.
     pub standing_height_m: Sourced<f64>,
-    /// Linear drag along the body's axes: force per airspeed.
+    /// Linear drag along the axes of the body: force per airspeed.
     pub drag_n_s_m: Sourced<[f64; 3]>,
     /// Each of the rotors.
     pub rotor: RotorParameters,
@@ -146,14 +148,14 @@ pub struct FlightParameters {
 }
 
 impl Vehicle {
-    /// Its flight parameters, where enough numbers were found.
+    /// Its flight parameters, where enough sources were found.
     pub fn flight_parameters(&self) -> Option<&'static FlightParameters> {
         find_flight_parameters(self.id)
     }
 }
 
 impl FlightParameters {
-    /// Every plain number with its name as in files; the vectors by their axes.
+    /// Every number with its name in files; vectors have one entry per axis.
     pub fn numbers(&self) -> Vec<(&'static str, Sourced<f64>)> {
         let axis = |of: &Sourced<[f64; 3]>, k: usize| Sourced { value: of.value[k], source: of.source };
         let (rotor, motor, battery, control) = (&self.rotor, &self.motor, &self.battery, &self.controller);
@@ -199,7 +201,10 @@ impl FlightParameters {
         numbers
     }
 
-    /// Refuses numbers that no vehicle has, naming the first: negative ones, and zeros where something is divided by.
+    /// Checks that no number is negative, and that divisors are not zero.
+    ///
+    /// # Errors
+    /// The first number that fails, by its name.
     pub fn check(&self) -> Result<(), QuantityError> {
         const MAY_BE_ZERO: [&str; 12] = [
             "drag_x_n_s_m",

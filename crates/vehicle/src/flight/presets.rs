@@ -1,25 +1,25 @@
-//! Flight parameters of the vehicles for which enough numbers were found.
+//! Flight parameters of the vehicles with enough sources.
 //!
-//! The AR.Drone's motor. The authors' code (AuRoRA) has k_m = 130.14 against k_b = 1.3014e-3, J_m = 0.1215 and B_m =
-//! 3.74 with R = 0.6029 ohm and ω the rotor's speed: its time constant R J/(R B + k_m k_b) = 30.217 ms and gain 53.683
-//! (rad/s)/V are plausible, its load term, 17 µV, is not, and k_m = k_b fails by 1e5. Here R, time constant and gain
-//! (both of the linear part of eq 2, for the rotor's speed) are kept, and the fourth condition is the paper's remark 4,
-//! 14.5 W per motor in hover: k = 2.132e-3 V s/rad of the motor's shaft, and from it B = (1/gain - k r) k/(R r) and J =
-//! time constant / gain · k/(R r). Two things that were not put in come out: full speed at 11.1 V is 4790 rpm (Parrot:
-//! 41,400/8.625 = 4800), and J r² = 1.717e-5 kg m² is near the 2.03e-5 that the same code has commented out. With its
-//! load, the response about hover has 23.5 ms and 41.8 (rad/s)/V.
+//! The motor of the AR.Drone. The authors' code (AuRoRA) has k_m = 130.14 against k_b = 1.3014e-3, J_m = 0.1215 and B_m = 3.74 with
+//! R = 0.6029 ohm, where ω is the speed of the rotor. Its time constant R J/(R B + k_m k_b) = 30.217 ms and its gain of 53.683
+//! (rad/s)/V are plausible. Its load term of 17 µV is not, and k_m = k_b fails by a factor of 1e5. The numbers here keep R, the time
+//! constant and the gain (both for the linear part of eq 2 and the speed of the rotor). The fourth condition is remark 4 of the paper,
+//! 14.5 W per motor in hover. It gives k = 2.132e-3 V s/rad at the motor's shaft, B = (1/gain − k r) k/(R r) and
+//! J = time constant / gain · k/(R r). Two results confirm the numbers: the full speed at 11.1 V is 4790 rpm (Parrot: 41,400/8.625 =
+//! 4800), and J r² = 1.717e-5 kg m² is near 2.03e-5, a value that the same code has commented out. With its load, the response about
+//! hover has a time constant of 23.5 ms and a gain of 41.8 (rad/s)/V.
 
 use super::{
     BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters, RotorParameters,
 };
 use crate::Sourced;
 
-/// All flight parameters, the paper's vehicle first.
+/// All flight parameters; the vehicle of the paper is the first.
 pub fn flight_presets() -> &'static [FlightParameters] {
     &PRESETS
 }
 
-/// The flight parameters of the vehicle with that id.
+/// The flight parameters of the vehicle with the given id.
 pub fn find_flight_parameters(id: &str) -> Option<&'static FlightParameters> {
     PRESETS.iter().find(|parameters| parameters.id == id)
 }
@@ -41,6 +41,7 @@ const LIPO_EMPTY: &str = "estimated: lithium polymer at the end of its flat part
 const TUNED: &str = "estimated: tuned here on the linearised model, no source";
 const STANDS: &str = "estimated: not found";
 
+/// Motor of the AR.Drone. *Physics.*
 const ARDRONE_MOTOR: MotorParameters = MotorParameters {
     resistance_ohm: of(0.6029, AURORA),
     constant_v_s_rad: of(
@@ -56,6 +57,7 @@ const ARDRONE_MOTOR: MotorParameters = MotorParameters {
     gear_ratio: of(8.625, "Pizetta et al., preprints201808.0313 v1, remark 4, after the manufacturer"),
 };
 
+/// Battery of the AR.Drone. *Physics.*
 const ARDRONE_BATTERY: BatteryParameters = BatteryParameters {
     voltage_v: of(11.1, "LeonardoFagundesJr/UAV_DelayedControl, @ArDrone/sDynamicModel.m: limit of the battery"),
     full_v: of(12.6, LIPO_FULL),
@@ -64,6 +66,7 @@ const ARDRONE_BATTERY: BatteryParameters = BatteryParameters {
     resistance_ohm: of(0.08, "estimated: 20 milliohm per cell and as much again in leads"),
 };
 
+/// Controller of the AR.Drone, with the gains of the authors' code. *Physics.*
 const ARDRONE_CONTROLLER: ControllerParameters = ControllerParameters {
     period_s: of(0.005, "estimated: 200 runs per second"),
     derivative_filter_s: of(1.0 / 30.0, "LeonardoFagundesJr/UAV_DelayedControl: the sampling time of its differences"),
@@ -76,6 +79,7 @@ const ARDRONE_CONTROLLER: ControllerParameters = ControllerParameters {
     climb_m_s_max: of(1.0, AURORA_LIMITS),
 };
 
+/// Rotor of the AR.Drone. *Physics.*
 const ARDRONE_ROTOR: RotorParameters = RotorParameters {
     thrust_constant_n_s2: of(
         7.0775e-6,
@@ -89,7 +93,7 @@ const ARDRONE_ROTOR: RotorParameters = RotorParameters {
     air_density_kg_m3: of(1.225, DENSITY),
 };
 
-/// Of the authors' simulator: mass apart, the AR.Drone of both presets.
+/// The AR.Drone of the authors' simulator. The preset of the second AR.Drone differs in mass and rotor constants. *Physics.*
 const ARDRONE: FlightParameters = FlightParameters {
     id: "ardrone",
     mass_kg: of(0.413, "Pizetta et al., preprints201808.0313 v1, section 4: without hull, with the 2000 mAh battery"),

@@ -1,45 +1,45 @@
-//! Bytes of a ULog → its topics, each with the messages that were logged of it (PX4 guide, "ULog file format", version 1).
+//! From the bytes of a ULog to its topics with their messages (PX4 guide, "ULog file format", version 1).
 
 use super::format::{Formats, Place};
 use std::collections::HashMap;
 
 const MAGIC: [u8; 7] = [0x55, 0x4c, 0x6f, 0x67, 0x01, 0x12, 0x35];
 const HEADER_BYTES: usize = 16;
-/// Length and type before each message.
+/// Length and type before each message, in bytes.
 const HEAD_BYTES: usize = 3;
-/// So many messages in a row that mean something are not there by chance: reading goes on behind damage.
+/// Number of valid messages in a row that are not there by chance. Behind damage, reading continues at such a run.
 const MESSAGES_IN_A_ROW: usize = 4;
 
-/// Whether these are the bytes of a ULog.
+/// Whether the bytes begin with the magic of a ULog.
 pub(crate) fn is_ulog(bytes: &[u8]) -> bool {
     bytes.starts_with(&MAGIC)
 }
 
-/// What a log holds.
+/// Content of a log.
 pub(super) struct UlogFile<'a> {
     formats: Formats,
     pub(super) topics: Vec<Topic<'a>>,
-    /// How many bytes mean nothing, and in how many places.
+    /// Number of invalid bytes, and number of places where they stand.
     pub(super) lost_bytes: usize,
     pub(super) lost_places: usize,
 }
 
-/// A topic, of which there may be several instances.
+/// A topic; a log can have several instances of it.
 pub(super) struct Topic<'a> {
     pub(super) name: String,
     pub(super) instance: u8,
-    /// As they stand in the file, without the number of the topic.
+    /// The messages as in the file, without the number of the topic.
     pub(super) messages: Vec<&'a [u8]>,
 }
 
-/// One message, which is read or not.
+/// A message with its type and payload.
 struct Message<'a> {
     kind: u8,
     content: &'a [u8],
 }
 
 impl<'a> Message<'a> {
-    /// The message at a byte, if it ends before the file does.
+    /// The message at a position, if it is complete.
     fn at(bytes: &'a [u8], from: usize) -> Option<Self> {
         let head = bytes.get(from..from + HEAD_BYTES)?;
         let length = usize::from(u16::from_le_bytes([head[0], head[1]]));
@@ -51,16 +51,16 @@ impl<'a> Message<'a> {
         HEAD_BYTES + self.content.len()
     }
 
-    /// The number of the topic of a data message.
+    /// Number of the topic in a data message.
     fn topic(&self) -> Option<u16> {
         Some(u16::from_le_bytes(self.content.get(..2)?.try_into().ok()?))
     }
 }
 
-/// What the messages so far say of those to come.
+/// State from all messages so far, which later messages need.
 struct Reader<'a> {
     file: UlogFile<'a>,
-    /// Number of a topic → its place in the list, and the lengths of its messages where its format is known.
+    /// From the number of a topic to its index in the list, and the lengths of its messages where its format is known.
     known: HashMap<u16, (usize, Option<(usize, usize)>)>,
 }
 
@@ -87,7 +87,7 @@ impl<'a> UlogFile<'a> {
         reader.file
     }
 
-    /// Where a value stands in the messages of a topic.
+    /// Position of a value in the messages of a topic.
     pub(super) fn place(&self, topic: &Topic, path: &str) -> Option<Place> {
         self.formats.place(&topic.name, path)
     }
@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Whether what begins here is a run of messages.
+    /// Whether a run of valid messages begins at this position.
     fn goes_on_at(&self, bytes: &[u8], from: usize) -> bool {
         let mut at = from;
         (0..MESSAGES_IN_A_ROW).all(|_| {
@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
             }
             b'D' => {
                 let topic = message.topic().and_then(|topic| self.known.get(&topic));
-                // of a topic whose format is not known nothing can be read
+                // data of a topic with unknown format cannot be read
                 if let Some((place, Some(_))) = topic {
                     self.file.topics[*place].messages.push(&message.content[2..]);
                 }

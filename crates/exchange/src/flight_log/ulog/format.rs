@@ -1,13 +1,13 @@
-//! Layout of a ULog's messages: "uint64_t timestamp;float[3] xyz" → at which byte a value stands.
+//! Layout of the messages of a ULog: from "uint64_t timestamp;float[3] xyz" to the byte of a value.
 
 use std::collections::HashMap;
 
-/// Types nest no deeper than this: `esc_status` holds `esc_report`, and no topic of PX4 goes further.
+/// Deepest nesting of types. `esc_status` contains `esc_report`, and no topic of PX4 nests deeper.
 const NESTING_MAX: usize = 4;
-/// The length of a message is two bytes long.
+/// Largest length of a message, which two bytes hold.
 const SIZE_MAX: usize = u16::MAX as usize;
 
-/// A number as it stands in a message.
+/// Type of a number in a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scalar {
     Int(usize),
@@ -42,7 +42,7 @@ impl Scalar {
     }
 }
 
-/// Where a number stands.
+/// Position and type of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Place {
     offset: usize,
@@ -50,7 +50,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// The number there, little-endian; nothing behind the end.
+    /// The little-endian number at this position; `None` behind the end.
     pub(super) fn read(self, message: &[u8]) -> Option<f64> {
         let size = self.scalar.size();
         let found = message.get(self.offset..self.offset + size)?;
@@ -71,17 +71,17 @@ impl Place {
 
 struct Field {
     type_name: String,
-    /// How many, where it is an array.
+    /// Number of elements, for an array.
     length: Option<usize>,
     name: String,
 }
 
 impl Field {
-    /// "float[3] xyz".
+    /// Parses "float[3] xyz".
     fn parse(text: &str) -> Option<Self> {
         let (declared, name) = text.split_once(' ')?;
         let (type_name, length) = match declared.split_once('[') {
-            // what takes no room would cost no message its length, however deep it nests
+            // arrays of length 0 are refused: they take no room, so the limit of a message's length would not bound their number
             Some((type_name, length)) => {
                 (type_name, Some(length.strip_suffix(']')?.parse().ok().filter(|length| *length > 0)?))
             }
@@ -102,7 +102,7 @@ pub(super) struct Formats {
 }
 
 impl Formats {
-    /// Takes in "name:type field;type field;"; what means nothing is left out.
+    /// Adds "name:type field;type field;". Invalid text is ignored.
     pub(super) fn add(&mut self, text: &str) {
         let Some((name, fields)) = text.split_once(':') else { return };
         let parts = fields.split(';').filter(|part| !part.is_empty());
@@ -111,7 +111,7 @@ impl Formats {
         }
     }
 
-    /// Lengths that a message can have: padding at its end may be there or not.
+    /// Possible lengths of a message, with and without the padding at its end.
     pub(super) fn sizes(&self, message: &str) -> Option<(usize, usize)> {
         let fields = self.fields.get(message)?;
         let whole = self.size_of(message, 0)?;
@@ -122,7 +122,7 @@ impl Formats {
         Some((whole - padding, whole))
     }
 
-    /// Where a value such as "xyz[2]" or "esc[3].esc_rpm" stands.
+    /// Position of a value such as "xyz[2]" or "esc[3].esc_rpm".
     pub(super) fn place(&self, message: &str, path: &str) -> Option<Place> {
         let (mut message, mut path, mut offset) = (message, path, 0);
         for _ in 0..=NESTING_MAX {
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn values_are_found_through_arrays_and_nested_types() {
         let formats = formats();
-        // padding at the end of what is nested counts, that at the end of the message may be missing
+        // padding at the end of a nested type counts; at the end of the message it can be missing
         assert_eq!(formats.sizes("esc_status"), Some((8 + 2 + 8 * 16, 8 + 2 + 8 * 16 + 2)));
         let place = formats.place("esc_status", "esc[3].esc_rpm").unwrap();
         assert_eq!(place, Place { offset: 10 + 3 * 16 + 8, scalar: Scalar::Int(4) });

@@ -1,4 +1,4 @@
-//! PX4's ULog → motors and body rates over time, in SI.
+//! From a ULog of PX4 to motors and body rates over time, in SI units.
 
 mod file;
 mod format;
@@ -11,16 +11,16 @@ use super::{FlightLogError, LoggedFlight, LoggedMotors, LoggedRates, RateAxes};
 use file::{Topic, UlogFile};
 use std::f64::consts::TAU;
 
-/// More channels, motors or ESCs no topic of PX4 has.
+/// Largest number of channels, motors or ESCs in a topic of PX4.
 const CHANNELS_MAX: usize = 16;
-/// A channel whose values differ by less than this share of the largest drives no motor: rounding, a servo at rest.
+/// A channel whose values differ by less than this share of the largest one drives no motor: rounding, or a servo at rest.
 const MOVING_SHARE_MIN: f64 = 0.01;
-/// Values this rare at either end are not counted in that: a servo goes to 0, too, when all is switched off.
+/// Share of values at either end that are ignored in that comparison: a servo is at 0, too, when everything is switched off.
 const RARE_SHARE: f64 = 0.02;
-/// `actuator_function` of motor 1; the others follow.
+/// `actuator_function` of motor 1; the numbers of the other motors follow.
 const FUNCTION_OF_MOTOR_1: f64 = 101.0;
 
-/// Reads a ULog, as [`super::flight_log_from_bytes`] says.
+/// Reads a ULog, as described at [`super::flight_log_from_bytes`].
 pub(super) fn flight_log_from_ulog(bytes: &[u8]) -> Result<LoggedFlight, FlightLogError> {
     let file = UlogFile::read(bytes);
     if file.topics.iter().all(|topic| topic.messages.is_empty()) {
@@ -31,7 +31,7 @@ pub(super) fn flight_log_from_ulog(bytes: &[u8]) -> Result<LoggedFlight, FlightL
     let commands = of_motors.or_else(|| {
         let instances = file.topics.iter().filter(|topic| topic.name == "actuator_outputs");
         let commands = instances.filter_map(|topic| commands_of(&file, topic, "output", "output"));
-        // of equals the last: servos come first
+        // with equal counts the last instance wins, since servos come first
         commands.max_by_key(|commands| commands.names.len())
     });
     let rates = [("vehicle_angular_velocity", "xyz"), ("sensor_combined", "gyro_rad")]
@@ -51,7 +51,7 @@ pub(super) fn flight_log_from_ulog(bytes: &[u8]) -> Result<LoggedFlight, FlightL
 }
 
 impl<'a> UlogFile<'a> {
-    /// The instance of a topic that was logged most; of equals the first.
+    /// The instance of a topic with most messages; with equal counts the first.
     fn fullest(&self, name: &str) -> Option<&Topic<'a>> {
         let instances = self.topics.iter().filter(|topic| topic.name == name && !topic.messages.is_empty());
         instances.max_by_key(|topic| (topic.messages.len(), u8::MAX - topic.instance))
@@ -63,7 +63,7 @@ impl<'a> UlogFile<'a> {
         topic.messages.iter().map(|message| place.read(message)).collect()
     }
 
-    /// When the messages were sampled, or else published.
+    /// Times at which the messages were sampled, or published where the log has no sampling time.
     fn times_s(&self, topic: &Topic) -> Option<Vec<f64>> {
         let sampled = self.series(topic, "timestamp_sample").filter(|times| times.iter().all(|time| *time > 0.0));
         let times_us = sampled.or_else(|| self.series(topic, "timestamp"))?;
@@ -71,8 +71,7 @@ impl<'a> UlogFile<'a> {
     }
 }
 
-/// Rows of numbers in the order of time; a row in which one is missing is a gap, and one whose time is not between those around it
-/// is damaged.
+/// Rows of numbers in the order of time. A row with a missing number is a gap; a row whose time is not between its neighbours is damaged.
 fn rows_of(times_s: &[f64], columns: &[Vec<f64>], is_gap: impl Fn(usize) -> bool) -> (Vec<f64>, Vec<Vec<f64>>) {
     let (mut time_s, mut values) = (Vec::new(), vec![Vec::new(); columns.len()]);
     for (row, &at_s) in times_s.iter().enumerate() {
@@ -87,12 +86,12 @@ fn rows_of(times_s: &[f64], columns: &[Vec<f64>], is_gap: impl Fn(usize) -> bool
     (time_s, values)
 }
 
-/// Numbers and series of motors → those with a row.
+/// Motors with the given numbers and series, where they have rows.
 fn motors_of(time_s: Vec<f64>, names: Vec<String>, values: Vec<Vec<f64>>) -> Option<LoggedMotors> {
     (!time_s.is_empty() && !names.is_empty()).then_some(LoggedMotors { time_s, names, values })
 }
 
-/// The ESCs that report turning at all. A row in which one of them reports none, or nothing new, is a gap.
+/// The ESCs that report rotation at all. A row in which one of them reports none, or repeats itself, is a gap.
 fn speeds_of(file: &UlogFile, topic: &Topic) -> Option<LoggedMotors> {
     let times_s = file.times_s(topic)?;
     let of_esc = |esc: usize, field: &str| file.series(topic, &format!("esc[{esc}].{field}"));
@@ -100,7 +99,7 @@ fn speeds_of(file: &UlogFile, topic: &Topic) -> Option<LoggedMotors> {
         .map_while(|esc| Some((esc, of_esc(esc, "esc_rpm")?)))
         .filter(|(_, rpm)| rpm.iter().any(|rpm| *rpm != 0.0))
         .collect();
-    // ESCs are wired in any order; where PX4 says whose each is, that counts
+    // ESCs are wired in any order, so the function that PX4 states for each ESC has priority
     let function = |esc: usize| Some(of_esc(esc, "actuator_function")?.last()? - FUNCTION_OF_MOTOR_1);
     let functions: Option<Vec<usize>> = turning
         .iter()
@@ -142,7 +141,7 @@ fn commands_of(file: &UlogFile, topic: &Topic, field: &str, named: &str) -> Opti
     motors_of(time_s, channels.into_iter().map(|channel| format!("{named} {}", channel + 1)).collect(), values)
 }
 
-/// Whether a channel drives something, but for the few rows before and after a flight.
+/// Whether a channel moves, without the few rows before and after a flight.
 fn moves(values: &[f64]) -> bool {
     let mut values: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     values.sort_by(f64::total_cmp);

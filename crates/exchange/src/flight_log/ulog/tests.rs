@@ -1,4 +1,4 @@
-//! Logs that are written here, so that their truth is known; damaged ones; real ones.
+//! Logs with known content, written here; damaged logs; real logs.
 
 use super::super::{FlightLogError, LoggedFlight, RateAxes, flight_log_from_bytes};
 use super::file::UlogFile;
@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-/// A log, as PX4 writes it.
+/// A log in the format of PX4.
 struct Writer {
     bytes: Vec<u8>,
     topics: u16,
@@ -56,7 +56,7 @@ fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
-/// `functions[esc]`, or 0 where it is not said.
+/// `functions[esc]`, or 0 where it is missing.
 fn escs(reported_us: u64, rpm: &[i32], functions: &[u8]) -> Vec<u8> {
     let esc = |esc: usize| {
         let rpm = rpm.get(esc).copied().unwrap_or(0);
@@ -67,7 +67,7 @@ fn escs(reported_us: u64, rpm: &[i32], functions: &[u8]) -> Vec<u8> {
     (0..8).flat_map(esc).collect()
 }
 
-/// A second of everything: rates at 100 Hz, motors at 50 Hz, outputs at 20 Hz, ESCs at 10 Hz.
+/// One second of data: rates at 100 Hz, motors at 50 Hz, outputs at 20 Hz, ESCs at 10 Hz.
 fn flight() -> Vec<u8> {
     let mut log = Writer::new();
     let [rates, motors, servos, outputs, cpu, status] = [
@@ -105,7 +105,7 @@ fn flight() -> Vec<u8> {
             log.data(outputs, &[&now, &[8, 0, 0, 0], &floats(&output)]);
         }
         if step % 10 == 0 {
-            // the fourth row says what the third said, and in the sixth one ESC does not answer
+            // the fourth row repeats the third, and in the sixth row one ESC does not answer
             let counted = if step == 30 { 20 } else { step as u16 };
             let rpm = [3000 + step as i32, -3100, if step == 50 { 0 } else { 3200 }, 3300];
             log.data(status, &[&now, &counted.to_le_bytes(), &[0; 6], &escs(now_us, &rpm, &[])]);
@@ -120,12 +120,12 @@ fn speeds_commands_and_rates_each_on_their_own_times() {
     assert!(log.notes.is_empty(), "{:?}", log.notes);
     let rates = log.rates.unwrap();
     assert_eq!((rates.time_s.len(), rates.axes), (100, Some(RateAxes::ForwardRightDown)));
-    // the time of the sample, not that of the message
+    // the time of the sample, not of the message
     assert!((rates.time_s[1] - 10.009).abs() < 1e-9);
     let row = [0, 1, 2].map(|axis| rates.rates_rad_s[axis][50]);
     assert_eq!(row, [0.5, -0.5, 0.5]);
     let commands = log.commands.unwrap();
-    // the third stands still
+    // the third channel does not move
     assert_eq!(commands.names, ["motor 1", "motor 2", "motor 4"]);
     assert_eq!(commands.time_s.len(), 50);
     assert!((commands.values[2][25] - 1.1).abs() < 1e-6);
@@ -134,7 +134,7 @@ fn speeds_commands_and_rates_each_on_their_own_times() {
     let rows: Vec<i64> = speeds.time_s.iter().map(|time| (100.0 * (time - 10.0)).round() as i64).collect();
     assert_eq!(rows, [0, 10, 20, 40, 60, 70, 80, 90]);
     assert!((speeds.values[0][3] - 3040.0 * TAU / 60.0).abs() < 1e-9);
-    // one that turns the other way round sounds alike
+    // the sound does not depend on the direction of rotation
     assert!((speeds.values[1][3] - 3100.0 * TAU / 60.0).abs() < 1e-9);
 }
 
@@ -159,7 +159,7 @@ fn escs_that_say_whose_they_are_are_put_in_order_and_stale_ones_are_gaps() {
     let status = log.topic("esc_status", 0);
     for row in 0..4_u64 {
         let now_us = 1_000_000 * (row + 1);
-        // in the third row nothing has been heard since the second
+        // the third row has no news since the second
         let reported_us = if row == 2 { now_us - 1_000_000 } else { now_us };
         let functions = [103, 101, 104, 102];
         log.data(
@@ -225,7 +225,7 @@ fn a_log_that_breaks_off_is_read_up_to_there() {
             Ok(log) => {
                 read += 1;
                 assert!(is_sound(&log));
-                // what was read of the rates is what is there
+                // all rates of the result are rates of the log
                 let rows = log.rates.map_or(0, |rates| rates.time_s.len());
                 let expected = UlogFile::read(&whole[..length]).topics[0].messages.len();
                 assert_eq!(rows, expected);
@@ -250,7 +250,7 @@ fn reading_goes_on_behind_damage() {
     let rates = log.rates.as_ref().unwrap();
     assert!(log.notes[0].contains("in 1 places"), "{:?}", log.notes);
     assert_eq!(rates.time_s.last(), sound.time_s.last());
-    // 200 bytes are no more than 200 / 41 rates, and those beside them
+    // 200 bytes hold at most 200 / 41 rates
     assert!(rates.time_s.len() >= 100 - 200 / 41 - 2, "{}", rates.time_s.len());
     let is_known = |time: &f64| sound.time_s.contains(time);
     assert!(rates.time_s.iter().all(is_known) && is_sound(&log));
@@ -282,7 +282,7 @@ proptest! {
     }
 }
 
-/// Real logs, where they are.
+/// A real log, where the test data are installed.
 fn real(name: &str) -> Option<Vec<u8>> {
     let shared = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data"));
     let path = std::env::var_os("HOVERTONE_TEST_DATA").map_or_else(shared, PathBuf::from).join("logs").join(name);
@@ -293,8 +293,8 @@ fn real(name: &str) -> Option<Vec<u8>> {
     bytes
 }
 
-/// What PX4's own reader says of a value.
-fn as_px4_reads(name: &str, (topic, instance): (&str, u8), field: &str) -> Vec<f64> {
+/// A value as read by the `px4_ulog` reader.
+fn as_px4_reads(name: &str, topic: &str, instance: u8, field: &str) -> Vec<f64> {
     use px4_ulog::full_parser::{MultiId, SomeVec, read_file};
     let shared = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data"));
     let path = std::env::var_os("HOVERTONE_TEST_DATA").map_or_else(shared, PathBuf::from).join("logs").join(name);
@@ -316,8 +316,8 @@ fn a_real_flight_with_escs_is_read_as_px4_reads_it() {
     let (speeds, commands, rates) = (log.speeds.unwrap(), log.commands.unwrap(), log.rates.unwrap());
     assert_eq!(speeds.names, ["motor 1", "motor 2", "motor 3", "motor 4"]);
     assert_eq!(commands.names, ["output 1", "output 2", "output 3", "output 4"]);
-    let rpm = as_px4_reads(name, ("esc_status", 0), "esc[2].esc_rpm");
-    let times = as_px4_reads(name, ("esc_status", 0), "timestamp");
+    let rpm = as_px4_reads(name, "esc_status", 0, "esc[2].esc_rpm");
+    let times = as_px4_reads(name, "esc_status", 0, "timestamp");
     let mut compared = 0;
     for (time_s, speed) in speeds.time_s.iter().zip(&speeds.values[2]) {
         let row = times.iter().position(|time| (time * 1e-6 - time_s).abs() < 1e-9).unwrap();
@@ -328,8 +328,8 @@ fn a_real_flight_with_escs_is_read_as_px4_reads_it() {
     // a heavy multirotor: 1334 to 2976 rpm
     let all = || speeds.values.iter().flatten().map(|speed| speed * 60.0 / TAU);
     assert!(all().all(|rpm| (1000.0..3500.0).contains(&rpm)));
-    assert_eq!(commands.values[1], as_px4_reads(name, ("actuator_outputs", 1), "output[1]"));
-    assert_eq!(rates.rates_rad_s[2], as_px4_reads(name, ("sensor_combined", 0), "gyro_rad[2]"));
+    assert_eq!(commands.values[1], as_px4_reads(name, "actuator_outputs", 1, "output[1]"));
+    assert_eq!(rates.rates_rad_s[2], as_px4_reads(name, "sensor_combined", 0, "gyro_rad[2]"));
 }
 
 #[test]
@@ -339,6 +339,6 @@ fn a_real_log_without_escs_has_rates() {
     let log = flight_log_from_bytes(&bytes).unwrap();
     assert!(is_sound(&log) && log.speeds.is_none());
     let rates = log.rates.unwrap();
-    assert_eq!(rates.rates_rad_s[0], as_px4_reads(name, ("vehicle_angular_velocity", 0), "xyz[0]"));
+    assert_eq!(rates.rates_rad_s[0], as_px4_reads(name, "vehicle_angular_velocity", 0, "xyz[0]"));
     assert!(matches!(flight_log_from_bytes(&bytes[..200]), Err(FlightLogError::UlogWithoutData)));
 }

@@ -1,317 +1,193 @@
-//! The speed of a short stretch: the maximum of the likelihood of all lines together.
+//! The speed of one block: the maximum of the likelihood of all lines together.
 //!
-//! Over a block the shaft turns at `n + γ τ`, τ from the middle of the block. Line o of it, in noise of variance V_o per
-//! sample, has the log likelihood (amplitude and phase at their best, constants left out)
+//! In a block the shaft turns at the speed `n + γ τ`, where τ is the time from the middle of the block, n the speed there and γ the
+//! slope. Line o has amplitude A_o and N_o samples z_o, in noise of variance V_o per sample. Its log likelihood, with the best
+//! amplitude and phase and without constants, is
 //!
 //! `J_o(n, γ) = |Σ z_o exp(−j 2π o (n τ + γ τ² / 2))|² / (N_o V_o)`,
 //!
-//! and the lines add: J = Σ_o J_o (Whittle; harmonic maximum likelihood with coloured noise). The standard uncertainty is that
-//! of the Cramér-Rao bound, 1/σ² = Σ_o 2 (2π o)² N_o |A_o|² ⟨τ²⟩ / V_o; an unknown γ does not widen it, because n is the speed in the middle.
+//! and the sum over all lines is J = Σ_o J_o: the harmonic likelihood (nonlinear least squares; Christensen and Jakobsson,
+//! *Multi-Pitch Estimation*, 2009) with the noise of each line (Whittle, Arkiv för Matematik 2, 1953).
+//!
+//! The standard uncertainty σ of n is the Cramér-Rao bound (Rife and Boorstyn, IEEE Trans. Information Theory 20, 1974):
+//! `1 / σ² = Σ_o 2 (2π o)² N_o |A_o|² ⟨τ²⟩ / V_o`. An unknown γ does not change it, because n is the speed in the middle.
 
-mod seen;
+mod slices;
+mod stats;
 
-use super::line::Line;
-use super::path::SpeedPath;
-use super::phasors::{OrderPhasors, small_turn};
-use hovertone_signal::channels::TICKS_PER_HOP;
-use realfft::num_complex::Complex;
-use std::f64::consts::TAU;
+pub(crate) use slices::{BlockSlices, Expansion, HALF_HOP_TICKS, LineSum};
+
+use stats::BlockStats;
 use std::ops::Range;
 
-/// What the likelihood says of one block.
+/// Points of the search grid in a resolution cell of the highest line. *Numeric.*
+const GRID_PER_CELL: f64 = 3.0;
+/// Largest number of steps of Newton's method. From a grid point it needs three or four. *Numeric.*
+const NEWTON_STEPS: u32 = 8;
+/// Largest number of times that a step of Newton's method is halved until it climbs. *Numeric.*
+const HALVINGS_MAX: u32 = 4;
+/// Step of the speed at which Newton's method ends, in resolution cells. *Numeric.*
+const STEP_MIN_CELLS: f64 = 1e-6;
+/// Largest step of the slope, as a change of speed over the block in resolution cells. *Numeric.*
+const SLOPE_STEP_CELLS_MAX: f64 = 4.0;
+/// Largest distance of the maximum from the range of the grid, in resolution cells; beyond, it belongs to another peak. *Decision.*
+const STRAY_CELLS: f64 = 3.0;
+/// Step uphill where the likelihood is not concave, in resolution cells. *Numeric.*
+const UPHILL_CELLS: f64 = 0.1;
+/// Standard deviation of the slope of a hovering rotor, as a share of its speed per second: the prior of the slope, which bounds it in
+/// weak blocks. *Decision.*
+const SLOPE_STD_SHARE_PER_S: f64 = 0.1;
+
+/// A speed that is linear in time: the speed in the middle of a block, and its rate of change.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpeedLine {
+    pub(crate) speed_rev_s: f64,
+    pub(crate) slope_rev_s2: f64,
+}
+
+/// The most likely speed of one block, and what its lines show there.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BlockFit {
+    /// First tick of the block in its chunk.
     pub(crate) tick_from: usize,
+    /// Tick after the last one of the block.
     pub(crate) tick_to: usize,
-    /// Speed in the middle.
+    /// Speed in the middle of the block.
     pub(crate) speed_rev_s: f64,
-    /// How fast it changes.
+    /// Rate of change of the speed.
     pub(crate) slope_rev_s2: f64,
-    /// Log likelihood over that of noise alone; noise itself gives one for each line.
+    /// J at its maximum: log likelihood relative to noise alone. Noise gives 1 for each line.
     pub(crate) likelihood: f64,
-    /// The same, where strong lines have an amplitude of their own in each half hop, so that only phase counts.
-    pub(crate) in_phase: f64,
-    /// How much more the phases of the strong lines scatter along the block than the noise explains; 1 is what it explains.
-    pub(crate) scatter: f64,
-    /// Information on the speed, 1/σ².
+    /// J where each strong line has an amplitude of its own in each half hop, so that only its phase counts.
+    pub(crate) phase_likelihood: f64,
+    /// Variance of the phases of the strong lines along the block, over the variance from noise; at least 1.
+    pub(crate) phase_scatter: f64,
+    /// Information on the speed, 1/σ², s².
     pub(crate) information: f64,
-    /// Lines that stand out of the noise by themselves, and whether the first of a family is among them.
+    /// Number of lines that stand out of the noise by themselves.
     pub(crate) lines_heard: u32,
+    /// Whether the first line of a family is among these.
     pub(crate) is_first_heard: bool,
-    /// Power of the strongest line, 1 for a sine of full scale.
+    /// Power of the strongest line; 1 for a sine of full scale.
     pub(crate) strongest_power: f64,
-    /// By how many turns the next block's line starts ahead of where this one ends, where phases say so.
+    /// Angle in turns from the end of this block's line of speed to the start of the next block's, where the phases determine it.
     pub(crate) step_to_next_turns: Option<f64>,
 }
 
 impl BlockFit {
-    /// Middle of the block.
+    /// Middle of the block from the start of the chunk.
     pub(crate) fn middle_s(&self, tick_s: f64) -> f64 {
         (self.tick_from + self.tick_to) as f64 / 2.0 * tick_s
     }
 
-    /// Speed at a time.
+    /// Speed at a time from the start of the chunk.
     pub(crate) fn speed_at(&self, time_s: f64, tick_s: f64) -> f64 {
         self.speed_rev_s + self.slope_rev_s2 * (time_s - self.middle_s(tick_s))
     }
+
+    /// The ticks of the block.
+    pub(crate) fn ticks(&self) -> Range<usize> {
+        self.tick_from..self.tick_to
+    }
+
+    /// The line of speed of the block.
+    pub(crate) fn speed_line(&self) -> SpeedLine {
+        SpeedLine { speed_rev_s: self.speed_rev_s, slope_rev_s2: self.slope_rev_s2 }
+    }
 }
 
-/// Ticks of a block, turned by a first guess and gathered into cells of equal length, ready for the search.
-pub(crate) struct Cells {
-    orders: Vec<f64>,
-    are_strong: Vec<bool>,
-    are_first: Vec<bool>,
-    /// Where other lines of the same rotor are heard with each.
-    company_hz: Vec<Range<f64>>,
-    /// 1 / (N V) of each line, and N.
-    scales: Vec<(f64, f64)>,
-    /// Middle of each cell from the middle of the block.
-    times_s: Vec<f64>,
-    /// Line by line.
-    sums: Vec<Complex<f64>>,
-    /// The same in cells of half a hop, for the question whether all of them have one phase.
-    half_hops: Vec<Complex<f64>>,
-    half_hop_times_s: Vec<f64>,
-    half_hop_shares: Vec<f64>,
-    span_s: f64,
-    guess: (f64, f64),
+/// A maximum of J, as differences of speed and slope from the first guess.
+struct Summit {
+    d_speed: f64,
+    d_slope: f64,
+    value: f64,
 }
 
-/// Cells of a block at most: fine enough that speed does not turn a cell by more than a sixteenth of the block's own
-/// resolution for each line of resolution that it is off.
-const CELLS_MAX: usize = 16;
-
-impl Cells {
-    /// The cells of the ticks `from..to`, turned by speed and slope `guess` instead of by `path`.
-    pub(crate) fn new(
-        lines: &[Line],
-        path: &SpeedPath,
-        (tick_from, tick_to): (usize, usize),
-        guess: (f64, f64),
-    ) -> Self {
-        let tick_s = path.tick_s;
-        let ticks = tick_to - tick_from;
-        let per_cell = ticks.div_ceil(CELLS_MAX);
-        let cells = ticks.div_ceil(per_cell);
-        let middle_s = (tick_from + tick_to) as f64 / 2.0 * tick_s;
-        let turns_middle = path.turns_at(middle_s);
-        let (speed, slope) = guess;
-        // by how far, and how fast, the guess runs ahead of the path
-        let (turns, speeds): (Vec<f64>, Vec<f64>) = (tick_from..tick_to)
-            .map(|tick| {
-                let t = (tick as f64 + 0.5) * tick_s - middle_s;
-                let turns = speed * t + slope * t * t / 2.0 - (path.turns_at_middle(tick) - turns_middle);
-                (turns, speed + slope * t - (path.speed_rev_s(tick) + path.speed_rev_s(tick + 1)) / 2.0)
-            })
-            .unzip();
-        let mut phasors = OrderPhasors::new(&turns);
-        let halves = ticks.div_ceil(TICKS_PER_HOP / 2);
-        let mut turned = Vec::with_capacity(ticks);
-        let mut sums = vec![Complex::default(); lines.len() * cells];
-        let mut half_hops = vec![Complex::default(); lines.len() * halves];
-        for ((line, sums), half_hops) in
-            lines.iter().zip(sums.chunks_exact_mut(cells)).zip(half_hops.chunks_exact_mut(halves))
-        {
-            // the mean time of a tick's samples lies half a sample before its middle
-            let half_sample = TAU * line.order * tick_s / line.samples_per_tick / 2.0;
-            let ticks = line.ticks[tick_from..tick_to].iter().zip(phasors.of(line.order)).zip(&speeds);
-            turned.clear();
-            turned.extend(ticks.map(|((z, phasor), speed)| z * phasor * small_turn(speed * half_sample)));
-            add_up(&turned, per_cell, sums);
-            add_up(&turned, TICKS_PER_HOP / 2, half_hops);
+impl BlockSlices {
+    /// The maximum near the guess: the best point of a grid of `grid_cells` resolution cells to either side, then Newton's method. Where
+    /// that leads too far away, the guess itself.
+    pub(crate) fn fit(&self, grid_cells: f64) -> BlockFit {
+        let start = if grid_cells > 0.0 { best_on_grid([self], grid_cells, GRID_PER_CELL) } else { 0.0 };
+        let mut summit = self.climbed(start);
+        if summit.d_speed.abs() > (grid_cells + STRAY_CELLS) * self.cell_rev_s() {
+            summit = Summit { d_speed: 0.0, d_slope: 0.0, value: self.expansion(0.0, 0.0).value };
         }
-        let times_of = |cells: usize, per_cell: usize| -> Vec<f64> {
-            (0..cells)
-                .map(|cell| {
-                    let (first, last) = (cell * per_cell, ((cell + 1) * per_cell).min(ticks));
-                    ((first + last) as f64 - ticks as f64) / 2.0 * tick_s
-                })
-                .collect()
-        };
-        Self {
-            orders: lines.iter().map(|line| line.order).collect(),
-            are_strong: lines.iter().map(|line| line.is_strong).collect(),
-            are_first: lines.iter().map(|line| line.is_first).collect(),
-            company_hz: lines.iter().map(|line| line.company_hz.clone()).collect(),
-            scales: lines
-                .iter()
-                .map(|line| {
-                    let samples = line.samples_per_tick * ticks as f64;
-                    (1.0 / (samples * line.noise_variance), samples)
-                })
-                .collect(),
-            times_s: times_of(cells, per_cell),
-            sums,
-            half_hops,
-            half_hop_times_s: times_of(halves, TICKS_PER_HOP / 2),
-            half_hop_shares: (0..halves)
-                .map(|half| (ticks - half * TICKS_PER_HOP / 2).min(TICKS_PER_HOP / 2) as f64 / ticks as f64)
-                .collect(),
-            span_s: ticks as f64 * tick_s,
-            guess,
-        }
-    }
-
-    fn lines(&self) -> impl Iterator<Item = (f64, f64, &[Complex<f64>])> {
-        let cells = self.times_s.len();
-        self.orders.iter().zip(&self.scales).zip(self.sums.chunks_exact(cells)).map(|((o, s), sums)| (*o, s.0, sums))
-    }
-
-    /// J of each line at the guess.
-    pub(crate) fn line_likelihoods(&self) -> Vec<f64> {
-        self.lines().map(|(_, scale, sums)| scale * sums.iter().sum::<Complex<f64>>().norm_sqr()).collect()
-    }
-
-    /// Order of each line, and its sum at the guess over √(N V): the square of its magnitude is J.
-    pub(crate) fn line_sums(&self) -> Vec<(f64, Complex<f64>)> {
-        self.lines().map(|(order, scale, sums)| (order, scale.sqrt() * sums.iter().sum::<Complex<f64>>())).collect()
-    }
-
-    /// J, its gradient and its second derivatives at an offset.
-    pub(crate) fn expansion(&self, offset: f64, bend: f64) -> (f64, [f64; 2], [f64; 3]) {
-        let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
-        let turns: Vec<f64> = self.times_s.iter().map(|t| t * (offset + bend * t / 2.0)).collect();
-        let mut phasors = OrderPhasors::new(&turns);
-        for (order, scale, sums) in self.lines() {
-            let w = TAU * order;
-            // moments Σ z τ^m, m = 0 … 4
-            let mut moments = [Complex::<f64>::default(); 5];
-            for ((z, phasor), &t) in sums.iter().zip(phasors.of(order)).zip(&self.times_s) {
-                let mut z = z * phasor;
-                for moment in &mut moments {
-                    *moment += z;
-                    z *= t;
-                }
-            }
-            let [s, s1, s2, s3, s4] = moments;
-            // ∂S/∂n = −jw S₁, ∂S/∂γ = −jw S₂/2, and so on
-            let j = Complex::new(0.0, 1.0);
-            let (dn, dg) = (-j * w * s1, -j * w * s2 / 2.0);
-            let (nn, ng, gg) = (-w * w * s2, -w * w * s3 / 2.0, -w * w * s4 / 4.0);
-            let of = |a: Complex<f64>, b: Complex<f64>| (a.conj() * b).re;
-            value += scale * s.norm_sqr();
-            gradient[0] += 2.0 * scale * of(s, dn);
-            gradient[1] += 2.0 * scale * of(s, dg);
-            second[0] += 2.0 * scale * (dn.norm_sqr() + of(s, nn));
-            second[1] += 2.0 * scale * (of(dn, dg) + of(s, ng));
-            second[2] += 2.0 * scale * (dg.norm_sqr() + of(s, gg));
-        }
-        (value, gradient, second)
-    }
-
-    /// J on a grid of speeds around the guess, `points` to either side.
-    fn on_grid(&self, step_rev_s: f64, points: usize, values: &mut [f64]) {
-        let turns_at = |offset: f64| -> Vec<f64> { self.times_s.iter().map(|t| t * offset).collect() };
-        let (first, step) = (turns_at(-step_rev_s * points as f64), turns_at(step_rev_s));
-        let (mut firsts, mut steps) = (OrderPhasors::new(&first), OrderPhasors::new(&step));
-        for (order, scale, sums) in self.lines() {
-            let turned = sums.iter().zip(firsts.of(order)).map(|(z, first)| z * first);
-            let mut cells: Vec<(Complex<f64>, Complex<f64>)> = turned.zip(steps.of(order).iter().copied()).collect();
-            for value in values.iter_mut() {
-                let mut sum = Complex::<f64>::default();
-                for (z, step) in &mut cells {
-                    sum += *z;
-                    *z *= *step;
-                }
-                *value += scale * sum.norm_sqr();
-            }
-        }
-    }
-
-    /// A resolution cell of the highest line.
-    pub(crate) fn cell_rev_s(&self) -> f64 {
-        1.0 / (self.orders.iter().copied().fold(1.0, f64::max) * self.span_s)
-    }
-
-    /// The maximum near the guess: a grid of `grid_cells` to either side, then Newton's method. `slope_std_rev_s2` is how fast
-    /// the speed may be expected to change; it keeps the slope of a weak block from running away.
-    pub(crate) fn fit(&self, ticks: (usize, usize), grid_cells: f64, slope_std_rev_s2: f64) -> BlockFit {
-        let prior = slope_std_rev_s2.powi(-2);
-        let mut offset = if grid_cells > 0.0 { best_on_grid([self], grid_cells, GRID_PER_CELL) } else { 0.0 };
-        let mut bend = 0.0;
-        let penalised = |value: f64, bend: f64| value - prior * (self.guess.1 + bend).powi(2) / 2.0;
-        let (cell, bend_max) = (self.cell_rev_s(), BEND_CELLS * self.cell_rev_s() / self.span_s);
-        let (mut value, mut gradient, mut second) = self.expansion(offset, bend);
-        for _ in 0..NEWTON_STEPS {
-            let (g0, g1) = (gradient[0], gradient[1] - prior * (self.guess.1 + bend));
-            let uphill = (g0.signum() * UPHILL_CELLS * cell, 0.0);
-            // not on top yet: uphill by what the curvature of a clean line would ask for
-            let (mut d_offset, mut d_bend) =
-                step_to_summit([g0, g1], [second[0], second[1], second[2] - prior]).unwrap_or(uphill);
-            // the likelihood repeats itself far away: cells are finite; a step must not jump there
-            d_offset = d_offset.clamp(-cell, cell);
-            d_bend = d_bend.clamp(-bend_max, bend_max);
-            let before = penalised(value, bend);
-            let mut halvings = 0;
-            loop {
-                let next = self.expansion(offset + d_offset, bend + d_bend);
-                if penalised(next.0, bend + d_bend) >= before || halvings == HALVINGS_MAX {
-                    (value, gradient, second) = next;
-                    (offset, bend) = (offset + d_offset, bend + d_bend);
-                    break;
-                }
-                (d_offset, d_bend, halvings) = (d_offset / 2.0, d_bend / 2.0, halvings + 1);
-            }
-            if d_offset.abs() < STEP_MIN_CELLS * cell {
-                break;
-            }
-        }
-        if offset.abs() > (grid_cells + STRAY_CELLS) * cell {
-            (offset, bend) = (0.0, 0.0);
-            value = self.expansion(offset, bend).0;
-        }
-        let seen = self.seen_at(offset, bend);
+        let stats: BlockStats = self.stats_at(summit.d_speed, summit.d_slope);
         BlockFit {
-            tick_from: ticks.0,
-            tick_to: ticks.1,
-            speed_rev_s: self.guess.0 + offset,
-            slope_rev_s2: self.guess.1 + bend,
-            likelihood: value,
-            in_phase: seen.in_phase,
-            scatter: seen.scatter,
-            information: seen.information,
-            lines_heard: seen.lines_heard,
-            is_first_heard: seen.is_first_heard,
-            strongest_power: seen.strongest_power,
+            tick_from: self.ticks.start,
+            tick_to: self.ticks.end,
+            speed_rev_s: self.guess.speed_rev_s + summit.d_speed,
+            slope_rev_s2: self.guess.slope_rev_s2 + summit.d_slope,
+            likelihood: summit.value,
+            phase_likelihood: stats.phase_likelihood,
+            phase_scatter: stats.phase_scatter,
+            information: stats.information,
+            lines_heard: stats.lines_heard,
+            is_first_heard: stats.is_first_heard,
+            strongest_power: stats.strongest_power,
             step_to_next_turns: None,
         }
     }
+
+    /// Newton's method on J less the prior of the slope, from a difference of speed. Steps are halved until they climb.
+    fn climbed(&self, start: f64) -> Summit {
+        let slope_std_rev_s2 = SLOPE_STD_SHARE_PER_S * self.guess.speed_rev_s;
+        let prior = slope_std_rev_s2.powi(-2);
+        let guess_slope = self.guess.slope_rev_s2;
+        let penalised = |value: f64, d_slope: f64| value - prior * (guess_slope + d_slope).powi(2) / 2.0;
+        let cell = self.cell_rev_s();
+        let slope_step_max = SLOPE_STEP_CELLS_MAX * self.cell_rev_s() / self.length_s;
+        let (mut d_speed, mut d_slope) = (start, 0.0);
+        let mut here = self.expansion(d_speed, d_slope);
+        for _ in 0..NEWTON_STEPS {
+            let (g0, g1) = (here.gradient[0], here.gradient[1] - prior * (guess_slope + d_slope));
+            let h = [here.second[0], here.second[1], here.second[2] - prior];
+            // where J is not concave, a fixed step uphill
+            let uphill = (g0.signum() * UPHILL_CELLS * cell, 0.0);
+            let (step_speed, step_slope) = step_to_summit([g0, g1], h).unwrap_or(uphill);
+            // J repeats itself far away, because slices have a finite length: a step must not reach that far
+            let mut step_speed = step_speed.clamp(-cell, cell);
+            let mut step_slope = step_slope.clamp(-slope_step_max, slope_step_max);
+            let before = penalised(here.value, d_slope);
+            let mut halvings = 0;
+            loop {
+                let next = self.expansion(d_speed + step_speed, d_slope + step_slope);
+                if penalised(next.value, d_slope + step_slope) >= before || halvings == HALVINGS_MAX {
+                    here = next;
+                    (d_speed, d_slope) = (d_speed + step_speed, d_slope + step_slope);
+                    break;
+                }
+                (step_speed, step_slope, halvings) = (step_speed / 2.0, step_slope / 2.0, halvings + 1);
+            }
+            if step_speed.abs() < STEP_MIN_CELLS * cell {
+                break;
+            }
+        }
+        Summit { d_speed, d_slope, value: here.value }
+    }
 }
 
-/// Sums of so many values each.
-fn add_up(values: &[Complex<f64>], per_sum: usize, sums: &mut [Complex<f64>]) {
-    sums.iter_mut().zip(values.chunks(per_sum)).for_each(|(sum, values)| *sum = values.iter().sum());
-}
-
-/// The offset of the highest point of a grid that reaches `cells` resolution cells to either side; of several blocks, all around
-/// their own guesses, the highest point of their sum.
-pub(crate) fn best_on_grid<'a>(blocks: impl IntoIterator<Item = &'a Cells>, cells: f64, points_per_cell: f64) -> f64 {
+/// The difference of speed from the guess with the greatest J, on a grid of `cells` resolution cells to either side. Of several blocks
+/// with guesses of their own, the greatest sum of J.
+pub(crate) fn best_on_grid<'a>(
+    blocks: impl IntoIterator<Item = &'a BlockSlices>,
+    cells: f64,
+    points_per_cell: f64,
+) -> f64 {
     let mut blocks = blocks.into_iter().peekable();
     let Some(step) = blocks.peek().map(|first| first.cell_rev_s() / points_per_cell) else { return 0.0 };
     let points = (cells * points_per_cell).round() as usize;
     let mut values = vec![0.0; 2 * points + 1];
-    blocks.for_each(|block| block.on_grid(step, points, &mut values));
+    blocks.for_each(|block| block.add_grid(step, points, &mut values));
     let best = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(points);
     (best as f64 - points as f64) * step
 }
 
-/// Newton's step from a gradient and second derivatives ∂²/∂n², ∂²/∂n∂γ, ∂²/∂γ²; `None` where they are not those of a summit.
-pub(crate) fn step_to_summit(g: [f64; 2], h: [f64; 3]) -> Option<(f64, f64)> {
+/// Newton's step (speed, slope) from the gradient and the second derivatives ∂²/∂n², ∂²/∂n∂γ, ∂²/∂γ². `None` where the function is not
+/// concave.
+pub(crate) fn step_to_summit(gradient: [f64; 2], second: [f64; 3]) -> Option<(f64, f64)> {
+    let (g, h) = (gradient, second);
     let determinant = h[0] * h[2] - h[1] * h[1];
     (h[0] < 0.0 && determinant > 0.0)
         .then(|| ((-h[2] * g[0] + h[1] * g[1]) / determinant, (h[1] * g[0] - h[0] * g[1]) / determinant))
 }
-
-/// Points of the search grid in a resolution cell of the highest line.
-const GRID_PER_CELL: f64 = 3.0;
-/// From a grid point Newton's method needs three or four steps.
-const NEWTON_STEPS: u32 = 8;
-const HALVINGS_MAX: u32 = 4;
-/// Steps below this are none.
-const STEP_MIN_CELLS: f64 = 1e-6;
-/// A slope changes by so many cells over the block's length in one step at most.
-const BEND_CELLS: f64 = 4.0;
-/// A maximum this far beyond where it was looked for is another one.
-const STRAY_CELLS: f64 = 3.0;
-/// A step uphill where the likelihood is not yet curved like a summit.
-const UPHILL_CELLS: f64 = 0.1;

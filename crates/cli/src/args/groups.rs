@@ -1,0 +1,141 @@
+//! Groups of arguments that several commands share, and the parsers of their values.
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use hovertone::speed::Method;
+use hovertone_vehicle::Gear;
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Which tone")]
+pub(crate) struct ToneArguments {
+    /// Blades of each propeller: the tone is the blade pass
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub(crate) blades: Option<u32>,
+    /// Teeth of the motor's pinion and the rotor's wheel (the wheel alone will do): the tone is the gear mesh
+    #[arg(long, value_name = "P:W", value_parser = gear)]
+    pub(crate) gear: Option<Gear>,
+    /// Lines per turn of the shaft, of whichever tone
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub(crate) order: Option<f64>,
+    /// A known vehicle: its gear mesh or blade pass (see `hovertone vehicles`)
+    #[arg(long, value_name = "ID")]
+    pub(crate) vehicle: Option<String>,
+    /// Where the tone itself lies, in Hz; found by itself where not given
+    #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
+    pub(crate) band: Option<(f64, f64)>,
+    /// Harmonics to follow, the tone itself counted [default: 3]
+    #[arg(long, value_name = "N")]
+    pub(crate) harmonics: Option<u32>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "What is known of the vehicle")]
+pub(crate) struct KnownArguments {
+    /// Diameter of a propeller: tips faster than Mach 0.6 are ruled out
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) diameter_m: Option<f64>,
+    /// Mass as flown: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub(crate) mass_kg: Option<f64>,
+    /// Rotors that carry it: with two or more, each is told apart
+    #[arg(long, value_name = "N")]
+    pub(crate) rotors: Option<u32>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "How it is analysed")]
+pub(crate) struct AnalysisArguments {
+    /// How the speed is read from the sound [default: separated for several rotors, else harmonic]
+    #[arg(long, value_parser = method_parser())]
+    pub(crate) method: Option<Method>,
+    /// How far the recorder's clock may be off, in millionths [default: 50]
+    #[arg(long, value_name = "PPM", allow_negative_numbers = true)]
+    pub(crate) clock_ppm: Option<f64>,
+    /// Show the lines of each rotor's shaft against its blade pass: imbalance, unlike blades (not diagnosed)
+    #[arg(long)]
+    pub(crate) condition: bool,
+    /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
+    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    pub(crate) radial_speed_m_s_max: Option<f64>,
+    /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m; say 0 for a bench [default: 0.5]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) drift_m_max: Option<f64>,
+    /// Use the recording from here, and cut nothing away
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) from: Option<f64>,
+    /// Use the recording up to here, and cut nothing away
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) to: Option<f64>,
+    /// Length of a frame of the paper's methods in seconds; the clearest of 0.0125 to 0.4 where not given
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) window_s: Option<f64>,
+    /// Step between frames as a share of their length [default: 0.5]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub(crate) hop_share: Option<f64>,
+    /// Share of a frame's peak that takes part in the Gaussian [default: 0.8]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    pub(crate) gaussian_threshold_share: Option<f64>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Reading files")]
+pub(crate) struct HearingArguments {
+    /// Audio track to hear, counted from 1 [default: the first that is not silent]
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub(crate) audio_track: Option<usize>,
+    /// Channel to hear, counted from 1 [default: the mean of all]
+    #[arg(long, value_name = "N", value_parser = from_one)]
+    pub(crate) channel: Option<usize>,
+    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    #[arg(long)]
+    pub(crate) no_progress: bool,
+}
+
+pub(crate) fn method_parser() -> impl TypedValueParser<Value = Method> {
+    let named = |name: String| Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method");
+    PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(named)
+}
+
+fn from_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) => Err("it is counted from 1".to_owned()),
+        Ok(number) => Ok(number),
+        Err(_) => Err("a whole number is needed, counted from 1".to_owned()),
+    }
+}
+
+/// "8:69", or the wheel alone. A pinion that was not said makes no difference to the tone; it is taken as 1.
+fn gear(text: &str) -> Result<Gear, String> {
+    let teeth = |text: &str| match text.trim().parse::<u32>() {
+        Ok(teeth @ 1..=1000) => Ok(teeth),
+        _ => Err("write the teeth as PINION:WHEEL, such as 8:69, or the wheel's alone".to_owned()),
+    };
+    match text.split_once(':') {
+        Some((pinion, wheel)) => Ok(Gear { pinion: teeth(pinion)?, wheel: teeth(wheel)? }),
+        None => Ok(Gear { pinion: 1, wheel: teeth(text)? }),
+    }
+}
+
+/// "100:200".
+fn band(text: &str) -> Result<(f64, f64), String> {
+    let edges = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
+    edges.ok_or_else(|| "write the band as LOW:HIGH in Hz, such as 4000:4300".to_owned())
+}
+
+pub(crate) fn finite(text: &str) -> Option<f64> {
+    text.trim().parse::<f64>().ok().filter(|number| number.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gears_and_bands_are_read() {
+        assert_eq!(gear("8:69"), Ok(Gear { pinion: 8, wheel: 69 }));
+        assert_eq!(gear("69").map(|gear| gear.wheel), Ok(69));
+        assert!(gear("8:").is_err() && gear("0").is_err() && gear("8:69:1").is_err());
+        assert_eq!(band("4000:4300.5"), Ok((4000.0, 4300.5)));
+        assert!(band("4000").is_err() && band("a:b").is_err() && band("1:inf").is_err());
+    }
+}

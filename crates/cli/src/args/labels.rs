@@ -1,0 +1,50 @@
+//! Arguments about the labels of the rotors.
+
+use super::groups::finite;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Which rotor is which")]
+pub(crate) struct LabelArguments {
+    /// A log of the same flight, CSV or PX4's ULog: speeds, commands or PWM of each motor, or the body's rates
+    #[arg(long, value_name = "FILE")]
+    pub(crate) log: Option<PathBuf>,
+    /// What is to be added to the log's times to have the recording's, in seconds; found by itself where not given
+    #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
+    pub(crate) log_offset_s: Option<(f64, f64)>,
+    /// How the axes of a CSV's body rates point (a ULog's are frd)
+    #[arg(long, value_name = "AXES", requires = "log")]
+    pub(crate) log_axes: Option<BodyAxes>,
+    /// Order in which the motors came up to about the hover's speed, one by one, at the beginning: front-left,…; or 1,2,…
+    #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with = "log")]
+    pub(crate) spin_up: Option<Vec<String>>,
+    /// Where the four rotors stand [default: the vehicle's]
+    #[arg(long, value_name = "LAYOUT", requires = "log")]
+    pub(crate) layout: Option<FrameLayout>,
+    /// Where the microphone of each channel stands in the vehicle's frame: levels and delays tell which rotor is which
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"])]
+    pub(crate) microphones: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum BodyAxes {
+    /// x forward, y left, z up
+    Flu,
+    /// x forward, y right, z down: PX4, ArduPilot
+    Frd,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum FrameLayout {
+    /// front left, rear left, rear right, front right
+    X,
+    /// front, left, rear, right
+    Plus,
+}
+
+/// "-5:5".
+fn offsets(text: &str) -> Result<(f64, f64), String> {
+    let limits = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
+    limits.ok_or_else(|| "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5".to_owned())
+}

@@ -1,0 +1,85 @@
+//! The command line as it was typed. The `resolve` function of each command finds its meaning.
+
+mod groups;
+mod labels;
+mod simulation;
+mod spectrogram;
+mod speed;
+mod thrust;
+mod tones;
+mod vehicles;
+
+pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
+pub(crate) use simulation::{DemoArguments, SimulateArguments};
+pub(crate) use spectrogram::SpectrogramArguments;
+pub(crate) use speed::SpeedArguments;
+pub(crate) use thrust::{
+    AirArguments, CompareArguments, ExportArguments, FitArguments, IdentifyArguments, PlaceArguments, WeighArguments,
+};
+pub(crate) use tones::TonesArguments;
+pub(crate) use vehicles::VehiclesArguments;
+
+use clap::{Parser, Subcommand};
+
+const EXAMPLES: &str = "\
+Examples:
+  hovertone demo                              the paper's experiment, in simulated flight
+  hovertone speed --blades 2 hover.mp4        rotor speed of a recording
+  hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
+  hovertone tones hover.mp4                   which tones it holds, and what each can mean
+  hovertone spectrogram hover.mp4 -o x.png    the picture, with bands and ridge over it
+  hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
+  hovertone fit stand.csv                     the same fit on a thrust stand's table
+  hovertone fit --plan --mass-kg 0.413        how much flying a wanted uncertainty needs
+  hovertone weigh loaded.mov --constant out/results.json   what it lifts, by its sound
+  hovertone export out/results.json --to gazebo            lines for a simulator
+  hovertone compare out/results.json iris.sdf              a simulator's model against what was heard
+  hovertone simulate scenario.toml -o out     a flight, its sound, and the truth about both
+  hovertone vehicles                          the vehicles it knows, with sources
+
+Exit codes:
+  0  done
+  1  a file could not be read or written
+  2  wrong use
+  3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early
+
+Data goes to stdout and to files, everything else to stderr.";
+
+/// hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant
+#[derive(Debug, Parser)]
+#[command(name = "hovertone", version, after_help = EXAMPLES, max_term_width = 100)]
+#[command(long_about = "hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant.
+
+From ordinary video or audio of hovering flights with known masses it finds the rotor tones, turns them into rotor \
+speeds, and identifies C_f in F = C_f ω², with its uncertainty.")]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Speed(Box<SpeedArguments>),
+    Tones(Box<TonesArguments>),
+    Spectrogram(Box<SpectrogramArguments>),
+    Identify(IdentifyArguments),
+    Fit(Box<FitArguments>),
+    Weigh(Box<WeighArguments>),
+    Export(ExportArguments),
+    Compare(CompareArguments),
+    Demo(DemoArguments),
+    Simulate(SimulateArguments),
+    Vehicles(VehiclesArguments),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -1,0 +1,78 @@
+//! Arguments of the commands that simulate a flight: demo and simulate.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// The paper's experiment in simulated flight: three loads, five trials each, identified like anybody's recordings
+///
+/// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the
+/// truth about every rotor; identifies the files;
+/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth; and writes report.html with its figures.
+#[derive(Args, Debug)]
+#[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
+pub(crate) struct DemoArguments {
+    /// Where to write; must be empty, new, or an earlier demo
+    #[arg(short, long, value_name = "DIR", default_value = "demo")]
+    pub(crate) output: PathBuf,
+    /// Everything random comes from here
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    #[arg(long)]
+    pub(crate) no_progress: bool,
+}
+
+const SIMULATE_EXAMPLES: &str = "\
+A scenario file, all keys optional (docs/formats.md lists them):
+  duration_s = 20.0
+  seed = 7
+
+  [vehicle]
+  preset = \"ardrone\"          # ardrone, ardrone2, crazyflie, f450
+  mass_kg = 0.413
+
+  [[payload]]
+  mass_kg = 0.031
+  position_m = [0.0, 0.0, -0.01]
+
+  [room]                      # the laboratory of the paper's figure 1; without it, a free field
+  [people]                    # talking outside
+  [ambient]
+
+  [[microphone]]              # one channel each
+  position_m = [-3.5, 1.0, 2.0]
+
+  [[maneuver]]                # hover, step, doublet, climb, square, fly_to, take_off, land, csv
+  kind = \"hover\"
+  duration_s = 5.0
+
+  [[maneuver]]
+  kind = \"doublet\"
+  axis = \"roll\"
+  amount = 0.3
+  half_s = 0.5
+
+Examples:
+  hovertone simulate examples/ardrone-hover.toml -o hover
+  hovertone speed --vehicle ardrone hover/sound.wav";
+
+/// A flight from a scenario file: its sound as microphones hear it, and the truth
+///
+/// Writes sound.wav (one channel for each microphone), truth.csv (commands, voltages, speeds, forces, place and attitude
+/// over time) and truth.json (exact means over the hovers, and all settings).
+#[derive(Args, Debug)]
+#[command(after_help = SIMULATE_EXAMPLES)]
+pub(crate) struct SimulateArguments {
+    /// What is flown and what hears it
+    #[arg(value_name = "SCENARIO.toml")]
+    pub(crate) scenario: PathBuf,
+    /// Where to write; must be empty, new, or an earlier simulation
+    #[arg(short, long, value_name = "DIR", default_value = "simulation")]
+    pub(crate) output: PathBuf,
+    /// Everything random comes from here [default: the scenario's]
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    #[arg(long)]
+    pub(crate) no_progress: bool,
+}

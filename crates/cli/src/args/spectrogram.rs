@@ -1,0 +1,37 @@
+//! Arguments of `spectrogram`.
+
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+use clap::Args;
+use std::path::PathBuf;
+
+const EXAMPLES: &str = "\
+Axes are in Hz and, where the order of the tone is known, in turns of the shaft per second. The bands of the tone and
+its harmonics are marked, what is no hover is dimmed, the ridge or the tracks of the rotors lie over it.
+
+Examples:
+  hovertone spectrogram hover.mp4 -o hover.png
+  hovertone spectrogram --vehicle ardrone hover.mov -o hover.svg
+  hovertone spectrogram --blades 2 --from 14 --to 17 bench.wav -o bench.png";
+
+/// The spectrogram of a recording as a picture of publication size: 180 mm wide, PNG or SVG
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct SpectrogramArguments {
+    /// Recording: a video or audio file
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Where to write: x.png or x.svg
+    #[arg(short, long, value_name = "PICTURE", help_heading = "Output")]
+    pub(crate) output: PathBuf,
+    /// Dots per inch of a PNG
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(50..=1200), help_heading = "Output")]
+    pub(crate) dpi: u16,
+    #[command(flatten)]
+    pub(crate) tone: ToneArguments,
+    #[command(flatten)]
+    pub(crate) known: KnownArguments,
+    #[command(flatten)]
+    pub(crate) analysis: AnalysisArguments,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+}

@@ -1,0 +1,48 @@
+//! Arguments of `speed`.
+
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+use super::labels::LabelArguments;
+use clap::Args;
+use std::path::PathBuf;
+
+const SPEED_EXAMPLES: &str = "\
+Which tone is heard: --order wins, then --gear, then --blades, then --vehicle. Without any of them
+the tone is found by itself; where its blades cannot be heard, all readings are shown (exit code 3).
+
+Examples:
+  hovertone speed --blades 2 hover.mp4
+  hovertone speed hover.mp4
+  hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
+  hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
+  hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
+  hovertone speed --vehicle ardrone --microphones stands.toml hover.wav          the same, by the channels' microphones
+  hovertone speed --vehicle ardrone --spin-up front-left,rear-right,rear-left,front-right bench.wav
+  hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
+
+/// Rotor speed of recordings: mean, uncertainty and spread
+///
+/// Any video or audio file will do. Silence, handling noise, take-off and landing are cut away by themselves, and what
+/// was cut is said on stderr; --from and --to overrule that.
+#[derive(Args, Debug)]
+#[command(after_help = SPEED_EXAMPLES)]
+pub(crate) struct SpeedArguments {
+    /// Recordings: video or audio files
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) tone: ToneArguments,
+    #[command(flatten)]
+    pub(crate) known: KnownArguments,
+    #[command(flatten)]
+    pub(crate) labels: LabelArguments,
+    #[command(flatten)]
+    pub(crate) analysis: AnalysisArguments,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print one JSON object per line and file, in the order given
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// Write the speed of every frame as CSV; with several recordings the first column is the file
+    #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
+    pub(crate) track: Option<PathBuf>,
+}

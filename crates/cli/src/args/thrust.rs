@@ -1,0 +1,281 @@
+//! Arguments of the commands about forces: identify, fit, weigh, export, compare.
+
+use super::groups::{HearingArguments, ToneArguments, method_parser};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use hovertone::speed::Method;
+use hovertone_exchange::SimulatorFormat;
+use std::path::PathBuf;
+
+const IDENTIFY_EXAMPLES: &str = "\
+An experiment file:
+  [vehicle]
+  preset = \"ardrone\"          # or rotors, blades, gear = { pinion = 8, wheel = 69 }
+  mass_kg = 0.413             # ready to fly, from a kitchen scale
+
+  [tone]
+  order = 69                  # lines per turn: blades, or the gear's wheel; \"auto\" takes the vehicle's
+
+  [[load]]
+  name = \"no hull\"
+  recordings = [\"no_hull/*.mov\"]
+
+  [[load]]
+  name = \"small hull\"
+  added_mass_kg = 0.031
+  recordings = [\"small_hull/*.mov\"]
+
+  [air]                       # for C_T; or height_m alone
+  temperature_c = 22.0
+  pressure_hpa = 1003.0
+
+  [uncertainty]               # for the budget; all have defaults (docs/formats.md)
+  rotor_spread_share = 0.0058
+  hover_height_m = 1.0
+
+  [[load]]                    # or a bench run: thrust from a scale
+  name = \"bench\"
+  thrust_n = 0.099
+  rotors_running = 1
+  recordings = [\"48000.wav\"]
+
+`hovertone demo` writes a complete one, with its recordings.
+
+Examples:
+  hovertone identify experiment.toml
+  hovertone identify experiment.toml -o results
+  hovertone identify examples/crazyflie-bench.toml --data-root DIR";
+
+/// Thrust constant from recordings of hovers with known masses, or of bench runs
+///
+/// Prints tables like the paper's, by the harmonic likelihood and by both of its methods, and the constant of the whole vehicle and of one rotor.
+#[derive(Args, Debug)]
+#[command(after_help = IDENTIFY_EXAMPLES)]
+pub(crate) struct IdentifyArguments {
+    /// What was flown, with which masses, and where the recordings are
+    #[arg(value_name = "EXPERIMENT.toml")]
+    pub(crate) experiment: PathBuf,
+    /// Write report.html, results.json, tables and figures there
+    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
+    pub(crate) output: Option<PathBuf>,
+    /// Print results.json instead of the tables
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// Folder that the names of the recordings start from [default: the folder of the experiment file]
+    #[arg(long, value_name = "DIR", help_heading = "Reading files")]
+    pub(crate) data_root: Option<PathBuf>,
+    /// The method whose constant is reported; all are computed [default: separated where several rotors are heard beside each other, else harmonic]
+    #[arg(long, value_parser = method_parser())]
+    pub(crate) method: Option<Method>,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+}
+
+const FIT_EXAMPLES: &str = "\
+Columns are known by their headers: a speed (rpm, rad/s, rev/s), a thrust (N, g, gf, kg, lbf) or a mass that
+hovers (mass_g, mass_kg), and if there are any, standard uncertainties (speed_std_rpm, thrust_std_n, mass_std_g),
+power, torque. Columns of words (motor, propeller) make groups, each with a fit of its own.
+Where no uncertainties are given, thrusts count as equally uncertain, by what the residuals show.
+
+Examples:
+  hovertone fit stand.csv
+  hovertone fit stand.csv --diameter-m 0.254 --temperature-c 22 --pressure-hpa 1003
+  hovertone fit hovers.csv --rotors 4 --latitude-deg -20.3
+  hovertone fit --plan --mass-kg 0.413 --added-mass-kg 0.1 --wanted-share 0.02";
+
+/// Thrust constant from tables of speed and thrust; or, with --plan, how much flying a wanted uncertainty needs
+///
+/// Fits F = C_f ω² with errors in both, and beside it the law with an intercept and the power law, with the evidence for
+/// each. Rows that do not fit are named.
+#[derive(Args, Debug)]
+#[command(after_help = FIT_EXAMPLES)]
+pub(crate) struct FitArguments {
+    /// Tables: CSV files with a header
+    #[arg(required_unless_present = "plan", value_name = "TABLE.csv")]
+    pub(crate) tables: Vec<PathBuf>,
+    /// Print one JSON object per line and group
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Rotors that share the thrust of a row, or carry its mass [default: 1; 4 with --plan]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) rotors: Option<u32>,
+    #[command(flatten)]
+    pub(crate) place: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) air: AirArguments,
+    #[command(flatten)]
+    pub(crate) plan: PlanArguments,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Where it was flown")]
+pub(crate) struct PlaceArguments {
+    /// Local gravity [default: standard gravity]
+    #[arg(long, value_name = "M/S2", allow_negative_numbers = true)]
+    pub(crate) gravity_m_s2: Option<f64>,
+    /// Latitude, for gravity
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true, conflicts_with = "gravity_m_s2")]
+    pub(crate) latitude_deg: Option<f64>,
+    /// Height above the sea, for gravity and air
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) height_m: Option<f64>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Air and propeller, for C_T and the figure of merit")]
+pub(crate) struct AirArguments {
+    /// Diameter of a propeller
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) diameter_m: Option<f64>,
+    /// Temperature of the air [default: of the standard atmosphere at --height-m]
+    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    pub(crate) temperature_c: Option<f64>,
+    /// Pressure at the place [default: of the standard atmosphere at --height-m]
+    #[arg(long, value_name = "HPA", allow_negative_numbers = true)]
+    pub(crate) pressure_hpa: Option<f64>,
+    /// Relative humidity [default: 0]
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
+    pub(crate) humidity_percent: Option<f64>,
+}
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Before flying")]
+pub(crate) struct PlanArguments {
+    /// Tell how many loads, trials and seconds a wanted uncertainty needs
+    #[arg(long, conflicts_with = "tables", requires = "mass_kg")]
+    pub(crate) plan: bool,
+    /// Wanted expanded uncertainty (k = 2) of the constant, as a share
+    #[arg(long, value_name = "SHARE", default_value_t = 0.025, allow_negative_numbers = true)]
+    pub(crate) wanted_share: f64,
+    /// Mass of the vehicle, ready to fly
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub(crate) mass_kg: Option<f64>,
+    /// The most that it may carry beside itself [default: a quarter of its mass]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub(crate) added_mass_kg: Option<f64>,
+    /// Standard uncertainty of a weighing
+    #[arg(long, value_name = "KG", default_value_t = 0.0005, allow_negative_numbers = true)]
+    pub(crate) mass_std_kg: f64,
+    /// Spread of the speed in a hover, over its mean; the paper's flights have 0.0123
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0123, allow_negative_numbers = true)]
+    pub(crate) speed_spread_share: f64,
+    /// How long the speed remembers itself
+    #[arg(long, value_name = "S", default_value_t = 0.3, allow_negative_numbers = true)]
+    pub(crate) correlation_s: f64,
+    /// The rotors are told apart: no single ridge follows the loudest
+    #[arg(long)]
+    pub(crate) rotors_told_apart: bool,
+}
+
+const WEIGH_EXAMPLES: &str = "\
+The constant was found with the same vehicle, and best with the same phone at the same place: then what biases both
+(the loudest rotor, the air, the hull) cancels. Air that is 1 % thinner weighs 1 % too much.
+
+Examples:
+  hovertone weigh loaded.mov --constant out/results.json
+  hovertone weigh loaded.mov --constant-n-s2 2.831e-5 --constant-std-n-s2 0.01e-5 --vehicle ardrone --mass-kg 0.413";
+
+/// Mass of an unknown payload, from the sound of a hover and a known thrust constant
+#[derive(Args, Debug)]
+#[command(after_help = WEIGH_EXAMPLES)]
+pub(crate) struct WeighArguments {
+    /// Recordings of hovers with the same payload
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// results.json of `hovertone identify`, for constant, mass, gravity and tone
+    #[arg(long, value_name = "RESULTS.json", required_unless_present = "constant_n_s2")]
+    pub(crate) constant: Option<PathBuf>,
+    /// Thrust constant of the whole vehicle, N/(rad/s)²
+    #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
+    pub(crate) constant_n_s2: Option<f64>,
+    /// Its standard uncertainty
+    #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
+    pub(crate) constant_std_n_s2: Option<f64>,
+    /// Rotors that carry it [default: those of the results, or of --vehicle]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
+    pub(crate) rotors: Option<u32>,
+    /// Mass of the vehicle without payload [default: that of the results]
+    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    pub(crate) mass_kg: Option<f64>,
+    /// Standard uncertainty of that mass
+    #[arg(long, value_name = "KG", default_value_t = 0.0005, allow_negative_numbers = true)]
+    pub(crate) mass_std_kg: f64,
+    #[command(flatten)]
+    pub(crate) place: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) tone: ToneArguments,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print JSON
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+}
+
+const EXPORT_EXAMPLES: &str = "\
+Every export has the constant in the program's own unit, and in all others in a comment: N/(rad/s)^2, N/(rev/s)^2,
+N/rpm^2, g/rpm^2. What sound does not tell (torque, time constants) is marked missing, never made up.
+
+Examples:
+  hovertone export out/results.json --to gazebo
+  hovertone export out/results.json --to gym-pybullet-drones -o kf.urdf
+  hovertone export out/results.json --to airsim --diameter-m 0.2 --air-density-kg-m3 1.17
+  hovertone export out/results.json --to rotorpy --torque-constant-n-m-s2 2.1e-7";
+
+/// Lines to paste into a simulator's model
+#[derive(Args, Debug)]
+#[command(after_help = EXPORT_EXAMPLES)]
+pub(crate) struct ExportArguments {
+    /// results.json of `hovertone identify`, or what `hovertone fit --json` printed for one table
+    #[arg(value_name = "RESULTS.json")]
+    pub(crate) results: PathBuf,
+    /// Which program it is for
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    pub(crate) to: SimulatorFormat,
+    /// Write there instead of printing
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Torque of a rotor over its squared speed, if it was measured: N m/(rad/s)²
+    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    pub(crate) torque_constant_n_m_s2: Option<f64>,
+    /// Command (0 to 1) at which it hovers, for N/command²
+    #[arg(long, value_name = "U", allow_negative_numbers = true)]
+    pub(crate) hover_command: Option<f64>,
+    /// Diameter of a propeller [default: that of the results]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) diameter_m: Option<f64>,
+    /// Density of the air [default: that of the results]
+    #[arg(long, value_name = "KG/M3", allow_negative_numbers = true)]
+    pub(crate) air_density_kg_m3: Option<f64>,
+}
+
+const COMPARE_EXAMPLES: &str = "\
+Reads SDF (Gazebo, PX4), xacro (RotorS), URDF (gym-pybullet-drones), Python (RotorPy), YAML (Flightmare), C++ (AirSim),
+TOML (crazyflow), and its own exports.
+
+Examples:
+  hovertone compare out/results.json iris.sdf hummingbird.xacro";
+
+/// A simulator's models against what was heard: constant, unit, and the speed at which each would hover
+#[derive(Args, Debug)]
+#[command(after_help = COMPARE_EXAMPLES)]
+pub(crate) struct CompareArguments {
+    /// results.json of `hovertone identify`
+    #[arg(value_name = "RESULTS.json")]
+    pub(crate) results: PathBuf,
+    /// Models of simulators
+    #[arg(required = true, value_name = "MODEL")]
+    pub(crate) models: Vec<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+fn format_parser() -> impl TypedValueParser<Value = SimulatorFormat> {
+    let named = |name: String| match name.as_str() {
+        "px4" => Ok(SimulatorFormat::Gazebo),
+        "crazyflie" => Ok(SimulatorFormat::Crazyflow),
+        _ => SimulatorFormat::ALL.into_iter().find(|format| format.name() == name).ok_or("no such format"),
+    };
+    let names = SimulatorFormat::ALL.map(SimulatorFormat::name);
+    PossibleValuesParser::new(names.into_iter().chain(["px4", "crazyflie"])).try_map(named)
+}

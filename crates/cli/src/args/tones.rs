@@ -1,0 +1,43 @@
+//! Arguments of `tones`.
+
+use super::groups::{HearingArguments, KnownArguments};
+use clap::Args;
+use std::path::PathBuf;
+
+const TONES_EXAMPLES: &str = "\
+A blade pass alone does not tell the number of blades: lines of the shaft between its harmonics do, the mesh of a
+known gear does, and diameter, mass and rotors rule out what cannot fly.
+
+Examples:
+  hovertone tones hover.mp4
+  hovertone tones --vehicle iris hover.mp4
+  hovertone tones --diameter-m 0.254 --mass-kg 1.2 --rotors 4 hover.mp4
+  hovertone tones --json *.wav | jq '.families[0].readings[0]'";
+
+/// Tone families in recordings, and the shaft speed that each possible order would mean
+///
+/// Lists every series of lines: fundamental, harmonics, level over the floor, when it is heard. For the one that was
+/// taken for the rotor's, all readings: blades, gears, speeds, and how plausible each is.
+#[derive(Args, Debug)]
+#[command(after_help = TONES_EXAMPLES)]
+pub(crate) struct TonesArguments {
+    /// Recordings: video or audio files
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) known: KnownArguments,
+    /// A known vehicle, for what it rules out (see `hovertone vehicles`)
+    #[arg(long, value_name = "ID", help_heading = "What is known of the vehicle")]
+    pub(crate) vehicle: Option<String>,
+    /// Listen from here
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]
+    pub(crate) from: Option<f64>,
+    /// Listen up to here
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]
+    pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print one JSON object per line and file, in the order given
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+}

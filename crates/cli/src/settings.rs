@@ -1,0 +1,85 @@
+//! The settings of an analysis, from the arguments about tone, vehicle and analysis.
+
+use crate::args::{AnalysisArguments, KnownArguments, ToneArguments};
+use crate::failure::Failure;
+use crate::vehicles::preset;
+use hovertone::speed::{Config, Method, ToneConfig};
+use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
+use hovertone_vehicle::Order;
+
+/// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
+pub(crate) fn config_of(
+    asked: &ToneArguments,
+    known: &KnownArguments,
+    analysis: &AnalysisArguments,
+) -> Result<(Config, Option<Discovery>), Failure> {
+    let (tone, discovery) = match tone_of(asked)? {
+        Some(tone) => (tone, None),
+        None => {
+            let (tone, discovery) = discovery_of(known, asked.vehicle.as_deref(), false)?;
+            let harmonics = asked.harmonics.unwrap_or(tone.harmonics);
+            (ToneConfig { band_hz: asked.band, harmonics, ..tone }, Some(discovery))
+        }
+    };
+    let mut config = Config::for_tone(tone);
+    let of_vehicle = asked.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
+    config.rotors.count = known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
+    config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
+    config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
+    config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
+    config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);
+    config.span.from_s = analysis.from;
+    config.span.to_s = analysis.to;
+    config.spectrogram.window_s = analysis.window_s;
+    config.spectrogram.hop_share = analysis.hop_share.unwrap_or(config.spectrogram.hop_share);
+    let threshold_share = analysis.gaussian_threshold_share;
+    config.ridge.gaussian_threshold_share = threshold_share.unwrap_or(config.ridge.gaussian_threshold_share);
+    config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    Ok((config, discovery))
+}
+
+/// The tone that the arguments name: `--order` has priority, then the gear, then the blades, then the vehicle. A known number of blades
+/// helps to find the tone of a gear. `None` where the tone has to be searched for.
+pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
+    let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
+    let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
+    let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {
+        (Some(lines_per_turn), ..) => Order::new(lines_per_turn),
+        (None, Some(gear), ..) => gear.mesh_order(),
+        (None, None, Some(blades), _) => Order::from_blades(blades),
+        (None, None, None, Some(vehicle)) => match vehicle.tone_order() {
+            Some(order) => Ok(order),
+            None => return Ok(None),
+        },
+        (None, None, None, None) => return Ok(None),
+    };
+    let order = order.map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    let tone = ToneConfig::of_order(order);
+    let known = vehicle.and_then(|vehicle| vehicle.shaft_speed.as_ref());
+    let mut tone = known.map_or_else(|| tone.clone(), |known| tone.clone().within(&known.value));
+    tone.blades = blades;
+    tone.band_hz = arguments.band;
+    tone.harmonics = arguments.harmonics.unwrap_or(tone.harmonics);
+    Ok(Some(tone))
+}
+
+/// The search for a tone of unknown order with the facts about the vehicle, and settings for it whose order is a placeholder.
+/// `wants_all` lists all families of tones; otherwise the search ends at the family of the rotor.
+pub(crate) fn discovery_of(
+    arguments: &KnownArguments,
+    vehicle: Option<&str>,
+    wants_all: bool,
+) -> Result<(ToneConfig, Discovery), Failure> {
+    let of_vehicle = vehicle.map(preset).transpose()?.map(KnownRotor::of_vehicle).unwrap_or_default();
+    let known = KnownRotor {
+        diameter_m: arguments.diameter_m.or(of_vehicle.diameter_m),
+        mass_kg: arguments.mass_kg.or(of_vehicle.mass_kg),
+        rotor_count: arguments.rotors.or(of_vehicle.rotor_count),
+        ..of_vehicle
+    };
+    known
+        .check()
+        .map_err(|error| Failure::usage(error.to_string(), "give metres, kilograms and a number of rotors"))?;
+    let order = Order::new(1.0).map_err(Failure::internal)?;
+    Ok((ToneConfig::of_order(order), Discovery { config: DiscoveryConfig::default(), known, wants_all }))
+}

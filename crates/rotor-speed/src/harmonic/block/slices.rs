@@ -1,0 +1,223 @@
+//! The lines of a block as sums over slices: their likelihood and its derivatives near a first guess of the speed.
+
+use super::SpeedLine;
+use crate::harmonic::demodulation::Line;
+use crate::harmonic::phasors::{OrderPhasors, small_turn};
+use crate::harmonic::speed_path::SpeedPath;
+use hovertone_signal::channels::TICKS_PER_HOP;
+use realfft::num_complex::Complex;
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+/// Largest number of slices of a block. Within a slice, a speed that is off by one resolution cell of a line turns this line by at
+/// most a sixteenth of a cycle. *Numeric.*
+const SLICES_MAX: usize = 16;
+/// Ticks of half a hop. *Numeric.*
+pub(crate) const HALF_HOP_TICKS: usize = TICKS_PER_HOP / 2;
+
+/// One line in a block.
+pub(super) struct BlockLine {
+    pub(super) order: f64,
+    pub(super) is_first: bool,
+    pub(super) is_strong: bool,
+    pub(super) leakage_band_hz: Range<f64>,
+    /// 1 / (N V).
+    pub(super) scale: f64,
+    /// N: number of samples in the block.
+    pub(super) samples: f64,
+}
+
+/// The lines of a block, demodulated along a first guess of its speed and summed over slices of equal length.
+pub(crate) struct BlockSlices {
+    pub(super) lines: Vec<BlockLine>,
+    pub(super) ticks: Range<usize>,
+    /// Middle of each slice from the middle of the block.
+    times_s: Vec<f64>,
+    /// Sum of each slice, line by line.
+    sums: Vec<Complex<f64>>,
+    /// Middle of each half hop from the middle of the block.
+    pub(super) half_hop_times_s: Vec<f64>,
+    /// Sum of each half hop, line by line: they show whether a line keeps its phase.
+    pub(super) half_hops: Vec<Complex<f64>>,
+    /// Share of the block in each half hop.
+    pub(super) half_hop_shares: Vec<f64>,
+    /// Length of the block.
+    pub(super) length_s: f64,
+    pub(super) guess: SpeedLine,
+}
+
+/// J at a place, its gradient (∂/∂n, ∂/∂γ), and its second derivatives (∂²/∂n², ∂²/∂n∂γ, ∂²/∂γ²).
+pub(crate) struct Expansion {
+    pub(crate) value: f64,
+    pub(crate) gradient: [f64; 2],
+    pub(crate) second: [f64; 3],
+}
+
+impl BlockSlices {
+    /// The slices of a block of `ticks`, demodulated along the line of speed `guess` instead of along `path`.
+    pub(crate) fn new(lines: &[Line], path: &SpeedPath, ticks: Range<usize>, guess: SpeedLine) -> Self {
+        let tick_s = path.tick_s;
+        let count = ticks.len();
+        let per_slice = count.div_ceil(SLICES_MAX);
+        let slices = count.div_ceil(per_slice);
+        let halves = count.div_ceil(HALF_HOP_TICKS);
+        let (turns, speeds) = lead_over_path(path, &ticks, guess);
+        let mut phasors = OrderPhasors::new(&turns);
+        let mut turned = Vec::with_capacity(count);
+        let mut sums = vec![Complex::default(); lines.len() * slices];
+        let mut half_hops = vec![Complex::default(); lines.len() * halves];
+        for ((line, sums), half_hops) in
+            lines.iter().zip(sums.chunks_exact_mut(slices)).zip(half_hops.chunks_exact_mut(halves))
+        {
+            // the mean time of the samples of a tick is half a sample before its middle
+            let half_sample = TAU * line.order * tick_s / line.samples_per_tick / 2.0;
+            let ticks = line.ticks[ticks.clone()].iter().zip(phasors.of(line.order)).zip(&speeds);
+            turned.clear();
+            turned.extend(ticks.map(|((z, phasor), speed)| z * phasor * small_turn(speed * half_sample)));
+            sum_chunks(&turned, per_slice, sums);
+            sum_chunks(&turned, HALF_HOP_TICKS, half_hops);
+        }
+        Self {
+            lines: lines.iter().map(|line| BlockLine::new(line, count)).collect(),
+            times_s: slice_times_s(count, per_slice, tick_s),
+            sums,
+            half_hop_times_s: slice_times_s(count, HALF_HOP_TICKS, tick_s),
+            half_hops,
+            half_hop_shares: (0..halves)
+                .map(|half| (count - half * HALF_HOP_TICKS).min(HALF_HOP_TICKS) as f64 / count as f64)
+                .collect(),
+            length_s: count as f64 * tick_s,
+            ticks,
+            guess,
+        }
+    }
+
+    fn lines(&self) -> impl Iterator<Item = (&BlockLine, &[Complex<f64>])> {
+        self.lines.iter().zip(self.sums.chunks_exact(self.times_s.len()))
+    }
+
+    /// J of each line at the guess.
+    pub(crate) fn line_likelihoods(&self) -> Vec<f64> {
+        self.lines().map(|(line, sums)| line.scale * sums.iter().sum::<Complex<f64>>().norm_sqr()).collect()
+    }
+
+    /// The sum of each line at the guess over √(N V): the square of its magnitude is J.
+    pub(crate) fn line_sums(&self) -> Vec<LineSum> {
+        self.lines()
+            .map(|(line, sums)| LineSum {
+                order: line.order,
+                sum: line.scale.sqrt() * sums.iter().sum::<Complex<f64>>(),
+            })
+            .collect()
+    }
+
+    /// J and its derivatives at a difference of speed and slope from the guess.
+    pub(crate) fn expansion(&self, d_speed: f64, d_slope: f64) -> Expansion {
+        let (mut value, mut gradient, mut second) = (0.0, [0.0; 2], [0.0; 3]);
+        let turns: Vec<f64> = self.times_s.iter().map(|t| t * (d_speed + d_slope * t / 2.0)).collect();
+        let mut phasors = OrderPhasors::new(&turns);
+        for (&BlockLine { order, scale, .. }, sums) in self.lines() {
+            let w = TAU * order;
+            // moments S_m = Σ z τ^m, m = 0 … 4
+            let mut moments = [Complex::<f64>::default(); 5];
+            for ((z, phasor), &t) in sums.iter().zip(phasors.of(order)).zip(&self.times_s) {
+                let mut z = z * phasor;
+                for moment in &mut moments {
+                    *moment += z;
+                    z *= t;
+                }
+            }
+            let [s, s1, s2, s3, s4] = moments;
+            // ∂S/∂n = −jw S₁, ∂S/∂γ = −jw S₂/2, and so on
+            let j = Complex::new(0.0, 1.0);
+            let (dn, dg) = (-j * w * s1, -j * w * s2 / 2.0);
+            let (nn, ng, gg) = (-w * w * s2, -w * w * s3 / 2.0, -w * w * s4 / 4.0);
+            let of = |a: Complex<f64>, b: Complex<f64>| (a.conj() * b).re;
+            value += scale * s.norm_sqr();
+            gradient[0] += 2.0 * scale * of(s, dn);
+            gradient[1] += 2.0 * scale * of(s, dg);
+            second[0] += 2.0 * scale * (dn.norm_sqr() + of(s, nn));
+            second[1] += 2.0 * scale * (of(dn, dg) + of(s, ng));
+            second[2] += 2.0 * scale * (dg.norm_sqr() + of(s, gg));
+        }
+        Expansion { value, gradient, second }
+    }
+
+    /// Adds J on a grid of speeds around the guess to `values`: `points` grid points to either side.
+    pub(super) fn add_grid(&self, step_rev_s: f64, points: usize, values: &mut [f64]) {
+        let turns_at = |d_speed: f64| -> Vec<f64> { self.times_s.iter().map(|t| t * d_speed).collect() };
+        let (first, step) = (turns_at(-step_rev_s * points as f64), turns_at(step_rev_s));
+        let (mut firsts, mut steps) = (OrderPhasors::new(&first), OrderPhasors::new(&step));
+        for (&BlockLine { order, scale, .. }, sums) in self.lines() {
+            let turned = sums.iter().zip(firsts.of(order)).map(|(z, first)| z * first);
+            let mut slices: Vec<(Complex<f64>, Complex<f64>)> = turned.zip(steps.of(order).iter().copied()).collect();
+            for value in values.iter_mut() {
+                let mut sum = Complex::<f64>::default();
+                for (z, step) in &mut slices {
+                    sum += *z;
+                    *z *= *step;
+                }
+                *value += scale * sum.norm_sqr();
+            }
+        }
+    }
+
+    /// A resolution cell of the highest line, as a speed: 1 / (order × length of the block).
+    pub(crate) fn cell_rev_s(&self) -> f64 {
+        1.0 / (self.lines.iter().map(|line| line.order).fold(1.0, f64::max) * self.length_s)
+    }
+}
+
+impl BlockLine {
+    /// A line in a block of a number of ticks.
+    fn new(line: &Line, ticks: usize) -> Self {
+        let samples = line.samples_per_tick * ticks as f64;
+        Self {
+            order: line.order,
+            is_first: line.is_first,
+            is_strong: line.is_strong,
+            leakage_band_hz: line.leakage_band_hz.clone(),
+            scale: 1.0 / (samples * line.noise_variance),
+            samples,
+        }
+    }
+}
+
+/// The sum of a line over a block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LineSum {
+    pub(crate) order: f64,
+    pub(crate) sum: Complex<f64>,
+}
+
+/// Angle in turns, and speed in rev/s, by which the line of speed `guess` is ahead of the path, in the middle of each tick. The angles
+/// are equal in the middle of the block.
+fn lead_over_path(path: &SpeedPath, ticks: &Range<usize>, guess: SpeedLine) -> (Vec<f64>, Vec<f64>) {
+    let tick_s = path.tick_s;
+    let middle_s = (ticks.start + ticks.end) as f64 / 2.0 * tick_s;
+    let turns_middle = path.turns_at(middle_s);
+    let SpeedLine { speed_rev_s: speed, slope_rev_s2: slope } = guess;
+    ticks
+        .clone()
+        .map(|tick| {
+            let t = (tick as f64 + 0.5) * tick_s - middle_s;
+            let turns = speed * t + slope * t * t / 2.0 - (path.turns_at_middle(tick) - turns_middle);
+            (turns, speed + slope * t - (path.speed_rev_s(tick) + path.speed_rev_s(tick + 1)) / 2.0)
+        })
+        .unzip()
+}
+
+/// Middle of each slice of `per_slice` ticks from the middle of a block of `ticks` ticks, s. The last slice may be shorter.
+fn slice_times_s(ticks: usize, per_slice: usize, tick_s: f64) -> Vec<f64> {
+    (0..ticks.div_ceil(per_slice))
+        .map(|slice| {
+            let (first, last) = (slice * per_slice, ((slice + 1) * per_slice).min(ticks));
+            ((first + last) as f64 - ticks as f64) / 2.0 * tick_s
+        })
+        .collect()
+}
+
+/// Sums of `per_sum` values each.
+fn sum_chunks(values: &[Complex<f64>], per_sum: usize, sums: &mut [Complex<f64>]) {
+    sums.iter_mut().zip(values.chunks(per_sum)).for_each(|(sum, values)| *sum = values.iter().sum());
+}

@@ -1,0 +1,46 @@
+//! How well points agree with a law, and how far their scatter exceeds their stated uncertainties.
+
+use super::point::PointNoise;
+use crate::regression::Agreement;
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
+
+/// Points disagree with a law where chance alone would give such a deviation with less than this probability.
+/// 5 % is the usual level of a significance test (Fisher 1925). *Decision.*
+pub(super) const DISAGREEMENT_CHANCE: f64 = 0.05;
+
+/// How well a law agrees with the points.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LawAgreement {
+    /// Sum of the squared residuals, each in units of its standard uncertainty.
+    pub chi_square: f64,
+    /// Number of points minus number of parameters.
+    pub degrees_of_freedom: usize,
+    /// Probability of a disagreement at least this large if the law is right: from the chi-square distribution where uncertainties
+    /// are stated, from the F distribution where they were measured.
+    pub p_value: f64,
+}
+
+/// The agreement with its p-value; `None` where the uncertainties come from the residuals themselves, or without degrees of freedom.
+pub(crate) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<LawAgreement> {
+    let freedom = agreement.degrees_of_freedom as f64;
+    let p_value = match noise {
+        PointNoise::FromResiduals => None,
+        PointNoise::Stated => agreement.p_value(),
+        PointNoise::Measured { degrees_of_freedom } => {
+            let distribution = FisherSnedecor::new(freedom, degrees_of_freedom).ok()?;
+            Some(distribution.sf(agreement.chi_square / freedom))
+        }
+    }?;
+    Some(LawAgreement { chi_square: agreement.chi_square, degrees_of_freedom: agreement.degrees_of_freedom, p_value })
+}
+
+/// Factor from stated to real uncertainties: Birge's ratio (Birge 1932) where the points disagree with the law or state no
+/// uncertainty, else 1. `None` where the ratio is needed and there are no degrees of freedom.
+pub(crate) fn scatter_factor(agreement: Agreement, noise: PointNoise) -> Option<f64> {
+    match (noise, agreement_of(agreement, noise)) {
+        (PointNoise::FromResiduals, _) => agreement.scatter_factor(),
+        (_, Some(law)) if law.p_value < DISAGREEMENT_CHANCE => agreement.scatter_factor(),
+        _ => Some(1.0),
+    }
+}

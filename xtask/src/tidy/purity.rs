@@ -1,0 +1,77 @@
+//! Files, environment, clock, threads, network and printing belong at the edges, not in the pure crates.
+
+use super::fault::Fault;
+use super::paths::paths;
+use crate::tree::Tree;
+
+const PURE: [&str; 12] = [
+    "vehicle",
+    "signal",
+    "analysis",
+    "rotor-speed",
+    "rotor-id",
+    "thrust",
+    "hovertone",
+    "sim",
+    "exchange",
+    "report",
+    "figures",
+    "page",
+];
+const IMPURE_MODULES: [&str; 5] = ["fs", "env", "time", "thread", "net"];
+const IMPURE_MACROS: [&str; 5] = ["println!", "print!", "eprintln!", "eprint!", "dbg!"];
+
+pub(super) fn check(tree: &Tree) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let is_pure = |name: &str| PURE.contains(&name);
+    for source in tree.sources.iter().filter(|source| is_pure(&source.crate_name) && source.below_src().is_some()) {
+        for path in paths(&source.code) {
+            let is_impure = match path.segments.as_slice() {
+                [first, second, ..] if first == "std" => IMPURE_MODULES.contains(&second.as_str()),
+                [.., last] => IMPURE_MACROS.contains(&last.as_str()),
+                [] => false,
+            };
+            if is_impure {
+                let message = format!(
+                    "{} in a pure crate: hand the value over as a parameter, and leave this to the caller",
+                    path.text()
+                );
+                faults.push(Fault::new(&source.path, path.line, message));
+            }
+        }
+    }
+    faults
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+    use crate::tree::Tree;
+
+    fn count(path: &str, text: &str) -> usize {
+        check(&Tree::of(&[(path, text)])).len()
+    }
+
+    #[test]
+    fn impure_calls_in_pure_crates_are_faults() {
+        for text in [
+            "use std::fs;",
+            "use std::{env, fmt};",
+            "fn f() { let now = std::time::Instant::now(); }",
+            "fn f() { println!(\"a\"); }",
+            "fn f() { assert!(std::fs::exists(\"a\")); }",
+        ] {
+            assert_eq!(count("crates/signal/src/a.rs", text), 1, "{text}");
+        }
+    }
+
+    #[test]
+    fn tests_comments_and_edges_are_none() {
+        assert_eq!(count("crates/signal/src/a.rs", "#[cfg(test)]\nmod tests { use std::fs; }"), 0);
+        assert_eq!(count("crates/signal/src/a.rs", "//! No std::fs, no println!.\nuse std::fmt;"), 0);
+        assert_eq!(count("crates/signal/tests/a.rs", "use std::fs;"), 0);
+        assert_eq!(count("crates/signal/src/a/tests.rs", "use std::fs;"), 0);
+        assert_eq!(count("crates/cli/src/a.rs", "use std::fs;"), 0);
+        assert_eq!(count("crates/media/src/a.rs", "use std::fs;"), 0);
+    }
+}
