@@ -11,7 +11,7 @@ use hovertone::sound::{Passes, Progress, Signal, SignalSource, SourceError};
 use hovertone::speed::{Config, Method, Outcome, ToneConfig, passes_of_speed, speed_from_passes, speed_from_source};
 use hovertone::tones::{Discovery, tones_from_source};
 use hovertone_vehicle::Order;
-use testkit::{Rotor, SAMPLE_RATE_HZ, TWO_BLADES, sound, steady};
+use testkit::{SAMPLE_RATE_HZ, TWO_BLADES, rotor, sound, steady};
 
 /// Counts how often a source is read from its start.
 struct Counted {
@@ -71,7 +71,7 @@ fn blade_pass() -> Config {
 
 fn four_rotors() -> (Vec<f32>, Config) {
     let speeds: [&dyn Fn(f64) -> f64; 4] = [&|_| 67.3, &|_| 68.5, &|_| 69.8, &|_| 71.2];
-    let rotors = speeds.map(|speed_rev_s| Rotor { speed_rev_s, lines: &TWO_BLADES });
+    let rotors = speeds.map(|speed_rev_s| rotor(speed_rev_s, &TWO_BLADES));
     let mut config = blade_pass();
     (config.rotors.count, config.method) = (4, Method::Separated);
     (sound(&rotors, 8.0, 0.02, 3), config)
@@ -105,7 +105,7 @@ fn four_rotors_take_four_passes() {
 #[test]
 fn a_weak_steady_tone_announces_the_pass_that_settles_its_octave() {
     let lines: Vec<(f64, f64)> = (1..=20).map(|k| (2.0 * f64::from(k), 0.01 / f64::from(k))).collect();
-    let rotor = Rotor { speed_rev_s: &|_| 67.3, lines: &lines };
+    let rotor = rotor(|_| 67.3, &lines);
     let (mut source, mut seen) = (Counted::new(sound(&[rotor], 12.0, 0.12, 5)), Seen::default());
     let analysis = speed_from_source(&mut source, &blade_pass(), &mut |progress| seen.take(progress)).unwrap();
     testkit::tone(&analysis);
@@ -145,7 +145,7 @@ fn starts_of_the_motors_take_eight_passes_in_all() {
         &|t| if t < 3.0 { 0.0 } else { 70.4 },
         &|t| if t < 4.0 { 0.0 } else { 72.1 },
     ];
-    let rotors = started.map(|speed_rev_s| Rotor { speed_rev_s, lines: &TWO_BLADES });
+    let rotors = started.map(|speed_rev_s| rotor(speed_rev_s, &TWO_BLADES));
     let (_, config) = four_rotors();
     let (mut source, mut seen) = (Counted::new(sound(&rotors, 16.0, 0.02, 7)), Seen::default());
     let mut on_progress = |progress| seen.take(progress);

@@ -38,15 +38,15 @@ struct Sound<'a> {
 
 const SOUND: Sound = Sound { lines: &LINES, noise_std: QUIET, coherence_s: f64::INFINITY };
 
-/// A rotor: mean speed, loudness, and depth and frequency of the swings around its mean.
-struct Swinging {
+/// The motion of a rotor, and its loudness: mean speed, level, and depth and frequency of the swings around its mean.
+struct Motion {
     mean_rev_s: f64,
     level: f64,
     swing_share: f64,
     swing_hz: f64,
 }
 
-impl Swinging {
+impl Motion {
     fn at(mean_rev_s: f64) -> Self {
         Self { mean_rev_s, level: 1.0, swing_share: 0.0, swing_hz: 0.1 }
     }
@@ -111,11 +111,11 @@ fn tone_of_gear_and_blades() -> ToneConfig {
     tone
 }
 
-fn heard(rotors: &[Swinging], seed: u64) -> Heard {
+fn heard(rotors: &[Motion], seed: u64) -> Heard {
     heard_by(rotors, &SOUND, tone_of_gear_and_blades(), seed)
 }
 
-fn heard_by(rotors: &[Swinging], sound: &Sound, tone: ToneConfig, seed: u64) -> Heard {
+fn heard_by(rotors: &[Motion], sound: &Sound, tone: ToneConfig, seed: u64) -> Heard {
     let mut random = Pcg64::seed_from_u64(seed);
     let sampling = Sampling::new(RATE_HZ, LENGTH_S);
     let rotors: Vec<Rotor<'_>> = rotors.iter().map(|rotor| rotor.drawn(sound, &sampling, &mut random)).collect();
@@ -133,7 +133,7 @@ fn heard_by(rotors: &[Swinging], sound: &Sound, tone: ToneConfig, seed: u64) -> 
 #[test]
 fn four_rotors_are_told_apart_where_two_of_them_cross() {
     // the second and the third cross several times
-    let swing = |mean_rev_s, swing_share, swing_hz| Swinging { swing_share, swing_hz, ..Swinging::at(mean_rev_s) };
+    let swing = |mean_rev_s, swing_share, swing_hz| Motion { swing_share, swing_hz, ..Motion::at(mean_rev_s) };
     let rotors =
         [swing(61.0, 0.001, 0.3), swing(60.3, 0.004, 0.4), swing(60.15, 0.002, 0.25), swing(59.4, 0.0005, 0.5)];
     let heard = heard(&rotors, 1);
@@ -157,7 +157,7 @@ fn four_rotors_are_told_apart_where_two_of_them_cross() {
 #[test]
 fn rotors_that_bob_together_keep_their_distances() {
     // 13 % in a second at its fastest, by 1.4 times what neighbours are apart to either side
-    let bobbing = |mean_rev_s| Swinging { swing_share: 0.014, swing_hz: 1.5, ..Swinging::at(mean_rev_s) };
+    let bobbing = |mean_rev_s| Motion { swing_share: 0.014, swing_hz: 1.5, ..Motion::at(mean_rev_s) };
     let rotors = [61.1, 60.5, 59.9, 59.3].map(bobbing);
     let heard = heard(&rotors, 11);
     let tone = heard.tone();
@@ -177,7 +177,7 @@ fn rotors_that_bob_together_keep_their_distances() {
 #[test]
 fn rotors_far_apart_are_found_wherever_the_loudest_is() {
     for loudest in 0..4 {
-        let mut rotors: Vec<Swinging> = [54.0, 58.1, 62.0, 66.0].map(Swinging::at).into();
+        let mut rotors: Vec<Motion> = [54.0, 58.1, 62.0, 66.0].map(Motion::at).into();
         rotors[loudest].level = 2.0;
         let heard = heard(&rotors, 2 + loudest as u64);
         let tone = heard.tone();
@@ -195,7 +195,7 @@ fn a_weak_rotor_is_found_beside_loud_ones() {
     // 14 dB below the others, by its gear mesh alone: what these leave behind when they are taken away is as loud
     let lines = [(69.0, 1.0), (68.0, 0.3), (70.0, 0.3), (138.0, 0.5), (207.0, 0.25)];
     for (weak, seed) in [0, 1, 3].into_iter().zip(60..) {
-        let mut rotors = [61.1, 60.5, 59.9, 59.3].map(Swinging::swinging);
+        let mut rotors = [61.1, 60.5, 59.9, 59.3].map(Motion::swinging);
         rotors[weak].level = 0.2;
         let heard =
             heard_by(&rotors, &Sound { lines: &lines, ..SOUND }, ToneConfig::of_order(Order::new(69.0).unwrap()), seed);
@@ -213,14 +213,10 @@ fn many_lines_of_four_rotors_are_no_other_sound() {
     // forty lines, few of them explained by the loudest rotor alone, make chance series; and now one rotor leads, now another
     let lines: Vec<(f64, f64)> = (1..=20).map(|k| (2.0 * f64::from(k), f64::from(k).powf(-0.5))).collect();
     for seed in 0..3 {
-        let rotors: Vec<Swinging> = [61.98, 60.76, 59.57, 58.37]
+        let rotors: Vec<Motion> = [61.98, 60.76, 59.57, 58.37]
             .into_iter()
             .enumerate()
-            .map(|(rotor, mean)| Swinging {
-                swing_share: 0.002,
-                swing_hz: 0.2 + 0.1 * rotor as f64,
-                ..Swinging::at(mean)
-            })
+            .map(|(rotor, mean)| Motion { swing_share: 0.002, swing_hz: 0.2 + 0.1 * rotor as f64, ..Motion::at(mean) })
             .collect();
         let tone = ToneConfig::of_order(Order::new(2.0).unwrap());
         let heard = heard_by(&rotors, &Sound { lines: &lines, ..SOUND }, tone, 20 + seed);
@@ -240,7 +236,7 @@ fn rotors_in_loud_noise_say_how_little_is_known_of_them() {
     let (mut answered, mut apart, mut within) = (0, 0, 0);
     for (noise_std, seed) in [6.0, 9.0, 12.0, 20.0].into_iter().flat_map(|noise| (0..3).map(move |seed| (noise, seed)))
     {
-        let rotors = [59.4, 59.9, 60.3, 60.8].map(Swinging::swinging);
+        let rotors = [59.4, 59.9, 60.3, 60.8].map(Motion::swinging);
         let sound = Sound { noise_std, ..SOUND };
         let heard = heard_by(&rotors, &sound, tone_of_gear_and_blades(), 40 + seed);
         let Outcome::Ok(tone) = &heard.analysis.outcome else { continue };
@@ -264,7 +260,7 @@ fn rotors_that_speed_up_together_keep_their_places() {
     // in half a second they move by three times what they are apart
     let mean_rev_s = [61.1, 60.4, 59.7, 59.0];
     for seed in 80..83 {
-        let rotors = mean_rev_s.map(|mean| Swinging { swing_share: 0.02, swing_hz: 0.7, ..Swinging::at(mean) });
+        let rotors = mean_rev_s.map(|mean| Motion { swing_share: 0.02, swing_hz: 0.7, ..Motion::at(mean) });
         let heard = heard(&rotors, seed);
         let tone = heard.tone();
         assert_eq!(tone.rotors.len(), 4);
@@ -282,7 +278,7 @@ fn rotors_that_speed_up_together_keep_their_places() {
 #[test]
 fn rotors_in_pairs_have_the_mean_of_all_four() {
     for seed in 90..93 {
-        let rotors = [60.8, 60.8, 59.3, 59.3].map(Swinging::swinging);
+        let rotors = [60.8, 60.8, 59.3, 59.3].map(Motion::swinging);
         let heard = heard(&rotors, seed);
         let tone = heard.tone();
         let speed = tone.speed(Method::Separated).unwrap();
@@ -297,7 +293,7 @@ fn rotors_in_pairs_have_the_mean_of_all_four() {
 #[test]
 fn rotors_that_turn_alike_are_not_invented() {
     // all alike: they have a mean, and nobody one of its own
-    let heard = heard(&[60.0; 4].map(Swinging::at), 8);
+    let heard = heard(&[60.0; 4].map(Motion::at), 8);
     let tone = heard.tone();
     assert!(tone.rotors.is_empty());
     assert!(
@@ -323,14 +319,14 @@ fn one_rotor_whose_lines_lose_their_phase_is_not_four() {
     let wide = Sound { coherence_s: 0.2, ..SOUND };
     let tone = tone_of_gear_and_blades();
     for seed in 70..73 {
-        let heard = heard_by(&[Swinging::swinging(60.0)], &wide, tone.clone(), seed);
+        let heard = heard_by(&[Motion::swinging(60.0)], &wide, tone.clone(), seed);
         let answer = heard.tone();
         assert!(answer.rotors.is_empty(), "{} rotors", answer.rotors.len());
         let error = answer.speed(Method::Separated).unwrap().speed.rev_s() - heard.true_mean_rev_s(0);
         assert!(error.abs() < 0.02, "{error}");
     }
     // four of them are told apart where they are far enough apart
-    let rotors = [61.4, 60.4, 59.4, 58.4].map(Swinging::swinging);
+    let rotors = [61.4, 60.4, 59.4, 58.4].map(Motion::swinging);
     let heard = heard_by(&rotors, &wide, tone, 73);
     let answer = heard.tone();
     assert_eq!(answer.rotors.len(), 4);
