@@ -2,16 +2,17 @@
 
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
-use crate::colour::{INK, MUTED, SERIES};
+use crate::colour::{INK, MUTED, OVER_PICTURE, SERIES};
 use crate::figure::{Figure, FigureError};
+use crate::geometry::{Extent, Point};
 use hovertone_thrust::{BudgetLine, ThrustTable};
 
 const ROW: i32 = 52;
 const LEFT: i32 = 500;
-/// Contributions below this share of the largest are too short for a bar.
+/// Contributions below this share of the largest have no visible bar and are left out.
 const SHARE_MIN: f64 = 0.002;
 
-/// `None` where there is no budget.
+/// `None` without a budget.
 pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError> {
     let (Some(budget), Some(constant)) = (&table.budget, table.thrust_constant_total_n_s2) else { return Ok(None) };
     let percent = |contribution_n_s2: f64| 100.0 * contribution_n_s2.abs() / constant.value;
@@ -26,8 +27,9 @@ pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError>
     let bottom = 40 + (lines.len() as i32 + 1) * ROW + 20;
     let panel = Panel {
         place: Place { left: LEFT, top: 30, right: WIDTH - 200, bottom },
-        x: Axis::new("contribution to the standard uncertainty of C_f (%)", (0.0, 1.1 * combined)).with_ticks(8),
-        y: Axis::new("", (0.0, 1.0)).with_ticks(0),
+        x: Axis::new("contribution to the standard uncertainty of C_f (%)", Extent::new(0.0, 1.1 * combined))
+            .with_ticks(8),
+        y: Axis::new("", Extent::new(0.0, 1.0)).with_ticks(0),
         right: None,
         title: String::new(),
     };
@@ -44,17 +46,17 @@ pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError>
             let colour = if share.is_some() { SERIES[0] } else { INK };
             let place =
                 Place { left: LEFT, top: top + 8, right: LEFT + length.round().max(1.0) as i32, bottom: top + ROW - 8 };
-            sheet.text(title, (LEFT - 20, top + ROW / 2), Anchor::Right, INK)?;
+            sheet.text(title, Point::new(LEFT - 20, top + ROW / 2), Anchor::Right, INK)?;
             sheet.filled(place, colour, 1.0)?;
             let words = match share {
                 Some(share) => format!("{percent:.3} % ({:.1} % of the variance)", 100.0 * share),
                 None => format!("{percent:.3} %"),
             };
-            // a long bar has its number inside
+            // the number of a long bar stands inside it
             let at = if length > 0.62 * f64::from(panel.place.right - LEFT) {
-                sheet.text(&words, (place.right - 14, top + ROW / 2), Anchor::Right, crate::colour::OVER_PICTURE)
+                sheet.text(&words, Point::new(place.right - 14, top + ROW / 2), Anchor::Right, OVER_PICTURE)
             } else {
-                sheet.text(&words, (place.right + 14, top + ROW / 2), Anchor::Left, MUTED)
+                sheet.text(&words, Point::new(place.right + 14, top + ROW / 2), Anchor::Left, MUTED)
             };
             at?;
         }

@@ -1,8 +1,9 @@
-//! A sheet that is drawn on in layers, by plotters. Its unit is a tenth of a millimetre of the printed figure.
+//! A sheet with layers, drawn by plotters. Its unit is a tenth of a millimetre of the printed figure.
 
 use crate::axis::Axis;
 use crate::colour::{ColourMap, GRID, INK, MUTED, PAPER};
 use crate::figure::{Figure, FigureError, escaped};
+use crate::geometry::{Extent, Point};
 use crate::raster::Raster;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
@@ -13,11 +14,11 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor, ShapeStyle};
 use std::fmt::Write as _;
 
-/// Height of letters: 8 points in print.
+/// Height of letters in units of the sheet: 8 points in print.
 pub(crate) const LETTER: i32 = 28;
-/// Width of a column of text in print, 180 mm.
+/// Width of the sheet: 180 mm, a column of text in print.
 pub(crate) const WIDTH: i32 = 1800;
-/// Height of letters over the size that plotters wants.
+/// Font size of plotters over the height of its letters.
 const PLOTTERS_SIZE: f64 = 1.24;
 const TICK: i32 = 10;
 const LINE: u32 = 2;
@@ -31,31 +32,31 @@ pub(crate) struct Place {
     pub(crate) bottom: i32,
 }
 
-/// A plot: where it is and what its axes show.
+/// A plot: its place and its axes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Panel {
     pub(crate) place: Place,
     pub(crate) x: Axis,
     pub(crate) y: Axis,
-    /// The same y again at the right: its title, and how much of the left unit is one of it.
+    /// A second axis at the right: its title, and the number of left units per right unit.
     pub(crate) right: Option<(String, f64)>,
-    /// Words above the plot.
+    /// Text above the plot.
     pub(crate) title: String,
 }
 
-/// Which corner or edge of a text is at its point.
+/// Side of a text that lies at its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Left,
     Middle,
     Right,
-    /// Turned to read upwards, its middle at the point.
+    /// Rotated to read upwards, with its middle at the point.
     Upwards,
-    /// Turned to read downwards, its middle at the point.
+    /// Rotated to read downwards, with its middle at the point.
     Downwards,
 }
 
-/// A sheet and what was drawn on it.
+/// A sheet with the layers drawn so far.
 pub(crate) struct Canvas {
     name: String,
     height: i32,
@@ -90,7 +91,7 @@ impl Canvas {
         Figure { name, title, description, svg }
     }
 
-    /// A layer without axes: words and boxes.
+    /// A layer without axes: text and boxes.
     pub(crate) fn layer(
         &mut self,
         class: &str,
@@ -101,39 +102,46 @@ impl Canvas {
         Ok(())
     }
 
-    /// The axes of a plot, to be followed by its layers.
+    /// The axes of a plot. Its layers follow.
     pub(crate) fn panel(&mut self, panel: &Panel) -> Result<(), FigureError> {
         let Panel { place, x, y, right, title } = panel;
         let (at_x, at_y) = (|value: f64| panel.x_unit(value), |value: f64| panel.y_unit(value));
         let ticks = self.drawn(|area| {
             let sheet = Sheet { area };
             for (value, label) in x.ticks() {
-                sheet.line(&[(at_x(value), place.bottom), (at_x(value), place.bottom + TICK)], INK, LINE)?;
-                sheet.text(&label, (at_x(value), place.bottom + 30), Anchor::Middle, INK)?;
+                let ends = [Point::new(at_x(value), place.bottom), Point::new(at_x(value), place.bottom + TICK)];
+                sheet.line(&ends, INK, LINE)?;
+                sheet.text(&label, Point::new(at_x(value), place.bottom + 30), Anchor::Middle, INK)?;
             }
             for (value, label) in y.ticks() {
-                sheet.line(&[(place.left, at_y(value)), (place.right, at_y(value))], GRID, 1)?;
-                sheet.line(&[(place.left - TICK, at_y(value)), (place.left, at_y(value))], INK, LINE)?;
-                sheet.text(&label, (place.left - 16, at_y(value)), Anchor::Right, INK)?;
+                let on_axis = Point::new(place.left, at_y(value));
+                sheet.line(&[on_axis, Point { x: place.right, ..on_axis }], GRID, 1)?;
+                sheet.line(&[Point { x: place.left - TICK, ..on_axis }, on_axis], INK, LINE)?;
+                sheet.text(&label, Point { x: place.left - 16, ..on_axis }, Anchor::Right, INK)?;
             }
             let Some((_, unit)) = right else { return Ok(()) };
-            for (value, label) in Axis::new("", (y.from / unit, y.to / unit)).with_ticks(y.ticks_max).ticks() {
-                let at = at_y(value * unit);
-                sheet.line(&[(place.right, at), (place.right + TICK, at)], INK, LINE)?;
-                sheet.text(&label, (place.right + 16, at), Anchor::Left, INK)?;
+            let shown = Extent::new(y.from / unit, y.to / unit);
+            for (value, label) in Axis::new("", shown).with_ticks(y.ticks_max).ticks() {
+                let on_axis = Point::new(place.right, at_y(value * unit));
+                sheet.line(&[on_axis, Point { x: place.right + TICK, ..on_axis }], INK, LINE)?;
+                sheet.text(&label, Point { x: place.right + 16, ..on_axis }, Anchor::Left, INK)?;
             }
             Ok(())
         })?;
         let frame = self.drawn(|area| {
             let sheet = Sheet { area };
-            let corners = [(place.left, place.top), (place.left, place.bottom), (place.right, place.bottom)];
+            let corners = [
+                Point::new(place.left, place.top),
+                Point::new(place.left, place.bottom),
+                Point::new(place.right, place.bottom),
+            ];
             sheet.line(&corners, INK, LINE)?;
-            sheet.text(&x.title, (place.middle_x(), place.bottom + 72), Anchor::Middle, INK)?;
-            sheet.text(&y.title, (place.left - 128, place.middle_y()), Anchor::Upwards, INK)?;
+            sheet.text(&x.title, Point::new(place.middle_x(), place.bottom + 72), Anchor::Middle, INK)?;
+            sheet.text(&y.title, Point::new(place.left - 128, place.middle_y()), Anchor::Upwards, INK)?;
             if let Some((right_title, _)) = right {
-                sheet.text(right_title, (place.right + 122, place.middle_y()), Anchor::Downwards, INK)?;
+                sheet.text(right_title, Point::new(place.right + 122, place.middle_y()), Anchor::Downwards, INK)?;
             }
-            sheet.text(title, (place.left, place.top - 24), Anchor::Left, INK)
+            sheet.text(title, Point::new(place.left, place.top - 24), Anchor::Left, INK)
         })?;
         let drawn = format!("<g class=\"ticks\">\n{ticks}</g>\n<g class=\"frame\">\n{frame}</g>\n");
         self.panels += 1;
@@ -168,7 +176,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// A layer in the coordinates of the last panel, cut at its edges.
+    /// A layer in the coordinates of the last panel, clipped at its edges.
     pub(crate) fn plot(
         &mut self,
         panel: &Panel,
@@ -189,16 +197,16 @@ impl Canvas {
     }
 
     /// A spectrogram over the whole of a panel, or over a part of its x axis.
-    pub(crate) fn picture(&mut self, panel: &Panel, x: (f64, f64), raster: &Raster) -> Result<(), FigureError> {
-        let (left, right) = (panel.x_unit_exact(x.0), panel.x_unit_exact(x.1));
+    pub(crate) fn picture(&mut self, panel: &Panel, x: Extent, raster: &Raster) -> Result<(), FigureError> {
+        let (left, right) = (panel.x_unit_exact(x.low), panel.x_unit_exact(x.high));
         let image = format!(
             "<image class=\"picture\" x=\"{left:.2}\" y=\"{}\" width=\"{:.2}\" height=\"{}\" preserveAspectRatio=\"none\" \
              data-x-from=\"{}\" data-x-to=\"{}\" data-level-low-db=\"{:.1}\" data-level-high-db=\"{:.1}\" href=\"{}\"/>\n",
             panel.place.top,
             right - left,
             panel.place.bottom - panel.place.top,
-            x.0,
-            x.1,
+            x.low,
+            x.high,
             raster.level_db_low,
             raster.level_db_high,
             raster.data_uri()?
@@ -207,8 +215,8 @@ impl Canvas {
         Ok(())
     }
 
-    /// The key of a spectrogram's colours, at the top of the sheet.
-    pub(crate) fn colour_bar(&mut self, map: ColourMap, levels_db: (f64, f64)) -> Result<(), FigureError> {
+    /// The key of the colours of a spectrogram, at the top of the sheet.
+    pub(crate) fn colour_bar(&mut self, map: ColourMap, levels_db: Extent) -> Result<(), FigureError> {
         let (left, width, height) = (WIDTH - 180 - 400 - 290, 400, 18);
         let raster = Raster::of_all_colours(map, levels_db);
         let image = format!(
@@ -217,14 +225,14 @@ impl Canvas {
         );
         self.push_group("colour-bar", "", &image);
         self.layer("colour-bar-words", |sheet| {
-            let words = format!("{:.0} dB", levels_db.0).replace('-', "−");
-            sheet.text(&words, (left - 14, 24), Anchor::Right, MUTED)?;
-            let words = format!("{:.0} dB re full scale", levels_db.1).replace('-', "−");
-            sheet.text(&words, (left + width + 14, 24), Anchor::Left, MUTED)
+            let words = format!("{:.0} dB", levels_db.low).replace('-', "−");
+            sheet.text(&words, Point::new(left - 14, 24), Anchor::Right, MUTED)?;
+            let words = format!("{:.0} dB re full scale", levels_db.high).replace('-', "−");
+            sheet.text(&words, Point::new(left + width + 14, 24), Anchor::Left, MUTED)
         })
     }
 
-    /// A layer of the last panel: cut at its edges, and what is in it can be enlarged by whoever shows it.
+    /// A layer of the last panel, clipped at its edges. A viewer can enlarge its content.
     fn push_zoomable(&mut self, class: &str, content: &str) {
         let clip = format!(" data-panel=\"{1}\" clip-path=\"url(#{0}-clip-{1})\"", self.name, self.panels);
         self.push_group(class, &clip, &format!("<g class=\"zoomable\">\n{content}</g>\n"));
@@ -235,7 +243,7 @@ impl Canvas {
         let _ = write!(self.body, "<g class=\"{}\"{attributes}>\n{content}</g>\n", escaped(class));
     }
 
-    /// What plotters draws, without the element around it.
+    /// The drawing of plotters without the SVG element around it.
     fn drawn(
         &self,
         paint: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), FigureError>,
@@ -277,14 +285,15 @@ impl Panel {
     }
 }
 
-/// The whole sheet, in its own unit, y downwards.
+/// The whole sheet in its own unit, with y downwards.
 pub(crate) struct Sheet<'a, 'b> {
     area: &'a DrawingArea<SVGBackend<'b>, Shift>,
 }
 
 impl Sheet<'_, '_> {
-    pub(crate) fn line(&self, points: &[(i32, i32)], colour: RGBColor, width: u32) -> Result<(), FigureError> {
-        self.area.draw(&PathElement::new(points.to_vec(), colour.stroke_width(width))).map_err(refused)
+    pub(crate) fn line(&self, points: &[Point<i32>], colour: RGBColor, width: u32) -> Result<(), FigureError> {
+        let points: Vec<(i32, i32)> = points.iter().map(|point| point.pair()).collect();
+        self.area.draw(&PathElement::new(points, colour.stroke_width(width))).map_err(refused)
     }
 
     pub(crate) fn filled(&self, place: Place, colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
@@ -297,7 +306,7 @@ impl Sheet<'_, '_> {
         self.area.draw(&Rectangle::new(corners, colour.stroke_width(1))).map_err(refused)
     }
 
-    pub(crate) fn text(&self, text: &str, at: (i32, i32), anchor: Anchor, colour: RGBColor) -> Result<(), FigureError> {
+    pub(crate) fn text(&self, text: &str, at: Point<i32>, anchor: Anchor, colour: RGBColor) -> Result<(), FigureError> {
         if text.is_empty() {
             return Ok(());
         }
@@ -313,14 +322,14 @@ impl Sheet<'_, '_> {
             .transform(turn)
             .color(&colour)
             .pos(Pos::new(side, VPos::Center));
-        self.area.draw(&Text::new(text.to_owned(), at, style)).map_err(refused)
+        self.area.draw(&Text::new(text.to_owned(), at.pair(), style)).map_err(refused)
     }
 
-    /// A line and its meaning, to be read from left to right; where the next may begin.
-    pub(crate) fn key(&self, at: (i32, i32), colour: RGBColor, text: &str) -> Result<i32, FigureError> {
-        self.line(&[at, (at.0 + 50, at.1)], colour, 6)?;
-        self.text(text, (at.0 + 62, at.1), Anchor::Left, MUTED)?;
-        Ok(at.0 + 62 + text.chars().count() as i32 * LETTER * 11 / 20 + 40)
+    /// An entry of the key: a line and its meaning. Returns the x of the next entry.
+    pub(crate) fn key(&self, at: Point<i32>, colour: RGBColor, text: &str) -> Result<i32, FigureError> {
+        self.line(&[at, Point { x: at.x + 50, ..at }], colour, 6)?;
+        self.text(text, Point { x: at.x + 62, ..at }, Anchor::Left, MUTED)?;
+        Ok(at.x + 62 + text.chars().count() as i32 * LETTER * 11 / 20 + 40)
     }
 }
 
@@ -330,45 +339,36 @@ pub(crate) struct Plot<'a, 'b> {
 }
 
 impl Plot<'_, '_> {
-    pub(crate) fn line(&self, points: &[(f64, f64)], style: impl Into<ShapeStyle>) -> Result<(), FigureError> {
+    pub(crate) fn line(&self, points: &[Point], style: impl Into<ShapeStyle>) -> Result<(), FigureError> {
         if points.len() == 1 {
             return self.dot(points[0], 3, style);
         }
-        self.area.draw(&PathElement::new(points.to_vec(), style)).map_err(refused)
+        let points: Vec<(f64, f64)> = points.iter().map(|point| point.pair()).collect();
+        self.area.draw(&PathElement::new(points, style)).map_err(refused)
     }
 
-    /// A line of dashes; they are of equal length on the sheet.
-    pub(crate) fn dashed(
-        &self,
-        from: (f64, f64),
-        to: (f64, f64),
-        colour: RGBColor,
-        width: u32,
-    ) -> Result<(), FigureError> {
+    /// A dashed line; the dashes have equal lengths on the sheet.
+    pub(crate) fn dashed(&self, from: Point, to: Point, colour: RGBColor, width: u32) -> Result<(), FigureError> {
         const DASHES: usize = 60;
-        let at = |share: f64| (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
+        let at = |share: f64| Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
         (0..DASHES).try_for_each(|dash| {
             let start = dash as f64 / DASHES as f64;
             self.line(&[at(start), at(start + 0.6 / DASHES as f64)], colour.stroke_width(width))
         })
     }
 
-    pub(crate) fn area(&self, outline: &[(f64, f64)], colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
-        self.area.draw(&Polygon::new(outline.to_vec(), colour.mix(opacity))).map_err(refused)
+    pub(crate) fn area(&self, outline: &[Point], colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
+        let outline: Vec<(f64, f64)> = outline.iter().map(|point| point.pair()).collect();
+        self.area.draw(&Polygon::new(outline, colour.mix(opacity))).map_err(refused)
     }
 
-    pub(crate) fn block(
-        &self,
-        x: (f64, f64),
-        y: (f64, f64),
-        colour: RGBColor,
-        opacity: f64,
-    ) -> Result<(), FigureError> {
-        self.area.draw(&Rectangle::new([(x.0, y.0), (x.1, y.1)], colour.mix(opacity).filled())).map_err(refused)
+    pub(crate) fn block(&self, x: Extent, y: Extent, colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
+        let corners = [(x.low, y.low), (x.high, y.high)];
+        self.area.draw(&Rectangle::new(corners, colour.mix(opacity).filled())).map_err(refused)
     }
 
-    pub(crate) fn dot(&self, at: (f64, f64), radius: u32, style: impl Into<ShapeStyle>) -> Result<(), FigureError> {
+    pub(crate) fn dot(&self, at: Point, radius: u32, style: impl Into<ShapeStyle>) -> Result<(), FigureError> {
         let style = style.into();
-        self.area.draw(&Circle::new(at, radius, ShapeStyle { filled: true, ..style })).map_err(refused)
+        self.area.draw(&Circle::new(at.pair(), radius, ShapeStyle { filled: true, ..style })).map_err(refused)
     }
 }

@@ -1,4 +1,4 @@
-//! Colours that can be told apart by everybody, in print and on screens.
+//! Colours that people with any colour vision can distinguish, in print and on screens.
 
 use colorous::Gradient;
 use hovertone_analysis::Method;
@@ -6,18 +6,18 @@ use plotters::style::RGBColor;
 
 /// Text and axes.
 pub(crate) const INK: RGBColor = RGBColor(0x1b, 0x1b, 0x1f);
-/// Second thoughts: units, notes, what was not used.
+/// Secondary text: units, notes, unused parts.
 pub(crate) const MUTED: RGBColor = RGBColor(0x6b, 0x70, 0x78);
 /// Grid lines.
 pub(crate) const GRID: RGBColor = RGBColor(0xd9, 0xdc, 0xe1);
-/// The sheet.
+/// Background of the sheet.
 pub(crate) const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xff);
-/// Bands and what belongs to them.
+/// Bands.
 pub(crate) const BAND: RGBColor = RGBColor(0xe6, 0x9f, 0x00);
 /// Lines over a spectrogram.
 pub(crate) const OVER_PICTURE: RGBColor = RGBColor(0xfe, 0xfe, 0xfe);
 
-/// Colours of several things of a kind: Okabe and Ito's, told apart by all kinds of eyes.
+/// Colours of several objects of one kind, distinguishable with any colour vision (Okabe and Ito 2008).
 pub(crate) const SERIES: [RGBColor; 6] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
@@ -42,19 +42,19 @@ pub(crate) fn colour_of_method(method: Method) -> RGBColor {
     }
 }
 
-/// Steps of a colour map: finer ones are not seen and make files larger.
+/// Number of levels of a colour map. Finer levels are invisible and make files larger.
 pub const LEVEL_COUNT: usize = 64;
 
-/// How levels are coloured.
+/// Colours of the levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ColourMap {
-    /// Viridis: rises evenly in lightness, for all kinds of eyes and for grey print.
+    /// Viridis: its lightness increases evenly, for any colour vision and for grey print.
     Viridis,
     /// White to black, under coloured lines.
     Greys,
 }
 
-/// Viridis from the lowest level to the highest, as red, green and blue: the colours of every spectrogram.
+/// Viridis from the lowest level to the highest as red, green and blue: the colours of every spectrogram.
 pub fn level_colours() -> [[u8; 3]; LEVEL_COUNT] {
     ColourMap::Viridis.colours()
 }

@@ -6,7 +6,7 @@ use crate::{budget, database, fit, gaussian, load_spectrograms, maximum_trace, r
 use hovertone_analysis::Method;
 use hovertone_thrust::ThrustTable;
 
-/// What the figures of an experiment are drawn from.
+/// Input of the figures of an experiment.
 #[derive(Clone, Copy, Debug)]
 pub struct ExperimentFigures<'a> {
     /// All recordings, load by load.
@@ -17,11 +17,10 @@ pub struct ExperimentFigures<'a> {
     pub method: Method,
 }
 
-/// Figures 5 to 9 of the paper, then the fit, the budget, and the first trial whose rotors were told apart. What cannot be shown for want of
-/// data is left out.
+/// Figures 5 to 9 of the paper, then the fit, the budget, and the first trial with separated rotors. A figure without data is left out.
 ///
 /// # Errors
-/// What the plotting library refuses.
+/// Errors of the plotting library.
 pub fn figures_of_experiment(experiment: &ExperimentFigures<'_>) -> Result<Vec<Figure>, FigureError> {
     let ExperimentFigures { trials, tables, method } = *experiment;
     let mut figures = vec![

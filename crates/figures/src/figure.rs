@@ -1,15 +1,15 @@
-//! A figure: its name, its words and its drawing.
+//! A figure: its name, its texts and its drawing.
 
-/// A figure that was drawn.
+/// A finished figure.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Figure {
-    /// Its name, good for a file name: `figure-6-spectrograms`.
+    /// Name, usable as a file name: `figure-6-spectrograms`.
     pub name: String,
-    /// One line: what it is.
+    /// Title on one line.
     pub title: String,
-    /// What is to be seen, for a caption and for those who cannot see it.
+    /// Description of the content, for a caption and for people who cannot see it.
     pub description: String,
-    /// The drawing, complete in itself.
+    /// The drawing, with everything that it needs inside.
     pub svg: String,
 }
 
@@ -17,10 +17,10 @@ pub struct Figure {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// The plotting library refused.
+    /// Error of the plotting library.
     #[error("a figure could not be drawn: {0}")]
     Drawing(String),
-    /// A picture could not be packed.
+    /// Error of the PNG encoder.
     #[error("a picture could not be packed: {0}")]
     Packing(#[from] png::EncodingError),
     /// The drawing could not be turned into pixels.
@@ -28,7 +28,7 @@ pub enum FigureError {
     Pixels(String),
 }
 
-/// Text as XML wants it.
+/// Text with the special characters of XML escaped.
 pub(crate) fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -38,7 +38,7 @@ pub(crate) fn escaped(text: &str) -> String {
             '&' => escaped.push_str("&amp;"),
             '"' => escaped.push_str("&quot;"),
             '\'' => escaped.push_str("&#39;"),
-            // no XML can hold these
+            // characters that XML does not allow
             '\u{0}'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {
                 escaped.push('\u{fffd}');
             }
@@ -48,7 +48,7 @@ pub(crate) fn escaped(text: &str) -> String {
     escaped
 }
 
-/// The name itself, or its beginning and end where it is longer than `letters`.
+/// The name, or its beginning and end where it is longer than `letters`.
 pub(crate) fn shortened(name: &str, letters: usize) -> String {
     let count = name.chars().count();
     if count <= letters {

@@ -4,6 +4,7 @@ use crate::axis::{Axis, range_with_margin};
 use crate::canvas::{Canvas, LETTER, Panel, Place, WIDTH};
 use crate::colour::{GRID, colour_of_method};
 use crate::figure::{Figure, FigureError, shortened};
+use crate::geometry::{Extent, Point};
 use crate::spectrum::harmonic_name;
 use crate::trial::{Trial, hull, ridge_lines};
 use hovertone_analysis::{Method, Ridge};
@@ -13,9 +14,9 @@ use std::f64::consts::TAU;
 const PANEL: i32 = 300;
 const PITCH: i32 = 460;
 const TOP: i32 = 120;
-/// Bars of a distribution.
+/// Number of bars of a distribution.
 const BARS: usize = 40;
-/// Points of a Gaussian.
+/// Number of points of a Gaussian curve.
 const CURVE: usize = 160;
 
 /// `None` where no trial has a tone.
@@ -29,10 +30,9 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     let mut canvas = Canvas::new("figure-9-gaussian", TOP + ridges.len() as i32 * PITCH);
     let (trace, gaussian) = (colour_of_method(Method::MaximumTrace), colour_of_method(Method::Gaussian));
     canvas.layer("key", |sheet| {
-        let next = sheet.key((180, LETTER), trace, "maximum of each frame")?;
-        sheet
-            .key((next, LETTER), gaussian, "centre of the Gaussian of each frame, and the Gaussian of all centres")
-            .map(|_| ())
+        let next = sheet.key(Point::new(180, LETTER), trace, "maximum of each frame")?;
+        let meaning = "centre of the Gaussian of each frame, and the Gaussian of all centres";
+        sheet.key(Point::new(next, LETTER), gaussian, meaning).map(|_| ())
     })?;
     for (index, ridge) in ridges.iter().enumerate() {
         let top = TOP + index as i32 * PITCH;
@@ -40,7 +40,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         let Some(range_hz) = range_with_margin(all, 0.08) else { continue };
         let over_time = Panel {
             place: Place { left: 180, top, right: 1240, bottom: top + PANEL },
-            x: Axis::new("time (s)", (span.from_s, span.to_s)).with_ticks(9),
+            x: Axis::new("time (s)", Extent::of_span(span)).with_ticks(9),
             y: Axis::new("frequency (Hz)", range_hz).with_ticks(5),
             right: None,
             title: harmonic_name(ridge.band.harmonic),
@@ -57,12 +57,12 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         let centres_hz = ridge.points_hz(Method::Gaussian);
         let (mean_hz, std_hz) = mean_and_std(&centres_hz);
         let bars = bars(&centres_hz, range_hz);
-        let bar_hz = (range_hz.1 - range_hz.0) / BARS as f64;
+        let bar_hz = range_hz.width() / BARS as f64;
         let density = |hz: f64| (-((hz - mean_hz) / std_hz).powi(2) / 2.0).exp() / (std_hz * TAU.sqrt());
         let highest = bars.iter().copied().fold(density(mean_hz), f64::max);
         let beside = Panel {
             place: Place { left: 1400, top, right: WIDTH - 60, bottom: top + PANEL },
-            x: Axis::new("share per Hz", (0.0, 1.08 * highest)).with_ticks(2),
+            x: Axis::new("share per Hz", Extent::new(0.0, 1.08 * highest)).with_ticks(2),
             y: Axis::new("", range_hz).with_ticks(5),
             right: None,
             title: format!("{mean_hz:.1} Hz ± {std_hz:.1} Hz"),
@@ -70,13 +70,13 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         canvas.panel(&beside)?;
         canvas.plot(&beside, "distribution", |plot| {
             bars.iter().enumerate().try_for_each(|(bar, &share)| {
-                let low_hz = range_hz.0 + bar as f64 * bar_hz;
-                plot.block((0.0, share), (low_hz, low_hz + bar_hz), GRID, 1.0)
+                let low_hz = range_hz.low + bar as f64 * bar_hz;
+                plot.block(Extent::new(0.0, share), Extent::new(low_hz, low_hz + bar_hz), GRID, 1.0)
             })
         })?;
         canvas.plot(&beside, &format!("gaussian-curve harmonic-{}", ridge.band.harmonic), |plot| {
-            let hz = |point: usize| range_hz.0 + (range_hz.1 - range_hz.0) * point as f64 / CURVE as f64;
-            let curve: Vec<(f64, f64)> = (0..=CURVE).map(|point| (density(hz(point)), hz(point))).collect();
+            let hz = |point: usize| range_hz.low + range_hz.width() * point as f64 / CURVE as f64;
+            let curve: Vec<Point> = (0..=CURVE).map(|point| Point::new(density(hz(point)), hz(point))).collect();
             plot.line(&curve, gaussian.stroke_width(4))
         })?;
     }
@@ -92,17 +92,17 @@ fn mean_and_std(values: &[f64]) -> (f64, f64) {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
     let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0);
-    // a steady tone has no width to draw; a thousandth of a hertz is below what any frame resolves
+    // a steady tone has no visible width; a thousandth of a hertz is below the resolution of any frame
     (mean, variance.sqrt().max(1e-3))
 }
 
 /// Share of the values per hertz in each bar of a range.
-fn bars(values: &[f64], (low, high): (f64, f64)) -> Vec<f64> {
+fn bars(values: &[f64], range: Extent) -> Vec<f64> {
     let mut counts = vec![0.0; BARS];
     for value in values {
-        let bar = ((value - low) / (high - low) * BARS as f64) as usize;
+        let bar = (range.share_of(*value) * BARS as f64) as usize;
         counts[bar.min(BARS - 1)] += 1.0;
     }
-    let unit = values.len() as f64 * (high - low) / BARS as f64;
+    let unit = values.len() as f64 * range.width() / BARS as f64;
     counts.into_iter().map(|count: f64| count / unit).collect()
 }

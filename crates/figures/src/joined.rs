@@ -1,28 +1,37 @@
-//! The trials of a load one after the other, as the paper's figure 6 joins them.
+//! The trials of a load in sequence on one time axis, as in figure 6 of the paper.
 
 use crate::canvas::{Anchor, Panel, Sheet};
 use crate::colour::{INK, MUTED};
 use crate::figure::{FigureError, shortened};
+use crate::geometry::{Extent, Point};
 use crate::trial::Trial;
 use hovertone_analysis::Span;
 
-/// Trials narrower than these have their number alone, or nothing above them.
+/// Narrower trials have only their number above them, units of the sheet.
 const WIDTH_OF_WORDS: f64 = 120.0;
+/// Narrower trials have no text above them.
 const WIDTH_OF_NUMBER: f64 = 40.0;
 
-/// A trial and where it stands on the joined axis.
+/// A trial with its position on the joined axis.
 #[derive(Clone, Copy)]
 pub(crate) struct Joined<'a> {
     pub(crate) trial: Trial<'a>,
     /// Its number among the trials of its load, counted from 1.
     pub(crate) number: usize,
-    /// What is shown of it, on the recording's own clock.
+    /// The shown part, on the clock of the recording.
     pub(crate) shown: Span,
-    /// Joined time less the recording's own.
+    /// Time on the joined axis minus time of the recording.
     pub(crate) shift_s: f64,
 }
 
-/// The loads in their order, each with its trials that can be shown.
+impl Joined<'_> {
+    /// Extent on the joined axis, s.
+    pub(crate) fn extent_s(&self) -> Extent {
+        Extent::new(self.shown.from_s + self.shift_s, self.shown.to_s + self.shift_s)
+    }
+}
+
+/// The loads in their order, each with its trials that have a picture.
 pub(crate) fn joined_by_load<'a>(trials: &[Trial<'a>]) -> Vec<(&'a str, Vec<Joined<'a>>)> {
     trials
         .chunk_by(|a, b| a.load == b.load)
@@ -43,12 +52,12 @@ pub(crate) fn joined_by_load<'a>(trials: &[Trial<'a>]) -> Vec<(&'a str, Vec<Join
         .collect()
 }
 
-/// Where the joined trials of a load end.
+/// End of the joined trials of a load.
 pub(crate) fn end_s(joined: &[Joined<'_>]) -> f64 {
     joined.last().map_or(1.0, |last| last.shown.to_s + last.shift_s)
 }
 
-/// Above a panel: the name of its load, and the numbers of the trials where they have room.
+/// Text above a panel: the name of its load, and the numbers of the trials where they fit.
 pub(crate) fn joined_words(
     sheet: &Sheet<'_, '_>,
     panel: &Panel,
@@ -56,7 +65,7 @@ pub(crate) fn joined_words(
     joined: &[Joined<'_>],
 ) -> Result<(), FigureError> {
     let (left, top) = (panel.place.left, panel.place.top);
-    sheet.text(&shortened(load, 80), (left, top - 60), Anchor::Left, INK)?;
+    sheet.text(&shortened(load, 80), Point::new(left, top - 60), Anchor::Left, INK)?;
     let unit_per_s = f64::from(panel.place.right - left) / end_s(joined);
     for one in joined {
         let words = match one.shown.length_s() * unit_per_s {
@@ -65,7 +74,7 @@ pub(crate) fn joined_words(
             _ => continue,
         };
         let middle = f64::from(left) + (one.shown.middle_s() + one.shift_s) * unit_per_s;
-        sheet.text(&words, (middle as i32, top - 24), Anchor::Middle, MUTED)?;
+        sheet.text(&words, Point::new(middle as i32, top - 24), Anchor::Middle, MUTED)?;
     }
     Ok(())
 }

@@ -1,15 +1,16 @@
-//! Results as figures: SVG for reading and printing, and the same as PNG. Pure functions; where the bytes go is the caller's business.
+//! Results as figures: SVG for reading and printing, and the same as PNG. Pure functions; the caller decides where the bytes go.
 //!
 //! ```text
-//! canvas       layers of drawing on one sheet, by plotters        axis      ranges, ticks and their labels
-//! picture      sound → spectrograms of bounded size, and the mean spectrum of the hover
-//! raster       a spectrogram as the pixels of a PNG               colour    colours that everybody can tell apart
-//! figure       name, words and SVG of a figure                    bitmap    SVG → PNG
-//! trial        what the figures show of a recording               joined    trials one after the other on one time axis
+//! canvas      layers of drawing on one sheet, by plotters      axis      ranges, ticks and their labels
+//! picture     sound → spectrograms of bounded size, and the mean spectrum of the hover
+//! raster      a spectrogram as the pixels of a PNG             colour    colours for any colour vision
+//! figure      name, texts and SVG of a figure                  bitmap    SVG → PNG
+//! trial       input of the figures about a recording           joined    trials in sequence on one time axis
+//! geometry    points and extents
 //! ```
 //!
-//! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian` (9),
-//! `fit`, `budget`, `rotors`, `spectrogram` of one recording.
+//! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian`
+//! (9), `fit`, `budget`, `rotors`, and `spectrogram` of one recording.
 
 mod axis;
 mod bitmap;
@@ -21,6 +22,7 @@ mod experiment;
 mod figure;
 mod fit;
 mod gaussian;
+mod geometry;
 mod joined;
 mod load_spectrograms;
 mod maximum_trace;

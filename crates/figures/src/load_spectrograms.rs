@@ -4,6 +4,7 @@ use crate::axis::Axis;
 use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{ColourMap, OVER_PICTURE};
 use crate::figure::{Figure, FigureError};
+use crate::geometry::{Extent, Point};
 use crate::joined::{end_s, joined_by_load, joined_words};
 use crate::raster::{Raster, level_range_db};
 use crate::trial::Trial;
@@ -12,11 +13,12 @@ use plotters::style::Color;
 const PANEL: i32 = 400;
 const PITCH: i32 = 600;
 const TOP: i32 = 140;
-/// Pixels of a panel: 150 dpi in height, and the trials share its width.
+/// Most rows of a picture, 150 dpi in height.
 const ROWS_MAX: usize = 240;
+/// Most columns of all trials of a panel together.
 const COLUMNS_MAX: usize = 1200;
 
-/// `None` where there is nothing to see.
+/// `None` without pictures.
 pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError> {
     let loads = joined_by_load(trials);
     let all = || loads.iter().flat_map(|(_, joined)| joined);
@@ -31,8 +33,8 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         let top = TOP + index as i32 * PITCH;
         let panel = Panel {
             place: Place { left: 180, top, right: WIDTH - 180, bottom: top + PANEL },
-            x: Axis::new("joined time of the trials (s)", (0.0, end_s(joined))).with_ticks(11),
-            y: Axis::new("frequency (kHz)", (0.0, hz_max / 1e3)).with_ticks(7),
+            x: Axis::new("joined time of the trials (s)", Extent::new(0.0, end_s(joined))).with_ticks(11),
+            y: Axis::new("frequency (kHz)", Extent::new(0.0, hz_max / 1e3)).with_ticks(7),
             right: order.map(|order| (format!("frequency / {order} (rev/s)"), order / 1e3)),
             title: String::new(),
         };
@@ -40,15 +42,13 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         let columns = (COLUMNS_MAX / joined.len()).max(16);
         for one in joined {
             let Some(picture) = one.trial.whole() else { continue };
-            let raster =
-                Raster::from_picture(picture, (0.0, hz_max), levels_db, ColourMap::Viridis).at_most(columns, ROWS_MAX);
-            let shown = (one.shown.from_s + one.shift_s, one.shown.to_s + one.shift_s);
-            canvas.picture(&panel, shown, &raster)?;
+            let raster = Raster::from_picture(picture, Extent::new(0.0, hz_max), levels_db, ColourMap::Viridis);
+            canvas.picture(&panel, one.extent_s(), &raster.at_most(columns, ROWS_MAX))?;
         }
         canvas.plot(&panel, "trial-borders", |plot| {
             joined.iter().skip(1).try_for_each(|one| {
-                let at_s = one.shown.from_s + one.shift_s;
-                plot.line(&[(at_s, 0.0), (at_s, hz_max / 1e3)], OVER_PICTURE.stroke_width(3))
+                let at_s = one.extent_s().low;
+                plot.line(&[Point::new(at_s, 0.0), Point::new(at_s, hz_max / 1e3)], OVER_PICTURE.stroke_width(3))
             })
         })?;
         canvas.layer("trial-numbers", |sheet| joined_words(sheet, &panel, load, joined))?;

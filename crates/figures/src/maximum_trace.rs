@@ -4,6 +4,7 @@ use crate::axis::{Axis, range_with_margin};
 use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{GRID, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError};
+use crate::geometry::{Extent, Point};
 use crate::joined::{Joined, end_s, joined_by_load, joined_words};
 use crate::trial::{Trial, ridge_lines};
 use hovertone_analysis::{Method, Ridge};
@@ -30,7 +31,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         let order = joined.iter().find_map(|one| Some(ridge(one)?.band.order.lines_per_turn()));
         let panel = Panel {
             place: Place { left: 180, top, right: WIDTH - 180, bottom: top + PANEL },
-            x: Axis::new("joined time of the trials (s)", (0.0, end_s(joined))).with_ticks(11),
+            x: Axis::new("joined time of the trials (s)", Extent::new(0.0, end_s(joined))).with_ticks(11),
             y: Axis::new("frequency (Hz)", range_hz).with_ticks(6),
             right: order.map(|order| ("shaft speed (rev/s)".to_owned(), order)),
             title: String::new(),
@@ -38,24 +39,24 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         canvas.panel(&panel)?;
         canvas.plot(&panel, "trial-borders", |plot| {
             joined.iter().skip(1).try_for_each(|one| {
-                let at_s = one.shown.from_s + one.shift_s;
-                plot.line(&[(at_s, range_hz.0), (at_s, range_hz.1)], GRID.stroke_width(3))
+                let at_s = one.extent_s().low;
+                plot.line(&[Point::new(at_s, range_hz.low), Point::new(at_s, range_hz.high)], GRID.stroke_width(3))
             })
         })?;
         for one in joined {
             let Some(ridge) = ridge(one) else { continue };
             canvas.plot(&panel, &format!("maximum-trace trial-{}", one.number), |plot| {
                 ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace).into_iter().try_for_each(|line| {
-                    let line: Vec<(f64, f64)> =
-                        line.into_iter().map(|(time_s, hz)| (time_s + one.shift_s, hz)).collect();
+                    let line: Vec<Point> =
+                        line.into_iter().map(|point| Point { x: point.x + one.shift_s, ..point }).collect();
                     plot.line(&line, colour.stroke_width(2))
                 })
             })?;
             let points_hz = ridge.points_hz(Method::MaximumTrace);
             let mean_hz = points_hz.iter().sum::<f64>() / points_hz.len().max(1) as f64;
             canvas.plot(&panel, "mean", |plot| {
-                let (from_s, to_s) = (one.shown.from_s + one.shift_s, one.shown.to_s + one.shift_s);
-                plot.dashed((from_s, mean_hz), (to_s, mean_hz), MUTED, 3)
+                let Extent { low: from_s, high: to_s } = one.extent_s();
+                plot.dashed(Point::new(from_s, mean_hz), Point::new(to_s, mean_hz), MUTED, 3)
             })?;
         }
         canvas.layer("trial-numbers", |sheet| joined_words(sheet, &panel, load, joined))?;
@@ -65,7 +66,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     Ok(Some(canvas.finish("Figure 8: maximum trace of the fundamental over time", description)))
 }
 
-/// The lowest harmonic that was followed.
+/// The lowest harmonic with a ridge.
 fn ridge<'a>(one: &Joined<'a>) -> Option<&'a Ridge> {
     one.trial.tone()?.ridges.first().filter(|ridge| !ridge.points_hz(Method::MaximumTrace).is_empty())
 }

@@ -1,19 +1,20 @@
-//! A spectrogram as the pixels of a PNG: one byte for each cell, the level among those of the colour map.
+//! A spectrogram as the pixels of a PNG: one byte for each cell, the index of its level in the colour map.
 
 use crate::colour::{ColourMap, LEVEL_COUNT};
 use crate::figure::FigureError;
+use crate::geometry::Extent;
 use crate::picture::Picture;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-/// This share of the cells lies below the darkest colour: the floor of the noise is one colour, not confetti.
+/// Share of the cells below the darkest colour, so that the noise floor has one colour.
 const FLOOR_SHARE: f64 = 0.5;
-/// The brightest colour is at most so far above the darkest: what is fainter than this beside a rotor is not seen anyway.
+/// Largest level difference between the brightest and the darkest colour, dB. Fainter sounds beside a rotor are invisible anyway.
 const LEVELS_DB_MAX: f64 = 60.0;
-/// Pixels at most on each side.
+/// Most pixels on each side.
 const PIXELS_MAX: usize = 4096;
 
-/// A spectrogram, ready to be packed.
+/// A spectrogram as pixels.
 #[derive(Clone, Debug)]
 pub(crate) struct Raster {
     width: usize,
@@ -27,51 +28,45 @@ pub(crate) struct Raster {
     pub(crate) level_db_high: f64,
 }
 
-/// The levels that colours stand for: from a little above the floor to the loudest.
-pub(crate) fn level_range_db<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> (f64, f64) {
+/// The levels of the darkest and the brightest colour: from a little above the noise floor to the loudest cell.
+pub(crate) fn level_range_db<'a>(pictures: impl IntoIterator<Item = &'a Picture>) -> Extent {
     let mut levels: Vec<f32> = pictures.into_iter().flat_map(|picture| picture.level_db.iter().copied()).collect();
     if levels.is_empty() {
-        return (-100.0, 0.0);
+        return Extent::new(-100.0, 0.0);
     }
     let floor = ((levels.len() - 1) as f64 * FLOOR_SHARE) as usize;
     let (_, &mut floor_db, _) = levels.select_nth_unstable_by(floor, f32::total_cmp);
     let loudest_db = f64::from(levels.iter().copied().fold(f32::MIN, f32::max));
-    (f64::from(floor_db).max(loudest_db - LEVELS_DB_MAX).min(loudest_db - 1.0), loudest_db)
+    Extent::new(f64::from(floor_db).max(loudest_db - LEVELS_DB_MAX).min(loudest_db - 1.0), loudest_db)
 }
 
 impl Raster {
-    /// The part of a picture between two frequencies, in its own resolution. Cells outside the picture are of the darkest colour.
-    pub(crate) fn from_picture(
-        picture: &Picture,
-        (hz_low, hz_high): (f64, f64),
-        levels_db: (f64, f64),
-        map: ColourMap,
-    ) -> Self {
+    /// The part of a picture between two frequencies, in its own resolution. Pixels outside the picture have the darkest colour.
+    pub(crate) fn from_picture(picture: &Picture, shown_hz: Extent, levels_db: Extent, map: ColourMap) -> Self {
         let row_hz = (picture.hz_high - picture.hz_low) / picture.row_count as f64;
-        let height = ((hz_high - hz_low) / row_hz).round().clamp(1.0, PIXELS_MAX as f64) as usize;
+        let height = (shown_hz.width() / row_hz).round().clamp(1.0, PIXELS_MAX as f64) as usize;
         let width = picture.column_count;
-        let (low_db, high_db) = levels_db;
         let mut indices = Vec::with_capacity(width * height);
         for pixel in (0..height).rev() {
-            let hz = hz_low + (pixel as f64 + 0.5) / height as f64 * (hz_high - hz_low);
+            let hz = shown_hz.low + (pixel as f64 + 0.5) / height as f64 * shown_hz.width();
             let row = ((hz - picture.hz_low) / row_hz).floor();
             let row = (row >= 0.0 && row < picture.row_count as f64).then_some(row as usize);
             indices.extend((0..width).map(|column| {
                 let level_db = row.and_then(|row| picture.column(column).get(row));
-                let share = level_db.map_or(0.0, |&level_db| (f64::from(level_db) - low_db) / (high_db - low_db));
+                let share = level_db.map_or(0.0, |&level_db| levels_db.share_of(f64::from(level_db)));
                 (share.clamp(0.0, 1.0) * (LEVEL_COUNT - 1) as f64).round() as u8
             }));
         }
-        Self { width, height, indices, map, level_db_low: low_db, level_db_high: high_db }
+        Self { width, height, indices, map, level_db_low: levels_db.low, level_db_high: levels_db.high }
     }
 
-    /// All colours of a map, darkest first, one pixel high.
-    pub(crate) fn of_all_colours(map: ColourMap, (level_db_low, level_db_high): (f64, f64)) -> Self {
+    /// All colours of a map in one row, darkest first.
+    pub(crate) fn of_all_colours(map: ColourMap, levels_db: Extent) -> Self {
         let indices = (0..LEVEL_COUNT as u8).collect();
-        Self { width: LEVEL_COUNT, height: 1, indices, map, level_db_low, level_db_high }
+        Self { width: LEVEL_COUNT, height: 1, indices, map, level_db_low: levels_db.low, level_db_high: levels_db.high }
     }
 
-    /// Pooled to at most so many pixels; the loudest cell of each pixel stays.
+    /// Pooled to at most the given size; each pixel keeps its loudest cell.
     pub(crate) fn at_most(self, width_max: usize, height_max: usize) -> Self {
         let (width, height) = (self.width.min(width_max.max(1)), self.height.min(height_max.max(1)));
         if (width, height) == (self.width, self.height) {
@@ -86,7 +81,7 @@ impl Raster {
         Self { width, height, indices, ..self }
     }
 
-    /// As a PNG of its own.
+    /// As a PNG.
     pub(crate) fn png(&self) -> Result<Vec<u8>, FigureError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
@@ -98,7 +93,7 @@ impl Raster {
         Ok(bytes)
     }
 
-    /// As the address of an image.
+    /// As a data URI.
     pub(crate) fn data_uri(&self) -> Result<String, FigureError> {
         Ok(format!("data:image/png;base64,{}", STANDARD.encode(self.png()?)))
     }

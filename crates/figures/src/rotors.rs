@@ -1,9 +1,10 @@
-//! Rotors told apart: the spectrogram around a high harmonic, with the track of each rotor over it.
+//! Separated rotors: the spectrogram around a high harmonic, with the track of each rotor over it.
 
-use crate::axis::Axis;
+use crate::axis::{Axis, range_with_margin};
 use crate::canvas::{Canvas, LETTER, Panel, Place, WIDTH};
 use crate::colour::{ColourMap, INK, OVER_PICTURE, SERIES};
 use crate::figure::{Figure, FigureError};
+use crate::geometry::{Extent, Point};
 use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
 use crate::spectrum::harmonic_name;
@@ -11,16 +12,16 @@ use crate::trial::{Trial, track_lines};
 use hovertone_analysis::RotorEstimate;
 use plotters::style::{Color, RGBColor};
 
-/// A margin around the tracks, as a share of what they cover.
+/// Margin around the tracks, as a share of their range.
 const MARGIN_SHARE: f64 = 0.35;
 const ROWS_MAX: usize = 400;
-/// Room for the key of one rotor.
+/// Width of the key of one rotor.
 const KEY: i32 = 225;
 
-/// A trial whose rotors were told apart; `None` where they were not, or where there is no picture of a harmonic.
+/// The separated rotors of a trial; `None` where they are not separated, or without a picture of a harmonic.
 ///
 /// # Errors
-/// What the plotting library refuses.
+/// Errors of the plotting library.
 pub fn rotors_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, FigureError> {
     let mut canvas = Canvas::new(name, 940);
     let place = Place { left: 180, top: 100, right: WIDTH - 180, bottom: 810 };
@@ -28,7 +29,7 @@ pub fn rotors_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, Fi
     Ok(Some(canvas.finish(format!("Rotors told apart: {}", trial.recording), words)))
 }
 
-/// Draws the panel; what is to be seen, or `None` where there is nothing.
+/// Draws the panel and returns its description; `None` without separated rotors or picture.
 pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Result<Option<String>, FigureError> {
     let Some(tone) = trial.tone().filter(|tone| !tone.rotors.is_empty()) else { return Ok(None) };
     let Some((picture, band)) = tone.bands.iter().rev().find_map(|band| Some((trial.around(band.harmonic)?, band)))
@@ -39,18 +40,18 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
     let Some(range_hz) = range_of(&tone.rotors, order, picture) else { return Ok(None) };
     let panel = Panel {
         place,
-        x: Axis::new("time (s)", (picture.span.from_s, picture.span.to_s)).with_ticks(11),
+        x: Axis::new("time (s)", Extent::of_span(picture.span)).with_ticks(11),
         y: Axis::new("frequency (Hz)", range_hz).with_ticks(7),
         right: Some(("shaft speed (rev/s)".to_owned(), order)),
         title: format!("rotors told apart, {}", harmonic_name(band.harmonic)),
     };
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Greys);
-    canvas.picture(&panel, (picture.span.from_s, picture.span.to_s), &raster.at_most(2048, ROWS_MAX))?;
+    canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(2048, ROWS_MAX))?;
     for (index, rotor) in tone.rotors.iter().enumerate() {
         canvas.plot(&panel, &format!("rotor rotor-{}", index + 1), |plot| {
             for line in track_lines(&rotor.track) {
-                let line: Vec<(f64, f64)> = line.into_iter().map(|(time_s, rev_s)| (time_s, order * rev_s)).collect();
+                let line: Vec<Point> = line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
                 plot.line(&line, OVER_PICTURE.mix(0.8).stroke_width(7))?;
                 plot.line(&line, colour_of_rotor(index).stroke_width(3))?;
             }
@@ -58,9 +59,9 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
         })?;
     }
     canvas.layer("key", |sheet| {
-        let mut at = (place.right - tone.rotors.len() as i32 * KEY, place.top - LETTER + 4);
+        let mut at = Point::new(place.right - tone.rotors.len() as i32 * KEY, place.top - LETTER + 4);
         for index in 0..tone.rotors.len() {
-            at.0 = sheet.key(at, colour_of_rotor(index), &format!("rotor {}", index + 1))?;
+            at.x = sheet.key(at, colour_of_rotor(index), &format!("rotor {}", index + 1))?;
         }
         Ok(())
     })?;
@@ -76,10 +77,10 @@ fn colour_of_rotor(index: usize) -> RGBColor {
     SERIES.get(index % (SERIES.len() + 1)).copied().unwrap_or(INK)
 }
 
-/// Frequencies of all tracks, with a margin, as far as the picture goes.
-fn range_of(rotors: &[RotorEstimate], order: f64, picture: &Picture) -> Option<(f64, f64)> {
+/// Range of all tracks with a margin, within the picture.
+fn range_of(rotors: &[RotorEstimate], order: f64, picture: &Picture) -> Option<Extent> {
     let speeds = rotors.iter().flat_map(|rotor| rotor.track.iter().map(|point| order * point.speed_rev_s));
-    let (low_hz, high_hz) = crate::axis::range_with_margin(speeds, MARGIN_SHARE)?;
-    let range_hz = (low_hz.max(picture.hz_low), high_hz.min(picture.hz_high));
-    (range_hz.0 < range_hz.1).then_some(range_hz)
+    let tracks_hz = range_with_margin(speeds, MARGIN_SHARE)?;
+    let range_hz = Extent::new(tracks_hz.low.max(picture.hz_low), tracks_hz.high.min(picture.hz_high));
+    (range_hz.low < range_hz.high).then_some(range_hz)
 }

@@ -1,9 +1,10 @@
-//! The spectrogram of one recording, with the bands, what was cut, and the ridge or the rotors over it.
+//! The spectrogram of one recording with bands and cuts, and the ridge or the rotors over it.
 
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
 use crate::colour::{BAND, ColourMap, INK, MUTED, OVER_PICTURE, PAPER};
 use crate::figure::{Figure, FigureError, shortened};
+use crate::geometry::{Extent, Point};
 use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
 use crate::rotors;
@@ -18,10 +19,10 @@ const TOP: i32 = 130;
 const PITCH: i32 = 190;
 
 /// The spectrogram of a recording: all frequencies in Hz and as shaft speeds, the band around the tone with the ridge over it, and the
-/// rotors where they were told apart. `None` where the recording is too short for a picture.
+/// separated rotors. `None` where the recording is too short for a picture.
 ///
 /// # Errors
-/// What the plotting library refuses.
+/// Errors of the plotting library.
 pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, FigureError> {
     let Some(whole) = trial.whole() else { return Ok(None) };
     let first = trial.bands().first();
@@ -63,38 +64,36 @@ fn draw_whole(
     trial: &Trial<'_>,
     picture: &Picture,
     place: Place,
-    levels_db: (f64, f64),
+    levels_db: Extent,
 ) -> Result<(), FigureError> {
-    let range_s = (picture.span.from_s, picture.span.to_s);
+    let range_s = Extent::of_span(picture.span);
+    let all_hz = Extent::new(0.0, picture.hz_high);
     let panel = Panel {
         place,
         x: Axis::new("time (s)", range_s).with_ticks(11),
-        y: Axis::new("frequency (Hz)", (0.0, picture.hz_high)).with_ticks(8),
-        // of the fundamental; harmonic k lies at k times its shaft speed
+        y: Axis::new("frequency (Hz)", all_hz).with_ticks(8),
+        // shaft speeds of the fundamental; harmonic k lies at k times its shaft speed
         right: trial.tone_order().map(|order| (format!("frequency / {order} (rev/s)"), order)),
         title: shortened(trial.recording, 60),
     };
     canvas.panel(&panel)?;
-    let raster = Raster::from_picture(picture, (0.0, picture.hz_high), levels_db, ColourMap::Viridis);
+    let raster = Raster::from_picture(picture, all_hz, levels_db, ColourMap::Viridis);
     canvas.picture(&panel, range_s, &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
     if let Some(hover) = trial.hover() {
         canvas.plot(&panel, "cuts", |plot| {
-            hover
-                .cuts
-                .iter()
-                .try_for_each(|cut| plot.block((cut.span.from_s, cut.span.to_s), (0.0, picture.hz_high), PAPER, 0.45))
+            hover.cuts.iter().try_for_each(|cut| plot.block(Extent::of_span(cut.span), all_hz, PAPER, 0.45))
         })?;
     }
-    // bands are marked where they do not hide the tone: at both sides, and by thin edges
+    // bands are marked at both sides and by thin edges, where they do not hide the tone
     canvas.plot(&panel, "bands", |plot| {
-        let flag_s = 0.012 * (range_s.1 - range_s.0);
+        let flag_s = 0.012 * range_s.width();
         for band in trial.bands() {
-            let edges_hz = (band.band_hz_low, band.band_hz_high);
-            for hz in [edges_hz.0, edges_hz.1] {
-                plot.dashed((range_s.0, hz), (range_s.1, hz), BAND, 2)?;
+            let edges_hz = Extent::new(band.band_hz_low, band.band_hz_high);
+            for hz in [edges_hz.low, edges_hz.high] {
+                plot.dashed(Point::new(range_s.low, hz), Point::new(range_s.high, hz), BAND, 2)?;
             }
-            plot.block((range_s.0, range_s.0 + flag_s), edges_hz, BAND, 1.0)?;
-            plot.block((range_s.1 - flag_s, range_s.1), edges_hz, BAND, 1.0)?;
+            plot.block(Extent::new(range_s.low, range_s.low + flag_s), edges_hz, BAND, 1.0)?;
+            plot.block(Extent::new(range_s.high - flag_s, range_s.high), edges_hz, BAND, 1.0)?;
         }
         Ok(())
     })?;
@@ -109,7 +108,7 @@ fn draw_whole(
         })?;
     } else if let Some(reason) = trial.reason {
         canvas.layer("reason", |sheet| {
-            sheet.text(&shortened(reason, 110), (place.left, place.top - 66), Anchor::Left, MUTED)
+            sheet.text(&shortened(reason, 110), Point::new(place.left, place.top - 66), Anchor::Left, MUTED)
         })?;
     }
     Ok(())
@@ -124,30 +123,30 @@ fn draw_zoom(
 ) -> Result<(), FigureError> {
     let order = band.order.lines_per_turn();
     let range_s = trial.whole().map_or(picture.span, |whole| whole.span);
-    let range_hz = (picture.hz_low, picture.hz_high);
+    let range_hz = Extent::new(picture.hz_low, picture.hz_high);
     let panel = Panel {
         place,
-        x: Axis::new("time (s)", (range_s.from_s, range_s.to_s)).with_ticks(11),
+        x: Axis::new("time (s)", Extent::of_span(range_s)).with_ticks(11),
         y: Axis::new("frequency (Hz)", range_hz).with_ticks(6),
         right: Some(("shaft speed (rev/s)".to_owned(), order)),
         title: format!("{}, with the ridge", harmonic_name(band.harmonic)),
     };
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Viridis);
-    canvas.picture(&panel, (picture.span.from_s, picture.span.to_s), &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
+    canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
     let Some(tone) = trial.tone() else { return Ok(()) };
-    // the ridge of the paper's methods where they were asked for, else the track of the speed
+    // the ridge, if a method of the paper was requested, else the track of the speed
     let lines = if trial.method.name() == Method::MaximumTrace.name() || tone.track.is_empty() {
         let ridge = tone.ridges.iter().find(|ridge| ridge.band.harmonic == band.harmonic);
         ridge.map_or(Vec::new(), |ridge| ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace))
     } else {
-        let in_hz = |line: Vec<(f64, f64)>| line.into_iter().map(|(time_s, rev_s)| (time_s, order * rev_s)).collect();
+        let in_hz = |line: Vec<Point>| line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
         track_lines(&tone.track).into_iter().map(in_hz).collect()
     };
     canvas.plot(&panel, "bands", |plot| {
         [band.band_hz_low, band.band_hz_high]
             .into_iter()
-            .try_for_each(|hz| plot.dashed((range_s.from_s, hz), (range_s.to_s, hz), BAND, 3))
+            .try_for_each(|hz| plot.dashed(Point::new(range_s.from_s, hz), Point::new(range_s.to_s, hz), BAND, 3))
     })?;
     canvas.plot(&panel, "track", |plot| {
         lines.iter().try_for_each(|line| {

@@ -1,16 +1,18 @@
-//! Figure 7 of the paper: the spectrum, and the bands in which the fundamental and its harmonics are looked for.
+//! Figure 7 of the paper: the spectrum, and the bands of the fundamental and its harmonics.
 
 use crate::axis::{Axis, range_with_margin};
 use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{BAND, SERIES};
 use crate::figure::{Figure, FigureError, shortened};
+use crate::geometry::{Extent, Point};
 use crate::picture::MeanSpectrum;
 use crate::trial::Trial;
+use hovertone_analysis::Band;
 use plotters::style::Color;
 
-/// Points of a curve: two for each half millimetre.
+/// Most points of a curve: two per half millimetre.
 const POINTS_MAX: usize = 700;
-/// Frequencies below this hold wind and handling, no rotor; they would set the scale.
+/// Lowest frequency of the scale, Hz: below it there is wind and handling noise, and no rotor.
 const HZ_LOW: f64 = 20.0;
 
 /// `None` where no trial has a tone.
@@ -20,21 +22,19 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     let Some(spectrum) = trial.pictures.and_then(|pictures| pictures.spectrum.as_ref()) else { return Ok(None) };
     let bands = trial.bands();
     let hz_max = trial.whole().map_or(spectrum.bin_hz * spectrum.level_db.len() as f64, |picture| picture.hz_high);
-    let all = points(spectrum, (HZ_LOW, hz_max));
-    let Some(levels_db) = range_with_margin(all.iter().map(|point| point.1), 0.06) else { return Ok(None) };
+    let all = points(spectrum, Extent::new(HZ_LOW, hz_max));
+    let Some(levels_db) = range_with_margin(all.iter().map(|point| point.y), 0.06) else { return Ok(None) };
     let mut canvas = Canvas::new("figure-7-spectrum", 1180);
     let panel = Panel {
         place: Place { left: 180, top: 70, right: WIDTH - 60, bottom: 500 },
-        x: Axis::new("frequency (Hz)", (0.0, hz_max)).with_ticks(10),
+        x: Axis::new("frequency (Hz)", Extent::new(0.0, hz_max)).with_ticks(10),
         y: Axis::new("level (dB re full scale)", levels_db),
         right: None,
         title: format!("(a) mean spectrum of the hover of {}", shortened(trial.recording, 50)),
     };
     canvas.panel(&panel)?;
     canvas.plot(&panel, "bands", |plot| {
-        let block =
-            |band: &hovertone_analysis::Band| plot.block((band.band_hz_low, band.band_hz_high), levels_db, BAND, 0.35);
-        bands.iter().try_for_each(block)
+        bands.iter().try_for_each(|band| plot.block(extent_hz(band), levels_db, BAND, 0.35))
     })?;
     canvas.plot(&panel, "spectrum", |plot| plot.line(&all, SERIES[0].stroke_width(2)))?;
     let (count, gap) = (bands.len() as i32, 170);
@@ -42,9 +42,9 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     for (index, band) in bands.iter().enumerate() {
         let left = 180 + index as i32 * (width + gap);
         let margin_hz = 0.25 * band.width_hz();
-        let around_hz = (band.band_hz_low - margin_hz, band.band_hz_high + margin_hz);
+        let around_hz = Extent::new(band.band_hz_low - margin_hz, band.band_hz_high + margin_hz);
         let curve = points(spectrum, around_hz);
-        let levels_db = range_with_margin(curve.iter().map(|point| point.1), 0.08).unwrap_or(levels_db);
+        let levels_db = range_with_margin(curve.iter().map(|point| point.y), 0.08).unwrap_or(levels_db);
         let panel = Panel {
             place: Place { left, top: 710, right: left + width, bottom: 1060 },
             x: Axis::new("frequency (Hz)", around_hz).with_ticks(4),
@@ -55,8 +55,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
                 .to_owned(),
         };
         canvas.panel(&panel)?;
-        canvas
-            .plot(&panel, "bands", |plot| plot.block((band.band_hz_low, band.band_hz_high), levels_db, BAND, 0.35))?;
+        canvas.plot(&panel, "bands", |plot| plot.block(extent_hz(band), levels_db, BAND, 0.35))?;
         canvas.plot(&panel, &format!("spectrum harmonic-{}", band.harmonic), |plot| {
             plot.line(&curve, SERIES[0].stroke_width(3))
         })?;
@@ -69,6 +68,10 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     Ok(Some(canvas.finish("Figure 7: spectrum with the bands of the fundamental and its harmonics", description)))
 }
 
+fn extent_hz(band: &Band) -> Extent {
+    Extent::new(band.band_hz_low, band.band_hz_high)
+}
+
 /// "fundamental", "2nd harmonic".
 pub(crate) fn harmonic_name(harmonic: u32) -> String {
     match harmonic {
@@ -79,16 +82,16 @@ pub(crate) fn harmonic_name(harmonic: u32) -> String {
     }
 }
 
-/// The spectrum between two frequencies; of neighbouring bins that share a point the loudest is shown.
-fn points(spectrum: &MeanSpectrum, (low_hz, high_hz): (f64, f64)) -> Vec<(f64, f64)> {
-    let first = (low_hz.max(0.0) / spectrum.bin_hz).ceil() as usize;
-    let end = ((high_hz / spectrum.bin_hz).floor() as usize + 1).min(spectrum.level_db.len());
+/// The spectrum between two frequencies. Of neighbouring bins that share a point the loudest is shown.
+fn points(spectrum: &MeanSpectrum, shown_hz: Extent) -> Vec<Point> {
+    let first = (shown_hz.low.max(0.0) / spectrum.bin_hz).ceil() as usize;
+    let end = ((shown_hz.high / spectrum.bin_hz).floor() as usize + 1).min(spectrum.level_db.len());
     let bins: Vec<usize> = (first..end).collect();
     let group = bins.len().div_ceil(POINTS_MAX).max(1);
     let loudest =
         |bins: &[usize]| bins.iter().copied().max_by(|&a, &b| spectrum.level_db[a].total_cmp(&spectrum.level_db[b]));
     bins.chunks(group)
         .filter_map(loudest)
-        .map(|bin| (bin as f64 * spectrum.bin_hz, f64::from(spectrum.level_db[bin])))
+        .map(|bin| Point::new(bin as f64 * spectrum.bin_hz, f64::from(spectrum.level_db[bin])))
         .collect()
 }

@@ -1,32 +1,33 @@
-//! What the figures show of one recording.
+//! Input of the figures about one recording.
 
+use crate::geometry::Point;
 use crate::picture::{Picture, Pictures};
 use hovertone_analysis::{Band, Hover, Method, Outcome, RidgeFrame, RotorTone, Span, SpeedAnalysis, TrackPoint};
 
-/// Points of a curve at most: more are not seen in print.
+/// Most points of a curve; more are invisible in print.
 const POINTS_MAX: usize = 1200;
-/// Frames further apart than so many steps are a gap.
+/// Frames that are further apart than this number of steps have a gap between them.
 const GAP_STEPS: f64 = 1.6;
 
-/// One recording of an experiment, or one by itself.
+/// One recording of an experiment, or a single one.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<'a> {
-    /// Name of its load; empty for a recording by itself.
+    /// Name of its load; empty for a single recording.
     pub load: &'a str,
     /// Name of the recording.
     pub recording: &'a str,
-    /// What was heard; absent where the file could not be read.
+    /// Its analysis; absent where the file could not be read.
     pub analysis: Option<&'a SpeedAnalysis>,
-    /// Why there is no speed; absent where there is one.
+    /// Reason for a missing speed; absent where there is a speed.
     pub reason: Option<&'a str>,
-    /// The method whose speed is reported.
+    /// The reported method.
     pub method: Method,
-    /// Its pictures, where they could be made.
+    /// Its pictures, where they exist.
     pub pictures: Option<&'a Pictures>,
 }
 
 impl<'a> Trial<'a> {
-    /// The tone of the rotor, where one was heard and its order is settled.
+    /// The tone of the rotor, if there is one with a settled order.
     pub(crate) fn tone(&self) -> Option<&'a RotorTone> {
         match &self.analysis.filter(|_| self.reason.is_none())?.outcome {
             Outcome::Ok(tone) => Some(tone),
@@ -53,47 +54,48 @@ impl<'a> Trial<'a> {
         self.tone().map_or(&[], |tone| &tone.bands)
     }
 
-    /// Lines per turn of the lowest harmonic that was followed: what the right axes divide by.
+    /// Order of the lowest followed harmonic over its number: the divisor of the right axes.
     pub(crate) fn tone_order(&self) -> Option<f64> {
         let band = self.bands().first()?;
         Some(band.order.lines_per_turn() / f64::from(band.harmonic))
     }
 }
 
-/// A ridge as lines without its gaps: time and frequency by a method.
-pub(crate) fn ridge_lines(frames: &[RidgeFrame], hop_s: f64, method: Method) -> Vec<Vec<(f64, f64)>> {
-    let points = frames.iter().filter_map(|frame| Some((frame.time_s, frame.peak?.hz(method))));
+/// A ridge as lines between its gaps: frequency by a method over time.
+pub(crate) fn ridge_lines(frames: &[RidgeFrame], hop_s: f64, method: Method) -> Vec<Vec<Point>> {
+    let points = frames.iter().filter_map(|frame| Some(Point::new(frame.time_s, frame.peak?.hz(method))));
     lines_of(points.collect(), hop_s)
 }
 
-/// A track as lines without its gaps: time and shaft speed in turns per second.
-pub(crate) fn track_lines(track: &[TrackPoint]) -> Vec<Vec<(f64, f64)>> {
-    let points: Vec<(f64, f64)> = track.iter().map(|point| (point.time_s, point.speed_rev_s)).collect();
-    let mut steps_s: Vec<f64> = points.windows(2).map(|pair| pair[1].0 - pair[0].0).collect();
+/// A track as lines between its gaps: shaft speed in turns per second over time.
+pub(crate) fn track_lines(track: &[TrackPoint]) -> Vec<Vec<Point>> {
+    let points: Vec<Point> = track.iter().map(|point| Point::new(point.time_s, point.speed_rev_s)).collect();
+    let mut steps_s: Vec<f64> = points.windows(2).map(|pair| pair[1].x - pair[0].x).collect();
     steps_s.sort_by(f64::total_cmp);
     let step_s = steps_s.get(steps_s.len() / 2).copied().unwrap_or(f64::INFINITY);
     lines_of(points, step_s)
 }
 
-/// Parts a curve at its gaps, and thins it where it has more points than can be seen: of each group the lowest and the highest stay.
-fn lines_of(points: Vec<(f64, f64)>, step_s: f64) -> Vec<Vec<(f64, f64)>> {
+/// Splits a curve at its gaps. A curve with more points than are visible keeps the lowest and the highest point of each group.
+fn lines_of(points: Vec<Point>, step_s: f64) -> Vec<Vec<Point>> {
     let group = points.len().div_ceil(POINTS_MAX / 2).max(1);
     points
-        .chunk_by(|a, b| b.0 - a.0 <= GAP_STEPS * step_s)
+        .chunk_by(|a, b| b.x - a.x <= GAP_STEPS * step_s)
         .map(|line| if group <= 2 { line.to_vec() } else { line.chunks(group).flat_map(extremes).collect() })
         .collect()
 }
 
-fn extremes(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-    let mut kept: Vec<(f64, f64)> =
+/// The lowest and the highest of the points, in order of time.
+fn extremes(points: &[Point]) -> Vec<Point> {
+    let by_value = |a: &&Point, b: &&Point| a.y.total_cmp(&b.y);
+    let mut kept: Vec<Point> =
         [points.iter().min_by(by_value), points.iter().max_by(by_value)].into_iter().flatten().copied().collect();
-    kept.sort_by(|a, b| a.0.total_cmp(&b.0));
+    kept.sort_by(|a, b| a.x.total_cmp(&b.x));
     kept.dedup();
     kept
 }
 
-/// From the earliest start to the latest end.
+/// The span from the earliest start to the latest end.
 pub(crate) fn hull(spans: impl IntoIterator<Item = Span>) -> Option<Span> {
     spans.into_iter().reduce(|a, b| Span { from_s: a.from_s.min(b.from_s), to_s: a.to_s.max(b.to_s) })
 }
@@ -104,15 +106,15 @@ mod tests {
 
     #[test]
     fn curves_are_parted_at_gaps_and_keep_their_extremes() {
-        let points: Vec<(f64, f64)> = (0..100_000)
+        let points: Vec<Point> = (0..100_000)
             .filter(|n| !(50_000..60_000).contains(n))
-            .map(|n| (f64::from(n) * 0.01, if n == 777 { 9.0 } else { f64::from(n % 7) }))
+            .map(|n| Point::new(f64::from(n) * 0.01, if n == 777 { 9.0 } else { f64::from(n % 7) }))
             .collect();
         let lines = lines_of(points, 0.01);
         assert_eq!(lines.len(), 2);
         let count: usize = lines.iter().map(Vec::len).sum();
         assert!(count <= POINTS_MAX + 4, "{count}");
-        assert!(lines[0].iter().any(|point| point.1 == 9.0), "the highest point was thinned away");
-        assert!(lines.iter().flatten().is_sorted_by(|a, b| a.0 <= b.0));
+        assert!(lines[0].iter().any(|point| point.y == 9.0), "the highest point was thinned away");
+        assert!(lines.iter().flatten().is_sorted_by(|a, b| a.x <= b.x));
     }
 }

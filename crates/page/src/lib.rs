@@ -1,16 +1,19 @@
-//! Results, figures and sound → one HTML page that holds everything it needs. Pure: where the page goes is the caller's business.
+//! From results, figures and sound to one HTML page with everything inside. Pure functions; the caller decides where the page goes.
 //!
 //! ```text
-//! report     what the page is made of            view      the same as the words and cells of templates/report.html
-//! sound      a recording, small enough to listen to         seal      what the page may load: nothing
+//! input      input of the page                            report    the page
+//! view       the input as words and cells of templates/report.html
+//! sound      a recording, small enough for the page       seal      content security policy: the page loads nothing
 //! ```
 //!
-//! `templates/report.css` and `templates/report.js` are put into the page as they stand.
+//! `templates/report.css` and `templates/report.js` are copied into the page unchanged.
 
+mod input;
 mod report;
 mod seal;
 mod sound;
 mod view;
 
-pub use report::{PageError, Report, TrialReport, experiment_tables, report_html};
+pub use input::{Report, TrialReport};
+pub use report::{PageError, experiment_tables, report_html};
 pub use sound::{SOUND_S_MAX, SoundClip, clip_from_source};

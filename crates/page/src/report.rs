@@ -1,5 +1,6 @@
-//! What the page is made of.
+//! The page, from its input and the template.
 
+use crate::input::{Report, TrialReport};
 use crate::seal::policy;
 use crate::sound::{SoundClip, rate_and_count};
 use crate::view::{Answer, InputView, MethodView, PageTable, TrialView, Words};
@@ -7,49 +8,23 @@ use askama::Template;
 use hovertone_analysis::Method;
 use hovertone_figures::{Figure, level_colours, method_colour};
 use hovertone_report::{
-    Identification, TextTable, TitledTable, VERSION, agreement_text, budget_table, laws_table, method_title,
-    methods_table, thrust_table,
+    Identification, TitledTable, VERSION, agreement_text, budget_table, laws_table, method_title, methods_table,
+    thrust_table,
 };
 
 const STYLE: &str = include_str!("../templates/report.css");
 const SCRIPT: &str = include_str!("../templates/report.js");
-/// All sound together takes at most this much of the page, as text: with the pictures of 15 trials it stays below 10 MB.
+/// Most bytes of all sound as text in the page. With the pictures of 15 trials the page stays below 10 MB.
 const SOUND_BYTES_MAX: f64 = 5e6;
 
-/// An identified experiment with all that there is to see and to hear of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
-    /// The results.
-    pub identification: &'a Identification<'a>,
-    /// The figures of the experiment.
-    pub figures: &'a [Figure],
-    /// One entry for each recording of the identification, in its order.
-    pub trials: &'a [TrialReport<'a>],
-    /// Tables that stand in place of a method's own: those with the paper's columns beside them.
-    pub compared: &'a [(Method, TextTable)],
-    /// More tables of the caller's: against the truth, where it is known.
-    pub more_tables: &'a [TitledTable],
-    /// The command that makes the same again.
-    pub command: &'a str,
-}
-
-/// A recording.
-#[derive(Clone, Copy, Debug)]
-pub struct TrialReport<'a> {
-    /// Its spectrogram.
-    pub figure: Option<&'a Figure>,
-    /// Its sound.
-    pub sound: Option<&'a SoundClip>,
-}
-
-/// A page that could not be made.
+/// Reason for a missing page.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
-    /// The template refused.
+    /// Error of the template.
     #[error("the page could not be made: {0}")]
     Template(#[from] askama::Error),
-    /// The settings could not be written.
+    /// The settings could not be serialised.
     #[error("the settings could not be written: {0}")]
     Settings(#[from] serde_json::Error),
 }
@@ -80,12 +55,12 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// The drawing of a figure; nothing where it was left out.
+    /// The figure with a name; `None` where it was left out.
     fn figure(&self, name: &str) -> Option<&Figure> {
         self.report.figures.iter().find(|figure| figure.name == name)
     }
 
-    /// Recordings that were used from their first sample to their last.
+    /// Number of recordings without cuts.
     fn used_whole(&self) -> usize {
         self.trials.iter().filter(|trial| trial.reason.is_none() && trial.cuts.is_none()).count()
     }
@@ -95,16 +70,16 @@ impl Page<'_> {
         self.methods.iter().find(|method| method.name == name)
     }
 
-    /// The methods that are not the paper's.
+    /// The methods that are not from the paper.
     fn our_methods(&self) -> impl Iterator<Item = &MethodView> {
         self.methods.iter().filter(|method| !method.is_papers)
     }
 }
 
-/// The page. It loads nothing from anywhere: style, script, pictures and sound are in it. Same report, same bytes.
+/// The page. It loads nothing: style, script, pictures and sound are inside. Equal reports give equal bytes.
 ///
 /// # Errors
-/// None that is known of: the template is compiled in, the types can all be written.
+/// None is known, since the template is compiled in and all types can be serialised.
 pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
     let identification = report.identification;
     let reported = identification.reported();
@@ -157,7 +132,7 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
     Ok(page.render()?)
 }
 
-/// The same tables as in the page, for documents: the paper's two first.
+/// The tables of the page for documents, beginning with the two of the paper.
 pub fn experiment_tables(identification: &Identification<'_>) -> Vec<TitledTable> {
     let number = |method: Method| match method {
         Method::MaximumTrace => "Table 1: ",

@@ -1,10 +1,10 @@
-//! The page's own policy: it loads nothing, and runs no script but its own.
+//! The content security policy of the page: it loads nothing, and runs no script but its own.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest, Sha256};
 
-/// A content security policy that allows exactly this style and this script, and pictures and sound that are in the page itself.
+/// A policy that allows exactly this style and this script, and pictures and sound inside the page.
 pub(crate) fn policy(style: &str, script: &str) -> String {
     let hash = |text: &str| STANDARD.encode(Sha256::digest(text.as_bytes()));
     format!(
@@ -18,7 +18,7 @@ pub(crate) fn policy(style: &str, script: &str) -> String {
 mod tests {
     #[test]
     fn the_policy_names_the_hashes() {
-        // SHA-256 of nothing, in base64
+        // SHA-256 of the empty text, in base64
         let nothing = "47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=";
         let policy = super::policy("", "a");
         assert!(policy.contains(&format!("style-src 'sha256-{nothing}'")), "{policy}");

@@ -11,21 +11,21 @@ use rubato::{Fft, FixedSync, Resampler};
 /// Sample rates that every browser plays, highest first.
 const RATES_HZ: [u32; 6] = [48_000, 24_000, 16_000, 12_000, 8000, 6000];
 const BYTES_PER_SAMPLE: usize = 2;
-/// Bytes of text for each byte of sound, in base64.
+/// Bytes of base64 text per byte of sound.
 const TEXT_PER_BYTE: f64 = 4.0 / 3.0;
-/// Seconds of a recording at most: a listener knows a hover after a minute.
+/// Most seconds of a recording: a minute is enough to recognise a hover.
 pub const SOUND_S_MAX: f64 = 60.0;
-/// The loudest sample is brought to this share of full scale: hovers filmed from afar are quiet.
+/// Share of full scale for the loudest sample, since distant hovers are quiet.
 const PEAK_SHARE: f32 = 0.7;
-/// Louder by more than this is only louder noise.
+/// Largest gain: beyond it only the noise becomes louder.
 const GAIN_MAX: f32 = 30.0;
-/// Frames that the resampler takes at once; it makes no difference to what comes out.
+/// Frames per step of the resampler; the result does not depend on it.
 const CHUNK_FRAMES: usize = 1024;
 
-/// A piece of a recording's sound.
+/// A part of the sound of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundClip {
-    /// When it begins, on the recording's own clock.
+    /// Start on the clock of the recording.
     pub from_s: f64,
     /// Samples per second.
     pub sample_rate_hz: f64,
@@ -33,7 +33,7 @@ pub struct SoundClip {
     pub samples: Vec<f32>,
 }
 
-/// The part of a source's sound between two times.
+/// The part of a source between two times.
 ///
 /// # Errors
 /// A source that fails.
@@ -53,8 +53,8 @@ pub fn clip_from_source(source: &mut dyn SignalSource, span: Span) -> Result<Sou
     Ok(SoundClip { from_s: start_s + first as f64 / sample_rate_hz, sample_rate_hz, samples })
 }
 
-/// The highest rate at which all clips together, as text in a page, take at most so many bytes, and how many of them have sound: where even the
-/// lowest rate is too much, the first ones that fit.
+/// The highest rate at which all clips together have at most `bytes_max` bytes as text in a page, and the number of clips with sound.
+/// Where even the lowest rate is too much, the number of first clips that fit.
 pub(crate) fn rate_and_count(clips: &[&SoundClip], bytes_max: f64) -> (u32, usize) {
     let bytes = |clips: &[&SoundClip], rate_hz: u32| {
         let seconds: f64 = clips.iter().map(|clip| clip.samples.len() as f64 / clip.sample_rate_hz).sum();
@@ -68,8 +68,7 @@ pub(crate) fn rate_and_count(clips: &[&SoundClip], bytes_max: f64) -> (u32, usiz
     (lowest_hz, fitting.unwrap_or(0))
 }
 
-/// The clip as a 16-bit WAV at a rate, in the form of an address. A clip that is recorded more coarsely keeps its own rate. `None` where
-/// nothing sounds.
+/// The clip as a 16-bit WAV at a rate, as a data URI. A clip with a lower rate keeps it. `None` for a silent clip.
 pub(crate) fn wav_uri(clip: &SoundClip, rate_hz: u32) -> Option<String> {
     let own_hz = clip.sample_rate_hz.round() as u32;
     let (samples, rate_hz) =
@@ -87,7 +86,7 @@ pub(crate) fn wav_uri(clip: &SoundClip, rate_hz: u32) -> Option<String> {
     Some(format!("data:audio/wav;base64,{}", STANDARD.encode(wav)))
 }
 
-/// Band-limited to the new rate; `None` where there is too little to resample.
+/// Band-limited resampling to the new rate; `None` where the clip is too short.
 fn resampled(clip: &SoundClip, rate_hz: u32) -> Option<Vec<f32>> {
     let own_hz = clip.sample_rate_hz.round() as usize;
     let mut resampler = Fft::<f32>::new(own_hz, rate_hz as usize, CHUNK_FRAMES, 1, FixedSync::Both).ok()?;
@@ -96,7 +95,7 @@ fn resampled(clip: &SoundClip, rate_hz: u32) -> Option<Vec<f32>> {
     (0..output.frames()).map(|frame| output.read_sample(0, frame)).collect()
 }
 
-/// The 44 bytes before the samples of a mono PCM file.
+/// The header of a mono PCM file, 44 bytes.
 fn header(sample_count: usize, rate_hz: u32) -> Vec<u8> {
     let bytes = (sample_count * BYTES_PER_SAMPLE) as u32;
     let mut header = Vec::with_capacity(44 + bytes as usize);
@@ -156,7 +155,7 @@ mod tests {
         assert_eq!(decoded(&wav_uri(&clip(1.0, 8000.0, 440.0), 12_000).unwrap()).0, 8000);
         assert_eq!(wav_uri(&clip(1.0, 8000.0, 0.0), 12_000), None);
         assert_eq!(wav_uri(&clip(0.0, 8000.0, 440.0), 12_000), None);
-        // a click too faint to be raised far: noise is not made loud without end
+        // a faint click is not amplified without limit, which would only amplify noise
         let faint = SoundClip { samples: vec![1e-4; 100], ..clip(0.0, 8000.0, 0.0) };
         let loudest = decoded(&wav_uri(&faint, 8000).unwrap()).1.into_iter().max().unwrap();
         assert!((f32::from(loudest) / f32::from(i16::MAX) - 1e-4 * GAIN_MAX).abs() < 1e-3, "{loudest}");

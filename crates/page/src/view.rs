@@ -1,6 +1,6 @@
-//! The words, cells and numbers of the template. All of it is escaped there.
+//! The words, cells and numbers of the template, which escapes all of them.
 
-use crate::report::TrialReport;
+use crate::input::TrialReport;
 use crate::sound::wav_uri;
 use hovertone_analysis::Method;
 use hovertone_report::{
@@ -10,7 +10,7 @@ use hovertone_report::{
 use hovertone_thrust::ThrustTable;
 use hovertone_vehicle::Estimate;
 
-/// A unit as people write it: "1e-5 N s²" is 10⁻⁵ N s².
+/// A unit: "1e-5 N s²" becomes 10⁻⁵ N s².
 pub(crate) struct Unit {
     pub(crate) exponent: Option<i32>,
     pub(crate) name: String,
@@ -39,7 +39,7 @@ pub(crate) struct Cell {
     pub(crate) columns: usize,
 }
 
-/// A table as HTML has it.
+/// A table as in HTML.
 pub(crate) struct PageTable {
     pub(crate) title: String,
     pub(crate) heads: Vec<Head>,
@@ -74,7 +74,7 @@ impl PageTable {
     }
 }
 
-/// A number of the answer: for people, and exactly.
+/// A number of the result: rounded for people, and exact.
 pub(crate) struct Number {
     pub(crate) scaled: ScaledNumber,
     pub(crate) value: f64,
@@ -90,16 +90,16 @@ impl Number {
         Self::new(estimate.value, estimate.std_uncertainty)
     }
 
-    /// The uncertainty for a machine; empty where there is none.
+    /// The uncertainty in full; empty without one.
     pub(crate) fn exact_uncertainty(&self) -> String {
         self.uncertainty.map_or(String::new(), |uncertainty| uncertainty.to_string())
     }
 }
 
-/// What stands on top.
+/// The result at the top.
 pub(crate) struct Answer {
     pub(crate) method: &'static str,
-    /// Of the whole vehicle, with the expanded uncertainty where there is a budget, else the standard one.
+    /// The constant of the whole vehicle with its expanded uncertainty, or with its standard uncertainty where there is no budget.
     pub(crate) total: Number,
     pub(crate) coverage: Option<f64>,
     pub(crate) expanded_percent: Option<String>,
@@ -143,7 +143,7 @@ impl Answer {
     }
 }
 
-/// One method's table.
+/// The tables of one method.
 pub(crate) struct MethodView {
     pub(crate) name: &'static str,
     pub(crate) title: &'static str,
@@ -168,7 +168,7 @@ impl MethodView {
     }
 }
 
-/// What the page is about.
+/// Subject of the page.
 pub(crate) struct Words<'a> {
     pub(crate) vehicle: &'a str,
     pub(crate) experiment: &'a str,
@@ -196,7 +196,7 @@ impl<'a> Words<'a> {
     }
 }
 
-/// A sound that can be played.
+/// A playable sound.
 pub(crate) struct SoundView {
     pub(crate) uri: String,
     pub(crate) from_s: f64,
@@ -236,7 +236,7 @@ impl<'a> TrialView<'a> {
     }
 }
 
-/// A recording's origin.
+/// Facts about the file of a recording.
 pub(crate) struct InputView<'a> {
     pub(crate) load: &'a str,
     pub(crate) file: &'a str,

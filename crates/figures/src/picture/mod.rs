@@ -1,8 +1,8 @@
-//! Samples → pictures: the spectrogram pooled to a bounded number of columns and rows, and the mean spectrum of the hover.
+//! From samples to pictures: the spectrogram pooled to a bounded number of columns and rows, and the mean spectrum of the hover.
 //!
-//! An own reading of the sound, after the analysis and only where somebody wants to see it. Cells hold the largest power of the frames
-//! and bins that fall into them, so that a line one bin wide is seen at any size. Memory does not grow with the length of the recording:
-//! when the columns are used up, neighbours are pooled in pairs.
+//! This is a separate pass over the sound after the analysis, only where a figure is wanted. A cell has the largest power of its frames
+//! and bins, so that a line of one bin stays visible at any size. Memory does not grow with the length of the recording: when all columns
+//! are used, neighbours are pooled in pairs.
 
 mod pooling;
 mod settings;
@@ -21,19 +21,19 @@ use pooling::Pooling;
 /// A spectrogram of bounded size.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Picture {
-    /// What it was meant to show.
+    /// The requested view.
     pub view: PictureView,
-    /// From the left edge of the first column to the right edge of the last, on the recording's clock.
+    /// From the left edge of the first column to the right edge of the last, on the clock of the recording.
     pub span: Span,
     /// Lower edge of the first row.
     pub hz_low: f64,
     /// Upper edge of the last row.
     pub hz_high: f64,
-    /// Columns, in order of time.
+    /// Number of columns, in order of time.
     pub column_count: usize,
-    /// Rows, from low frequency to high.
+    /// Number of rows, from low frequency to high.
     pub row_count: usize,
-    /// Level of every cell, dB re a full-scale sine, column by column: that of row r and column c is at `c * row_count + r`.
+    /// Level of every cell, dB re a full-scale sine, column by column: the level of row r and column c has the index `c * row_count + r`.
     pub level_db: Vec<f32>,
 }
 
@@ -44,31 +44,31 @@ impl Picture {
     }
 }
 
-/// Mean power over the frames that lie within a hover.
+/// Mean power over the frames within a hover.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeanSpectrum {
-    /// Distance between bins; the first is at 0 Hz.
+    /// Distance between bins; the first bin is at 0 Hz.
     pub bin_hz: f64,
     /// Level of each bin, dB re a full-scale sine.
     pub level_db: Vec<f32>,
-    /// Frames that it is the mean of.
+    /// Number of frames.
     pub frame_count: usize,
 }
 
-/// What a reading of a recording gives to look at.
+/// The pictures of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pictures {
-    /// One picture for each view, in the order of the views; views without a single frame are left out.
+    /// One picture for each view, in the order of the views; views without a frame are left out.
     pub pictures: Vec<Picture>,
     /// The mean spectrum of the hover; absent where no frame fits into it.
     pub spectrum: Option<MeanSpectrum>,
 }
 
-/// A picture that could not be made.
+/// Reason for a missing picture.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PictureError {
-    /// A setting without a meaning.
+    /// A setting out of range.
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// The sound could not be read.
@@ -76,12 +76,11 @@ pub enum PictureError {
     Signal(#[from] SignalError),
 }
 
-/// Reads a source once and pools the spectrogram of the part `shown` into one picture for each view, and the frames within `hover` into a
-/// mean spectrum.
-/// Frames have the length of the view; those of the spectrum that of [`PictureConfig::zoom_window_s`].
+/// Reads a source once. Pools the spectrogram of the part `shown` into one picture for each view, and the frames within `hover` into a
+/// mean spectrum. The length of the frames is that of the view; for the mean spectrum it is [`PictureConfig::zoom_window_s`].
 ///
 /// # Errors
-/// Settings that mean nothing, a source that fails.
+/// Settings out of range, a source that fails.
 pub fn pictures_from_source(
     source: &mut dyn SignalSource,
     shown: Span,

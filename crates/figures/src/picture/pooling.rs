@@ -1,16 +1,16 @@
-//! Frames of one length → the cells of one picture.
+//! From frames of one length to the cells of one picture.
 
 use super::PictureConfig;
 use super::{Picture, PictureView};
 use hovertone_analysis::Span;
 use hovertone_signal::spectrogram::{Frame, power_db};
 
-/// A picture that is being pooled.
+/// An unfinished picture.
 pub(super) struct Pooling {
     view: PictureView,
     bin_hz: f64,
     first_bin: usize,
-    /// First bin of each row, counted from `first_bin`, and the end of the last.
+    /// First bin of each row, relative to `first_bin`, and the end of the last row.
     row_starts: Vec<usize>,
     columns_max: usize,
     /// Power of every cell, column by column.
@@ -21,7 +21,7 @@ pub(super) struct Pooling {
 }
 
 impl Pooling {
-    /// `None` where the view holds no bin.
+    /// `None` where the view contains no bin.
     pub(super) fn new(view: PictureView, bin_hz: f64, hz_max: f64, config: &PictureConfig) -> Option<Self> {
         let first_bin = (view.hz_low.max(0.0) / bin_hz).ceil() as usize;
         let end_bin = (view.hz_high.min(hz_max) / bin_hz).floor() as usize + 1;
@@ -65,7 +65,7 @@ impl Pooling {
         }
     }
 
-    /// Pools columns in pairs; all of them are full, and there is an even number of them.
+    /// Pools the columns in pairs. All of them are full, and their number is even.
     fn halve(&mut self, row_count: usize) {
         let half = self.power.len() / row_count / 2;
         for column in 0..half {
@@ -78,7 +78,7 @@ impl Pooling {
         self.frames_per_column *= 2;
     }
 
-    /// `None` where there was no frame.
+    /// `None` without frames.
     pub(super) fn finish(self, hop_s: f64) -> Option<Picture> {
         let row_count = self.row_starts.len() - 1;
         let column_count = self.power.len() / row_count;

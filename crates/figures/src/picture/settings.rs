@@ -5,22 +5,23 @@ use hovertone_vehicle::ConfigError;
 use hovertone_vehicle::check_range;
 use serde::Serialize;
 
-/// How the spectrogram of a recording is pooled into pictures that no length of the recording makes larger.
+/// Settings of the pooling, which bounds the size of the pictures for recordings of any length.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PictureConfig {
-    /// Shape of the window.
+    /// Window function.
     pub window: Window,
-    /// Frame of the picture of all frequencies: its lines are 30 Hz wide, a row of a printed picture, and speech stays apart in time.
+    /// Frame of the picture of all frequencies. Its lines are 30 Hz wide, a row of a printed picture, and syllables of speech stay
+    /// separate.
     pub window_s: f64,
-    /// Frame of the pictures around one harmonic and of the mean spectrum: lines of rotors 0.2 % apart stay apart at 10 kHz.
+    /// Frame of the pictures around one harmonic and of the mean spectrum. Lines of rotors 0.2 % apart stay separate at 10 kHz.
     pub zoom_window_s: f64,
-    /// Step between frames as a share of their length: a click between two frames would be missed beyond a half.
+    /// Step between frames as a share of their length. With more than a half, a click between two frames would be missed.
     pub hop_share: f64,
-    /// Columns at most, even: what 180 mm hold at 300 dpi.
+    /// Most columns, an even number: 180 mm at 300 dpi.
     pub columns_max: usize,
-    /// Rows at most: what 90 mm hold at 150 dpi.
+    /// Most rows: 90 mm at 150 dpi.
     pub rows_max: usize,
-    /// A picture around a harmonic is so much wider than its band, on each side as a share of the band's width.
+    /// Margin of a picture around a harmonic on each side of its band, as a share of the width of the band.
     pub margin_share: f64,
 }
 
@@ -39,7 +40,7 @@ impl Default for PictureConfig {
 }
 
 impl PictureConfig {
-    /// Refuses settings that mean nothing, by name, value and limit.
+    /// Checks every setting against its limits.
     pub fn check(&self) -> Result<(), ConfigError> {
         check_range("picture.window_s", self.window_s, 0.001, 10.0)?;
         check_range("picture.zoom_window_s", self.zoom_window_s, 0.001, 10.0)?;

@@ -1,4 +1,4 @@
-//! Tones of known frequency, level and time, as pictures of them must show.
+//! Pictures of tones with known frequency, level and time.
 
 use super::*;
 use hovertone_signal::Signal;
@@ -11,7 +11,7 @@ fn view(hz_low: f64, hz_high: f64) -> PictureView {
     PictureView { harmonic: None, hz_low, hz_high, window_s: 0.1 }
 }
 
-/// A tone of amplitude 0.1 at `tone_hz`, but for a click of 0.02 s at full scale at `loud_s`, at another frequency.
+/// A tone of amplitude 0.1 at `tone_hz`. At `loud_s` follows a click of 0.02 s at full scale with another frequency.
 fn sound(length_s: f64, tone_hz: f64, loud_s: f64, loud_hz: f64) -> Signal {
     let samples = (0..(length_s * RATE_HZ) as usize).map(|n| {
         let time_s = n as f64 / RATE_HZ;

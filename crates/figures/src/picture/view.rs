@@ -1,12 +1,12 @@
-//! What of a recording is worth a picture.
+//! The views of a recording: bands of frequencies for its pictures.
 
 use super::PictureConfig;
 use hovertone_analysis::RotorTone;
 
-/// A band of frequencies to look at, and how closely.
+/// A band of frequencies with the length of its frames.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureView {
-    /// The harmonic around which it lies, 1 for the tone itself; absent where it shows all frequencies.
+    /// Number of the harmonic in its middle, 1 for the tone itself; absent for all frequencies.
     pub harmonic: Option<u32>,
     /// Lowest frequency.
     pub hz_low: f64,
@@ -16,8 +16,8 @@ pub struct PictureView {
     pub window_s: f64,
 }
 
-/// All frequencies up to a little above the highest harmonic that was followed, and each of those harmonics by itself. Without a tone,
-/// all that the recording holds.
+/// All frequencies up to a little above the highest followed harmonic, and each of these harmonics alone. Without a tone, all frequencies
+/// of the recording.
 pub fn views_of_recording(tone: Option<&RotorTone>, sample_rate_hz: f64, config: &PictureConfig) -> Vec<PictureView> {
     let nyquist_hz = sample_rate_hz / 2.0;
     let bands = tone.map_or(&[][..], |tone| &tone.bands);
