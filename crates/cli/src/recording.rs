@@ -65,7 +65,12 @@ pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> V
     jobs.par_iter()
         .map(|job| {
             hear(job, hearing, &mut progress.recording()).unwrap_or_else(|failure| Heard {
-                record: record_of(job, &job.config, Answer::Failed { reason: failure.reason }, failure.facts),
+                record: record_of(
+                    job,
+                    &job.config,
+                    Answer::Failed { reason: failure.reason },
+                    failure.facts.map(|facts| *facts),
+                ),
                 config: job.config.clone(),
                 spin_up: None,
             })
@@ -81,7 +86,7 @@ pub(crate) fn records_of(jobs: &[Job], hearing: Hearing, progress: &Progress) ->
 /// Reason why a recording was not analysed, with its facts where they are known.
 struct NotHeard {
     reason: String,
-    facts: Option<RecordingFacts>,
+    facts: Option<Box<RecordingFacts>>,
 }
 
 impl NotHeard {
@@ -103,7 +108,7 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
     let facts = facts_of(&recording, sha256);
     let Analysed { analysis, config, found, spin_up } = match analysed {
         Ok(analysed) => analysed,
-        Err(error) => return Err(NotHeard { reason: error.to_string(), facts: Some(facts) }),
+        Err(error) => return Err(NotHeard { reason: error.to_string(), facts: Some(Box::new(facts)) }),
     };
     let of_the_file = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
     let matters =

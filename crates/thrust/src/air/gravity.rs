@@ -11,7 +11,7 @@ const ECCENTRICITY_SQUARED: f64 = 0.00669437999013;
 /// Decrease of gravity with the height in free air, 1/s². *Physics.*
 const FREE_AIR_GRADIENT_1_S2: f64 = 3.086e-6;
 
-/// Standard uncertainty of gravity from latitude and height, or as somebody stated it, m/s²: a typical gravity anomaly of 50 mGal
+/// Standard uncertainty of gravity from latitude and height, or as stated, m/s²: a typical gravity anomaly of 50 mGal
 /// by local rock, and heights that are known to some 100 m. *Physics.*
 const GRAVITY_STD_M_S2: f64 = 0.0005;
 /// Standard uncertainty of gravity at an unknown place, m/s². It lies between 9.780 at the equator and 9.832 at the poles; a

@@ -194,7 +194,7 @@ fn the_stated_uncertainty_covers_the_truth_and_right_loads_fit() {
         let (coverage, false_alarms) = coverage_and_false_alarms(trials_per_load);
         // more than 95 %: of several uncertainties the largest is taken
         assert!((0.93..1.0).contains(&coverage), "{trials_per_load} trials: {coverage}");
-        // one in twenty is what the test promises; 3000 loads show that to 0.4 %
+        // the test has false alarms for 5 % of the loads; 3000 loads give that share to 0.4 %
         assert!(false_alarms < 0.065, "{trials_per_load} trials: {false_alarms}");
     }
 }

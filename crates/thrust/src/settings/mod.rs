@@ -1,4 +1,4 @@
-//! What a thrust constant needs beside its loads.
+//! Settings of a thrust constant: all facts beside its loads.
 
 mod uncertainty_inputs;
 
@@ -7,7 +7,7 @@ pub use uncertainty_inputs::UncertaintyInputs;
 use hovertone_vehicle::CLOCK_PPM;
 use serde::Serialize;
 
-/// What a thrust constant needs beside its loads.
+/// Settings of a thrust constant: all facts beside its loads.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ThrustSettings {
     /// Number of rotors of the vehicle.

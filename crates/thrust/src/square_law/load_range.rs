@@ -12,7 +12,7 @@ const INTERCEPT_STD_SHARE_MAX: f64 = 0.02;
 /// Largest ratio of forces that is recommended. No multirotor hovers over a wider range of loads. *Decision.*
 const RATIO_MAX: f64 = 10.0;
 
-/// Step of the search for the ratio. A hundredth is finer than anybody can choose a load. *Numeric.*
+/// Step of the search for the ratio. A hundredth is finer than a load can be chosen. *Numeric.*
 const RATIO_STEP: f64 = 0.01;
 
 /// The range of the loads.
