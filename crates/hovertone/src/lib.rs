@@ -76,7 +76,7 @@ pub mod sound {
     pub use hovertone_signal::{Signal, SignalError, SignalSource, SourceError};
 }
 
-/// Rotor speeds: from a recording to a [`SpeedAnalysis`].
+/// Rotor speeds: from a recording to a [`SpeedAnalysis`](speed::SpeedAnalysis).
 ///
 /// ```
 /// use hovertone::speed::{Config, Outcome, SpanConfig, ToneConfig, speed_from_source};
