@@ -1,6 +1,6 @@
 //! From `results.json` to the numbers for simulators.
 
-use crate::units::GRAVITY_STANDARD_M_S2;
+use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 use serde::Deserialize;
 use serde_json::Value;
 

@@ -1,9 +1,7 @@
 //! One thrust constant in the units of other programs.
 
+use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 use std::f64::consts::TAU;
-
-/// Standard gravity, m/s²: the weight of a kilogram-force.
-pub(crate) const GRAVITY_STANDARD_M_S2: f64 = 9.80665;
 
 /// A thrust constant of one rotor, stored in N/(rad/s)².
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,5 +1,8 @@
 //! Mean, spread, median, uncertainty of the mean of a correlated series, and sums of likelihoods.
 
+/// Standard deviation of a normal distribution over its median absolute deviation (Rousseeuw and Croux 1993). *Physics.*
+pub const STD_PER_MEDIAN_DEVIATION: f64 = 1.4826;
+
 /// Arithmetic mean, in the unit of the values. `None` for an empty slice.
 pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)

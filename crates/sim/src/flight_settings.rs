@@ -3,12 +3,10 @@
 use crate::control::Setpoint;
 use crate::environment::{Air, Gusts};
 use crate::seed::{Part, stream};
-use hovertone_vehicle::{FlightParameters, QuantityError};
+use hovertone_vehicle::{FlightParameters, GRAVITY_STANDARD_M_S2, QuantityError};
 use rand::RngExt;
 use rand_distr::StandardNormal;
 
-/// Standard gravity; the paper's tables have 9.80.
-const STANDARD_GRAVITY_M_S2: f64 = 9.806_65;
 /// Height of the paper's hovers.
 const HOVER_HEIGHT_M: f64 = 1.0;
 
@@ -124,7 +122,7 @@ impl FlightSettings {
     pub fn for_vehicle(vehicle: FlightParameters) -> Self {
         Self {
             vehicle,
-            gravity_m_s2: STANDARD_GRAVITY_M_S2,
+            gravity_m_s2: GRAVITY_STANDARD_M_S2,
             step_s: 0.001,
             start: Start::Hover(Setpoint { position_m: [0.0, 0.0, HOVER_HEIGHT_M], yaw_rad: 0.0 }),
             payloads: Vec::new(),

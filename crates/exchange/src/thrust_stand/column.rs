@@ -1,8 +1,8 @@
 //! From headers to quantities and units.
 
 use crate::csv_text::CsvText;
-use crate::units::GRAVITY_STANDARD_M_S2;
 use csv::StringRecord;
+use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 use std::f64::consts::TAU;
 
 /// Kilograms in a pound.

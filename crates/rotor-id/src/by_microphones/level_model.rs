@@ -4,6 +4,7 @@ use super::array::{MicrophoneArray, distance_m};
 use super::paired_lines::LinePowers;
 use super::settings::MicrophonesConfig;
 use hovertone_signal::statistics::std;
+use nalgebra::{DMatrix, DVector};
 use std::f64::consts::LN_10;
 
 /// Decibels of a factor of ten in amplitude, by definition. *Physics.*
@@ -111,8 +112,8 @@ impl LevelModel {
                 if a == b { self.level_db2 + from_lines_db2 + expected(*track, a.1).variance_db2 } else { 0.0 };
             loudness_db2 + gain_db2 + own_db2
         };
-        let matrix = at.iter().map(|a| at.iter().map(|b| covariance(a, b)).collect()).collect();
-        normal_ln_density(off.collect(), matrix)
+        let matrix = DMatrix::from_fn(at.len(), at.len(), |row, column| covariance(&at[row], &at[column]));
+        normal_ln_density(DVector::from_iterator(at.len(), off), matrix)
     }
 }
 
@@ -182,25 +183,9 @@ fn variance_over_places_db2(places: &[Vec<ExpectedLevel>]) -> f64 {
 
 /// `ln N(off; 0, covariance)` by Cholesky decomposition, without the power of 2π, which is the same for all assignments; 0 if the matrix is
 /// not positive definite.
-fn normal_ln_density(mut off: Vec<f64>, mut matrix: Vec<Vec<f64>>) -> f64 {
-    let mut ln_density = 0.0;
-    for row in 0..off.len() {
-        for column in 0..=row {
-            let known: f64 = (0..column).map(|k| matrix[row][k] * matrix[column][k]).sum();
-            let rest = matrix[row][column] - known;
-            if column < row {
-                matrix[row][column] = rest / matrix[column][column];
-            } else if rest > 0.0 {
-                matrix[row][row] = rest.sqrt();
-            } else {
-                return 0.0;
-            }
-        }
-        let known: f64 = (0..row).map(|k| matrix[row][k] * off[k]).sum();
-        off[row] = (off[row] - known) / matrix[row][row];
-        ln_density -= matrix[row][row].ln() + off[row].powi(2) / 2.0;
-    }
-    ln_density
+fn normal_ln_density(off: DVector<f64>, covariance: DMatrix<f64>) -> f64 {
+    let Some(decomposed) = covariance.cholesky() else { return 0.0 };
+    -0.5 * (off.dot(&decomposed.solve(&off)) + decomposed.ln_determinant())
 }
 
 #[cfg(test)]
@@ -210,9 +195,12 @@ mod tests {
     #[test]
     fn the_density_agrees_with_inverse_and_determinant() {
         // [[4, 2], [2, 3]]: determinant 8, inverse [[3, −2], [−2, 4]] / 8
-        let found = normal_ln_density(vec![1.0, -2.0], vec![vec![4.0, 2.0], vec![2.0, 3.0]]);
+        let found = normal_ln_density(
+            DVector::from_row_slice(&[1.0, -2.0]),
+            DMatrix::from_row_slice(2, 2, &[4.0, 2.0, 2.0, 3.0]),
+        );
         let square = (3.0 + 2.0 * 2.0 * 2.0 + 4.0 * 4.0) / 8.0;
         assert!((found - (-square / 2.0 - 8f64.ln() / 2.0)).abs() < 1e-12, "{found}");
-        assert_eq!(normal_ln_density(vec![0.0], vec![vec![0.0]]), 0.0);
+        assert_eq!(normal_ln_density(DVector::zeros(1), DMatrix::zeros(1, 1)), 0.0);
     }
 }

@@ -1,7 +1,7 @@
 //! When a rotor becomes audible: the change point of its power over time.
 
 use super::frames::{FRAME_S, HOP_S};
-use hovertone_signal::statistics::{mean, median};
+use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
 
 /// Power of a rotor, as a share of its power in the hover, above which it is audible. *Decision.*
 pub(super) const AUDIBLE_SHARE: f64 = 0.1;
@@ -12,8 +12,6 @@ const SMOOTHED_FRAMES: usize = 5;
 const LN_POWER_STD_MIN: f64 = 0.5;
 /// Standard deviation over unlike motors of the time that they need to run up, in s. *Physics.*
 const RUN_UP_STD_S: f64 = 0.1;
-/// Standard deviation of a normal distribution over its median absolute deviation (Rousseeuw and Croux 1993). *Numeric.*
-const STD_PER_MEDIAN_DEVIATION: f64 = 1.4826;
 
 /// When a rotor becomes audible.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,7 @@
 //! Speed of each row → rows in which the vehicle manoeuvres: doublets, climbs, fast yaw.
 
 use crate::hover::HoverConfig;
-use hovertone_signal::statistics::median;
-
-/// Standard deviation of a normal distribution over the median of its absolute deviations. *Physics.*
-const STD_PER_MEDIAN_DEVIATION: f64 = 1.4826;
+use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
 
 /// For each row, whether its speed differs from the median speed around it by much more than the wander of the hover. A single row does
 /// not count, because noise may have changed its speed.
