@@ -12,10 +12,11 @@
 //!
 //! The side lobes of the window suppress a line outside the band by more than 70 dB.
 
+use crate::fft::{ComplexPlanner, TransformNumber};
 use crate::spectrogram::{Window, smooth_at_least};
+use realfft::RealToComplex;
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use rustfft::Fft;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -86,9 +87,9 @@ impl ChannelBank {
     /// A bank with one channel for each band.
     pub fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
         let frame_samples = smooth_at_least((FRAME_S * sample_rate_hz).round() as usize, 4);
-        let plan = RealFftPlanner::new().plan_fft_forward(frame_samples);
+        let plan = f32::real_forward(frame_samples);
         let bin_hz = sample_rate_hz / frame_samples as f64;
-        let mut planner = FftPlanner::new();
+        let mut planner = ComplexPlanner::new();
         let channels: Vec<Channel> = bands.iter().map(|band| Channel::new(band, bin_hz, &mut planner)).collect();
         let scratch_len = channels.iter().map(|channel| channel.inverse.get_inplace_scratch_len()).max().unwrap_or(0);
         Self {
@@ -176,7 +177,7 @@ impl ChannelBank {
 }
 
 impl Channel {
-    fn new(band: &ChannelBand, bin_hz: f64, planner: &mut FftPlanner<f32>) -> Self {
+    fn new(band: &ChannelBand, bin_hz: f64, planner: &mut ComplexPlanner) -> Self {
         let middle_hz = (band.band_hz_low + band.band_hz_high) / 2.0;
         let centre_bin = (middle_hz / bin_hz).round() as i64;
         let half_bins = ((band.band_hz_high - middle_hz) / bin_hz).ceil() as usize + GUARD_BINS;
@@ -189,7 +190,7 @@ impl Channel {
             hop_samples: width / 2,
             first_bin: centre_bin - width as i64 / 2,
             centre_bin,
-            inverse: planner.plan_fft_inverse(width),
+            inverse: planner.inverse(width),
             frame: vec![Complex::default(); width],
             tail: vec![Complex::default(); width / 2],
         }

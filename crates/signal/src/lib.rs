@@ -6,6 +6,7 @@
 //! | [`passes`] | runs over a source: the wanted stretches of time, block by block |
 //! | [`spectrogram`] | power spectra of frames, window shapes, decimation, the noise floor, the cutoff of a codec |
 //! | [`channels`] | a bank of band-pass filters: one complex signal at a low rate for each spectral line |
+//! | [`fft`] | plans of fast Fourier transforms |
 //! | [`peak`] | the frequency of a spectral peak, finer than a bin |
 //! | [`statistics`] | mean, spread, median, uncertainty of the mean of a correlated series |
 //! | [`line_solver`] | least squares of spectral lines that overlap |
@@ -16,6 +17,7 @@
 
 pub mod channels;
 mod error;
+pub mod fft;
 pub mod line_solver;
 pub mod passes;
 pub mod peak;

@@ -1,9 +1,10 @@
 //! Spectra of short frames, to be read at any frequency, and the power of the noise between the lines.
 
+use hovertone_signal::fft::TransformNumber;
 use hovertone_signal::spectrogram::hann_weights;
 use hovertone_signal::statistics::median;
+use realfft::RealToComplex;
 use realfft::num_complex::Complex;
-use realfft::{RealFftPlanner, RealToComplex};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -58,7 +59,7 @@ impl FrameCollector {
             sample_rate_hz,
             window_sum: window.iter().sum(),
             window,
-            fft: RealFftPlanner::new().plan_fft_forward(padded),
+            fft: f64::real_forward(padded),
             pending: Vec::new(),
             hop: (HOP_S * sample_rate_hz).round() as usize,
             bin_hz,

@@ -6,9 +6,9 @@
 use super::noise_floor::NoiseMeter;
 use super::speed_map::FRAME_HOPS;
 use hovertone_signal::channels::{Channel, ChannelBand, ChannelBank, TICKS_PER_HOP};
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::passes::StretchListener;
 use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
 
 /// Longest chunk, s. A rotor in flight keeps its phase for less. *Decision.*
 const CHUNK_S_MAX: f64 = 10.0;
@@ -150,7 +150,7 @@ struct LastChunk {
 impl ChunkCutter {
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> Self {
         let bank = ChannelBank::new(sample_rate_hz, bands);
-        let mut planner = FftPlanner::new();
+        let mut planner = ComplexPlanner::new();
         let channels = bank.channels.iter();
         Self {
             noise_meters: channels.map(|channel| NoiseMeter::new(channel.hop_samples, &mut planner)).collect(),

@@ -1,8 +1,9 @@
 //! The complex spectrum of a frame of one channel, under a Hann window (Harris, Proc. IEEE 66, 1978).
 
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
+use rustfft::Fft;
 use std::sync::Arc;
 
 /// Fourier transform of frames of one length.
@@ -17,8 +18,8 @@ pub(crate) struct FrameTransform {
 
 impl FrameTransform {
     /// Frames of `length` samples, padded with zeros to `zero_pad_factor` times the length.
-    pub(crate) fn new(length: usize, zero_pad_factor: usize, planner: &mut FftPlanner<f32>) -> Self {
-        let plan = planner.plan_fft_forward(zero_pad_factor * length);
+    pub(crate) fn new(length: usize, zero_pad_factor: usize, planner: &mut ComplexPlanner) -> Self {
+        let plan = planner.forward(zero_pad_factor * length);
         let window: Vec<f32> = hann_weights(length).map(|weight| weight as f32).collect();
         Self {
             energy: window.iter().map(|&w| f64::from(w).powi(2)).sum(),

@@ -39,13 +39,13 @@ pub(crate) use chunks::{Chunk, ChunkCutter, ChunkListener, InChunks, NoiseDensit
 use demodulation::{Line, LinePlace, demodulated};
 use hovertone_analysis::Span;
 use hovertone_signal::channels::{ChannelBand, TICKS_PER_HOP};
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::spectrogram::power_db;
 use join::joined;
 pub(crate) use join::{EndBlock, joined_variance_turns2};
 use partition::{
     Partition, best_partition, blocks_between, first_partition, likelihood_min, line_likelihoods, straight_partition,
 };
-use rustfft::FftPlanner;
 use speed_map::{Centroid, FRAME_HOPS, LinePowers, STRONG_POWER_MIN, SpeedMap};
 use speed_path::{SpeedPath, SpeedPoint};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LENGTH_POWER, LineRecord};
@@ -99,7 +99,7 @@ impl HarmonicTracer {
     pub(crate) fn new(sample_rate_hz: f64, bands: &[ChannelBand]) -> InChunks<Self> {
         let cutter = ChunkCutter::new(sample_rate_hz, bands);
         let (low_rev_s, high_rev_s) = limits_rev_s(bands);
-        let map = SpeedMap::new(cutter.channels(), low_rev_s, high_rev_s, cutter.hop_s(), &mut FftPlanner::new());
+        let map = SpeedMap::new(cutter.channels(), low_rev_s, high_rev_s, cutter.hop_s(), &mut ComplexPlanner::new());
         let track = HarmonicTrack {
             step_s: cutter.hop_s(),
             lines: bands.iter().map(|band| LineRecord { order: band.order, ..LineRecord::default() }).collect(),

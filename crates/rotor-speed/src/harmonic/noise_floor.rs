@@ -1,9 +1,9 @@
 //! The noise around a line: its variance in one sample of the channel.
 
 use super::frame_transform::FrameTransform;
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::median;
 use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
 
 /// Share of the bins of a channel, around its middle, that count: the outer bins lie on the slopes of the band-pass filter.
 /// *Numeric.*
@@ -26,7 +26,7 @@ pub(crate) struct NoiseMeter {
 }
 
 impl NoiseMeter {
-    pub(crate) fn new(hop_samples: usize, planner: &mut FftPlanner<f32>) -> Self {
+    pub(crate) fn new(hop_samples: usize, planner: &mut ComplexPlanner) -> Self {
         let length = FRAME_HOPS * hop_samples;
         Self { frames: FrameTransform::new(length, 1, planner), power: vec![0.0; length], middle: Vec::new() }
     }
@@ -67,7 +67,7 @@ mod tests {
     fn the_floor_is_the_noise_whatever_lines_stand_on_it() {
         let mut rng = rand_pcg::Pcg64::seed_from_u64(3);
         let hop_samples = 48;
-        let mut meter = NoiseMeter::new(hop_samples, &mut FftPlanner::new());
+        let mut meter = NoiseMeter::new(hop_samples, &mut ComplexPlanner::new());
         for (frames, tolerance) in [(60, 0.05), (6, 0.2)] {
             let series: Vec<Complex<f32>> = (0..frames * 2 * hop_samples)
                 .map(|n| {

@@ -4,10 +4,10 @@ use super::best_path::best_path;
 use super::frame_transform::FrameTransform;
 use super::speed_path::SpeedPoint;
 use hovertone_signal::channels::Channel;
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::{mean, median};
 use hovertone_vehicle::BLADES_MAX;
 use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
 
 /// Length of a frame of the map, in hops of the filter bank: 0.17 s. *Numeric.*
 pub(crate) const FRAME_HOPS: usize = 2;
@@ -99,7 +99,7 @@ impl SpeedMap {
         low_rev_s: f64,
         high_rev_s: f64,
         hop_s: f64,
-        planner: &mut FftPlanner<f32>,
+        planner: &mut ComplexPlanner,
     ) -> Self {
         let (low, high) = (low_rev_s, high_rev_s);
         let order_max = channels.iter().map(|channel| channel.order).fold(1.0, f64::max);

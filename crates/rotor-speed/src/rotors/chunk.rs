@@ -23,7 +23,7 @@ use crate::harmonic::join::joined;
 use crate::harmonic::partition::{Partition, blocks_between, doubled_partition, likelihood_min};
 use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::channels::ChannelBand;
-use rustfft::FftPlanner;
+use hovertone_signal::fft::ComplexPlanner;
 
 /// A line at f has frames of `√(this / f)` before anything is known of the rotors.
 const FIRST_FRAME_HZ_S2: f64 = 100.0;
@@ -100,7 +100,7 @@ pub(super) fn rough_tracks(
     atoms: &[ChannelAtoms],
     limits_rev_s: (f64, f64),
     count: usize,
-    planner: &mut FftPlanner<f32>,
+    planner: &mut ComplexPlanner,
 ) -> (Vec<Vec<f64>>, Pace) {
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
     let motion = common_motion(chunk, atoms, limits_rev_s, count, planner);
@@ -129,7 +129,7 @@ pub(super) fn rotors_of_chunk(
     chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
     rough: &RoughChunk,
-    planner: &mut FftPlanner<f32>,
+    planner: &mut ComplexPlanner,
 ) -> Vec<HeardRotor> {
     let (tick_s, ticks) = (chunk.tick_s, chunk.ticks);
     let Some((mut hearing, spectra)) = Hearing::new(chunk, atoms, rough, planner) else { return Vec::new() };

@@ -15,8 +15,8 @@ use super::spectra::{FRAME_TICKS, Spectra};
 use super::together::FrameScores;
 use crate::harmonic::chunks::Chunk;
 use crate::harmonic::speed_path::SpeedPath;
+use hovertone_signal::fft::ComplexPlanner;
 use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
 
 /// A line at f has frames of `√(this / f)` along a rotor's own path.
 pub(super) const OWN_FRAME_HZ_S2: f64 = 480.0;
@@ -97,7 +97,7 @@ pub(super) struct Hearing<'a, 'p> {
     pace: Pace,
     middle_rev_s: f64,
     line_weights: Vec<f64>,
-    planner: &'p mut FftPlanner<f32>,
+    planner: &'p mut ComplexPlanner,
 }
 
 impl<'a, 'p> Hearing<'a, 'p> {
@@ -106,7 +106,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
         chunk: &'a Chunk<'a>,
         atoms: &'a [ChannelAtoms],
         RoughChunk { tracks: rough, pace, .. }: &RoughChunk,
-        planner: &'p mut FftPlanner<f32>,
+        planner: &'p mut ComplexPlanner,
     ) -> Option<(Self, Spectra)> {
         let speeds = || rough.iter().flatten();
         let middle_rev_s = speeds().sum::<f64>() / speeds().count().max(1) as f64;

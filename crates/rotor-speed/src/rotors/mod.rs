@@ -36,10 +36,10 @@ use atoms::{ChannelAtoms, atoms_of};
 use chunk::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_chunk, rough_tracks};
 use hovertone_analysis::Span;
 use hovertone_signal::channels::ChannelBand;
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::median;
 use identity::{Identity, TrackFrame};
 use pace::Pace;
-use rustfft::FftPlanner;
 use spectra::FRAME_TICKS;
 
 /// Lines that keep less of their phase than this are wider than frames resolve.
@@ -54,7 +54,7 @@ pub(crate) struct RotorScout {
     atoms: Vec<ChannelAtoms>,
     limits_rev_s: (f64, f64),
     count: usize,
-    planner: FftPlanner<f32>,
+    planner: ComplexPlanner,
     rough: RoughRotors,
 }
 
@@ -82,7 +82,7 @@ pub(crate) struct RotorTracer {
     limits_rev_s: (f64, f64),
     /// How far two rotors must be apart to be told so, if they do not bob.
     steady_resolution_rev_s: f64,
-    planner: FftPlanner<f32>,
+    planner: ComplexPlanner,
     identity: Identity,
     rough: std::vec::IntoIter<RoughChunk>,
     tracks: RotorTracks,
@@ -131,7 +131,7 @@ impl RotorScout {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s,
             count,
-            planner: FftPlanner::new(),
+            planner: ComplexPlanner::new(),
             rough: RoughRotors { count, limits_rev_s, chunks: Vec::new() },
         };
         InChunks::new(cutter, scout)
@@ -174,7 +174,7 @@ impl RotorTracer {
             atoms: atoms_of(cutter.channels(), mesh_order),
             limits_rev_s: limits_rev_s(bands),
             steady_resolution_rev_s,
-            planner: FftPlanner::new(),
+            planner: ComplexPlanner::new(),
             identity: Identity::default(),
             tracks: RotorTracks {
                 rotors: vec![rotor; rough.count],

@@ -11,8 +11,8 @@ use super::spectra::{FRAME_TICKS, Spectra};
 use crate::harmonic::best_path::best_path;
 use crate::harmonic::chunks::Chunk;
 use crate::harmonic::speed_path::SpeedPath;
+use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::{mean, median};
-use rustfft::FftPlanner;
 
 /// Times that the motion is found by the pattern, and the pattern along the motion.
 const ROUNDS: usize = 4;
@@ -52,7 +52,7 @@ pub(super) fn common_motion(
     atoms: &[ChannelAtoms],
     limits_rev_s: (f64, f64),
     count: usize,
-    planner: &mut FftPlanner<f32>,
+    planner: &mut ComplexPlanner,
 ) -> Option<SpeedPath> {
     let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
     let mut look_along = |path: &SpeedPath, look: &Look| {

@@ -6,8 +6,8 @@ use crate::harmonic::demodulation::{LinePhasors, LinePlace};
 use crate::harmonic::frame_transform::FrameTransform;
 use crate::harmonic::speed_path::{SpeedPath, SpeedPoint};
 use hovertone_signal::channels::TICKS_PER_HOP;
+use hovertone_signal::fft::ComplexPlanner;
 use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
 use std::f64::consts::TAU;
 
 /// Ticks from one frame to the next: 0.04 s.
@@ -53,7 +53,7 @@ impl Spectra {
         series: &[&[Complex<f32>]],
         common: &SpeedPath,
         (frame_s_of_order, frames_apart): (impl Fn(f64) -> f64, usize),
-        planner: &mut FftPlanner<f32>,
+        planner: &mut ComplexPlanner,
     ) -> Self {
         let frames = (chunk.ticks / FRAME_TICKS).div_ceil(frames_apart);
         let lines = chunk

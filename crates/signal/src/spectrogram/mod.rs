@@ -18,8 +18,9 @@ pub use whitening::whitened_db;
 pub use window::Window;
 pub use window::hann_weights;
 
+use crate::fft::TransformNumber;
+use realfft::RealToComplex;
 use realfft::num_complex::Complex;
-use realfft::{FftNum, RealFftPlanner, RealToComplex};
 use std::sync::Arc;
 
 /// Lowest level, dB re a sine of full scale. It lies below the rounding noise of 24 bits, and keeps the level of silence
@@ -63,13 +64,13 @@ pub struct Stft<T = f64> {
     power: Vec<f64>,
 }
 
-impl<T: FftNum + From<f32> + Into<f64>> Stft<T> {
+impl<T: TransformNumber> Stft<T> {
     /// Frames of length `window_s` at steps of `hop_s`. The transform is at least `zero_pad_factor` windows long; its length has
     /// only the prime factors 2, 3 and 5.
     pub fn new(sample_rate_hz: f64, window: Window, window_s: f64, hop_s: f64, zero_pad_factor: u32) -> Self {
         let window_samples = ((window_s * sample_rate_hz).round() as usize).max(8);
         let transform_samples = smooth_at_least(window_samples * zero_pad_factor.max(1) as usize, 2);
-        let plan = RealFftPlanner::new().plan_fft_forward(transform_samples);
+        let plan = T::real_forward(transform_samples);
         let weights = window.values(window_samples);
         let window_sum: f64 = weights.iter().sum();
         Self {
