@@ -1,6 +1,6 @@
 //! The result for one recording.
 
-use crate::{Band, Hover, Method, NoTone, Ridge, RotorEstimate, Span, SpeedEstimate, TrackPoint, Warning};
+use crate::{Band, Hover, Method, NoTone, Reading, Ridge, RotorEstimate, Span, SpeedEstimate, TrackPoint, Warning};
 use serde::Serialize;
 
 /// The result for one recording.
@@ -47,6 +47,9 @@ pub struct RotorTone {
     pub rotors: Vec<RotorEstimate>,
     /// The samples of the paper, each with a speed for each method.
     pub samples: Vec<SampleSpeeds>,
+    /// The speeds that remain possible, most probable first; empty where one is decided.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub alternatives: Vec<Reading>,
 }
 
 impl RotorTone {

@@ -24,6 +24,7 @@ pub(crate) fn config_of(
     let mut config = Config::for_tone(tone);
     let of_vehicle = asked.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
     config.rotors.count = known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
+    config.known = known_of(known, asked.vehicle.as_deref())?;
     config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
@@ -70,6 +71,13 @@ pub(crate) fn discovery_of(
     vehicle: Option<&str>,
     wants_all: bool,
 ) -> Result<(ToneConfig, Discovery), Failure> {
+    let known = known_of(arguments, vehicle)?;
+    let order = Order::new(1.0).map_err(Failure::internal)?;
+    Ok((ToneConfig::of_order(order), Discovery { config: DiscoveryConfig::default(), known, wants_all }))
+}
+
+/// What is known of the rotors before they are heard: the arguments, and for the rest the vehicle.
+fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRotor, Failure> {
     let of_vehicle = vehicle.map(preset).transpose()?.map(KnownRotor::of_vehicle).unwrap_or_default();
     let known = KnownRotor {
         diameter_m: arguments.diameter_m.or(of_vehicle.diameter_m),
@@ -80,6 +88,5 @@ pub(crate) fn discovery_of(
     known
         .check()
         .map_err(|error| Failure::usage(error.to_string(), "give metres, kilograms and a number of rotors"))?;
-    let order = Order::new(1.0).map_err(Failure::internal)?;
-    Ok((ToneConfig::of_order(order), Discovery { config: DiscoveryConfig::default(), known, wants_all }))
+    Ok(known)
 }

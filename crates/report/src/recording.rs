@@ -125,7 +125,10 @@ impl SpeedRecord {
 
     /// The plausible readings of the tone, most plausible first; empty where one is settled.
     pub fn alternatives(&self) -> &[Reading] {
-        self.found.as_ref().map_or(&[], |found| &found.alternatives)
+        match &self.found {
+            Some(found) => &found.alternatives,
+            None => self.tone().map_or(&[], |tone| &tone.alternatives),
+        }
     }
 
     /// The used reading, where the tone was searched for.

@@ -1,13 +1,14 @@
 //! All settings of an analysis. The settings of a stage, with their defaults and reasons, stand in the stage's folder.
 
+use crate::evidence::{AIR_KG_M3, EvidenceConfig};
 use crate::hover::{HoverConfig, HoverPart};
 use crate::ridge::{RidgeConfig, SpectrogramConfig};
 use crate::rotors::RotorsConfig;
 use crate::speed::{BudgetConfig, SampleConfig};
 use crate::survey::SpanConfig;
-use crate::tone::ToneConfig;
+use crate::tone::{ToneConfig, blades_of_tone};
 use hovertone_analysis::Method;
-use hovertone_vehicle::ConfigError;
+use hovertone_vehicle::{ConfigError, KnownRotor};
 use serde::Serialize;
 
 /// All settings of an analysis. `Default` holds the recommended values; the tone's order has none and must be said.
@@ -15,6 +16,10 @@ use serde::Serialize;
 pub struct Config {
     /// Which tone of the rotor is followed.
     pub tone: ToneConfig,
+    /// What is known of the vehicle before its sound is heard: a prior on the speed.
+    pub known: KnownRotor,
+    /// When a rotor counts as heard, and its octave as decided.
+    pub evidence: EvidenceConfig,
     /// How many rotors sound, and where they are looked for.
     pub rotors: RotorsConfig,
     /// Which part of the recording is used.
@@ -43,6 +48,8 @@ impl Config {
     pub fn for_tone(tone: ToneConfig) -> Self {
         Self {
             tone,
+            known: KnownRotor::default(),
+            evidence: EvidenceConfig::default(),
             rotors: RotorsConfig::default(),
             span: SpanConfig::default(),
             hover: HoverConfig::default(),
@@ -54,6 +61,13 @@ impl Config {
             method: Method::default(),
             all_methods: false,
         }
+    }
+
+    /// Blades of a rotor whose blade pass is the tone and whose thrust in hover is known, by mass, number of rotors and diameter. There the
+    /// evidence of all orders, with the prior of the thrust coefficient, decides whether a rotor sounds and at which octave. By sound and
+    /// blades alone the octave is often open.
+    pub(crate) fn blades_with_thrust(&self) -> Option<u32> {
+        self.known.hover_thrust_coefficient(1.0, AIR_KG_M3).and(blades_of_tone(&self.tone))
     }
 
     /// The methods that are computed.
@@ -75,6 +89,8 @@ impl Config {
     /// Refuses settings that mean nothing, by name, value and limit.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.tone.check()?;
+        self.known.check()?;
+        self.evidence.check()?;
         self.rotors.check()?;
         self.span.check()?;
         self.hover.check()?;

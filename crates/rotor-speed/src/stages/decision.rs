@@ -9,7 +9,7 @@ use crate::harmonic::HarmonicTracer;
 use crate::hover::restless_s;
 use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
 use crate::tone::{families_agree, foreign_series, lines_and_between, lines_between_speeds, lines_worth_hearing};
-use hovertone_analysis::{Hover, Method, NoTone};
+use hovertone_analysis::{Hover, Method, NoTone, Reading};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
 
@@ -18,6 +18,8 @@ pub(crate) struct Decision {
     pub(crate) lines: Lines,
     /// The track of each rotor; empty where the rotors are not separated.
     pub(crate) rotors: RotorTracks,
+    /// The speeds that remain possible; empty where one is decided.
+    pub(crate) alternatives: Vec<Reading>,
 }
 
 /// Decides whether the lines belong to a rotor, and separates the rotors where the settings ask for it.
@@ -45,7 +47,8 @@ pub(crate) fn decision_from_lines(
         RotorTracks::default()
     };
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
-    Ok(Decision { lines, rotors })
+    let alternatives = candidates.alternatives(config);
+    Ok(Decision { lines, rotors, alternatives })
 }
 
 /// The reason why the lines do not belong to a rotor at this speed. `None` where they do.
@@ -59,6 +62,11 @@ fn why_no_rotor(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let survey = &surveyed.survey;
+    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+    if candidates.beliefs.is_some() {
+        let restless = not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover);
+        return Ok(restless.or_else(|| mains_hum_reason(&lines.clearest, survey)));
+    }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
     if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
         not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
@@ -68,7 +76,6 @@ fn why_no_rotor(
     if are_crowded && families_agree(survey, &candidates.map, &config.tone, passes.sample_rate_hz(), speed_rev_s)? {
         not_a_line = None;
     }
-    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     Ok(not_a_line
         .or_else(|| not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover))
         .or_else(|| mains_hum_reason(&lines.clearest, survey))

@@ -17,7 +17,7 @@ pub(crate) fn speeds_from_decision(
     decision: Decision,
     config: &Config,
 ) -> Result<SpeedAnalysis, Stop> {
-    let Decision { lines, rotors: rotor_tracks } = decision;
+    let Decision { lines, rotors: rotor_tracks, alternatives } = decision;
     let mut warnings = lines.warnings.clone();
     let order = config.tone.order;
     let weights = HarmonicWeights::from_ridges(&lines.ridges, &config.ridge, &mut warnings);
@@ -47,7 +47,7 @@ pub(crate) fn speeds_from_decision(
         None => lines.harmonic.points_in(None, order),
     };
     let Lines { bands, ridges, .. } = lines;
-    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges });
+    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges, alternatives });
     Ok(SpeedAnalysis { heard, hover, outcome, warnings })
 }
 

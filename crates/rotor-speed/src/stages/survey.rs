@@ -3,6 +3,7 @@
 use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
+use crate::evidence::{Excess, ExcessBuilder};
 use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
@@ -12,6 +13,8 @@ use hovertone_signal::passes::{Passes, Piece};
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
+    /// Power over the floor in short frames, where the beliefs are asked for.
+    pub(crate) excess: Option<Excess>,
 }
 
 impl Surveyed {
@@ -49,15 +52,20 @@ pub(crate) fn survey_from_source(
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
+    let mut excess = config.blades_with_thrust().map(|_| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
         Piece::Samples(samples) => {
             builder.push(samples);
+            if let Some(excess) = &mut excess {
+                excess.push(samples);
+            }
             if let Some(beside) = &mut beside {
                 beside.push(samples);
             }
         }
         Piece::Heard(_) => {}
     })?;
-    Ok(Surveyed { survey: builder.finish(to_s), heard: Span { from_s, to_s: to_s.max(from_s) } })
+    let heard = Span { from_s, to_s: to_s.max(from_s) };
+    Ok(Surveyed { survey: builder.finish(to_s), heard, excess: excess.map(ExcessBuilder::finish) })
 }

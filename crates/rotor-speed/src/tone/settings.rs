@@ -75,6 +75,13 @@ impl ToneConfig {
     }
 }
 
+/// Blades of a rotor whose blade pass is the tone. `None` where the tone is something else, such as a gear mesh.
+pub(crate) fn blades_of_tone(tone: &ToneConfig) -> Option<u32> {
+    let order = tone.order.lines_per_turn();
+    let is_blade_pass = (1.0..=BLADES_MAX).contains(&order) && order.fract() == 0.0;
+    is_blade_pass.then_some(order as u32)
+}
+
 /// Blades of the rotor: those that are said, or those whose blade pass is followed.
 pub fn blades_known(tone: &ToneConfig) -> Option<u32> {
     let order = tone.order.lines_per_turn();

@@ -1,0 +1,160 @@
+//! Levels of the lines of a rotor, against levels of nothing.
+//!
+//! With the loudness g, the fall s and the offset d of the shaft lines, the line of order k of a propeller with B blades has the mean level
+//! `g − s · 10 log₁₀(k/B)`, plus d where k is no multiple of B; it scatters about its mean. A measured level has the noise of the frames.
+//! The evidence is the integral of the product of all likelihood ratios over g, s and d, on a grid. Lines may be missing, all shaft lines
+//! may be inaudible, and a place without a line may hold a line of something else.
+
+use super::levels::NoiseLevel;
+use super::settings::LevelPrior;
+use hovertone_signal::statistics::log_sum_exp;
+
+/// Levels of the integral over the scatter of a line, dB. *Numeric.*
+const LINE_DB_MIN: i32 = -30;
+const LINE_DB_MAX: i32 = 50;
+/// Range of levels that a line of something else may have, dB. *Decision.*
+const FOREIGN_RANGE_DB: f64 = 45.0;
+/// Steps of the integral over the loudness, dB. *Numeric.*
+const LOUDNESS_DB: [f64; 16] =
+    [-4.0, -1.0, 2.0, 5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 23.0, 26.0, 29.0, 32.0, 35.0, 38.0, 41.0];
+/// Steps of the integral over the fall. *Numeric.*
+const FALLS: [f64; 5] = [0.0, 0.6, 1.2, 2.0, 3.0];
+/// Steps of the integral over the offset of the shaft lines, dB. *Numeric.*
+const SHAFT_DB: [f64; 11] = [-24.0, -21.0, -18.0, -15.0, -12.0, -9.0, -6.0, -3.0, 0.0, 3.0, 6.0];
+/// Lowest order, in blade passes, at which the fall is counted: lines below it do not get louder. *Decision.*
+const FALL_FROM: f64 = 0.6;
+
+/// Level of one order along a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OrderLevel {
+    pub(super) order: u32,
+    pub(super) level_db: f64,
+}
+
+/// The evidence of levels for a rotor with so many blades, in nats: log-likelihood ratio against noise with lines of something else.
+pub(super) fn evidence_nats(levels: &[OrderLevel], noise: NoiseLevel, blades: u32, prior: &LevelPrior) -> f64 {
+    let (blade_pass, shaft): (Vec<OrderLevel>, Vec<OrderLevel>) =
+        levels.iter().partition(|level| level.order.is_multiple_of(blades));
+    let blade_lines = LineRatios::of(&blade_pass, noise, prior.line_std_db, prior.blade_pass_missing, prior.foreign);
+    let shaft_lines = LineRatios::of(&shaft, noise, prior.shaft_line_std_db, prior.shaft_missing, prior.foreign);
+    let loudness = ln_weights(&LOUDNESS_DB, prior.blade_pass_db, prior.blade_pass_std_db);
+    let falls = ln_weights(&FALLS, prior.fall, prior.fall_std);
+    let offsets = ln_weights(&SHAFT_DB, prior.shaft_db, prior.shaft_std_db);
+    let mean_db = |level: &OrderLevel, at: Loudness| {
+        at.loudness_db - at.fall * 10.0 * (f64::from(level.order) / f64::from(blades)).max(FALL_FROM).log10()
+    };
+    let cells = FALLS.iter().zip(&falls).flat_map(|(&fall, fall_weight)| {
+        LOUDNESS_DB
+            .iter()
+            .zip(&loudness)
+            .map(move |(&loudness_db, weight)| (Loudness { loudness_db, fall }, fall_weight + weight))
+    });
+    log_sum_exp(cells.map(|(at, weight)| {
+        let blade_nats = blade_lines.sum(|level| mean_db(level, at));
+        let shaft_nats = if shaft.is_empty() {
+            0.0
+        } else {
+            let audible = log_sum_exp(
+                SHAFT_DB
+                    .iter()
+                    .zip(&offsets)
+                    .map(|(offset, weight)| weight + shaft_lines.sum(|level| mean_db(level, at) + offset)),
+            );
+            log_sum_exp([prior.shaft_inaudible.ln(), (1.0 - prior.shaft_inaudible).ln() + audible].into_iter())
+        };
+        weight + blade_nats + shaft_nats
+    }))
+}
+
+#[derive(Clone, Copy)]
+struct Loudness {
+    loudness_db: f64,
+    fall: f64,
+}
+
+/// Log-likelihood ratios of lines, as a table over their mean levels.
+struct LineRatios<'a> {
+    levels: &'a [OrderLevel],
+    /// `nats[line][mean level]`.
+    nats: Vec<Vec<f64>>,
+}
+
+impl<'a> LineRatios<'a> {
+    fn of(levels: &'a [OrderLevel], noise: NoiseLevel, line_std_db: f64, missing: f64, foreign: f64) -> Self {
+        let grid: Vec<f64> = (LINE_DB_MIN..=LINE_DB_MAX).map(f64::from).collect();
+        // mean level of a line of level x in noise: the powers add
+        let noise_power = 10f64.powf(noise.mean_db / 10.0);
+        let in_noise: Vec<f64> = grid.iter().map(|x| 10.0 * (10f64.powf(x / 10.0) + noise_power).log10()).collect();
+        let scatter: Vec<Vec<f64>> = grid
+            .iter()
+            .map(|mean| {
+                let weights: Vec<f64> =
+                    grid.iter().map(|x| (-0.5 * ((x - mean) / line_std_db).powi(2)).exp()).collect();
+                let sum: f64 = weights.iter().sum();
+                weights.iter().map(|weight| weight / sum).collect()
+            })
+            .collect();
+        let nats = levels
+            .iter()
+            .map(|OrderLevel { level_db, .. }| {
+                let nothing = (1.0 - foreign) * normal_density(*level_db, noise.mean_db, noise.std_db)
+                    + foreign / FOREIGN_RANGE_DB;
+                let line: Vec<f64> =
+                    in_noise.iter().map(|mean| normal_density(*level_db, *mean, noise.std_db)).collect();
+                let ratio = |weights: &Vec<f64>| {
+                    let audible: f64 = weights.iter().zip(&line).map(|(weight, line)| weight * line).sum();
+                    ((1.0 - missing) * audible / nothing + missing).ln()
+                };
+                scatter.iter().map(ratio).collect()
+            })
+            .collect();
+        Self { levels, nats }
+    }
+
+    /// Sum of the ratios of all lines, where `mean_db` gives the mean level of each.
+    fn sum(&self, mean_db: impl Fn(&OrderLevel) -> f64) -> f64 {
+        let index = |level: &OrderLevel| (mean_db(level).round() as i32).clamp(LINE_DB_MIN, LINE_DB_MAX) - LINE_DB_MIN;
+        self.levels.iter().zip(&self.nats).map(|(level, nats)| nats[index(level) as usize]).sum()
+    }
+}
+
+fn normal_density(value: f64, mean: f64, std: f64) -> f64 {
+    (-0.5 * ((value - mean) / std).powi(2)).exp() / (std * std::f64::consts::TAU.sqrt())
+}
+
+/// Logarithms of normal weights of the points of a grid, which sum to 1.
+fn ln_weights(grid: &[f64], mean: f64, std: f64) -> Vec<f64> {
+    let logarithms: Vec<f64> = grid.iter().map(|value| -0.5 * ((value - mean) / std).powi(2)).collect();
+    let sum = log_sum_exp(logarithms.iter().copied());
+    logarithms.into_iter().map(|logarithm| logarithm - sum).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NOISE: NoiseLevel = NoiseLevel { mean_db: -1.0, std_db: 1.0 };
+
+    fn evidence(levels_db: &[f64], blades: u32) -> f64 {
+        let levels: Vec<OrderLevel> =
+            (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db }).collect();
+        evidence_nats(&levels, NOISE, blades, &LevelPrior::default())
+    }
+
+    #[test]
+    fn levels_of_a_blade_pass_are_evidence_and_noise_is_evidence_against() {
+        let flight = [-1.0, 15.0, -1.0, 12.0, -1.0, 10.0, -1.0, 9.0];
+        assert!(evidence(&flight, 2) > 10.0, "{}", evidence(&flight, 2));
+        assert!(evidence(&[-1.0; 8], 2) < 0.0);
+    }
+
+    #[test]
+    fn a_rotor_at_half_the_speed_would_miss_every_other_blade_pass() {
+        // the same lines at half the speed: orders 4, 8 … of 16
+        let lines = [15.0, 12.0, 10.0, 9.0];
+        let at = |step: usize, orders: usize| -> Vec<f64> {
+            (1..=orders).map(|order| if order % step == 0 { lines[(order / step - 1) % 4] } else { -1.0 }).collect()
+        };
+        assert!(evidence(&at(2, 8), 2) > evidence(&at(4, 16), 2) + 5.0);
+    }
+}

@@ -1,0 +1,59 @@
+//! Levels of orders along a path.
+
+use super::excess::Excess;
+use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
+use std::f64::consts::LN_10;
+
+/// Lowest excess power that counts in a mean of logarithms. *Numeric.*
+const EXCESS_MIN: f32 = 1e-3;
+/// Share of frames in which a line must be inside the band. *Decision.*
+const INSIDE_SHARE_MIN: f64 = 0.8;
+/// Lowest mean frequency of a line, Hz: handling and wind are below. *Decision.*
+const LINE_HZ_MIN: f64 = 25.0;
+/// Fractions of an order at which no rotor on this path, nor one at twice or half its speed, has a line. *Decision.*
+const NOISE_FRACTIONS: [f64; 6] = [0.23, 0.37, 0.42, 0.58, 0.63, 0.77];
+/// Orders around which the noise is measured. *Numeric.*
+const NOISE_ORDERS: u32 = 30;
+/// Smallest standard deviation of the noise, dB: the table of levels has steps of this order. *Numeric.*
+const NOISE_STD_DB_MIN: f64 = 0.7;
+
+/// Level along the path at an order, dB over the floor: the mean over the frames of the logarithm of the highest excess power within a bin.
+/// Lines of something else that cross the path for a moment count little. `None` outside the band.
+pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Option<f64> {
+    let mut sum = 0.0;
+    let mut count = 0usize;
+    let mut hz_sum = 0.0;
+    for (frame, speed_rev_s) in excess.frames.iter().zip(speeds_rev_s) {
+        let hz = order * speed_rev_s;
+        hz_sum += hz;
+        let bin = (hz / excess.bin_hz).round() as usize;
+        if let Some(near) = frame.power.get(bin.saturating_sub(1)..bin + 2) {
+            let highest = near.iter().copied().fold(EXCESS_MIN, f32::max);
+            sum += f64::from(highest).ln();
+            count += 1;
+        }
+    }
+    let frames = excess.frames.len();
+    let is_inside = count > 0 && count as f64 >= INSIDE_SHARE_MIN * frames as f64;
+    (is_inside && hz_sum >= LINE_HZ_MIN * frames as f64).then(|| 10.0 / LN_10 * sum / count as f64)
+}
+
+/// Level where the path has no line, and its standard deviation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NoiseLevel {
+    pub(super) mean_db: f64,
+    pub(super) std_db: f64,
+}
+
+/// Levels between the orders of the path. The median and the median deviation do not feel single lines of something else. `None` where no
+/// such place is inside the band.
+pub(super) fn noise_level(excess: &Excess, speeds_rev_s: &[f64]) -> Option<NoiseLevel> {
+    let levels: Vec<f64> = (1..=NOISE_ORDERS)
+        .flat_map(|order| NOISE_FRACTIONS.map(|fraction| f64::from(order) + fraction))
+        .filter_map(|order| level_db(excess, speeds_rev_s, order))
+        .collect();
+    let mean_db = median(&levels)?;
+    let deviations: Vec<f64> = levels.iter().map(|level| (level - mean_db).abs()).collect();
+    let std_db = STD_PER_MEDIAN_DEVIATION * median(&deviations)?;
+    Some(NoiseLevel { mean_db, std_db: std_db.max(NOISE_STD_DB_MIN) })
+}

@@ -1,0 +1,30 @@
+//! The evidence that a recording holds for each shaft speed, in nats: one number that decides whether a rotor sounds, and at which octave.
+//!
+//! A rotor is a shaft speed that moves no faster than a motor can, with lines at whole orders. In frames of 0.1 s, the power R of each bin
+//! over the local floor has the density e^(−R) in noise.
+//!
+//! 1. *Votes* (`votes`): each line of a candidate votes for it in each frame, with `ln(1 − p + p Λ(R))`, where Λ is the likelihood ratio of
+//!    a line of unknown level, and p the probability that a line of this class is audible. No vote exceeds 8 nats, so that one loud hum
+//!    cannot outweigh the absence of all other lines.
+//! 2. *Path* (`path`): the speed with the most votes, along a path by dynamic programming. A rotor is heard where the median of the votes over
+//!    the frames is above 1 nat.
+//! 3. *Levels* (`levels`): the level of each order along the path, with the noise from orders where no rotor has a line.
+//! 4. *Level model* (`level_model`): the log-likelihood ratio of these levels, as lines of a rotor, against levels of nothing, integrated
+//!    over loudness, slope, and the level of the shaft lines against the blade pass.
+//! 5. *Hypotheses* (`hypotheses`): the path at each octave and family, compared on the same frames, with the prior of mass, diameter and
+//!    number of rotors.
+//!
+//! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
+//! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
+
+mod excess;
+mod hypotheses;
+mod level_model;
+mod levels;
+mod path;
+mod settings;
+mod votes;
+
+pub(crate) use excess::{Excess, ExcessBuilder};
+pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedRotor, beliefs_from_excess};
+pub use settings::{EvidenceConfig, LevelPrior};

@@ -1,0 +1,137 @@
+//! Votes of the lines of a frame for each shaft speed.
+
+use super::excess::ExcessFrame;
+
+/// Largest vote of a line for or against, in nats. *Decision.*
+const VOTE_NATS_MAX: f64 = 8.0;
+/// Levels over the floor over which the likelihood of a line is averaged, dB: from the faintest that shows to the loudest. *Decision.*
+const LINE_DB: std::ops::RangeInclusive<i32> = 3..=33;
+/// Step of these levels, dB. *Numeric.*
+const LINE_DB_STEP: usize = 2;
+/// Probability that a line of the blade pass is audible in a frame. *Decision.*
+const BLADE_PASS_AUDIBLE: f64 = 0.7;
+/// Probability that another line of the shaft is audible in a frame. *Decision.*
+const SHAFT_AUDIBLE: f64 = 0.35;
+/// Harmonics of the blade pass over which both probabilities fall by a factor e. *Decision.*
+const AUDIBLE_HARMONICS: f64 = 8.0;
+/// Harmonics of the blade pass that vote. *Decision.*
+const HARMONICS: u32 = 12;
+/// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*
+const BEYOND_WEIGHT: f32 = 0.5;
+/// Steps of the table of votes: levels from −20 to 60 dB. *Numeric.*
+const LEVELS: usize = 641;
+/// Steps to a dB. *Numeric.*
+const LEVELS_PER_DB: f64 = 8.0;
+/// Lowest level of the table, dB. *Numeric.*
+const LEVEL_DB_MIN: f64 = -20.0;
+/// Lowest frequency of a line that votes, Hz: handling and wind are below. *Decision.*
+const LINE_HZ_MIN: f64 = 25.0;
+
+/// The votes of each order, as a table over the level of the line.
+pub(super) struct VoteTable {
+    /// `votes[order − 1][level]`.
+    votes: Vec<Vec<f32>>,
+    /// Vote of each order that is above the band.
+    beyond: Vec<f32>,
+}
+
+impl VoteTable {
+    /// Votes for rotors with so many blades.
+    pub(super) fn for_blades(blades: u32) -> Self {
+        let ratios: Vec<f64> = (0..LEVELS).map(|level| ln_likelihood_ratio(10f64.powf(db_of(level) / 10.0))).collect();
+        let (mut votes, mut beyond) = (Vec::new(), Vec::new());
+        for order in 1..=HARMONICS * blades {
+            let harmonics = f64::from(order) / f64::from(blades);
+            let audible = if order.is_multiple_of(blades) { BLADE_PASS_AUDIBLE } else { SHAFT_AUDIBLE };
+            let audible = audible * (-(harmonics - 1.0).max(0.0) / AUDIBLE_HARMONICS).exp();
+            votes.push(ratios.iter().map(|ratio| (1.0 - audible + audible * ratio.exp()).ln() as f32).collect());
+            beyond.push(BEYOND_WEIGHT * (1.0 - audible).ln() as f32);
+        }
+        Self { votes, beyond }
+    }
+
+    fn orders(&self) -> usize {
+        self.votes.len()
+    }
+}
+
+/// Places of all orders in a frame, for each speed of a grid.
+pub(super) struct VotePlaces {
+    /// `places[speed][order − 1]`; `None` above the band.
+    places: Vec<Vec<Option<u32>>>,
+}
+
+impl VotePlaces {
+    pub(super) fn new(speeds_rev_s: &[f64], table: &VoteTable, bin_hz: f64, bins: usize) -> Self {
+        let place = |speed_rev_s: f64, order: usize| {
+            let hz = speed_rev_s * order as f64;
+            let bin = (hz / bin_hz).round() as usize;
+            (bin < bins && hz >= LINE_HZ_MIN).then_some(bin as u32)
+        };
+        let places =
+            speeds_rev_s.iter().map(|&speed| (1..=table.orders()).map(|order| place(speed, order)).collect()).collect();
+        Self { places }
+    }
+}
+
+/// The votes of a frame for each speed of the grid, in nats.
+pub(super) fn votes_of_frame(frame: &ExcessFrame, table: &VoteTable, places: &VotePlaces) -> Vec<f32> {
+    let levels: Vec<u16> = frame.power.iter().map(|&power| level_of(f64::from(power))).collect();
+    let vote = |order: usize, place: Option<u32>| match place {
+        Some(bin) => table.votes[order][usize::from(levels[bin as usize])],
+        None => table.beyond[order],
+    };
+    places
+        .places
+        .iter()
+        .map(|orders| orders.iter().enumerate().map(|(order, &place)| vote(order, place)).sum())
+        .collect()
+}
+
+/// `ln Λ(R)`: likelihood of the excess power R of a line with the mean 1 + s, averaged over levels s, against noise with the mean 1.
+fn ln_likelihood_ratio(excess: f64) -> f64 {
+    let levels = LINE_DB.step_by(LINE_DB_STEP).map(|db| 10f64.powf(f64::from(db) / 10.0));
+    let likelihoods: Vec<f64> =
+        levels.map(|s| (excess * s / (1.0 + s) - s.ln_1p()).min(VOTE_NATS_MAX * 10.0).exp()).collect();
+    let mean = likelihoods.iter().sum::<f64>() / likelihoods.len() as f64;
+    mean.ln().clamp(-VOTE_NATS_MAX, VOTE_NATS_MAX)
+}
+
+fn db_of(level: usize) -> f64 {
+    LEVEL_DB_MIN + level as f64 / LEVELS_PER_DB
+}
+
+fn level_of(excess: f64) -> u16 {
+    let db = 10.0 * excess.max(f64::MIN_POSITIVE).log10();
+    ((db - LEVEL_DB_MIN) * LEVELS_PER_DB).round().clamp(0.0, (LEVELS - 1) as f64) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vote_is_bounded_and_noise_votes_against_on_average() {
+        assert_eq!(ln_likelihood_ratio(1e6), VOTE_NATS_MAX);
+        // mean of the vote over noise, ∫ e^(−R) ln Λ(R) dR, is below 0 (Gibbs), and that of Λ at most 1: less, as the vote is bounded
+        let step = 1e-3;
+        let (mut vote, mut ratio) = (0.0, 0.0);
+        for n in 0..20_000 {
+            let excess = (f64::from(n) + 0.5) * step;
+            vote += step * (-excess).exp() * ln_likelihood_ratio(excess);
+            ratio += step * (-excess).exp() * ln_likelihood_ratio(excess).exp();
+        }
+        assert!(vote < 0.0, "{vote}");
+        assert!(ratio < 1.001, "{ratio}");
+    }
+
+    #[test]
+    fn the_table_holds_the_votes() {
+        let table = VoteTable::for_blades(2);
+        for excess in [0.05, 1.0, 7.0, 300.0] {
+            let expected = (1.0 - BLADE_PASS_AUDIBLE + BLADE_PASS_AUDIBLE * ln_likelihood_ratio(excess).exp()).ln();
+            let found = f64::from(table.votes[1][usize::from(level_of(excess))]);
+            assert!((found - expected).abs() < 0.03 * (1.0 + expected.abs()), "{excess}: {found} {expected}");
+        }
+    }
+}
