@@ -19,7 +19,7 @@ const TICK: usize = 8;
 /// Points of a track that are further apart have a gap between them.
 const GAP_S: f64 = 0.3;
 /// Letters of a name that fit.
-const NAME_LETTERS: usize = 27;
+const NAME_LETTERS: usize = 23;
 
 const INK: &str = "#1b1b1f";
 const MUTED: &str = "#6b7078";
@@ -194,8 +194,9 @@ fn shortened(name: &str) -> String {
     if count <= NAME_LETTERS {
         return name.to_owned();
     }
-    let half = NAME_LETTERS / 2;
-    name.chars().take(half).chain(['…']).chain(name.chars().skip(count - half)).collect()
+    // the end says more than the beginning
+    let tail = NAME_LETTERS / 2 + 2;
+    name.chars().take(NAME_LETTERS - tail - 1).chain(['…']).chain(name.chars().skip(count - tail)).collect()
 }
 
 fn escaped(text: &str) -> String {

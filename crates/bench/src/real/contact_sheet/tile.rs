@@ -25,8 +25,8 @@ const HEADROOM_ORDERS: f64 = 0.5;
 /// Highest frequency where nothing says where a rotor is.
 const HZ_HIGH_OF_NOTHING: f64 = 2000.0;
 /// Levels over the floor of white and black.
-const LEVEL_DB_LOW: f64 = 3.0;
-const LEVEL_DB_HIGH: f64 = 26.0;
+const LEVEL_DB_LOW: f64 = 4.0;
+const LEVEL_DB_HIGH: f64 = 22.0;
 /// A line is about 4 bins wide: frames are chosen so that it is this share of the height.
 const LINE_SHARE: f64 = 0.02;
 const WINDOW_S_MIN: f64 = 0.04;
