@@ -24,7 +24,7 @@ impl Progress {
     pub(super) fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         let is_terminal = std::io::stderr().is_terminal();
-        if !is_terminal && done % STEPS_PER_LINE != 0 && done != self.count {
+        if !is_terminal && !done.is_multiple_of(STEPS_PER_LINE) && done != self.count {
             return;
         }
         let passed_s = self.started.elapsed().as_secs_f64();

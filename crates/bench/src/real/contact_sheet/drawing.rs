@@ -18,8 +18,9 @@ const MARGIN: usize = 14;
 const TICK: usize = 8;
 /// Points of a track that are further apart have a gap between them.
 const GAP_S: f64 = 0.3;
-/// Letters of a name that fit.
+/// Letters of a name that fit, and how many of them are its end, which says more than its beginning.
 const NAME_LETTERS: usize = 23;
+const END_LETTERS: usize = 17;
 
 const INK: &str = "#1b1b1f";
 const MUTED: &str = "#6b7078";
@@ -189,14 +190,15 @@ fn truth_beside(tile: &Tile) -> String {
     beside
 }
 
+/// The name without its ending, with a gap where it is too long.
 fn shortened(name: &str) -> String {
-    let count = name.chars().count();
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let count = stem.chars().count();
     if count <= NAME_LETTERS {
-        return name.to_owned();
+        return stem.to_owned();
     }
-    // the end says more than the beginning
-    let tail = NAME_LETTERS / 2 + 2;
-    name.chars().take(NAME_LETTERS - tail - 1).chain(['…']).chain(name.chars().skip(count - tail)).collect()
+    let head = stem.chars().take(NAME_LETTERS - END_LETTERS - 1);
+    head.chain(['…']).chain(stem.chars().skip(count - END_LETTERS)).collect()
 }
 
 fn escaped(text: &str) -> String {
@@ -226,6 +228,7 @@ mod tests {
             truths_rev_s: vec![100.0],
             accepted: None,
         };
+        assert_eq!(shortened("motor_m1_no_prop_30pct_000.flac"), "motor…no_prop_30pct_000");
         let lines = lines_over(&tile);
         assert_eq!(lines.matches("<polyline").count(), 16, "two stretches of eight orders");
         // 100 Hz of 1000 Hz is a tenth of the height
@@ -236,6 +239,6 @@ mod tests {
             "200 to 800 Hz; that at 1000 Hz would lie on the edge"
         );
         let svg = sheet(&[tile]).svg;
-        assert!(svg.contains("a&lt;b.wav") && svg.contains("octave 1"));
+        assert!(svg.contains("a&lt;b</text>") && svg.contains("octave 1"));
     }
 }
