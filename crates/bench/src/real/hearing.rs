@@ -84,3 +84,34 @@ pub(super) fn duration_s(path: &Path) -> Option<f64> {
     }
     Some(samples as f64 / recording.sample_rate_hz())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::real::answer::ToldReading;
+    use crate::real::cases::{SpeedRange, Truth};
+
+    #[test]
+    fn a_belief_is_that_of_the_reading_or_of_a_speed_without_choice() {
+        let truth = Truth { accept_rev_s: Some(SpeedRange { low: 80.0, high: 82.0 }), ..Truth::default() };
+        let reading = |speed_rev_s, plausibility| ToldReading { speed_rev_s, plausibility };
+        let of = |answer: &Answer| {
+            let expected = Expected::of(&truth, &[], answer, None);
+            beliefs(&expected, answer, expected.verdict(answer))
+        };
+        let told = Answer {
+            status: Status::Ok,
+            speed_rev_s: Some(81.0),
+            combined_std_uncertainty_rev_s: Some(0.1),
+            ..Answer::default()
+        };
+        assert_eq!(of(&told), [Belief { belief: BELIEF_OF_A_SPEED, is_right: true }]);
+        let found = Answer { speed_rev_s: Some(40.0), found: Some(reading(40.0, 0.93)), ..told };
+        assert_eq!(of(&found), [Belief { belief: 0.93, is_right: false }]);
+        let alternatives = vec![reading(162.0, 0.6), reading(81.0, 0.4)];
+        let open = Answer { status: Status::Ambiguous, alternatives, ..Answer::default() };
+        let expected = [Belief { belief: 0.6, is_right: false }, Belief { belief: 0.4, is_right: true }];
+        assert_eq!(of(&open), expected);
+        assert!(of(&Answer { status: Status::NoRotorTone, ..Answer::default() }).is_empty());
+    }
+}

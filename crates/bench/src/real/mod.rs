@@ -57,21 +57,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         );
     }
     let data = data_folder(root, options.data.as_deref());
-    let mut real = TruthSet::read(REAL, &data.join("real"))?;
-    let mut missing = Vec::new();
-    let mut semi_real = match semi_real::semi_real(root, &data, options.semi_real.as_deref()) {
-        _ if options.ci => None,
-        Ok(set) => Some(set),
-        Err(error) => {
-            eprintln!("the semi-real recordings are left out: {error}");
-            missing.push(error);
-            None
-        }
-    };
-    for set in [Some(&mut real), semi_real.as_mut()].into_iter().flatten() {
-        set.keep(|truth| options.only.as_ref().is_none_or(|only| truth.class == *only));
-        set.keep(|truth| !options.ci || floors::is_in_subset(truth));
-    }
+    let Sets { real, semi_real, missing } = Sets::read(root, &data, &options)?;
     let mut rows = hearing::heard(&real, &program)?;
     if let Some(set) = &semi_real {
         rows.extend(hearing::heard(set, &program)?);
@@ -97,6 +83,41 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         println!("{REPORT} is written; the rows are in {}", out.display());
     }
     Ok(())
+}
+
+/// The recordings to hear.
+struct Sets {
+    real: TruthSet,
+    semi_real: Option<TruthSet>,
+    /// Why parts are left out.
+    missing: Vec<String>,
+}
+
+impl Sets {
+    fn read(root: &Path, data: &Path, options: &Options) -> Result<Self, String> {
+        let mut real = TruthSet::read(REAL, &data.join("real"))
+            .map_err(|error| format!("{error}: say where the recordings are by --data DIR or HOVERTONE_TEST_DATA"))?;
+        let (mut semi_real, mut missing) = (None, Vec::new());
+        if !options.ci {
+            match semi_real::semi_real(root, data, options.semi_real.as_deref()) {
+                Ok(set) => semi_real = Some(set),
+                Err(error) => {
+                    eprintln!("the semi-real recordings are left out: {error}");
+                    missing.push(error);
+                }
+            }
+        }
+        let mut count = 0;
+        for set in [Some(&mut real), semi_real.as_mut()].into_iter().flatten() {
+            set.keep(|truth| options.only.as_ref().is_none_or(|only| truth.class == *only));
+            set.keep(|truth| !options.ci || floors::is_in_subset(truth));
+            count += set.truths.len();
+        }
+        match &options.only {
+            Some(only) if count == 0 => Err(format!("there is no recording of class {only}")),
+            _ => Ok(Self { real, semi_real, missing }),
+        }
+    }
 }
 
 /// Where the recordings are.
