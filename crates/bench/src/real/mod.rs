@@ -49,6 +49,8 @@ const REAL: &str = "real";
 
 pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
     let options = Options::from_words(words)?;
+    // before anything is written: it says whether the workspace has changes
+    let made_by = made_by(root, "real", words);
     let program = Program::found(options.hovertone.as_deref())?;
     if options.hovertone.is_none() && program.is_older_than_sources(root) {
         eprintln!(
@@ -78,7 +80,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         let semi_real = semi_real.as_ref();
         let examined =
             Examined { real: &real, semi_real, rows: &rows, missing: &missing, data: &data, program: &program };
-        let text = report(root, words, &examined, options.peers)?;
+        let text = report(root, &made_by, &examined, options.peers)?;
         fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
         println!("{REPORT} is written; the rows are in {}", out.display());
     }
@@ -158,7 +160,7 @@ struct Examined<'a> {
     program: &'a Program,
 }
 
-fn report(root: &Path, words: &[&str], examined: &Examined<'_>, with_peers: bool) -> Result<String, String> {
+fn report(root: &Path, made_by: &str, examined: &Examined<'_>, with_peers: bool) -> Result<String, String> {
     let Examined { real, semi_real, rows, missing, data, program } = *examined;
     let causes = Causes::read(root)?;
     for line in causes.stale(rows) {
@@ -166,7 +168,7 @@ fn report(root: &Path, words: &[&str], examined: &Examined<'_>, with_peers: bool
     }
     let mut document = Document::default();
     document.paragraph("# Real sound");
-    document.paragraph(&format!("{}; not edited by hand.", sentence(&made_by(root, "real", words))));
+    document.paragraph(&format!("{}; not edited by hand.", sentence(made_by)));
     document.paragraph(HEAD);
     for reason in missing {
         document.paragraph(&format!("The semi-real recordings are left out: {reason}."));
@@ -179,7 +181,7 @@ fn report(root: &Path, words: &[&str], examined: &Examined<'_>, with_peers: bool
     if with_peers {
         let sets: Vec<&TruthSet> = [Some(real), semi_real].into_iter().flatten().collect();
         let peers = Peers { root, data, semi_real, program };
-        peers::add_peers(&mut document, &peers, &sets, rows, &made_by(root, "real", words))?;
+        peers::add_peers(&mut document, &peers, &sets, rows, made_by)?;
     } else if let Some(kept) = peers::kept_section(&fs::read_to_string(root.join(REPORT)).unwrap_or_default()) {
         document.markdown(kept);
     }
