@@ -80,7 +80,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
         let semi_real = semi_real.as_ref();
         let examined =
             Examined { real: &real, semi_real, rows: &rows, missing: &missing, data: &data, program: &program };
-        let text = report(root, &made_by, &examined, options.peers)?;
+        let text = report(root, &made_by, &examined, &options.peers)?;
         fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
         println!("{REPORT} is written; the rows are in {}", out.display());
     }
@@ -160,7 +160,7 @@ struct Examined<'a> {
     program: &'a Program,
 }
 
-fn report(root: &Path, made_by: &str, examined: &Examined<'_>, with_peers: bool) -> Result<String, String> {
+fn report(root: &Path, made_by: &str, examined: &Examined<'_>, peers_of: &[String]) -> Result<String, String> {
     let Examined { real, semi_real, rows, missing, data, program } = *examined;
     let causes = Causes::read(root)?;
     for line in causes.stale(rows) {
@@ -178,8 +178,9 @@ fn report(root: &Path, made_by: &str, examined: &Examined<'_>, with_peers: bool)
     reliability::add_reliability(&mut document, rows);
     false_alarms::add_false_alarms(&mut document, rows);
     microphones::add_microphones(&mut document, &data.join("real"), program)?;
-    if with_peers {
-        let sets: Vec<&TruthSet> = [Some(real), semi_real].into_iter().flatten().collect();
+    if !peers_of.is_empty() {
+        let is_meant = |set: &&TruthSet| peers_of.iter().any(|name| name == set.name);
+        let sets: Vec<&TruthSet> = [Some(real), semi_real].into_iter().flatten().filter(is_meant).collect();
         let peers = Peers { root, data, semi_real, program };
         peers::add_peers(&mut document, &peers, &sets, rows, made_by)?;
     } else if let Some(kept) = peers::kept_section(&fs::read_to_string(root.join(REPORT)).unwrap_or_default()) {

@@ -1,5 +1,7 @@
 //! What can be typed after `real`.
 
+use super::{REAL, semi_real};
+
 /// What the exam is asked for.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Options {
@@ -15,8 +17,8 @@ pub(super) struct Options {
     pub(super) all: bool,
     /// The subset of continuous integration, with its floors.
     pub(super) ci: bool,
-    /// Run the other programs, too.
-    pub(super) peers: bool,
+    /// The sets that the other programs hear, too.
+    pub(super) peers: Vec<String>,
     /// Where the rows go.
     pub(super) out: Option<String>,
     /// Rows of another run.
@@ -24,7 +26,8 @@ pub(super) struct Options {
 }
 
 pub(super) const USAGE: &str = "cargo run --release -p hovertone-bench -- real [--data DIR] [--semi-real DIR] [--hovertone PATH] [--only CLASS] \
-                                [--all] [--ci] [--peers] [--out ROWS.json] [--compare ROWS.json]";
+                                [--all] [--ci] [--peers] [--peers-of real|semi-real] \
+                                [--out ROWS.json] [--compare ROWS.json]";
 
 impl Options {
     pub(super) fn from_words(words: &[&str]) -> Result<Self, String> {
@@ -35,7 +38,8 @@ impl Options {
             match *name {
                 "--all" => options.all = true,
                 "--ci" => options.ci = true,
-                "--peers" => options.peers = true,
+                "--peers" => options.peers = [REAL, semi_real::NAME].map(str::to_owned).to_vec(),
+                "--peers-of" => options.peers.extend(value()?),
                 "--data" => options.data = value()?,
                 "--semi-real" => options.semi_real = value()?,
                 "--hovertone" => options.hovertone = value()?,
@@ -75,6 +79,8 @@ mod tests {
         assert!(options.all && !options.is_whole() && options.only.as_deref() == Some("m300"));
         assert!(Options::from_words(&[]).unwrap().is_whole());
         assert!(Options::from_words(&["--only"]).is_err());
+        assert_eq!(Options::from_words(&["--peers"]).unwrap().peers, ["real", "semi-real"]);
+        assert_eq!(Options::from_words(&["--peers-of", "real"]).unwrap().peers, ["real"]);
         assert!(Options::from_words(&["--al"]).unwrap_err().starts_with("--al is unknown"));
     }
 }

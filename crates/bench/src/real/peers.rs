@@ -12,7 +12,7 @@ use super::truth_track::TruthTrack;
 use crate::accuracy::drawn;
 use crate::document::Document;
 use crate::workspace::{output_of, target};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,7 @@ pub(super) struct Peers<'a> {
 }
 
 /// One answer of a script, by file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Serialize)]
 struct Estimate {
     /// The file.
     id: String,
@@ -57,18 +57,10 @@ struct Estimate {
 
 impl Estimate {
     fn answer(&self) -> Answer {
-        match self.speed_rev_s.filter(|_| self.voiced >= VOICED_SHARE_MIN) {
-            Some(speed_rev_s) => speed_alone(speed_rev_s),
-            None => Answer { status: Status::NoRotorTone, ..Answer::default() },
-        }
+        let speed_rev_s = self.speed_rev_s.filter(|_| self.voiced >= VOICED_SHARE_MIN);
+        let status = if speed_rev_s.is_some() { Status::Ok } else { Status::NoRotorTone };
+        Answer { status, speed_rev_s, combined_std_uncertainty_rev_s: Some(0.0), ..Answer::default() }
     }
-}
-
-/// An answer without an uncertainty.
-pub(super) fn speed_alone(speed_rev_s: f64) -> Answer {
-    let combined_std_uncertainty_rev_s = Some(0.0);
-    let speed_rev_s = Some(speed_rev_s);
-    Answer { status: Status::Ok, speed_rev_s, combined_std_uncertainty_rev_s, ..Answer::default() }
 }
 
 /// A column: its name and the verdict of each file.
@@ -165,16 +157,14 @@ fn own_column(rows: &[Row], set: &TruthSet, told: Told) -> Column {
     Column { name: format!("hovertone, {mode}"), verdicts: verdicts.collect() }
 }
 
-/// Runs a tool by the script on a set.
+/// The answers of a tool on a set: those of an earlier run, or by the script. They do not depend on our program.
 fn estimates(peers: &Peers<'_>, tool: &str, set: &TruthSet) -> Result<Vec<Estimate>, String> {
     let script = peers.root.join("../shared/peers/peers_real.py");
-    let is_semi_real = set.name == semi_real::NAME;
-    let name = if is_semi_real { "semi" } else { "real" };
-    let folder = absolute(&target(peers.root).join("real/peers"))?;
-    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let name = name_for_scripts(set);
+    let folder = folder(peers.root)?;
     let out = folder.join(format!("{name}.{tool}.json"));
-    if out.exists() {
-        fs::remove_file(&out).map_err(|error| format!("{}: {error}", out.display()))?;
+    if let Ok(estimates) = read_estimates(&out) {
+        return Ok(estimates);
     }
     eprintln!("{tool} on the {} recordings", set.name);
     let mut command = python(peers.root);
@@ -184,7 +174,25 @@ fn estimates(peers: &Peers<'_>, tool: &str, set: &TruthSet) -> Result<Vec<Estima
         command.env("SEMI", absolute(&set.path("."))?);
     }
     output_of(&mut command)?;
-    let text = fs::read_to_string(&out).map_err(|error| format!("{}: {error}", out.display()))?;
+    read_estimates(&out)
+}
+
+/// The set, as the scripts name it.
+fn name_for_scripts(set: &TruthSet) -> &'static str {
+    if set.name == semi_real::NAME { "semi" } else { "real" }
+}
+
+/// Where the answers of the other programs are kept; who deletes it has them run anew.
+fn folder(root: &Path) -> Result<PathBuf, String> {
+    let folder = absolute(&target(root).join("real/peers"))?;
+    fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    Ok(folder)
+}
+
+/// # Errors
+/// No file, or one in which every recording has failed.
+fn read_estimates(path: &Path) -> Result<Vec<Estimate>, String> {
+    let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let estimates: Vec<Estimate> = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     match estimates.iter().map(|estimate| estimate.error.clone()).collect::<Option<Vec<_>>>() {
         Some(errors) => Err(errors.first().cloned().unwrap_or_else(|| "it heard no file".to_owned())),
@@ -207,21 +215,41 @@ fn column_of_tool(tool: &str, estimates: &[Estimate], set: &TruthSet) -> Result<
 }
 
 fn prototype_column(peers: &Peers<'_>, set: &TruthSet, told: Told) -> Result<Column, String> {
-    let script = peers.root.join("../shared/prototypes/rotor_evidence.py");
     let contests: Vec<Contest<'_>> =
-        contests(set, told).into_iter().filter(|one| prototype::can_hear(one.flags)).collect();
+        contests(set, told).into_iter().filter(|contest| prototype::can_hear(contest.flags)).collect();
+    let mode = Mode { told, is_spanned: false }.name();
+    let kept = folder(peers.root)?.join(format!("{}.prototype_{mode}.json", name_for_scripts(set)));
+    let estimates = match read_estimates(&kept) {
+        Ok(estimates) => estimates,
+        Err(_) => {
+            let estimates = prototype_estimates(peers, set, &contests)?;
+            let text = serde_json::to_string(&estimates).map_err(|error| error.to_string())?;
+            fs::write(&kept, text).map_err(|error| format!("{}: {error}", kept.display()))?;
+            estimates
+        }
+    };
+    let mut verdicts = BTreeMap::new();
+    for contest in &contests {
+        if let Some(estimate) = estimates.iter().find(|estimate| estimate.id == contest.truth.file) {
+            verdicts.insert(contest.truth.file.clone(), contest.verdict(set, &estimate.answer())?);
+        }
+    }
+    Ok(Column { name: format!("prototype, {mode}"), verdicts })
+}
+
+fn prototype_estimates(peers: &Peers<'_>, set: &TruthSet, contests: &[Contest<'_>]) -> Result<Vec<Estimate>, String> {
+    let script = peers.root.join("../shared/prototypes/rotor_evidence.py");
     let progress = Progress::new(&format!("prototype on the {} recordings", set.name), contests.len());
     let lock = std::sync::Mutex::new(());
-    let heard = drawn(contests.len(), |number| {
-        let contest = &contests[number];
+    drawn(contests.len(), |number| {
+        let Contest { truth, flags } = &contests[number];
         // the script decodes such a file into one and the same place
-        let _guard = prototype::is_decoded(&contest.truth.file).then(|| lock.lock());
-        let answer = prototype::heard(python(peers.root), &script, &set.path(&contest.truth.file), contest.flags)?;
+        let _guard = prototype::is_decoded(&truth.file).then(|| lock.lock());
+        let speed_rev_s = prototype::heard(python(peers.root), &script, &set.path(&truth.file), flags)?;
         progress.step();
-        Ok((contest.truth.file.clone(), contest.verdict(set, &answer)?))
-    })?;
-    let mode = Mode { told, is_spanned: false }.name();
-    Ok(Column { name: format!("prototype, {mode}"), verdicts: heard.into_iter().collect() })
+        let voiced = if speed_rev_s.is_some() { 1.0 } else { 0.0 };
+        Ok(Estimate { id: truth.file.clone(), speed_rev_s, voiced, error: None })
+    })
 }
 
 /// Right / octave / wrong / no speed.

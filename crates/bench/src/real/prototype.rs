@@ -1,7 +1,5 @@
 //! The prototype `rotor_evidence.py`, and what it prints.
 
-use super::answer::{Answer, Status};
-use super::peers::speed_alone;
 use crate::workspace::output_of;
 use std::path::Path;
 use std::process::Command;
@@ -20,9 +18,9 @@ pub(super) fn is_decoded(file: &str) -> bool {
     DECODED.iter().any(|ending| file.to_lowercase().ends_with(ending))
 }
 
-/// Its answer about a file.
-pub(super) fn heard(mut python: Command, script: &Path, file: &Path, flags: &[String]) -> Result<Answer, String> {
-    answer_from_text(&output_of(python.arg(script).arg(file).args(its_flags(flags)))?)
+/// The speed that it hears in a file; `None` where it hears no rotor.
+pub(super) fn heard(mut python: Command, script: &Path, file: &Path, flags: &[String]) -> Result<Option<f64>, String> {
+    speed_from_text(&output_of(python.arg(script).arg(file).args(its_flags(flags)))?)
 }
 
 /// The flags that it knows; it counts channels from 0.
@@ -39,11 +37,10 @@ fn its_flags(flags: &[String]) -> Vec<String> {
 }
 
 /// Its first line is the rotor with the most evidence: `  80.52 rev/s  wander …`, and `(not heard)` at its end if that is too little.
-fn answer_from_text(text: &str) -> Result<Answer, String> {
+fn speed_from_text(text: &str) -> Result<Option<f64>, String> {
     let line = text.lines().find(|line| line.contains("rev/s")).ok_or("it prints no rotor")?;
-    let speed = line.split_whitespace().next().and_then(|word| word.parse().ok()).ok_or("it prints no speed")?;
-    let silent = Answer { status: Status::NoRotorTone, ..Answer::default() };
-    Ok(if line.contains("(not heard)") { silent } else { speed_alone(speed) })
+    let speed_rev_s = line.split_whitespace().next().and_then(|word| word.parse().ok()).ok_or("it prints no speed")?;
+    Ok(Some(speed_rev_s).filter(|_| !line.contains("(not heard)")))
 }
 
 #[cfg(test)]
@@ -54,10 +51,10 @@ mod tests {
     fn its_first_rotor_is_its_answer() {
         let text = "     80.52 rev/s  wander  1.20 %  median evidence    12.3 nats a frame\n     \
                     91.00 rev/s  wander  1.20 %  median evidence    -3.0 nats a frame  (not heard)\n";
-        assert_eq!(answer_from_text(text).unwrap().speed_rev_s, Some(80.52));
+        assert_eq!(speed_from_text(text).unwrap(), Some(80.52));
         let unheard = text.lines().nth(1).unwrap();
-        assert_eq!(answer_from_text(unheard).unwrap().status, Status::NoRotorTone);
-        assert!(answer_from_text("").is_err());
+        assert_eq!(speed_from_text(unheard).unwrap(), None);
+        assert!(speed_from_text("").is_err());
     }
 
     #[test]
