@@ -32,7 +32,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
   real       real recordings, heard by the command as a user would: docs/real-sound.md, docs/real-sound.png
              [--data DIR] for other recordings, [--semi-real DIR] for those made before, [--hovertone PATH] for another program,
              [--only CLASS] to print one class, [--all] to print right cases too, [--ci] for the subset with its floors,
-             [--peers] to run other programs, or [--peers-of real|semi-real] on one set, [--out ROWS.json] to keep the rows, [--compare ROWS.json] to print what changed
+             [--peers] to run other programs, or [--peers-of real|semi-real] on one set,
+             [--out ROWS.json] to keep the rows, [--compare ROWS.json] to print what changed
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";

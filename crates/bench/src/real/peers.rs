@@ -82,7 +82,7 @@ pub(super) fn add_peers(
     document.paragraph(
         "Each cell: right / octave / wrong / no speed, of the files whose truth is trusted, over the whole file. The programs are told what \
          `--blades` tells, and the range of speeds (12 to 480 rev/s); they give the median of the frames with a pitch, or no speed where fewer \
-         than half of the frames have one. The prototype is `../shared/prototypes/rotor_evidence.py`. An ambiguous answer is no speed. Several \
+         than half of the frames have one. The prototype is `../shared/prototypes/rotor_evidence.py`. Here any speed between the slowest and the fastest rotor is right. An ambiguous answer is no speed. Several \
          channels of one recording count once.",
     );
     for set in sets {
@@ -109,7 +109,7 @@ pub(super) fn add_peers(
                 }
             }
         }
-        document.paragraph(&format!("**{} recordings**", set.name));
+        document.paragraph(&format!("The {} recordings:", set.name));
         add_columns(document, &columns, set);
     }
     Ok(())
@@ -264,9 +264,10 @@ struct Tally {
 impl Tally {
     fn add(&mut self, verdict: Verdict) {
         match verdict {
-            Verdict::Right => self.right += 1,
+            // these programs give one rotor, and not the mean of several
+            Verdict::Right | Verdict::MeanOff => self.right += 1,
             Verdict::Octave => self.octave += 1,
-            Verdict::Wrong | Verdict::MeanOff => self.wrong += 1,
+            Verdict::Wrong => self.wrong += 1,
             Verdict::First | Verdict::Listed | Verdict::Missing | Verdict::Silent => self.no_speed += 1,
         }
     }
@@ -336,6 +337,6 @@ mod tests {
         let mut tally = Tally::default();
         assert_eq!(tally.cell(), "–");
         [Verdict::Right, Verdict::MeanOff, Verdict::First, Verdict::Silent].into_iter().for_each(|one| tally.add(one));
-        assert_eq!(tally.cell(), "1 / 0 / 1 / 2");
+        assert_eq!(tally.cell(), "2 / 0 / 0 / 2");
     }
 }
