@@ -82,8 +82,8 @@ pub(super) fn add_peers(
     document.paragraph(
         "Each cell: right / octave / wrong / no speed, of the files whose truth is trusted, over the whole file. The programs are told what \
          `--blades` tells, and the range of speeds (12 to 480 rev/s); they give the median of the frames with a pitch, or no speed where fewer \
-         than half of the frames have one. The prototype is `../shared/prototypes/rotor_evidence.py`. Here any speed between the slowest and the fastest rotor is right. An ambiguous answer is no speed. Several \
-         channels of one recording count once.",
+         than half of the frames have one. The prototype is `../shared/prototypes/rotor_evidence.py`. Here any speed between the slowest and \
+         the fastest rotor is right. An ambiguous answer is no speed. Several channels of one recording count once.",
     );
     for set in sets {
         let mut columns = vec![own_column(rows, set, Told::Blades)];
