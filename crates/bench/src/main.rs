@@ -4,7 +4,9 @@
 
 mod accuracy;
 mod cost;
+mod document;
 mod labels;
+mod real;
 mod rotors;
 mod rotors_report;
 mod roundtrip;
@@ -27,6 +29,11 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
   labels     which rotor is which, from logs, several microphones and the start of the motors: a section of docs/rotors.md
              [--count N] for fewer flights, [--heard N] for fewer that are heard, [--started N] for fewer starts;
              [--only logs|microphones|starts]
+  real       real recordings, heard by the command as a user would: docs/real-sound.md, docs/real-sound.png
+             [--data DIR] for other recordings, [--semi-real DIR] for those made before, [--hovertone PATH] for another program,
+             [--only CLASS] to print one class, [--all] to print right cases too, [--ci] for the subset with its floors,
+             [--peers] to run other programs, or [--peers-of real|semi-real] on one set,
+             [--out ROWS.json] to keep the rows, [--compare ROWS.json] to print what changed
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";
@@ -38,6 +45,7 @@ fn main() -> ExitCode {
         ["speed", options @ ..] => speed::run(&root(), options),
         ["accuracy", options @ ..] => accuracy::run(&root(), options),
         ["rotors", options @ ..] => rotors::run(&root(), options),
+        ["real", options @ ..] => real::run(&root(), options),
         ["labels", options @ ..] => labels::run(&root(), options),
         ["roundtrip", options @ ..] => roundtrip::run(&root(), options),
         [speed::DECODE_TASK, file] => speed::decode(Path::new(file)),

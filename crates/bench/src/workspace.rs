@@ -1,7 +1,7 @@
 //! The workspace that is examined: its root, its build folder, and its builds.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// The root of the workspace.
 pub(crate) fn root() -> PathBuf {
@@ -22,4 +22,29 @@ pub(crate) fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
         .status()
         .map_err(|error| format!("cargo could not start: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("cargo {} failed", arguments.join(" "))) }
+}
+
+/// The command of an exam and the commit, for its report.
+pub(crate) fn made_by(root: &Path, exam: &str, words: &[&str]) -> String {
+    let git = |arguments: &[&str]| output_of(Command::new("git").args(arguments).current_dir(root));
+    let commit = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_default();
+    let is_changed = !git(&["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default().is_empty();
+    format!(
+        "made by `{}`, hovertone {} at commit {}{}",
+        ["cargo run --release -p hovertone-bench --", exam].iter().chain(words).copied().collect::<Vec<_>>().join(" "),
+        env!("CARGO_PKG_VERSION"),
+        commit.trim(),
+        if is_changed { " with changes" } else { "" },
+    )
+}
+
+/// What a program says on stdout; the last line of its stderr where it fails.
+pub(crate) fn output_of(command: &mut Command) -> Result<String, String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command.stdin(Stdio::null()).output().map_err(|error| format!("{name}: {error}"))?;
+    if output.status.success() {
+        return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
+    }
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    Err(said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it failed and said nothing").trim().to_owned())
 }

@@ -4,6 +4,7 @@
 //! canvas      layers of drawing on one sheet, by plotters      axis      ranges, ticks and their labels
 //! picture     sound → spectrograms of bounded size, and the mean spectrum of the hover
 //! raster      a spectrogram as the pixels of a PNG             colour    colours for any colour vision
+//! thumbnail   a spectrogram without axes
 //! figure      name, texts and SVG of a figure                  bitmap    SVG → PNG
 //! trial       input of the figures about a recording           joined    trials in sequence on one time axis
 //! geometry    points and extents
@@ -31,6 +32,7 @@ mod raster;
 mod rotors;
 mod spectrogram;
 mod spectrum;
+mod thumbnail;
 mod trial;
 
 pub use bitmap::{DOTS_PER_INCH, figure_png};
@@ -42,4 +44,5 @@ pub use picture::{
 };
 pub use rotors::rotors_figure;
 pub use spectrogram::recording_figure;
+pub use thumbnail::{Thumbnail, thumbnail_uri};
 pub use trial::Trial;

@@ -1,12 +1,13 @@
 //! The peers' own test signals: four wandering rotors, heard by hovertone and by the peers.
 
 use super::condition::heard;
-use super::document::Document;
 use super::draws::drawn;
 use super::peers::{PEERS, make_band_passed};
 use super::single_rotor::shown;
 use super::track::{Score, TrackFrame, TrueTrack, median, score_of_track};
-use super::workbench::{Workbench, output_of};
+use super::workbench::Workbench;
+use crate::document::Document;
+use crate::workspace::output_of;
 use hovertone::speed::{Method, Outcome, RotorTone, ToneConfig, TrackPoint};
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_vehicle::Gear;

@@ -1,7 +1,7 @@
 //! What half an hour of sound costs, beside the leanest of the peers.
 
-use super::document::Document;
 use crate::cost::{Cost, REPEATS, fastest};
+use crate::document::Document;
 use crate::speed::rendered_wav;
 use crate::workspace::cargo;
 use crate::workspace::target;

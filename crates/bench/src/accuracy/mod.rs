@@ -9,7 +9,6 @@
 
 mod bound;
 mod condition;
-mod document;
 mod draws;
 mod four_rotors;
 mod long_file;
@@ -20,11 +19,12 @@ mod sound;
 mod track;
 mod workbench;
 
-use document::Document;
+use crate::document::Document;
+use crate::workspace::made_by;
 pub(crate) use draws::drawn;
 use std::fs;
 use std::path::Path;
-use workbench::{Workbench, output_of};
+pub(crate) use workbench::Workbench;
 
 /// What it writes, in the repository.
 const REPORT: &str = "docs/accuracy.md";
@@ -88,7 +88,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
     if options.only.is_some() {
         println!("{text}");
         let before = fs::read_to_string(root.join(REPORT)).map_err(|error| format!("{REPORT}: {error}"))?;
-        text = with_section(&before, &text, &made_by(root, words));
+        text = with_section(&before, &text, &made_by(root, "accuracy", words));
     }
     fs::write(root.join(REPORT), text).map_err(|error| format!("{REPORT}: {error}"))?;
     println!("{REPORT} is written");
@@ -105,32 +105,13 @@ fn with_section(report: &str, section: &str, made_by: &str) -> String {
     format!("{}{section}{}{rest}", &report[..from], if rest.is_empty() { "" } else { "\n" })
 }
 
-/// The command and the commit.
-fn made_by(root: &Path, words: &[&str]) -> String {
-    let git = |arguments: &[&str]| output_of(std::process::Command::new("git").args(arguments).current_dir(root));
-    let commit = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_default();
-    let is_changed = !git(&["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default().is_empty();
-    format!(
-        "made by `{}`, hovertone {} at commit {}{}",
-        ["cargo run --release -p hovertone-bench -- accuracy"]
-            .iter()
-            .chain(words)
-            .copied()
-            .collect::<Vec<_>>()
-            .join(" "),
-        env!("CARGO_PKG_VERSION"),
-        commit.trim(),
-        if is_changed { " with changes" } else { "" },
-    )
-}
-
 fn add_head(document: &mut Document, root: &Path, words: &[&str]) {
     document.paragraph("# How accurate");
     document.paragraph(&format!(
         "All but the sections that say otherwise were {}; not edited by hand. Recommended settings throughout: nothing is told but \
          what the flags named here say. Every sound is drawn from fixed seeds, whatever the number of cores, so that another \
          run repeats all numbers but those of the long file (and the other programs', as long as their versions stay). Errors of the speed count double in the thrust constant.",
-        made_by(root, words),
+        made_by(root, "accuracy", words),
     ));
 }
 

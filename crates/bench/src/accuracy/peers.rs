@@ -1,7 +1,8 @@
 //! The programs that others use, on the same recordings.
 
 use super::track::{TrackFrame, frames_from_csv};
-use super::workbench::{Workbench, output_of};
+use super::workbench::Workbench;
+use crate::workspace::output_of;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

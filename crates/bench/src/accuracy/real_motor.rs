@@ -1,9 +1,9 @@
 //! A real motor on the bench with two plateaus of speed: is the track on the right one of the rotor's lines?
 
 use super::condition::METHODS;
-use super::document::Document;
 use super::single_rotor::shown;
 use super::track::median;
+use crate::document::Document;
 use hovertone::speed::{Config, Method, NoTone, Outcome, SpanConfig, ToneConfig, TrackPoint, speed_from_source};
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_vehicle::Order;

@@ -1,8 +1,8 @@
 //! One rotor with exact truth: how near each method comes to the Cramér-Rao bound, and whether its ± holds.
 
 use super::condition::{Condition, METHODS, MethodScore, Scored, Tones, scored};
-use super::document::{Document, percent, percent_with_uncertainty, three_digits};
 use super::sound::Colour;
+use crate::document::{Document, percent, percent_with_uncertainty, three_digits};
 use hovertone::speed::Method;
 
 const SNRS_DB: [f64; 5] = [-20.0, -10.0, 0.0, 10.0, 20.0];

@@ -1,17 +1,17 @@
 //! Where the peers' scripts are and what runs them. The scripts are not part of the project: they are run where they
 //! lie, beside the repository.
 
-use crate::workspace::target;
+use crate::workspace::{output_of, target};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// What `--install-peers` asks pip for: what the scripts need, then the peers.
 const PIP_PACKAGES: [&str; 9] =
     ["numpy", "scipy", "soundfile", "librosa", "rota-order", "praat-parselmouth", "ssqueezepy", "swift-f0", "essentia"];
 const NPM_PACKAGE: &str = "pitchy";
 
-pub(super) struct Workbench {
+pub(crate) struct Workbench {
     /// The peers' scripts.
     scripts: PathBuf,
     /// What is made on the way.
@@ -20,37 +20,37 @@ pub(super) struct Workbench {
 
 impl Workbench {
     /// `None` where the scripts are not beside the repository.
-    pub(super) fn beside(root: &Path) -> Option<Self> {
+    pub(crate) fn beside(root: &Path) -> Option<Self> {
         let scripts = fs::canonicalize(root.join("../shared/peers")).ok()?;
         Some(Self { scripts, folder: target(root).join("accuracy") })
     }
 
     /// A folder for what is made, there when it returns.
-    pub(super) fn folder(&self, name: &str) -> Result<PathBuf, String> {
+    pub(crate) fn folder(&self, name: &str) -> Result<PathBuf, String> {
         let folder = self.folder.join(name);
         fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         fs::canonicalize(&folder).map_err(|error| format!("{}: {error}", folder.display()))
     }
 
-    pub(super) fn script(&self, name: &str) -> PathBuf {
+    pub(crate) fn script(&self, name: &str) -> PathBuf {
         self.scripts.join(name)
     }
 
     /// The Python of the bench's own environment, else the one on the path.
-    pub(super) fn python(&self) -> Command {
+    pub(crate) fn python(&self) -> Command {
         let own = self.folder.join("venv/bin/python");
         Command::new(if own.exists() { own } else { PathBuf::from("python3") })
     }
 
     /// Node, where it finds the installed packages.
-    pub(super) fn node(&self) -> Result<Command, String> {
+    pub(crate) fn node(&self) -> Result<Command, String> {
         let mut node = Command::new("node");
         node.current_dir(self.folder("js")?);
         Ok(node)
     }
 
     /// Installs the peers that come from pip and npm; says what could not be installed.
-    pub(super) fn install(&self) -> Result<(), String> {
+    pub(crate) fn install(&self) -> Result<(), String> {
         let venv = self.folder("")?.join("venv");
         output_of(Command::new("python3").args(["-m", "venv"]).arg(&venv))?;
         for package in PIP_PACKAGES {
@@ -69,7 +69,7 @@ impl Workbench {
     }
 
     /// Names and versions of what is installed, as `pip` and the system's package manager tell them.
-    pub(super) fn versions(&self) -> String {
+    pub(crate) fn versions(&self) -> String {
         let listed = output_of(self.python().args(["-m", "pip", "list", "--format=freeze"])).unwrap_or_default();
         let mut versions: Vec<String> = listed
             .lines()
@@ -89,15 +89,4 @@ impl Workbench {
         }
         versions.join(", ")
     }
-}
-
-/// What a program says on stdout; the last line of its stderr where it fails.
-pub(super) fn output_of(command: &mut Command) -> Result<String, String> {
-    let name = command.get_program().to_string_lossy().into_owned();
-    let output = command.stdin(Stdio::null()).output().map_err(|error| format!("{name}: {error}"))?;
-    if output.status.success() {
-        return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
-    }
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    Err(said.lines().rfind(|line| !line.trim().is_empty()).unwrap_or("it failed and said nothing").trim().to_owned())
 }

@@ -5,17 +5,17 @@ const LINE_LENGTH: usize = 150;
 
 /// Markdown, one block after the other.
 #[derive(Default)]
-pub(super) struct Document {
+pub(crate) struct Document {
     text: String,
 }
 
 impl Document {
-    pub(super) fn heading(&mut self, text: &str) {
+    pub(crate) fn heading(&mut self, text: &str) {
         self.block(&format!("## {text}"));
     }
 
     /// Running text, in lines of at most [`LINE_LENGTH`].
-    pub(super) fn paragraph(&mut self, text: &str) {
+    pub(crate) fn paragraph(&mut self, text: &str) {
         let mut lines = vec![String::new()];
         for word in text.split_whitespace() {
             match lines.last_mut() {
@@ -31,7 +31,7 @@ impl Document {
     }
 
     /// One sentence for each different text, after the names of all that it is said of.
-    pub(super) fn notes(&mut self, notes: Vec<(String, String)>) {
+    pub(crate) fn notes(&mut self, notes: Vec<(String, String)>) {
         let mut sentences: Vec<(Vec<String>, String)> = Vec::new();
         for (name, text) in notes {
             match sentences.iter_mut().find(|(_, said)| *said == text) {
@@ -45,7 +45,7 @@ impl Document {
     }
 
     /// A table; cells are text.
-    pub(super) fn table<H: AsRef<str>>(&mut self, heads: &[H], rows: &[Vec<String>]) {
+    pub(crate) fn table<H: AsRef<str>>(&mut self, heads: &[H], rows: &[Vec<String>]) {
         let line = |cells: Vec<&str>| format!("| {} |\n", cells.join(" | "));
         let mut table = line(heads.iter().map(AsRef::as_ref).collect());
         table += &format!("|{}\n", "---|".repeat(heads.len()));
@@ -55,7 +55,12 @@ impl Document {
         self.block(table.trim_end());
     }
 
-    pub(super) fn into_text(self) -> String {
+    /// Markdown as it is.
+    pub(crate) fn markdown(&mut self, text: &str) {
+        self.block(text.trim());
+    }
+
+    pub(crate) fn into_text(self) -> String {
         self.text
     }
 
@@ -69,7 +74,7 @@ impl Document {
 }
 
 /// A number with three digits that mean something, or a dash.
-pub(super) fn three_digits(value: Option<f64>) -> String {
+pub(crate) fn three_digits(value: Option<f64>) -> String {
     match value {
         Some(value) if value == 0.0 || !value.is_finite() => format!("{value}"),
         Some(value) => format!("{value:.*}", (2 - value.abs().log10().floor() as i32).max(0) as usize),
@@ -78,13 +83,13 @@ pub(super) fn three_digits(value: Option<f64>) -> String {
 }
 
 /// A count as a share of a whole, in percent.
-pub(super) fn percent(count: usize, of: usize) -> String {
+pub(crate) fn percent(count: usize, of: usize) -> String {
     if of == 0 { "–".to_owned() } else { format!("{:.0}", 100.0 * count as f64 / of as f64) }
 }
 
 /// A counted share with its own standard uncertainty, in percent: Wilson's half width, which is not 0 where all or none
 /// were counted.
-pub(super) fn percent_with_uncertainty(count: usize, of: usize) -> String {
+pub(crate) fn percent_with_uncertainty(count: usize, of: usize) -> String {
     if of == 0 {
         return "–".to_owned();
     }
