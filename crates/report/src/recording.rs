@@ -158,11 +158,17 @@ impl SpeedRecord {
             Answer::Failed { reason } => Some(reason.clone()),
             Answer::Heard(analysis) => match &analysis.outcome {
                 Outcome::NoRotorTone { reason } => Some(reason.to_string()),
-                Outcome::Ok(_) => self.is_ambiguous().then(|| {
+                Outcome::Ok(_) if !self.is_ambiguous() => None,
+                Outcome::Ok(_) if self.found.is_some() => Some(
                     "several readings of the tone stay plausible; count the blades and say --blades N, or give --diameter-m, \
                      --mass-kg and --rotors"
-                        .to_owned()
-                }),
+                        .to_owned(),
+                ),
+                Outcome::Ok(_) => Some(
+                    "the lines fit several shaft speeds, and neither their levels nor the thrust of the hover decides between them; measure \
+                     the diameter of the propeller again, or record nearer"
+                        .to_owned(),
+                ),
             },
         }
     }

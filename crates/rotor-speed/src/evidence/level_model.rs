@@ -3,7 +3,7 @@
 //! With the loudness g, the fall s and the offset d of the shaft lines, the line of order k of a propeller with B blades has the mean level
 //! `g − s · 10 log₁₀(k/B)`, plus d where k is no multiple of B; it scatters about its mean. A measured level has the noise of the frames.
 //! The evidence is the integral of the product of all likelihood ratios over g, s and d, on a grid. Lines may be missing, all shaft lines
-//! may be inaudible, and a place without a line may hold a line of something else.
+//! may be inaudible, so may all lines above some harmonic, and a place without a line may hold a line of something else.
 
 use super::levels::NoiseLevel;
 use super::settings::LevelPrior;
@@ -21,6 +21,9 @@ const LOUDNESS_DB: [f64; 16] =
 const FALLS: [f64; 5] = [0.0, 0.6, 1.2, 2.0, 3.0];
 /// Steps of the integral over the offset of the shaft lines, dB. *Numeric.*
 const SHAFT_DB: [f64; 11] = [-24.0, -21.0, -18.0, -15.0, -12.0, -9.0, -6.0, -3.0, 0.0, 3.0, 6.0];
+/// Harmonics of the blade pass above which all lines are inaudible: wander smears them, and recorders and codecs cut them. Each is as
+/// probable. *Decision.*
+const LAST_HARMONICS: [u32; 9] = [2, 3, 4, 6, 8, 12, 16, 24, 40];
 /// Lowest order, in blade passes, at which the fall is counted: lines below it do not get louder. *Decision.*
 const FALL_FROM: f64 = 0.6;
 
@@ -49,20 +52,18 @@ pub(super) fn evidence_nats(levels: &[OrderLevel], noise: NoiseLevel, blades: u3
             .zip(&loudness)
             .map(move |(&loudness_db, weight)| (Loudness { loudness_db, fall }, fall_weight + weight))
     });
+    let last_orders = LAST_HARMONICS.map(|harmonic| harmonic * blades);
+    let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
     log_sum_exp(cells.map(|(at, weight)| {
-        let blade_nats = blade_lines.sum(|level| mean_db(level, at));
-        let shaft_nats = if shaft.is_empty() {
-            0.0
-        } else {
-            let audible = log_sum_exp(
-                SHAFT_DB
-                    .iter()
-                    .zip(&offsets)
-                    .map(|(offset, weight)| weight + shaft_lines.sum(|level| mean_db(level, at) + offset)),
-            );
-            log_sum_exp([prior.shaft_inaudible.ln(), (1.0 - prior.shaft_inaudible).ln() + audible].into_iter())
+        let blade_nats = blade_lines.sums(last_orders, |level| mean_db(level, at));
+        let with_offset: Vec<[f64; LAST_HARMONICS.len()]> =
+            SHAFT_DB.iter().map(|offset| shaft_lines.sums(last_orders, |level| mean_db(level, at) + offset)).collect();
+        let up_to = |last: usize| {
+            let audible = log_sum_exp(offsets.iter().zip(&with_offset).map(|(weight, nats)| weight + nats[last]));
+            let terms = [prior.shaft_inaudible.ln(), (1.0 - prior.shaft_inaudible).ln() + audible];
+            blade_nats[last] + log_sum_exp(terms.into_iter())
         };
-        weight + blade_nats + shaft_nats
+        weight + log_sum_exp((0..LAST_HARMONICS.len()).map(up_to)) - shares
     }))
 }
 
@@ -111,10 +112,17 @@ impl<'a> LineRatios<'a> {
         Self { levels, nats }
     }
 
-    /// Sum of the ratios of all lines, where `mean_db` gives the mean level of each.
-    fn sum(&self, mean_db: impl Fn(&OrderLevel) -> f64) -> f64 {
+    /// Sums of the ratios of the lines up to each of the last orders, where `mean_db` gives the mean level of each line.
+    fn sums<const N: usize>(&self, last_orders: [u32; N], mean_db: impl Fn(&OrderLevel) -> f64) -> [f64; N] {
         let index = |level: &OrderLevel| (mean_db(level).round() as i32).clamp(LINE_DB_MIN, LINE_DB_MAX) - LINE_DB_MIN;
-        self.levels.iter().zip(&self.nats).map(|(level, nats)| nats[index(level) as usize]).sum()
+        let mut sums = [0.0; N];
+        for (level, nats) in self.levels.iter().zip(&self.nats) {
+            let nats = nats[index(level) as usize];
+            for (sum, last) in sums.iter_mut().zip(last_orders) {
+                *sum += if level.order <= last { nats } else { 0.0 };
+            }
+        }
+        sums
     }
 }
 
