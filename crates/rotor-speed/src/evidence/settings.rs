@@ -70,15 +70,15 @@ pub struct LevelPrior {
 impl Default for LevelPrior {
     fn default() -> Self {
         Self {
-            blade_pass_db: 12.0,
+            blade_pass_db: 13.0,
             blade_pass_std_db: 10.0,
-            fall: 1.2,
-            fall_std: 0.8,
-            line_std_db: 6.0,
-            shaft_db: -8.0,
-            shaft_std_db: 6.0,
-            shaft_line_std_db: 6.0,
-            shaft_inaudible: 0.45,
+            fall: 1.3,
+            fall_std: 1.0,
+            line_std_db: 4.0,
+            shaft_db: -6.5,
+            shaft_std_db: 5.0,
+            shaft_line_std_db: 5.5,
+            shaft_inaudible: 0.5,
             blade_pass_missing: 0.05,
             shaft_missing: 0.15,
             foreign: 0.1,
