@@ -37,7 +37,7 @@ const FLOORS: [Floor; 6] = [
     floor("blades", 28, 2),
     floor("blades+span", 6, 0),
     floor("blind", 20, 0),
-    floor("known", 6, 1),
+    floor("known", 9, 0),
     floor("rotors4", 4, 1),
     floor("rotors4+span", 3, 0),
 ];

@@ -65,6 +65,8 @@ pub struct LevelPrior {
     pub thrust_coefficient: f64,
     /// Standard deviation of its logarithm.
     pub thrust_coefficient_std: f64,
+    /// Standard deviation of the logarithm of speeds outside the range of a known vehicle.
+    pub range_std: f64,
 }
 
 impl Default for LevelPrior {
@@ -86,6 +88,7 @@ impl Default for LevelPrior {
             slow_std: 0.3,
             thrust_coefficient: 0.1,
             thrust_coefficient_std: 0.4,
+            range_std: 0.1,
         }
     }
 }
