@@ -22,9 +22,8 @@ pub(crate) fn config_of(
         }
     };
     let mut config = Config::for_tone(tone);
-    let of_vehicle = asked.vehicle.as_deref().map(preset).transpose()?.map(|vehicle| vehicle.rotor_count.value);
-    config.rotors.count = known.rotors.or(of_vehicle).unwrap_or(config.rotors.count);
     config.known = known_of(known, asked.vehicle.as_deref())?;
+    config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
     config.method = analysis.method.unwrap_or(Method::for_rotors(config.rotors.count));
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);

@@ -8,8 +8,8 @@ use std::f64::consts::LN_10;
 const EXCESS_MIN: f32 = 1e-3;
 /// Share of frames in which a line must be inside the band. *Decision.*
 const INSIDE_SHARE_MIN: f64 = 0.8;
-/// Lowest mean frequency of a line, Hz: handling and wind are below. *Decision.*
-const LINE_HZ_MIN: f64 = 25.0;
+/// Lowest frequency of a line, Hz: handling and wind are below. *Decision.*
+pub(super) const LINE_HZ_MIN: f64 = 25.0;
 /// Fractions of an order at which no rotor on this path, nor one at twice or half its speed, has a line. *Decision.*
 const NOISE_FRACTIONS: [f64; 6] = [0.23, 0.37, 0.42, 0.58, 0.63, 0.77];
 /// Orders around which the noise is measured. *Numeric.*

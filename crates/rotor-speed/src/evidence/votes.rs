@@ -1,6 +1,7 @@
 //! Votes of the lines of a frame for each shaft speed.
 
 use super::excess::ExcessFrame;
+use super::levels::LINE_HZ_MIN;
 
 /// Largest vote of a line for or against, in nats. *Decision.*
 const VOTE_NATS_MAX: f64 = 8.0;
@@ -24,8 +25,6 @@ const LEVELS: usize = 641;
 const LEVELS_PER_DB: f64 = 8.0;
 /// Lowest level of the table, dB. *Numeric.*
 const LEVEL_DB_MIN: f64 = -20.0;
-/// Lowest frequency of a line that votes, Hz: handling and wind are below. *Decision.*
-const LINE_HZ_MIN: f64 = 25.0;
 
 /// The votes of each order, as a table over the level of the line.
 pub(super) struct VoteTable {

@@ -84,7 +84,5 @@ pub(crate) fn blades_of_tone(tone: &ToneConfig) -> Option<u32> {
 
 /// Blades of the rotor: those that are said, or those whose blade pass is followed.
 pub fn blades_known(tone: &ToneConfig) -> Option<u32> {
-    let order = tone.order.lines_per_turn();
-    let is_blade_pass = order <= BLADES_MAX && order.fract() == 0.0;
-    tone.blades.or(is_blade_pass.then_some(order as u32))
+    tone.blades.or(blades_of_tone(tone))
 }
