@@ -47,6 +47,7 @@ fn fooled_percent_max(kind: &Kind) -> usize {
 }
 
 #[test]
+#[ignore = "exam: many sounds, asked in many ways"]
 fn what_is_no_rotor_is_not_answered_with_a_speed() {
     let asked = asked();
     let mut faults = Vec::new();
@@ -89,6 +90,7 @@ fn hover(seed: u64) -> Hover {
 }
 
 #[test]
+#[ignore = "exam: many sounds, asked in many ways"]
 fn beside_a_rotor_it_does_not_change_the_answer() {
     let mut with_gear = config(69.0);
     with_gear.tone.blades = Some(2);
