@@ -31,9 +31,7 @@ impl Candidates {
             _ => None,
         }
     }
-}
 
-impl Candidates {
     /// The speeds that remain possible, most probable first; empty where one is decided.
     pub(crate) fn alternatives(&self, config: &Config) -> Vec<Reading> {
         let hypotheses = self.beliefs.as_ref().map_or(&[][..], |beliefs| &beliefs.hypotheses);

@@ -62,10 +62,13 @@ fn why_no_rotor(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let survey = &surveyed.survey;
-    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+    let not_held_or_hum = || {
+        let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+        not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover)
+            .or_else(|| mains_hum_reason(&lines.clearest, survey))
+    };
     if candidates.beliefs.is_some() {
-        let restless = not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover);
-        return Ok(restless.or_else(|| mains_hum_reason(&lines.clearest, survey)));
+        return Ok(not_held_or_hum());
     }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
     if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
@@ -77,8 +80,7 @@ fn why_no_rotor(
         not_a_line = None;
     }
     Ok(not_a_line
-        .or_else(|| not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover))
-        .or_else(|| mains_hum_reason(&lines.clearest, survey))
+        .or_else(not_held_or_hum)
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
