@@ -306,6 +306,7 @@ mod tests {
     /// Four microphones about a vehicle, in the open and in a room, tell its rotors in 95 % of flights, and never wrongly; said to stand
     /// elsewhere, they say nothing wrong either. Of 8 flights at a true 99 %, 7 or more are right with a probability of 0.997.
     #[test]
+    #[ignore = "exam: 16 flights in four channels"]
     fn four_microphones_tell_the_rotors() {
         for is_room in [false, true] {
             let [both, _, _, elsewhere] = by_tracks(&SETUPS[5], is_room, 8).unwrap();

@@ -217,6 +217,7 @@ mod tests {
     }
 
     #[test]
+    #[ignore = "exam: 28 flights"]
     fn starts_that_tell_nothing_are_refused() {
         for start in [Start::Together, Start::InPairs, Start::Before, Start::FarFromHover] {
             let count = by_spin_up(start, 4).unwrap();
