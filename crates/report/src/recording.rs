@@ -164,6 +164,11 @@ impl SpeedRecord {
                      --mass-kg and --rotors"
                         .to_owned(),
                 ),
+                Outcome::Ok(tone) if tone.alternatives.iter().all(|reading| reading.thrust_coefficient.is_none()) => Some(
+                    "the lines fit several shaft speeds, and their levels do not decide between them; give --diameter-m, --mass-kg and \
+                     --rotors: the thrust of the hover decides"
+                        .to_owned(),
+                ),
                 Outcome::Ok(_) => Some(
                     "the lines fit several shaft speeds, and neither their levels nor the thrust of the hover decides between them; measure \
                      the diameter of the propeller again, or record nearer"

@@ -6,7 +6,7 @@ use crate::ridge::{RidgeConfig, SpectrogramConfig};
 use crate::rotors::RotorsConfig;
 use crate::speed::{BudgetConfig, SampleConfig};
 use crate::survey::SpanConfig;
-use crate::tone::{ToneConfig, blades_of_tone};
+use crate::tone::ToneConfig;
 use hovertone_analysis::Method;
 use hovertone_vehicle::{ConfigError, KnownRotor};
 use serde::Serialize;
@@ -63,11 +63,10 @@ impl Config {
         }
     }
 
-    /// Blades of a rotor whose blade pass is the tone and whose thrust in hover is known, by mass, number of rotors and diameter. There the
-    /// evidence of all orders, with the prior of the thrust coefficient, decides whether a rotor sounds and at which octave. By sound and
-    /// blades alone the octave is often open.
-    pub(crate) fn blades_with_thrust(&self) -> Option<u32> {
-        self.known.hover_thrust_coefficient(1.0, AIR_KG_M3).and(blades_of_tone(&self.tone))
+    /// Whether the thrust of a rotor in hover is known, by mass, number of rotors and diameter. By sound and blades alone the octave is often
+    /// open.
+    pub(crate) fn knows_thrust(&self) -> bool {
+        self.known.hover_thrust_coefficient(1.0, AIR_KG_M3).is_some()
     }
 
     /// The methods that are computed.

@@ -68,10 +68,20 @@ pub fn speed_from_survey(
         Err(stop) => return stop.answer(surveyed.heard),
     };
     let leading = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
-    let Some(slower_rev_s) = candidates.slower_than(&leading) else { return Ok(leading) };
+    if matches!(leading.outcome, Outcome::Ok(_)) {
+        return Ok(leading);
+    }
+    if let Some(slower_rev_s) = candidates.slower_than(&leading) {
+        passes.expect_more(passes_after_survey(config));
+        let slower = speed_of_candidate(passes, surveyed, &candidates, slower_rev_s, config)?;
+        if matches!(slower.outcome, Outcome::Ok(_)) {
+            return Ok(slower);
+        }
+    }
+    let Some(candidates) = candidates.by_beliefs(config) else { return Ok(leading) };
     passes.expect_more(passes_after_survey(config));
-    let slower = speed_of_candidate(passes, surveyed, &candidates, slower_rev_s, config)?;
-    Ok(if matches!(slower.outcome, Outcome::Ok(_)) { slower } else { leading })
+    let believed = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
+    Ok(if matches!(believed.outcome, Outcome::Ok(_)) { believed } else { leading })
 }
 
 /// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that

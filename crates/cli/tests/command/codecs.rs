@@ -3,6 +3,7 @@
 use crate::testkit::{hovertone, steady_hover, text, write_hover};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::RotorSpeed;
+use serde_json::Value;
 use std::process::Command;
 
 const CODECS: [(&str, &[&str]); 6] = [
@@ -42,6 +43,14 @@ fn a_codec_at_32_kbit_per_second_does_not_change_the_speed() {
             let line = &run.json_lines()[0];
             match line["status"].as_str().unwrap() {
                 "no_rotor_tone" => continue,
+                // this rotor has no lines of the shaft: where the codec takes the gear as well, its octave stays open
+                "ambiguous" => {
+                    let alternatives = line["alternatives"].as_array().unwrap();
+                    let is_truth =
+                        |reading: &Value| (reading["speed_rev_s"].as_f64().unwrap() / 60.17 - 1.0).abs() < 0.01;
+                    assert!(alternatives.iter().any(is_truth), "{name}: {line}");
+                    continue;
+                }
                 status => assert_eq!(status, "ok", "{name}: {line}"),
             }
             let speed_rev_s = line["speed_rev_s"].as_f64().unwrap();

@@ -17,6 +17,19 @@ pub const SAMPLE_RATE_HZ: f64 = 44100.0;
 /// Order and amplitude of each line of a rotor with two blades.
 pub const TWO_BLADES: [(f64, f64); 5] = [(1.0, 0.01), (2.0, 0.1), (4.0, 0.05), (6.0, 0.03), (8.0, 0.02)];
 
+/// Order and amplitude of each line of a rotor with two unlike blades, from the amplitudes of the harmonics of its blade pass: line 1 is
+/// 14 dB below the strongest, the lines between are 7 dB below the mean of their neighbours, as real rotors have them on average.
+pub fn unlike_blades(blade_pass: &[f64]) -> Vec<(f64, f64)> {
+    let strongest = blade_pass.iter().copied().fold(0.0, f64::max);
+    let mut lines = vec![(1.0, 0.2 * strongest)];
+    for (index, &level) in blade_pass.iter().enumerate() {
+        let order = 2.0 * (index + 1) as f64;
+        lines.push((order, level));
+        lines.extend(blade_pass.get(index + 1).map(|next| (order + 1.0, 0.45 * (level * next).sqrt())));
+    }
+    lines
+}
+
 /// A rotor with this shaft speed and with lines of these orders and amplitudes. Phases are fixed: 0.37 turns times the order,
 /// and the shaft begins at 0.1 turns.
 pub fn rotor<'a>(speed_rev_s: impl Fn(f64) -> f64 + 'a, lines: &[(f64, f64)]) -> Rotor<'a> {

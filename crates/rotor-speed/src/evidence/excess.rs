@@ -52,11 +52,6 @@ pub(crate) struct ExcessFrame {
 }
 
 impl Excess {
-    /// Highest frequency of the frames, Hz.
-    pub(crate) fn hz_max(&self) -> f64 {
-        self.frames.first().map_or(0.0, |frame| frame.power.len() as f64 * self.bin_hz)
-    }
-
     /// Number of hops from each frame to the next: 1 without a gap. The first is 1.
     pub(crate) fn hops(&self) -> Vec<usize> {
         let hops = self.frames.windows(2).map(|pair| ((pair[1].centre_s - pair[0].centre_s) / HOP_S).round() as usize);

@@ -1,37 +1,84 @@
-//! Hypotheses: one path of speeds at each octave and family, and the belief in each.
+//! Hypotheses: paths of speeds in each octave, at each family, and the belief in each.
 
 use super::excess::Excess;
-use super::level_model::{OrderLevel, evidence_nats};
+use super::level_model::{LAST_HARMONIC, OrderLevel, evidence_nats};
 use super::levels::{NoiseLevel, level_db, noise_level};
-use super::path::best_path;
+use super::path::{best_path, gain_of_jumps_nats};
 use super::settings::EvidenceConfig;
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
 use hovertone_signal::statistics::{log_sum_exp, mean, median};
 use hovertone_vehicle::KnownRotor;
-use std::ops::RangeInclusive;
+use std::ops::{Range, RangeInclusive};
 
-/// Step of the logarithm of the speeds of the search. *Numeric.*
-const GRID_STEP: f64 = 5e-4;
-/// Speeds of the hypotheses over the speed of the path with the most votes: octaves, and families of three. *Decision.*
-const FACTORS: [f64; 10] = [0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 4.0 / 3.0, 1.5, 2.0, 3.0, 4.0];
-/// Highest frequency of the compared lines, in turns of the path: all hypotheses are judged in one band. *Decision.*
-const COMPARED_ORDERS: f64 = 40.0;
+/// Step of the logarithm of the speeds of the search: half the width of a line of a frame at the highest frequency. *Numeric.*
+const GRID_STEP: f64 = 1e-3;
+/// Ratio of the ends of a window of speeds in which the best path is looked for: a rotor keeps within it in hover. *Decision.*
+const WINDOW_RATIO: f64 = 1.6;
+/// Ratio of the starts of neighbouring windows; they overlap, so that each path is well inside of one. *Numeric.*
+const WINDOW_STEP_RATIO: f64 = 1.25;
+/// Speeds of the hypotheses over the speed of each path: octaves, and families of three. *Decision.*
+const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
+/// An octave down, none, and one up. *Physics.*
+const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
+/// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
+const VOTES_SHARE_MIN: f64 = 0.5;
+/// These nats. *Decision.*
+const VOTES_NATS_APART: f64 = 3.0;
+/// The same for a path that is no octave or family of the best one. *Decision.*
+const OTHER_VOTES_SHARE_MIN: f64 = 0.8;
+/// Paths whose mean distance is at most this many points are one path. *Numeric.*
+const SAME_POINTS: usize = 2;
+/// Largest difference of the logarithms of a speed and of an octave or family of another that is the same rotor's. *Numeric.*
+const RELATED: f64 = 0.05;
+/// Largest difference of the logarithms of the speeds of two rotors of one vehicle. *Decision.*
+const ROTORS_APART: f64 = 0.14;
+/// Width of the speeds of a hover, as a share. *Decision.*
+const HOVER_WIDTH_SHARE: f64 = 0.024;
+/// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
+/// *Decision.*
+const RESOLVED_REV_S: f64 = 30.0;
 /// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
 pub(crate) const AIR_KG_M3: f64 = 1.2;
 
 /// The beliefs that a recording gives rise to.
 #[derive(Clone, Debug)]
 pub(crate) struct Beliefs {
-    /// Median over the frames of the votes for the path, in nats.
-    pub(crate) votes_nats: f64,
     /// All hypotheses that are possible, most probable first.
     pub(crate) hypotheses: Vec<Hypothesis>,
+    /// Votes that a voice or an instrument has more than the most probable rotor, in nats a frame.
+    jumps_nats: f64,
 }
 
 impl Beliefs {
-    /// The most probable speed.
-    pub(crate) fn most_probable_rev_s(&self) -> Option<f64> {
-        self.hypotheses.first().map(|hypothesis| hypothesis.speed_rev_s)
+    /// Whether the most probable speed has votes of its own, not those of its octaves alone.
+    pub(crate) fn is_clear(&self, config: &EvidenceConfig) -> bool {
+        self.hypotheses.first().is_some_and(|first| first.votes_nats >= config.votes_nats_min)
+    }
+
+    /// The speed of the hover of the most probable rotor.
+    pub(crate) fn hover_rev_s(&self) -> Option<f64> {
+        self.hypotheses.first().map(|first| first.hover_rev_s)
+    }
+
+    /// Those that remain possible where odds of `belief_min` decide; only one where it is decided.
+    pub(crate) fn possible(&self, belief_min: f64) -> &[Hypothesis] {
+        let is_decided = self.hypotheses.first().is_some_and(|first| first.belief >= belief_min);
+        let possible =
+            self.hypotheses.iter().take_while(|hypothesis| hypothesis.belief >= 1.0 - belief_min).count().max(2);
+        &self.hypotheses[..if is_decided { 1 } else { possible.min(self.hypotheses.len()) }]
+    }
+
+    /// Whether a rotor is heard: by the levels of the most probable speed, and by the votes for it or one of its octaves.
+    pub(crate) fn is_heard(&self, config: &EvidenceConfig) -> bool {
+        let Some(first) = self.hypotheses.first() else { return false };
+        let is_related = |other: &&Hypothesis| {
+            OCTAVES.iter().any(|factor| (other.speed_rev_s / (factor * first.speed_rev_s)).ln().abs() < RELATED)
+        };
+        let has_votes = |other: &Hypothesis| other.votes_nats >= config.votes_nats_min;
+        first.nats >= config.levels_nats_min
+            && first.speed_rev_s >= RESOLVED_REV_S
+            && self.jumps_nats < config.jumps_nats_max
+            && self.hypotheses.iter().filter(is_related).any(has_votes)
     }
 }
 
@@ -40,10 +87,28 @@ impl Beliefs {
 pub(crate) struct Hypothesis {
     /// Mean speed along the path.
     pub(crate) speed_rev_s: f64,
+    /// The speed near which the path is longest: that of the hover.
+    pub(crate) hover_rev_s: f64,
+    /// Index of the path that was found, of which this is a multiple.
+    path: usize,
+    /// Median over the frames of the votes for the path, in nats.
+    pub(crate) votes_nats: f64,
     /// Evidence of the levels of its lines, and of what is known of the vehicle, in nats.
     pub(crate) nats: f64,
     /// Probability among the hypotheses.
     pub(crate) belief: f64,
+}
+
+impl Hypothesis {
+    /// Another speed, with the belief that this one leaves.
+    pub(crate) fn or_else(&self, speed_rev_s: f64) -> Self {
+        Self { speed_rev_s, hover_rev_s: speed_rev_s, belief: 1.0 - self.belief, ..*self }
+    }
+
+    /// Whether a rotor at another speed may belong to the same vehicle, in the same octave.
+    pub(crate) fn is_of_same_vehicle(&self, speed_rev_s: f64) -> bool {
+        (self.speed_rev_s / speed_rev_s).ln().abs() < ROTORS_APART
+    }
 }
 
 /// What a rotor is asked for.
@@ -58,51 +123,149 @@ pub(crate) struct WantedRotor {
 }
 
 /// Compares the hypotheses on all frames. `None` without frames.
+///
+/// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
+/// octave has its path, and the levels decide among them. The noise is what the path that explains most leaves.
 pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     let bins = excess.frames.first()?.power.len();
-    let grid = grid_rev_s(&wanted.speeds_rev_s);
+    let grid = SpeedGrid::of(&wanted.speeds_rev_s);
     let table = VoteTable::for_blades(wanted.blades);
-    let places = VotePlaces::new(&grid, &table, excess.bin_hz, bins);
+    let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
     let votes: Vec<Vec<f32>> = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
-    let path = best_path(&votes, &excess.hops(), GRID_STEP);
-    let speeds_rev_s: Vec<f64> = path.iter().map(|&point| grid[point]).collect();
-    let along: Vec<f64> = path.iter().zip(&votes).map(|(&point, votes)| f64::from(votes[point])).collect();
-    let votes_nats = median(&along)?;
-    let mean_rev_s = mean(&speeds_rev_s)?;
-    let noise = noise_level(excess, &speeds_rev_s)?;
-    let hz_max = excess.hz_max().min(COMPARED_ORDERS * mean_rev_s);
-    let mut hypotheses: Vec<Hypothesis> = FACTORS
+    let hops = excess.hops();
+    let paths: Vec<Vec<usize>> =
+        grid.windows().into_iter().map(|window| best_path(&votes, window, &hops, GRID_STEP)).collect();
+    let noise = paths
         .iter()
-        .filter(|&&factor| wanted.speeds_rev_s.contains(&(factor * mean_rev_s)))
-        .map(|&factor| {
-            let scaled: Vec<f64> = speeds_rev_s.iter().map(|speed| factor * speed).collect();
-            let speed_rev_s = factor * mean_rev_s;
-            let nats = nats_of_levels(excess, &scaled, hz_max, noise, wanted.blades, config)
-                + nats_of_vehicle(speed_rev_s, &wanted.known, config);
-            Hypothesis { speed_rev_s, nats, belief: 0.0 }
-        })
-        .collect();
-    let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
-    hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
-    hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
-    Some(Beliefs { votes_nats, hypotheses })
+        .filter_map(|path| noise_level(excess, &grid.speeds_of(path)))
+        .min_by(|a, b| a.lines_share.total_cmp(&b.lines_share))?;
+    let mut found: Vec<(usize, Vec<usize>, f64)> = Vec::new();
+    for factor in FACTORS {
+        for (index, path) in paths.iter().enumerate() {
+            let Some(scaled) = grid.times(path, factor) else { continue };
+            if !found.iter().any(|(_, other, _)| is_same_path(other, &scaled)) {
+                let along: Vec<f64> =
+                    scaled.iter().zip(&votes).map(|(&point, votes)| f64::from(votes[point])).collect();
+                let votes_nats = median(&along)?;
+                found.push((index, scaled, votes_nats));
+            }
+        }
+    }
+    // a path with far fewer votes than another is none: the lines of a rotor sound in most frames
+    let most_nats = found.iter().map(|(.., votes_nats)| *votes_nats).fold(f64::MIN, f64::max);
+    found.retain(|(.., votes_nats)| *votes_nats >= VOTES_SHARE_MIN * most_nats - VOTES_NATS_APART);
+    let mut hypotheses: Vec<Hypothesis> = Vec::new();
+    for (path, scaled, votes_nats) in found {
+        let speeds_rev_s = grid.speeds_of(&scaled);
+        let speed_rev_s = mean(&speeds_rev_s)?;
+        let hover_rev_s = most_frequent_rev_s(&speeds_rev_s)?;
+        let nats = nats_of_levels(excess, &speeds_rev_s, noise, wanted.blades, config)
+            + nats_of_vehicle(speed_rev_s, &wanted.known, config);
+        hypotheses.push(Hypothesis { speed_rev_s, hover_rev_s, path, votes_nats, nats, belief: 0.0 });
+    }
+    let hypotheses = with_beliefs(hypotheses);
+    let first = hypotheses.first()?;
+    let found = &paths[first.path];
+    let factor = first.speed_rev_s / mean(&grid.speeds_of(found))?;
+    let of_octaves = OCTAVES.iter().filter_map(|octave| grid.times(found, octave * factor));
+    let best_octave = of_octaves.max_by(|a, b| sum_along(&votes, a).total_cmp(&sum_along(&votes, b)))?;
+    let is_near = |shift: isize| {
+        let ratio = shift as f64 * GRID_STEP;
+        OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
+    };
+    let jumps_nats = gain_of_jumps_nats(&votes, &best_octave, GRID_STEP, is_near);
+    Some(Beliefs { hypotheses, jumps_nats })
 }
 
-fn grid_rev_s(range: &RangeInclusive<f64>) -> Vec<f64> {
-    let steps = ((range.end() / range.start()).ln() / GRID_STEP).ceil() as u32;
-    (0..=steps).map(|step| range.start() * (GRID_STEP * f64::from(step)).exp()).collect()
+/// Sum of the votes along a path.
+fn sum_along(votes: &[Vec<f32>], path: &[usize]) -> f32 {
+    path.iter().zip(votes).map(|(&point, votes)| votes[point]).sum()
+}
+
+/// The mean of the speeds about which most lie. `None` without speeds.
+fn most_frequent_rev_s(speeds_rev_s: &[f64]) -> Option<f64> {
+    let mut sorted = speeds_rev_s.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let near = |first: usize| {
+        let end = sorted.partition_point(|&speed_rev_s| speed_rev_s <= sorted[first] * (1.0 + HOVER_WIDTH_SHARE));
+        first..end
+    };
+    let most = (0..sorted.len()).map(near).max_by_key(ExactSizeIterator::len)?;
+    mean(&sorted[most])
+}
+
+/// Whether two paths are equal but for the grid.
+fn is_same_path(a: &[usize], b: &[usize]) -> bool {
+    let apart: usize = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum();
+    apart <= SAME_POINTS * a.len()
+}
+
+/// The best path of each speed, most probable first, with its belief. Paths of rotors of one vehicle are one hypothesis.
+fn with_beliefs(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
+    // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
+    let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
+    let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
+    let Some(&Hypothesis { path: best, speed_rev_s, votes_nats, .. }) = best else { return paths };
+    let is_family = |path: &Hypothesis| {
+        FACTORS.iter().any(|factor| (path.speed_rev_s / (factor * speed_rev_s)).ln().abs() < RELATED)
+    };
+    let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
+    paths.retain(|path| path.path == best || is_family(path) || path.votes_nats >= least_nats);
+    paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));
+    let mut hypotheses: Vec<Hypothesis> = Vec::new();
+    for path in paths {
+        if !hypotheses.iter().any(|other| other.is_of_same_vehicle(path.speed_rev_s)) {
+            hypotheses.push(path);
+        }
+    }
+    hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
+    let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
+    hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
+    hypotheses
+}
+
+/// Speeds with a constant step of the logarithm.
+struct SpeedGrid {
+    speeds_rev_s: Vec<f64>,
+}
+
+impl SpeedGrid {
+    fn of(range: &RangeInclusive<f64>) -> Self {
+        let steps = ((range.end() / range.start()).ln() / GRID_STEP).ceil() as u32;
+        Self { speeds_rev_s: (0..=steps).map(|step| range.start() * (GRID_STEP * f64::from(step)).exp()).collect() }
+    }
+
+    /// Overlapping windows that cover the grid.
+    fn windows(&self) -> Vec<Range<usize>> {
+        let points = self.speeds_rev_s.len();
+        let width = (WINDOW_RATIO.ln() / GRID_STEP) as usize;
+        let step = (WINDOW_STEP_RATIO.ln() / GRID_STEP) as usize;
+        let starts = (0..).step_by(step);
+        let last = points.saturating_sub(width).div_ceil(step);
+        starts.take(last + 1).map(|start| start..(start + width).min(points)).collect()
+    }
+
+    /// The speeds along a path.
+    fn speeds_of(&self, path: &[usize]) -> Vec<f64> {
+        path.iter().map(|&point| self.speeds_rev_s[point]).collect()
+    }
+
+    /// The path with all speeds multiplied by a factor; `None` where it leaves the grid.
+    fn times(&self, path: &[usize], factor: f64) -> Option<Vec<usize>> {
+        let shift = (factor.ln() / GRID_STEP).round() as isize;
+        let shifted = |&point: &usize| point.checked_add_signed(shift).filter(|&point| point < self.speeds_rev_s.len());
+        path.iter().map(shifted).collect()
+    }
 }
 
 fn nats_of_levels(
     excess: &Excess,
     speeds_rev_s: &[f64],
-    hz_max: f64,
     noise: NoiseLevel,
     blades: u32,
     config: &EvidenceConfig,
 ) -> f64 {
-    let orders = (hz_max / mean(speeds_rev_s).unwrap_or(f64::INFINITY)) as u32;
-    let levels: Vec<OrderLevel> = (1..=orders)
+    let levels: Vec<OrderLevel> = (1..=LAST_HARMONIC * blades)
         .filter_map(|order| Some(OrderLevel { order, level_db: level_db(excess, speeds_rev_s, f64::from(order))? }))
         .collect();
     evidence_nats(&levels, noise, blades, &config.levels)

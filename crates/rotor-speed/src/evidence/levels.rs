@@ -14,8 +14,10 @@ pub(super) const LINE_HZ_MIN: f64 = 25.0;
 const NOISE_FRACTIONS: [f64; 6] = [0.23, 0.37, 0.42, 0.58, 0.63, 0.77];
 /// Orders around which the noise is measured. *Numeric.*
 const NOISE_ORDERS: u32 = 30;
-/// Smallest standard deviation of the noise, dB: the table of levels has steps of this order. *Numeric.*
-const NOISE_STD_DB_MIN: f64 = 0.7;
+/// Standard deviations of the noise above which a level is that of a line. *Decision.*
+const LINE_STDS: f64 = 3.0;
+/// Standard deviation of the noise, dB: the least, by skirts of lines, and the most that some seconds of noise can have. *Decision.*
+const NOISE_STD_DB: std::ops::RangeInclusive<f64> = 1.0..=2.0;
 
 /// Level along the path at an order, dB over the floor: the mean over the frames of the logarithm of the highest excess power within a bin.
 /// Lines of something else that cross the path for a moment count little. `None` outside the band.
@@ -38,15 +40,16 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
     (is_inside && hz_sum >= LINE_HZ_MIN * frames as f64).then(|| 10.0 / LN_10 * sum / count as f64)
 }
 
-/// Level where the path has no line, and its standard deviation.
+/// Level where no line is, and its standard deviation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NoiseLevel {
     pub(super) mean_db: f64,
     pub(super) std_db: f64,
+    /// Share of the places that hold a line of something else.
+    pub(super) lines_share: f64,
 }
 
-/// Levels between the orders of the path. The median and the median deviation do not feel single lines of something else. `None` where no
-/// such place is inside the band.
+/// Levels between the orders of a path. The median and the median deviation do not feel single lines. `None` without a band.
 pub(super) fn noise_level(excess: &Excess, speeds_rev_s: &[f64]) -> Option<NoiseLevel> {
     let levels: Vec<f64> = (1..=NOISE_ORDERS)
         .flat_map(|order| NOISE_FRACTIONS.map(|fraction| f64::from(order) + fraction))
@@ -55,5 +58,7 @@ pub(super) fn noise_level(excess: &Excess, speeds_rev_s: &[f64]) -> Option<Noise
     let mean_db = median(&levels)?;
     let deviations: Vec<f64> = levels.iter().map(|level| (level - mean_db).abs()).collect();
     let std_db = STD_PER_MEDIAN_DEVIATION * median(&deviations)?;
-    Some(NoiseLevel { mean_db, std_db: std_db.max(NOISE_STD_DB_MIN) })
+    let std_db = std_db.clamp(*NOISE_STD_DB.start(), *NOISE_STD_DB.end());
+    let lines = levels.iter().filter(|&&level| level > mean_db + LINE_STDS * std_db).count();
+    Some(NoiseLevel { mean_db, std_db, lines_share: lines as f64 / levels.len() as f64 })
 }

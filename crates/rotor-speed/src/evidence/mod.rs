@@ -6,13 +6,16 @@
 //! 1. *Votes* (`votes`): each line of a candidate votes for it in each frame, with `ln(1 − p + p Λ(R))`, where Λ is the likelihood ratio of
 //!    a line of unknown level, and p the probability that a line of this class is audible. No vote exceeds 8 nats, so that one loud hum
 //!    cannot outweigh the absence of all other lines.
-//! 2. *Path* (`path`): the speed with the most votes, along a path by dynamic programming. A rotor is heard where the median of the votes over
-//!    the frames is above 1 nat.
-//! 3. *Levels* (`levels`): the level of each order along the path, with the noise from orders where no rotor has a line.
+//! 2. *Paths* (`path`): in each window of speeds, the path with the most votes, by dynamic programming. With one path over all speeds, wide
+//!    lines of several rotors pass for those of a slow comb.
+//! 3. *Levels* (`levels`): the level of each order along a path, with the noise from orders where no rotor has a line.
 //! 4. *Level model* (`level_model`): the log-likelihood ratio of these levels, as lines of a rotor, against levels of nothing, integrated
 //!    over loudness, slope, and the level of the shaft lines against the blade pass.
-//! 5. *Hypotheses* (`hypotheses`): the path at each octave and family, compared on the same frames, with the prior of mass, diameter and
+//! 5. *Hypotheses* (`hypotheses`): each path at its octaves and families, compared on the same frames, with the prior of mass, diameter and
 //!    number of rotors.
+//!
+//! A rotor is heard where the median of the votes over the frames is at least 1 nat, the levels have at least 3 nats, its lines stand apart
+//! in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 8 nats a frame more.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).

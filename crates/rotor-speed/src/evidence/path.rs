@@ -1,4 +1,6 @@
-//! The path of shaft speeds with the most votes.
+//! The path of shaft speeds with the most votes, and what a path that may jump has more.
+
+use std::ops::Range;
 
 /// Largest change of the logarithm of the speed from frame to frame: 13 % in a second, as fast as a motor answers. *Physics.*
 const STEP_MAX: f64 = 0.0067;
@@ -10,14 +12,15 @@ const GAP_HOPS_MAX: usize = 8;
 /// The indices into a grid with a constant step of the logarithm along the best path: one for each frame.
 ///
 /// - `votes[frame][speed]`: votes in nats.
+/// - `range`: the part of the grid where the path may run.
 /// - `hops[frame]`: hops since the frame before.
 /// - `grid_step`: step of the logarithm of the speed.
 ///
 /// Dynamic programming (Viterbi 1967).
-pub(super) fn best_path(votes: &[Vec<f32>], hops: &[usize], grid_step: f64) -> Vec<usize> {
+pub(super) fn best_path(votes: &[Vec<f32>], range: Range<usize>, hops: &[usize], grid_step: f64) -> Vec<usize> {
     let Some(first) = votes.first() else { return Vec::new() };
-    let points = first.len();
-    let mut best = first.clone();
+    let points = range.len();
+    let mut best = first[range.clone()].to_vec();
     let mut from: Vec<Vec<u16>> = Vec::with_capacity(votes.len());
     for (votes, &hops) in votes.iter().zip(hops).skip(1) {
         let reach = (STEP_MAX * hops.min(GAP_HOPS_MAX) as f64 / grid_step).round().max(1.0) as usize;
@@ -36,7 +39,7 @@ pub(super) fn best_path(votes: &[Vec<f32>], hops: &[usize], grid_step: f64) -> V
                 }
             }
         }
-        next.iter_mut().zip(votes).for_each(|(sum, vote)| *sum += vote);
+        next.iter_mut().zip(&votes[range.clone()]).for_each(|(sum, vote)| *sum += vote);
         best = next;
         from.push(arrived);
     }
@@ -46,12 +49,61 @@ pub(super) fn best_path(votes: &[Vec<f32>], hops: &[usize], grid_step: f64) -> V
         path.push(usize::from(arrived[path[path.len() - 1]]));
     }
     path.reverse();
-    path
+    path.into_iter().map(|point| range.start + point).collect()
+}
+
+/// Cost of a jump to a speed that a motor cannot reach, in nats. *Decision.*
+const JUMP_NATS: f32 = 8.0;
+
+/// Votes that a voice or an instrument has more than a rotor on this path, in nats, as a mean over the frames: it moves as a motor does for some
+/// time, and then it jumps to another speed. A speed near that of the rotor, where `is_near(shift)` of the shift in points of the grid holds,
+/// is that of another rotor or of an octave, and no jump.
+pub(super) fn gain_of_jumps_nats(
+    votes: &[Vec<f32>],
+    path: &[usize],
+    grid_step: f64,
+    is_near: impl Fn(isize) -> bool,
+) -> f64 {
+    let points = votes.first().map_or(0, Vec::len);
+    let reach = (STEP_MAX / grid_step).round().max(1.0) as usize;
+    let costs: Vec<f32> = (0..=reach).map(|step| STEP_NATS * (step as f32 / reach as f32).powi(2)).collect();
+    // votes over those of the path: on the path none
+    let mut on_path = 0.0f32;
+    let mut elsewhere = vec![f32::MIN; points];
+    for (votes, &at) in votes.iter().zip(path) {
+        let best = elsewhere.iter().copied().fold(on_path, f32::max) - JUMP_NATS;
+        let next = |to: usize| {
+            let from = to.saturating_sub(reach)..(to + reach + 1).min(points);
+            let moved = from.map(|from| elsewhere[from] - costs[from.abs_diff(to)]).fold(best, f32::max);
+            moved + votes[to] - votes[at]
+        };
+        let moved =
+            (0..points).map(|to| if is_near(to as isize - at as isize) { f32::MIN } else { next(to) }).collect();
+        on_path = on_path.max(best);
+        elsewhere = moved;
+    }
+    f64::from(elsewhere.into_iter().fold(on_path, f32::max)) / path.len().max(1) as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_tune_gains_by_its_jumps_and_a_rotor_does_not() {
+        let (frames, points) = (200, 100);
+        let votes = |at: fn(usize) -> usize| -> Vec<Vec<f32>> {
+            (0..frames).map(|n| (0..points).map(|point| if point == at(n) { 20.0 } else { -5.0 }).collect()).collect()
+        };
+        let path = vec![20; frames];
+        let is_near = |shift: isize| shift.abs() < 10;
+        assert_eq!(gain_of_jumps_nats(&votes(|_| 20), &path, STEP_MAX, is_near), 0.0);
+        // away for half of the time, in ten stays of ten frames: 25 nats in each of these frames, less twenty jumps
+        let tune = votes(|n| if n / 10 % 2 == 0 { 20 } else { 60 });
+        let gain = gain_of_jumps_nats(&tune, &path, STEP_MAX, is_near);
+        let expected = 0.5 * 25.0 - 8.0 * 19.0 / 200.0;
+        assert!((gain - expected).abs() < 1e-3, "{gain} {expected}");
+    }
 
     #[test]
     fn the_best_path_is_that_of_all_paths() {
@@ -69,6 +121,6 @@ mod tests {
             }
         }
         let best = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-        assert_eq!(best_path(&votes, &[1, 1, 1], step), best.1);
+        assert_eq!(best_path(&votes, 0..5, &[1, 1, 1], step), best.1);
     }
 }

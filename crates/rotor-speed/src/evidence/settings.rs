@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 pub struct EvidenceConfig {
     /// Smallest median over frames of the votes for the path of a rotor, in nats.
     pub votes_nats_min: f64,
+    /// Smallest evidence of the levels for a rotor, against levels of nothing, in nats.
+    pub levels_nats_min: f64,
+    /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
+    /// speech 10 to 80.
+    pub jumps_nats_max: f64,
     /// Smallest belief with which an octave counts as decided: odds of 99 to 1.
     pub belief_min: f64,
     /// Levels of the lines of real rotors.
@@ -17,13 +22,21 @@ pub struct EvidenceConfig {
 
 impl Default for EvidenceConfig {
     fn default() -> Self {
-        Self { votes_nats_min: 1.0, belief_min: 0.99, levels: LevelPrior::default() }
+        Self {
+            votes_nats_min: 1.0,
+            levels_nats_min: 3.0,
+            jumps_nats_max: 8.0,
+            belief_min: 0.99,
+            levels: LevelPrior::default(),
+        }
     }
 }
 
 impl EvidenceConfig {
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("votes_nats_min", self.votes_nats_min, 0.0, 100.0)?;
+        check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;
+        check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
         check_range("belief_min", self.belief_min, 0.5, 1.0)
     }
 }
@@ -43,13 +56,25 @@ pub struct LevelPrior {
     pub fall_std: f64,
     /// Standard deviation of the level of one line of the blade pass about its mean.
     pub line_std_db: f64,
-    /// Mean level of shaft lines, where they are audible, against the blade pass.
+    /// Mean level of the shaft lines of unlike blades, against the blade pass.
     pub shaft_db: f64,
     /// Its standard deviation over recordings.
     pub shaft_std_db: f64,
+    /// Mean level of the shaft lines of alike blades, against the blade pass: most of them are below the noise.
+    pub faint_shaft_db: f64,
+    /// Its standard deviation over recordings.
+    pub faint_shaft_std_db: f64,
+    /// Share of recordings with alike blades.
+    pub faint_shaft: f64,
     /// Standard deviation of the level of one shaft line about its mean.
     pub shaft_line_std_db: f64,
-    /// Share of recordings in which shaft lines are inaudible.
+    /// Mean level of shaft lines below the blade pass, against the blade pass.
+    pub below_db: f64,
+    /// Its standard deviation over recordings and lines.
+    pub below_std_db: f64,
+    /// Share of lines below the blade pass that are missing.
+    pub below_missing: f64,
+    /// Share of recordings whose shaft lines are inaudible at any noise.
     pub shaft_inaudible: f64,
     /// Share of lines of the blade pass that are missing.
     pub blade_pass_missing: f64,
@@ -57,6 +82,8 @@ pub struct LevelPrior {
     pub shaft_missing: f64,
     /// Share of places without a line of this rotor that hold a line of something else.
     pub foreign: f64,
+    /// Share of recordings in which an echo weakens every other line of the blade pass.
+    pub echo: f64,
     /// Shaft speed below which multirotors get rare, rev/s.
     pub slow_rev_s: f64,
     /// Standard deviation of the logarithm of slower speeds.
@@ -76,18 +103,25 @@ impl Default for LevelPrior {
             blade_pass_std_db: 10.0,
             fall: 1.3,
             fall_std: 1.0,
-            line_std_db: 4.0,
-            shaft_db: -6.5,
-            shaft_std_db: 5.0,
+            line_std_db: 3.0,
+            shaft_db: -7.0,
+            shaft_std_db: 4.5,
+            faint_shaft_db: -18.0,
+            faint_shaft_std_db: 7.0,
+            faint_shaft: 0.45,
             shaft_line_std_db: 5.5,
-            shaft_inaudible: 0.5,
+            below_db: -14.0,
+            below_std_db: 6.0,
+            below_missing: 0.2,
+            shaft_inaudible: 0.15,
             blade_pass_missing: 0.05,
             shaft_missing: 0.15,
-            foreign: 0.1,
+            foreign: 0.05,
+            echo: 0.03,
             slow_rev_s: 30.0,
             slow_std: 0.3,
-            thrust_coefficient: 0.1,
-            thrust_coefficient_std: 0.4,
+            thrust_coefficient: 0.11,
+            thrust_coefficient_std: 0.35,
             range_std: 0.1,
         }
     }

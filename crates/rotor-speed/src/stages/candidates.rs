@@ -4,6 +4,7 @@ use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::or_mains_hum;
 use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, WantedRotor, beliefs_from_excess};
+use crate::survey::MainsHum;
 use crate::tone::{CombMap, blades_of_tone, search_range_rev_s};
 use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SpeedAnalysis};
 use hovertone_vehicle::RotorSpeed;
@@ -15,8 +16,10 @@ pub(crate) struct Candidates {
     pub(crate) map: CombMap,
     /// The speed that explains most of the survey.
     pub(crate) leading_rev_s: f64,
-    /// The beliefs in the octaves of the leading speed, where the blade pass was heard.
-    pub(crate) beliefs: Option<Beliefs>,
+    /// The beliefs in the speeds of a blade pass; `None` where the tone is something else, or no rotor is heard.
+    beliefs: Option<Beliefs>,
+    /// Whether the beliefs decide that a rotor is heard, and its octave; otherwise they can only object to an octave.
+    pub(crate) beliefs_decide: bool,
     /// Lowest speed of the search.
     rev_s_min: f64,
 }
@@ -32,20 +35,33 @@ impl Candidates {
         }
     }
 
-    /// The speeds that remain possible, most probable first; empty where one is decided.
-    pub(crate) fn alternatives(&self, config: &Config) -> Vec<Reading> {
-        let hypotheses = self.beliefs.as_ref().map_or(&[][..], |beliefs| &beliefs.hypotheses);
-        if hypotheses.first().is_none_or(|first| first.belief >= config.evidence.belief_min) {
-            return Vec::new();
+    /// The same candidates where the beliefs decide; `None` where they do already, or hear no rotor clearly.
+    pub(crate) fn by_beliefs(self, config: &Config) -> Option<Self> {
+        let beliefs =
+            self.beliefs.as_ref().filter(|beliefs| !self.beliefs_decide && beliefs.is_clear(&config.evidence))?;
+        let leading_rev_s = beliefs.hover_rev_s()?;
+        Some(Self { leading_rev_s, beliefs_decide: true, ..self })
+    }
+
+    /// The speeds that remain possible beside an answer, most probable first; empty where it is decided.
+    pub(crate) fn alternatives(&self, answer_rev_s: f64, config: &Config) -> Vec<Reading> {
+        let readings = |hypotheses: &[Hypothesis]| -> Vec<Reading> {
+            hypotheses.iter().map(|hypothesis| reading_of(hypothesis, config)).collect()
+        };
+        match self.beliefs.as_ref().map_or(&[][..], |beliefs| beliefs.possible(config.evidence.belief_min)) {
+            [_, _, ..] if !self.beliefs_decide => Vec::new(),
+            [other] if !self.beliefs_decide && !other.is_of_same_vehicle(answer_rev_s) => {
+                readings(&[*other, other.or_else(answer_rev_s)])
+            }
+            [] | [_] => Vec::new(),
+            possible => readings(possible),
         }
-        let possible = hypotheses.iter().filter(|hypothesis| hypothesis.belief >= 1.0 - config.evidence.belief_min);
-        possible.map(|hypothesis| reading_of(hypothesis, config)).collect()
     }
 }
 
 /// A hypothesis as a reading of the blade pass.
 fn reading_of(hypothesis: &Hypothesis, config: &Config) -> Reading {
-    let speed = RotorSpeed::from_rev_s(hypothesis.speed_rev_s);
+    let speed = RotorSpeed::from_rev_s(hypothesis.hover_rev_s);
     let order = config.tone.order;
     Reading {
         order,
@@ -54,9 +70,9 @@ fn reading_of(hypothesis: &Hypothesis, config: &Config) -> Reading {
         speed,
         motor_speed: speed,
         tip_mach: None,
-        thrust_coefficient: config.known.hover_thrust_coefficient(hypothesis.speed_rev_s, AIR_KG_M3),
+        thrust_coefficient: config.known.hover_thrust_coefficient(hypothesis.hover_rev_s, AIR_KG_M3),
         plausibility: hypothesis.belief,
-        why: format!("{:.1} nats by the levels of its lines", hypothesis.nats),
+        why: format!("{:.0} % by the levels of its lines", 100.0 * hypothesis.belief),
     }
 }
 
@@ -73,16 +89,22 @@ pub(crate) fn candidates_from_survey(
     surveyed.check(config)?;
     let map = CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s);
     let beliefs = beliefs_of(surveyed, search_rev_s.0..=search_rev_s.1, config);
-    let believed_rev_s = beliefs.as_ref().and_then(Beliefs::most_probable_rev_s);
+    let beliefs_decide = beliefs.is_some() && config.knows_thrust();
+    let believed_rev_s = beliefs.as_ref().filter(|_| beliefs_decide).and_then(Beliefs::hover_rev_s);
     match believed_rev_s.or_else(|| map.leading_speed_rev_s()) {
-        Some(leading_rev_s) => Ok(Candidates { map, leading_rev_s, beliefs, rev_s_min: search_rev_s.0 }),
+        Some(leading_rev_s) => {
+            Ok(Candidates { map, leading_rev_s, beliefs, beliefs_decide, rev_s_min: search_rev_s.0 })
+        }
         None => Err(Silence::because(or_mains_hum(NoTone::NoSeries, &surveyed.survey)).into()),
     }
 }
 
-/// The beliefs in the octaves of a blade pass. `None` where they are not asked for ([`Config::blades_with_thrust`]), or no rotor is heard.
+/// The beliefs in the speeds of a blade pass. `None` where the tone is something else, or no rotor is heard.
 fn beliefs_of(surveyed: &Surveyed, speeds_rev_s: RangeInclusive<f64>, config: &Config) -> Option<Beliefs> {
-    let wanted = WantedRotor { blades: config.blades_with_thrust()?, speeds_rev_s, known: config.known };
+    let wanted = WantedRotor { blades: blades_of_tone(&config.tone)?, speeds_rev_s, known: config.known };
     let beliefs = beliefs_from_excess(surveyed.excess.as_ref()?, &wanted, &config.evidence)?;
-    (beliefs.votes_nats >= config.evidence.votes_nats_min).then_some(beliefs)
+    let blade_pass_hz = f64::from(wanted.blades) * beliefs.hover_rev_s()?;
+    let is_hum = |hum: &MainsHum| hum.holds(blade_pass_hz, 0.0);
+    let is_heard = beliefs.is_heard(&config.evidence) && !surveyed.survey.hum.as_ref().is_some_and(is_hum);
+    is_heard.then_some(beliefs)
 }

@@ -47,7 +47,7 @@ pub(crate) fn decision_from_lines(
         RotorTracks::default()
     };
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
-    let alternatives = candidates.alternatives(config);
+    let alternatives = candidates.alternatives(speed_rev_s, config);
     Ok(Decision { lines, rotors, alternatives })
 }
 
@@ -67,7 +67,7 @@ fn why_no_rotor(
         not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover)
             .or_else(|| mains_hum_reason(&lines.clearest, survey))
     };
-    if candidates.beliefs.is_some() {
+    if candidates.beliefs_decide {
         return Ok(not_held_or_hum());
     }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);

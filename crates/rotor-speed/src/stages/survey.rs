@@ -5,6 +5,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Excess, ExcessBuilder};
 use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
+use crate::tone::blades_of_tone;
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
 
@@ -13,7 +14,7 @@ use hovertone_signal::passes::{Passes, Piece};
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
-    /// Power over the floor in short frames, where the beliefs are asked for.
+    /// Power over the floor in short frames, where the tone is a blade pass.
     pub(crate) excess: Option<Excess>,
 }
 
@@ -52,7 +53,7 @@ pub(crate) fn survey_from_source(
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
-    let mut excess = config.blades_with_thrust().map(|_| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
+    let mut excess = blades_of_tone(&config.tone).map(|_| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
         Piece::Samples(samples) => {

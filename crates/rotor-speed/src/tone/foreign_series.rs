@@ -140,12 +140,15 @@ impl Claim {
                 return true;
             }
         }
-        if !self.is_blade_pass {
-            let multiple = (hz / self.tone_hz).round().max(1.0);
-            return (hz / (multiple * self.tone_hz) - 1.0).abs() < self.band_half_width_share;
+        let order = (hz / self.shaft_hz).round().max(1.0);
+        let is_shaft_line = (hz - order * self.shaft_hz).abs() < (SHAFT_LINE_SHARE * hz).max(SHAFT_LINE_BINS * bin_hz);
+        if self.is_blade_pass {
+            return is_shaft_line;
         }
-        let multiple = (hz / self.shaft_hz).round().max(1.0);
-        (hz - multiple * self.shaft_hz).abs() < (SHAFT_LINE_SHARE * hz).max(SHAFT_LINE_BINS * bin_hz)
+        let multiple = (hz / self.tone_hz).round().max(1.0);
+        let is_mesh_line = (hz / (multiple * self.tone_hz) - 1.0).abs() < self.band_half_width_share;
+        // unlike blades sound at every order of the shaft; orders of the mesh lie too close to be told from others
+        is_mesh_line || (is_shaft_line && self.orders.last().is_some_and(|&last| order <= last))
     }
 }
 
