@@ -34,7 +34,8 @@ pub fn speed_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Spe
 }
 
 /// Passes that a speed needs: one for the survey, one for the lines, and two where rotors are separated. Where a weak tone is steady, one
-/// more tells its octave; it is announced when it turns out to be needed.
+/// more tells its octave; where no rotor is heard there, but a slower shaft or the evidence points at another speed, its lines take as many as the
+/// first ones. These are announced when they turn out to be needed.
 pub fn passes_of_speed(config: &Config) -> u32 {
     passes_of_survey() + passes_after_survey(config)
 }
@@ -71,17 +72,14 @@ pub fn speed_from_survey(
     if matches!(leading.outcome, Outcome::Ok(_)) {
         return Ok(leading);
     }
-    if let Some(slower_rev_s) = candidates.slower_than(&leading) {
-        passes.expect_more(passes_after_survey(config));
-        let slower = speed_of_candidate(passes, surveyed, &candidates, slower_rev_s, config)?;
-        if matches!(slower.outcome, Outcome::Ok(_)) {
-            return Ok(slower);
-        }
+    if let Some(slower_rev_s) = candidates.slower_than(&leading)
+        && let Some(slower) = rotor_at_another_speed(passes, surveyed, &candidates, slower_rev_s, config)?
+    {
+        return Ok(slower);
     }
     let Some(candidates) = candidates.by_beliefs(config) else { return Ok(leading) };
-    passes.expect_more(passes_after_survey(config));
-    let believed = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
-    Ok(if matches!(believed.outcome, Outcome::Ok(_)) { believed } else { leading })
+    let believed = rotor_at_another_speed(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
+    Ok(believed.unwrap_or(leading))
 }
 
 /// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that
@@ -106,6 +104,19 @@ pub struct HoverRotors {
     pub hover: Hover,
     /// The rotors, fastest first.
     pub rotors: Vec<RotorEstimate>,
+}
+
+/// The analysis at another speed, in passes that are announced. `None` where no rotor is heard there.
+fn rotor_at_another_speed(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    candidates: &Candidates,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<Option<SpeedAnalysis>, Error> {
+    passes.expect_more(passes_after_survey(config));
+    let analysis = speed_of_candidate(passes, surveyed, candidates, speed_rev_s, config)?;
+    Ok(matches!(analysis.outcome, Outcome::Ok(_)).then_some(analysis))
 }
 
 fn speed_of_candidate(

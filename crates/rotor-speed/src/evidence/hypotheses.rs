@@ -71,14 +71,12 @@ impl Beliefs {
     /// Whether a rotor is heard: by the levels of the most probable speed, and by the votes for it or one of its octaves.
     pub(crate) fn is_heard(&self, config: &EvidenceConfig) -> bool {
         let Some(first) = self.hypotheses.first() else { return false };
-        let is_related = |other: &&Hypothesis| {
-            OCTAVES.iter().any(|factor| (other.speed_rev_s / (factor * first.speed_rev_s)).ln().abs() < RELATED)
-        };
+        let is_octave = |other: &&Hypothesis| is_multiple(other.speed_rev_s, first.speed_rev_s, &OCTAVES);
         let has_votes = |other: &Hypothesis| other.votes_nats >= config.votes_nats_min;
         first.nats >= config.levels_nats_min
             && first.speed_rev_s >= RESOLVED_REV_S
             && self.jumps_nats < config.jumps_nats_max
-            && self.hypotheses.iter().filter(is_related).any(has_votes)
+            && self.hypotheses.iter().filter(is_octave).any(has_votes)
     }
 }
 
@@ -177,6 +175,11 @@ pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config:
     Some(Beliefs { hypotheses, jumps_nats })
 }
 
+/// Whether a speed is one of these multiples of another one.
+fn is_multiple(speed_rev_s: f64, of_rev_s: f64, factors: &[f64]) -> bool {
+    factors.iter().any(|factor| (speed_rev_s / (factor * of_rev_s)).ln().abs() < RELATED)
+}
+
 /// Sum of the votes along a path.
 fn sum_along(votes: &[Vec<f32>], path: &[usize]) -> f32 {
     path.iter().zip(votes).map(|(&point, votes)| votes[point]).sum()
@@ -206,9 +209,7 @@ fn with_beliefs(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
     let Some(&Hypothesis { path: best, speed_rev_s, votes_nats, .. }) = best else { return paths };
-    let is_family = |path: &Hypothesis| {
-        FACTORS.iter().any(|factor| (path.speed_rev_s / (factor * speed_rev_s)).ln().abs() < RELATED)
-    };
+    let is_family = |path: &Hypothesis| is_multiple(path.speed_rev_s, speed_rev_s, &FACTORS);
     let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
     paths.retain(|path| path.path == best || is_family(path) || path.votes_nats >= least_nats);
     paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));

@@ -23,11 +23,11 @@ pub(super) fn best_path(votes: &[Vec<f32>], range: Range<usize>, hops: &[usize],
     let mut best = first[range.clone()].to_vec();
     let mut from: Vec<Vec<u16>> = Vec::with_capacity(votes.len());
     for (votes, &hops) in votes.iter().zip(hops).skip(1) {
-        let reach = (STEP_MAX * hops.min(GAP_HOPS_MAX) as f64 / grid_step).round().max(1.0) as usize;
+        let reach = reach_points(hops, grid_step);
         let mut next = vec![f32::MIN; points];
         let mut arrived = vec![0u16; points];
         for shift in 0..=2 * reach {
-            let cost = STEP_NATS * ((shift as f32 - reach as f32) / reach as f32).powi(2);
+            let cost = step_nats(shift.abs_diff(reach), reach);
             // from the point `to + shift − reach`
             let low = reach.saturating_sub(shift);
             let high = points.min((points + reach).saturating_sub(shift));
@@ -52,6 +52,16 @@ pub(super) fn best_path(votes: &[Vec<f32>], range: Range<usize>, hops: &[usize],
     path.into_iter().map(|point| range.start + point).collect()
 }
 
+/// Largest step of a path over so many hops, in points of the grid.
+fn reach_points(hops: usize, grid_step: f64) -> usize {
+    (STEP_MAX * hops.min(GAP_HOPS_MAX) as f64 / grid_step).round().max(1.0) as usize
+}
+
+/// Cost of a step of a path that reaches so many points.
+fn step_nats(step: usize, reach: usize) -> f32 {
+    STEP_NATS * (step as f32 / reach as f32).powi(2)
+}
+
 /// Cost of a jump to a speed that a motor cannot reach, in nats. *Decision.*
 const JUMP_NATS: f32 = 8.0;
 
@@ -65,8 +75,8 @@ pub(super) fn gain_of_jumps_nats(
     is_near: impl Fn(isize) -> bool,
 ) -> f64 {
     let points = votes.first().map_or(0, Vec::len);
-    let reach = (STEP_MAX / grid_step).round().max(1.0) as usize;
-    let costs: Vec<f32> = (0..=reach).map(|step| STEP_NATS * (step as f32 / reach as f32).powi(2)).collect();
+    let reach = reach_points(1, grid_step);
+    let costs: Vec<f32> = (0..=reach).map(|step| step_nats(step, reach)).collect();
     // votes over those of the path: on the path none
     let mut on_path = 0.0f32;
     let mut elsewhere = vec![f32::MIN; points];
