@@ -1,4 +1,4 @@
-//! Sound → power over the local floor, in short frames, in bounded memory.
+//! Sound → power over the local floor, in short frames, in bounded memory and time.
 
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
@@ -23,13 +23,33 @@ const FLOOR_SHARE_MIN: f64 = 1e-7;
 /// Bins to either side among which a line is the highest: the main lobe of the window. *Numeric.*
 const LOBE_BINS: usize = 2;
 /// Share of the highest neighbour below which a bin is a skirt of it, and counts as noise at most. *Numeric.*
-const SKIRT_SHARE: f32 = 0.5;
+const SKIRT_SHARE: f64 = 0.5;
 /// Share of the median power of the frames below which a frame is silent. *Decision.*
 const SILENT_SHARE: f64 = 1e-4;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
 /// Largest number of sections. *Numeric.*
 const SECTIONS_MAX: usize = 32;
+
+/// A level in steps of 1/8 dB above [`LEVEL_DB_MIN`].
+pub(super) type Level = u16;
+/// Lowest level that is told, dB. *Numeric.*
+pub(super) const LEVEL_DB_MIN: f64 = -30.0;
+/// Steps of levels to a dB. *Numeric.*
+pub(super) const LEVELS_PER_DB: f64 = 8.0;
+/// Number of levels: from −30 to 60 dB. *Numeric.*
+pub(super) const LEVELS: usize = 721;
+
+/// The level of a power over the floor.
+pub(super) fn level_of(excess: f64) -> Level {
+    let db = 10.0 * excess.max(f64::MIN_POSITIVE).log10();
+    ((db - LEVEL_DB_MIN) * LEVELS_PER_DB).round().clamp(0.0, (LEVELS - 1) as f64) as Level
+}
+
+/// A level in dB; also that of a mean of levels.
+pub(super) fn level_db(level: f64) -> f64 {
+    LEVEL_DB_MIN + level / LEVELS_PER_DB
+}
 
 /// Power over the local floor.
 #[derive(Clone, Debug, Default)]
@@ -45,10 +65,9 @@ pub(crate) struct Excess {
 pub(crate) struct ExcessFrame {
     /// Middle of the frame on the recording's clock, s.
     pub(crate) centre_s: f64,
-    /// Power over the floor of each bin.
-    pub(crate) power: Vec<f32>,
+    /// Power over the floor of each bin, as a [`Level`].
+    pub(super) levels: Vec<Level>,
     mean_power: f64,
-    section: usize,
 }
 
 impl Excess {
@@ -59,97 +78,100 @@ impl Excess {
     }
 }
 
-/// Builds the frames from a stream of samples. Where a recording is longer than the sections that are kept, every second section is dropped
-/// and the gaps double.
+/// Keeps sections of a stream of samples. Where a recording is longer than the sections that are kept, every second section is dropped and
+/// the gaps double.
 pub(crate) struct ExcessBuilder {
-    stft: Stft<f32>,
     start_s: f64,
     sample_rate_hz: f64,
+    /// Samples that were pushed.
     samples: usize,
+    /// Sections from one that is kept to the next.
     stride: usize,
-    is_listening: bool,
-    floor: RunningMedian,
-    bins: usize,
-    frames: Vec<ExcessFrame>,
+    sections: Vec<Section>,
+}
+
+struct Section {
+    index: usize,
+    samples: Vec<f32>,
 }
 
 impl ExcessBuilder {
-    /// Frames of a recording that starts at `start_s`.
+    /// Sections of a recording that starts at `start_s`.
     pub(crate) fn new(sample_rate_hz: f64, start_s: f64) -> Self {
-        let mut stft = Stft::new(sample_rate_hz, Window::Hann, FRAME_S, HOP_S, ZERO_PAD_FACTOR);
-        stft.restart(start_s);
-        let bins = (HZ_MAX.min(RATE_SHARE_MAX * sample_rate_hz) / stft.bin_hz()) as usize;
-        let floor = RunningMedian::of_width((FLOOR_HZ / stft.bin_hz()) as usize | 1);
-        Self {
-            stft,
-            start_s,
-            sample_rate_hz,
-            samples: 0,
-            stride: 1,
-            is_listening: true,
-            floor,
-            bins,
-            frames: Vec::new(),
-        }
+        Self { start_s, sample_rate_hz, samples: 0, stride: 1, sections: Vec::new() }
+    }
+
+    fn section_samples(&self) -> usize {
+        (SECTION_S * self.sample_rate_hz) as usize
     }
 
     pub(crate) fn push(&mut self, mut samples: &[f32]) {
-        let section_samples = (SECTION_S * self.sample_rate_hz) as usize;
+        let section_samples = self.section_samples();
         while !samples.is_empty() {
-            let section = self.samples / section_samples;
-            let (now, later) = samples.split_at(samples.len().min((section + 1) * section_samples - self.samples));
-            let is_wanted = section.is_multiple_of(self.stride);
-            if is_wanted && !self.is_listening {
-                self.stft.restart(self.start_s + self.samples as f64 / self.sample_rate_hz);
+            let index = self.samples / section_samples;
+            let (now, later) = samples.split_at(samples.len().min((index + 1) * section_samples - self.samples));
+            if index.is_multiple_of(self.stride) {
+                self.keep(index, now);
             }
-            if is_wanted {
-                self.hear(now, section);
-            }
-            self.is_listening = is_wanted;
             self.samples += now.len();
             samples = later;
         }
     }
 
-    fn hear(&mut self, samples: &[f32], section: usize) {
-        let Self { stft, floor, bins, frames, .. } = self;
-        let bins = *bins;
-        stft.push(samples, |frame| {
-            let mean_power = frame.power.iter().sum::<f64>() / frame.power.len() as f64;
-            let power = over_floor(&frame.power[..bins.min(frame.power.len())], floor, mean_power);
-            frames.push(ExcessFrame { centre_s: frame.centre_s, power, mean_power, section });
-        });
-        let kept = section / self.stride + 1;
-        if kept > SECTIONS_MAX {
+    fn keep(&mut self, index: usize, samples: &[f32]) {
+        match self.sections.last_mut().filter(|section| section.index == index) {
+            Some(section) => section.samples.extend_from_slice(samples),
+            None => self.sections.push(Section { index, samples: samples.to_vec() }),
+        }
+        if index / self.stride >= SECTIONS_MAX {
             self.stride *= 2;
             let stride = self.stride;
-            self.frames.retain(|frame| frame.section.is_multiple_of(stride));
+            self.sections.retain(|section| section.index.is_multiple_of(stride));
         }
     }
 
+    /// The frames of the sections.
     pub(crate) fn finish(self) -> Excess {
-        let mut frames = self.frames;
+        let section_samples = self.section_samples();
+        let mut stft = Stft::<f32>::new(self.sample_rate_hz, Window::Hann, FRAME_S, HOP_S, ZERO_PAD_FACTOR);
+        let bin_hz = stft.bin_hz();
+        let bins = (HZ_MAX.min(RATE_SHARE_MAX * self.sample_rate_hz) / bin_hz) as usize;
+        let mut floor = RunningMedian::of_width((FLOOR_HZ / bin_hz) as usize | 1);
+        let mut frames: Vec<ExcessFrame> = Vec::new();
+        let mut next = None;
+        for section in self.sections {
+            if next != Some(section.index) {
+                stft.restart(self.start_s + (section.index * section_samples) as f64 / self.sample_rate_hz);
+            }
+            next = Some(section.index + 1);
+            stft.push(&section.samples, |frame| {
+                let mean_power = frame.power.iter().sum::<f64>() / frame.power.len() as f64;
+                let levels = over_floor(&frame.power[..bins.min(frame.power.len())], &mut floor, mean_power);
+                frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
+            });
+        }
         let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
         let power_min = SILENT_SHARE * median(&powers).unwrap_or(0.0);
         frames.retain(|frame| frame.mean_power > power_min);
-        Excess { bin_hz: self.stft.bin_hz(), frames }
+        Excess { bin_hz, frames }
     }
 }
 
-/// Power over the floor. A skirt of a line counts as noise at most.
-fn over_floor(power: &[f64], floor: &mut RunningMedian, mean_power: f64) -> Vec<f32> {
+/// Levels over the floor. A skirt of a line counts as noise at most.
+fn over_floor(power: &[f64], floor: &mut RunningMedian, mean_power: f64) -> Vec<Level> {
     let lowest = (FLOOR_SHARE_MIN * mean_power).max(f64::MIN_POSITIVE);
     // the median of noise is ln 2 of its mean
     let floors = floor.of(power);
-    let excess: Vec<f32> =
-        power.iter().zip(floors).map(|(power, floor)| (power / (floor / LN_2).max(lowest)) as f32).collect();
+    let excess: Vec<f64> = power.iter().zip(floors).map(|(power, floor)| power / (floor / LN_2).max(lowest)).collect();
     let highest_near = |bin: usize| {
         let near = bin.saturating_sub(LOBE_BINS)..(bin + LOBE_BINS + 1).min(excess.len());
-        excess[near].iter().copied().fold(0.0, f32::max)
+        excess[near].iter().copied().fold(0.0, f64::max)
     };
-    (0..excess.len())
-        .map(|bin| if excess[bin] >= SKIRT_SHARE * highest_near(bin) { excess[bin] } else { excess[bin].min(1.0) })
-        .collect()
+    let without_skirts = |bin: usize| {
+        let is_skirt = excess[bin] < SKIRT_SHARE * highest_near(bin);
+        if is_skirt { excess[bin].min(1.0) } else { excess[bin] }
+    };
+    (0..excess.len()).map(|bin| level_of(without_skirts(bin))).collect()
 }
 
 /// Median of a window that runs over a series; at the ends the window holds the values that there are.
@@ -228,8 +250,9 @@ mod tests {
         assert!(excess.frames.last().is_some_and(|frame| frame.centre_s > 180.0));
         assert!(excess.hops().iter().any(|&hops| hops > 20));
         // noise has the mean 1, less what skirts lose
-        let mean = excess.frames.iter().flat_map(|frame| &frame.power).sum::<f32>()
-            / excess.frames.iter().map(|frame| frame.power.len()).sum::<usize>() as f32;
+        let levels: Vec<Level> = excess.frames.iter().flat_map(|frame| frame.levels.iter().copied()).collect();
+        let power = |level: Level| 10f64.powf(level_db(f64::from(level)) / 10.0);
+        let mean = levels.iter().map(|&level| power(level)).sum::<f64>() / levels.len() as f64;
         assert!((0.7..1.2).contains(&mean), "{mean}");
     }
 }

@@ -1,8 +1,8 @@
 //! Hypotheses: paths of speeds in each octave, at each family, and the belief in each.
 
 use super::excess::Excess;
-use super::level_model::{LAST_HARMONIC, OrderLevel, evidence_nats};
-use super::levels::{NoiseLevel, level_db, noise_level};
+use super::level_model::{LAST_HARMONIC, LevelModel, OrderLevel};
+use super::levels::{level_db, noise_level};
 use super::path::{best_path, gain_of_jumps_nats};
 use super::settings::EvidenceConfig;
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
@@ -89,6 +89,8 @@ pub(crate) struct Hypothesis {
     pub(crate) hover_rev_s: f64,
     /// Index of the path that was found, of which this is a multiple.
     path: usize,
+    /// Its speed over that of the path.
+    factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
     /// Evidence of the levels of its lines, and of what is known of the vehicle, in nats.
@@ -120,69 +122,105 @@ pub(crate) struct WantedRotor {
     pub(crate) known: KnownRotor,
 }
 
-/// Compares the hypotheses on all frames. `None` without frames.
+/// Compares the hypotheses on all frames. `None` without frames, or without votes for any speed.
 ///
 /// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
 /// octave has its path, and the levels decide among them. The noise is what the path that explains most leaves.
 pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    let bins = excess.frames.first()?.power.len();
-    let grid = SpeedGrid::of(&wanted.speeds_rev_s);
-    let table = VoteTable::for_blades(wanted.blades);
-    let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
-    let votes: Vec<Vec<f32>> = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
-    let hops = excess.hops();
-    let paths: Vec<Vec<usize>> =
-        grid.windows().into_iter().map(|window| best_path(&votes, window, &hops, GRID_STEP)).collect();
+    let search = Search::of(excess, wanted)?;
+    let paths = search.best_paths(&excess.hops());
+    let multiples = search.multiples(&paths, config.votes_nats_min)?;
+    let speeds_rev_s = |path: &[usize]| search.grid.speeds_of(path);
     let noise = paths
         .iter()
-        .filter_map(|path| noise_level(excess, &grid.speeds_of(path)))
+        .filter_map(|path| noise_level(excess, &speeds_rev_s(path)))
         .min_by(|a, b| a.lines_share.total_cmp(&b.lines_share))?;
-    let mut found: Vec<(usize, Vec<usize>, f64)> = Vec::new();
-    for factor in FACTORS {
-        for (index, path) in paths.iter().enumerate() {
-            let Some(scaled) = grid.times(path, factor) else { continue };
-            if !found.iter().any(|(_, other, _)| is_same_path(other, &scaled)) {
-                let along: Vec<f64> =
-                    scaled.iter().zip(&votes).map(|(&point, votes)| f64::from(votes[point])).collect();
-                let votes_nats = median(&along)?;
-                found.push((index, scaled, votes_nats));
-            }
-        }
-    }
-    // a path with far fewer votes than another is none: the lines of a rotor sound in most frames
-    let most_nats = found.iter().map(|(.., votes_nats)| *votes_nats).fold(f64::MIN, f64::max);
-    found.retain(|(.., votes_nats)| *votes_nats >= VOTES_SHARE_MIN * most_nats - VOTES_NATS_APART);
+    let mut model = LevelModel::new(noise, wanted.blades, &config.levels);
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    for (path, scaled, votes_nats) in found {
-        let speeds_rev_s = grid.speeds_of(&scaled);
+    for Multiple { path, factor, points, votes_nats } in multiples {
+        let speeds_rev_s = speeds_rev_s(&points);
         let speed_rev_s = mean(&speeds_rev_s)?;
         let hover_rev_s = most_frequent_rev_s(&speeds_rev_s)?;
-        let nats = nats_of_levels(excess, &speeds_rev_s, noise, wanted.blades, config)
+        let nats = model.evidence_nats(&levels_of_orders(excess, &speeds_rev_s, wanted.blades))
             + nats_of_vehicle(speed_rev_s, &wanted.known, config);
-        hypotheses.push(Hypothesis { speed_rev_s, hover_rev_s, path, votes_nats, nats, belief: 0.0 });
+        hypotheses.push(Hypothesis { speed_rev_s, hover_rev_s, path, factor, votes_nats, nats, belief: 0.0 });
     }
     let hypotheses = with_beliefs(hypotheses);
     let first = hypotheses.first()?;
-    let found = &paths[first.path];
-    let factor = first.speed_rev_s / mean(&grid.speeds_of(found))?;
-    let of_octaves = OCTAVES.iter().filter_map(|octave| grid.times(found, octave * factor));
-    let best_octave = of_octaves.max_by(|a, b| sum_along(&votes, a).total_cmp(&sum_along(&votes, b)))?;
-    let is_near = |shift: isize| {
-        let ratio = shift as f64 * GRID_STEP;
-        OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
-    };
-    let jumps_nats = gain_of_jumps_nats(&votes, &best_octave, GRID_STEP, is_near);
+    let jumps_nats = search.jumps_nats(&paths[first.path], first.factor)?;
     Some(Beliefs { hypotheses, jumps_nats })
+}
+
+/// The votes of all frames for all speeds.
+struct Search {
+    grid: SpeedGrid,
+    /// `votes[frame][speed]`.
+    votes: Vec<Vec<f32>>,
+}
+
+/// A path with all speeds multiplied by a factor.
+struct Multiple {
+    /// Index of the path.
+    path: usize,
+    factor: f64,
+    points: Vec<usize>,
+    /// Median over the frames of the votes for it, in nats.
+    votes_nats: f64,
+}
+
+impl Search {
+    fn of(excess: &Excess, wanted: &WantedRotor) -> Option<Self> {
+        let bins = excess.frames.first()?.levels.len();
+        let grid = SpeedGrid::of(&wanted.speeds_rev_s);
+        let table = VoteTable::for_blades(wanted.blades);
+        let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
+        let votes = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
+        Some(Self { grid, votes })
+    }
+
+    /// The best path in each window of speeds.
+    fn best_paths(&self, hops: &[usize]) -> Vec<Vec<usize>> {
+        self.grid.windows().into_iter().map(|window| best_path(&self.votes, window, hops, GRID_STEP)).collect()
+    }
+
+    /// The paths at all factors. One with far fewer votes than another is left out: the lines of a rotor sound in most frames. `None` where
+    /// none has the least votes of a rotor.
+    fn multiples(&self, paths: &[Vec<usize>], votes_nats_min: f64) -> Option<Vec<Multiple>> {
+        let mut found: Vec<Multiple> = Vec::new();
+        for factor in FACTORS {
+            for (path, points) in paths.iter().enumerate() {
+                let Some(points) = self.grid.times(points, factor) else { continue };
+                if !found.iter().any(|other| is_same_path(&other.points, &points)) {
+                    let votes_nats = median(&self.votes_along(&points))?;
+                    found.push(Multiple { path, factor, points, votes_nats });
+                }
+            }
+        }
+        let most_nats = found.iter().map(|multiple| multiple.votes_nats).fold(f64::MIN, f64::max);
+        found.retain(|multiple| multiple.votes_nats >= VOTES_SHARE_MIN * most_nats - VOTES_NATS_APART);
+        (most_nats >= votes_nats_min).then_some(found)
+    }
+
+    fn votes_along(&self, path: &[usize]) -> Vec<f64> {
+        path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
+    }
+
+    /// Votes that a voice or an instrument, which jumps, has more than this multiple of a path or the best of its octaves.
+    fn jumps_nats(&self, path: &[usize], factor: f64) -> Option<f64> {
+        let octaves = OCTAVES.iter().filter_map(|octave| self.grid.times(path, octave * factor));
+        let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
+        let best_octave = octaves.max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
+        let is_near = |shift: isize| {
+            let ratio = shift as f64 * GRID_STEP;
+            OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
+        };
+        Some(gain_of_jumps_nats(&self.votes, &best_octave, GRID_STEP, is_near))
+    }
 }
 
 /// Whether a speed is one of these multiples of another one.
 fn is_multiple(speed_rev_s: f64, of_rev_s: f64, factors: &[f64]) -> bool {
     factors.iter().any(|factor| (speed_rev_s / (factor * of_rev_s)).ln().abs() < RELATED)
-}
-
-/// Sum of the votes along a path.
-fn sum_along(votes: &[Vec<f32>], path: &[usize]) -> f32 {
-    path.iter().zip(votes).map(|(&point, votes)| votes[point]).sum()
 }
 
 /// The mean of the speeds about which most lie. `None` without speeds.
@@ -259,17 +297,11 @@ impl SpeedGrid {
     }
 }
 
-fn nats_of_levels(
-    excess: &Excess,
-    speeds_rev_s: &[f64],
-    noise: NoiseLevel,
-    blades: u32,
-    config: &EvidenceConfig,
-) -> f64 {
-    let levels: Vec<OrderLevel> = (1..=LAST_HARMONIC * blades)
+/// Levels of all orders that are compared, along a path.
+fn levels_of_orders(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Vec<OrderLevel> {
+    (1..=LAST_HARMONIC * blades)
         .filter_map(|order| Some(OrderLevel { order, level_db: level_db(excess, speeds_rev_s, f64::from(order))? }))
-        .collect();
-    evidence_nats(&levels, noise, blades, &config.levels)
+        .collect()
 }
 
 /// Logarithm of the prior of a speed: by the thrust coefficient of the hover where mass, rotors and diameter are known, else slow shafts are

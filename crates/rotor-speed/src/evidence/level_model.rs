@@ -12,28 +12,37 @@ use super::settings::LevelPrior;
 use hovertone_signal::statistics::log_sum_exp;
 
 /// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
-const LINE_DB_MIN: i32 = -45;
-const LINE_DB_MAX: i32 = 80;
+const LINE_DB: std::ops::RangeInclusive<i32> = -45..=80;
+/// Lowest measured level that the tables hold, dB: that of the lowest power that is measured. *Numeric.*
+const MEASURED_DB_MIN: f64 = -30.0;
+/// Steps of a measured level to a dB. *Numeric.*
+const STEPS_PER_DB: f64 = 16.0;
+/// Number of these steps: to 90 dB. *Numeric.*
+const MEASURED_STEPS: usize = 1921;
 /// Deviations of a line from its mean level over which the tables are integrated, in standard deviations. *Numeric.*
 const DEVIATIONS: [f64; 13] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 /// Range of levels that a line of something else may have, dB. *Decision.*
 const FOREIGN_RANGE_DB: f64 = 45.0;
+/// Step of the levels of the integrals, dB. *Numeric.*
+const STEP_DB: i32 = 3;
 /// Steps of the integral over the loudness, dB. *Numeric.*
-const LOUDNESS_DB: [f64; 20] = [
-    -4.0, -1.0, 2.0, 5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 23.0, 26.0, 29.0, 32.0, 35.0, 38.0, 41.0, 47.0, 53.0, 59.0, 65.0,
-];
+const LOUDNESS_DB: [i32; 20] = [-4, -1, 2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32, 35, 38, 41, 47, 53, 59, 65];
 /// Steps of the integral over the fall. *Numeric.*
 const FALLS: [f64; 5] = [0.0, 0.6, 1.2, 2.0, 3.0];
 /// Steps of the integral over the offset of the shaft lines, dB. *Numeric.*
-const SHAFT_DB: [f64; 16] =
-    [-39.0, -36.0, -33.0, -30.0, -27.0, -24.0, -21.0, -18.0, -15.0, -12.0, -9.0, -6.0, -3.0, 0.0, 3.0, 6.0];
+const SHAFT_DB: [i32; 16] = [-39, -36, -33, -30, -27, -24, -21, -18, -15, -12, -9, -6, -3, 0, 3, 6];
 /// Steps of the integral over the level that an echo takes from every other line, dB. *Numeric.*
-const ECHO_DB: [f64; 3] = [-6.0, -12.0, -18.0];
+const ECHO_DB: [i32; 3] = [-6, -12, -18];
+/// Lowest sum of loudness and offset, dB. *Numeric.*
+const SUM_DB_MIN: i32 = LOUDNESS_DB[0] + SHAFT_DB[0];
+/// Number of sums of loudness and offset. *Numeric.*
+const SUMS: usize = 39;
 /// Harmonics of the blade pass above which all lines are inaudible: wander smears them, and recorders and codecs cut them. Each is as
 /// probable. *Decision.*
 const LAST_HARMONICS: [u32; 10] = [2, 3, 4, 6, 8, 12, 16, 24, 40, LAST_HARMONIC];
 /// The highest harmonic of the blade pass that is compared. *Decision.*
 pub(super) const LAST_HARMONIC: u32 = 64;
+
 /// Level of one order along a path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct OrderLevel {
@@ -41,126 +50,184 @@ pub(super) struct OrderLevel {
     pub(super) level_db: f64,
 }
 
-/// The evidence of levels for a rotor with so many blades, in nats: log-likelihood ratio against noise with lines of something else.
-pub(super) fn evidence_nats(levels: &[OrderLevel], noise: NoiseLevel, blades: u32, prior: &LevelPrior) -> f64 {
-    let (below, others): (Vec<OrderLevel>, Vec<OrderLevel>) = levels.iter().partition(|level| level.order < blades);
-    let (blade_pass, shaft): (Vec<OrderLevel>, Vec<OrderLevel>) =
-        others.iter().partition(|level| level.order.is_multiple_of(blades));
-    let foreign = prior.foreign.max(noise.lines_share);
-    let below_lines = LineRatios::of(&below, noise, prior.below_std_db, prior.below_missing, foreign);
-    let blade_lines = LineRatios::of(&blade_pass, noise, prior.line_std_db, prior.blade_pass_missing, foreign);
-    let shaft_lines = LineRatios::of(&shaft, noise, prior.shaft_line_std_db, prior.shaft_missing, foreign);
-    let loudness = ln_weights(&LOUDNESS_DB, prior.blade_pass_db, prior.blade_pass_std_db);
-    let falls = ln_weights(&FALLS, prior.fall, prior.fall_std);
-    let offsets = ln_weights_of_shaft_lines(prior);
-    let mean_db = |level: &OrderLevel, at: Loudness| {
-        at.loudness_db - at.fall * 10.0 * (f64::from(level.order) / f64::from(blades)).log10()
-    };
-    let cells = FALLS.iter().zip(&falls).flat_map(|(&fall, fall_weight)| {
-        LOUDNESS_DB
-            .iter()
-            .zip(&loudness)
-            .map(move |(&loudness_db, weight)| (Loudness { loudness_db, fall }, fall_weight + weight))
-    });
-    let last_orders = LAST_HARMONICS.map(|harmonic| harmonic * blades);
-    let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
-    log_sum_exp(cells.map(|(at, weight)| {
-        let blade_nats = blade_nats(&blade_lines, last_orders, blades, prior, |level| mean_db(level, at));
-        let with_offset: Vec<[f64; LAST_HARMONICS.len()]> =
-            SHAFT_DB.iter().map(|offset| shaft_lines.sums(last_orders, |level| mean_db(level, at) + offset)).collect();
-        let [below_nats] = below_lines.sums([blades], |_| at.loudness_db + prior.below_db);
-        let up_to = |last: usize| {
-            let audible = log_sum_exp(offsets.iter().zip(&with_offset).map(|(weight, nats)| weight + nats[last]));
-            let terms = [prior.shaft_inaudible.ln(), (1.0 - prior.shaft_inaudible).ln() + audible];
-            below_nats + blade_nats[last] + log_sum_exp(terms.into_iter())
-        };
-        weight + log_sum_exp((0..LAST_HARMONICS.len()).map(up_to)) - shares
-    }))
-}
+/// Sums of log-likelihood ratios of the lines up to each of the last harmonics, in nats.
+type UpTo = [f64; LAST_HARMONICS.len()];
 
-/// The evidence of the lines of the blade pass up to each of the last orders, integrated over echoes.
-fn blade_nats<const N: usize>(
-    lines: &LineRatios<'_>,
-    last_orders: [u32; N],
+/// The model for the noise of one recording.
+pub(super) struct LevelModel<'a> {
+    prior: &'a LevelPrior,
     blades: u32,
-    prior: &LevelPrior,
-    mean_db: impl Fn(&OrderLevel) -> f64,
-) -> [f64; N] {
-    let without = lines.sums(last_orders, &mean_db);
-    let echoes: Vec<[f64; N]> = ECHO_DB
-        .into_iter()
-        .flat_map(|echo_db| [0, 1].map(|weakened| (echo_db, weakened)))
-        .map(|(echo_db, weakened)| {
-            let is_weakened = |level: &OrderLevel| level.order / blades % 2 == weakened;
-            lines.sums(last_orders, |level| mean_db(level) + if is_weakened(level) { echo_db } else { 0.0 })
+    below: RatioTable,
+    blade_pass: RatioTable,
+    shaft: RatioTable,
+    /// Logarithms of the weights of the integrals.
+    loudness_nats: Vec<f64>,
+    fall_nats: Vec<f64>,
+    offset_nats: Vec<f64>,
+}
+
+impl<'a> LevelModel<'a> {
+    /// The model of rotors with so many blades.
+    pub(super) fn new(noise: NoiseLevel, blades: u32, prior: &'a LevelPrior) -> Self {
+        let foreign = prior.foreign.max(noise.lines_share);
+        let table = |std_db: f64, missing: f64| RatioTable::new(noise, std_db, missing, foreign);
+        Self {
+            prior,
+            blades,
+            below: table(prior.below_std_db, prior.below_missing),
+            blade_pass: table(prior.line_std_db, prior.blade_pass_missing),
+            shaft: table(prior.shaft_line_std_db, prior.shaft_missing),
+            loudness_nats: ln_weights(&LOUDNESS_DB.map(f64::from), prior.blade_pass_db, prior.blade_pass_std_db),
+            fall_nats: ln_weights(&FALLS, prior.fall, prior.fall_std),
+            offset_nats: ln_weights_of_shaft_lines(prior),
+        }
+    }
+
+    /// The evidence of levels for a rotor, in nats: log-likelihood ratio against noise with lines of something else.
+    pub(super) fn evidence_nats(&mut self, levels: &[OrderLevel]) -> f64 {
+        let lines_of = |table: &mut RatioTable, is_wanted: &dyn Fn(u32) -> bool| -> Vec<Line> {
+            let wanted = levels.iter().filter(|level| is_wanted(level.order));
+            wanted.map(|level| Line { order: level.order, row: table.row(level.level_db) }).collect()
+        };
+        let blades = self.blades;
+        let below = lines_of(&mut self.below, &|order| order < blades);
+        let even = lines_of(&mut self.blade_pass, &|order| order.is_multiple_of(2 * blades));
+        let odd = lines_of(&mut self.blade_pass, &|order| order % (2 * blades) == blades);
+        let shaft = lines_of(&mut self.shaft, &|order| order > blades && !order.is_multiple_of(blades));
+        let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
+        let at_fall = FALLS.iter().zip(&self.fall_nats).map(|(&fall, weight)| {
+            let even = self.blade_pass.sums(&even, blades, fall);
+            let odd = self.blade_pass.sums(&odd, blades, fall);
+            let shaft = self.shaft.sums(&shaft, blades, fall);
+            let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
+                let mean_db = f64::from(loudness_db) + self.prior.below_db;
+                let below_nats: f64 = below.iter().map(|line| self.below.ratio(line, mean_db)).sum();
+                let blade_nats = self.blade_nats(&even, &odd, loudness_db);
+                let shaft_nats = self.shaft_nats(&shaft, loudness_db);
+                let up_to = blade_nats.iter().zip(shaft_nats).map(|(blade, shaft)| blade + shaft);
+                weight + below_nats + log_sum_exp(up_to) - shares
+            });
+            weight + log_sum_exp(at_loudness)
+        });
+        log_sum_exp(at_fall)
+    }
+
+    /// The lines of the blade pass, integrated over echoes. An echo weakens the even harmonics, or the odd ones.
+    fn blade_nats(&self, even: &[UpTo], odd: &[UpTo], loudness_db: i32) -> UpTo {
+        let whole = sum_index(loudness_db);
+        let share = (self.prior.echo / (2 * ECHO_DB.len()) as f64).ln();
+        std::array::from_fn(|last| {
+            let (even, odd) = (|sum: usize| even[sum][last], |sum: usize| odd[sum][last]);
+            let echoes = ECHO_DB.iter().flat_map(|echo_db| {
+                let weak = sum_index(loudness_db + echo_db);
+                [share + even(weak) + odd(whole), share + even(whole) + odd(weak)]
+            });
+            log_sum_exp(echoes.chain([(1.0 - self.prior.echo).ln() + even(whole) + odd(whole)]))
         })
-        .collect();
-    let share = prior.echo / echoes.len() as f64;
-    std::array::from_fn(|last| {
-        let with = echoes.iter().map(|nats| share.ln() + nats[last]);
-        log_sum_exp(with.chain([(1.0 - prior.echo).ln() + without[last]]))
-    })
+    }
+
+    /// The other lines of the shaft, integrated over their level against the blade pass; they may be inaudible.
+    fn shaft_nats(&self, shaft: &[UpTo], loudness_db: i32) -> UpTo {
+        let inaudible = self.prior.shaft_inaudible;
+        std::array::from_fn(|last| {
+            let nats = SHAFT_DB.iter().map(|offset_db| shaft[sum_index(loudness_db + offset_db)][last]);
+            let audible = log_sum_exp(self.offset_nats.iter().zip(nats).map(|(weight, nats)| weight + nats));
+            log_sum_exp([inaudible.ln(), (1.0 - inaudible).ln() + audible].into_iter())
+        })
+    }
 }
 
+/// Index of a sum of loudness and offset.
+fn sum_index(sum_db: i32) -> usize {
+    ((sum_db - SUM_DB_MIN) / STEP_DB) as usize
+}
+
+/// One line, with the row of its measured level.
 #[derive(Clone, Copy)]
-struct Loudness {
-    loudness_db: f64,
-    fall: f64,
+struct Line {
+    order: u32,
+    row: usize,
 }
 
-/// Log-likelihood ratios of lines, as a table over their mean levels.
-struct LineRatios<'a> {
-    levels: &'a [OrderLevel],
-    /// `nats[line][mean level]`.
+/// Log-likelihood ratios of the lines of one class, as a table over their measured and mean levels. A row is filled when it is first asked for.
+struct RatioTable {
+    noise: NoiseLevel,
+    missing: f64,
+    foreign: f64,
+    weights: [f64; DEVIATIONS.len()],
+    /// For each mean level, the levels in noise of the lines that scatter about it.
+    scattered_db: Vec<[f64; DEVIATIONS.len()]>,
+    /// `nats[measured level][mean level]`; empty where it was not asked for.
     nats: Vec<Vec<f64>>,
 }
 
-impl<'a> LineRatios<'a> {
-    fn of(levels: &'a [OrderLevel], noise: NoiseLevel, line_std_db: f64, missing: f64, foreign: f64) -> Self {
+impl RatioTable {
+    fn new(noise: NoiseLevel, line_std_db: f64, missing: f64, foreign: f64) -> Self {
         // mean level of a line of level x in noise: the powers add
         let noise_power = 10f64.powf(noise.mean_db / 10.0);
         let in_noise = |x: f64| 10.0 * (10f64.powf(x / 10.0) + noise_power).log10();
-        let weights = ln_weights(&DEVIATIONS, 0.0, 1.0).into_iter().map(f64::exp).collect::<Vec<f64>>();
-        let scattered: Vec<[f64; DEVIATIONS.len()]> = (LINE_DB_MIN..=LINE_DB_MAX)
+        let scattered_db = LINE_DB
             .map(|mean_db| DEVIATIONS.map(|deviation| in_noise(f64::from(mean_db) + deviation * line_std_db)))
             .collect();
-        let nats = levels
-            .iter()
-            .map(|OrderLevel { level_db, .. }| {
-                let nothing = (1.0 - foreign) * noise_density(*level_db - noise.mean_db, noise.std_db)
-                    + foreign / FOREIGN_RANGE_DB;
-                let ratio = |means_db: &[f64; DEVIATIONS.len()]| {
-                    let audible: f64 = weights
-                        .iter()
-                        .zip(means_db)
-                        .map(|(weight, mean_db)| weight * noise_density(*level_db - mean_db, noise.std_db))
-                        .sum();
-                    ((1.0 - missing) * audible / nothing + missing).ln()
-                };
-                scattered.iter().map(ratio).collect()
-            })
-            .collect();
-        Self { levels, nats }
+        let sum: f64 = DEVIATIONS.iter().map(|deviation| normal(*deviation)).sum();
+        let weights = DEVIATIONS.map(|deviation| normal(deviation) / sum);
+        Self { noise, missing, foreign, weights, scattered_db, nats: vec![Vec::new(); MEASURED_STEPS] }
     }
 
-    /// Sums of the ratios of the lines up to each of the last orders, which rise, where `mean_db` gives the mean level of each line.
-    fn sums<const N: usize>(&self, last_orders: [u32; N], mean_db: impl Fn(&OrderLevel) -> f64) -> [f64; N] {
-        let index = |level: &OrderLevel| (mean_db(level).round() as i32).clamp(LINE_DB_MIN, LINE_DB_MAX) - LINE_DB_MIN;
-        let mut sums = [0.0; N];
-        let (mut sum, mut next) = (0.0, 0);
-        for (level, nats) in self.levels.iter().zip(&self.nats) {
-            while next < N && level.order > last_orders[next] {
-                sums[next] = sum;
-                next += 1;
-            }
-            if next == N {
-                break;
-            }
-            sum += nats[index(level) as usize];
+    /// The row of a measured level.
+    fn row(&mut self, level_db: f64) -> usize {
+        let row =
+            ((level_db - MEASURED_DB_MIN) * STEPS_PER_DB).round().clamp(0.0, (MEASURED_STEPS - 1) as f64) as usize;
+        if self.nats[row].is_empty() {
+            self.nats[row] = self.ratios(MEASURED_DB_MIN + row as f64 / STEPS_PER_DB);
         }
-        sums[next..].fill(sum);
-        sums
+        row
     }
+
+    /// The ratio of a measured level for each mean level.
+    fn ratios(&self, level_db: f64) -> Vec<f64> {
+        let density = |mean_db: f64| noise_density(level_db - mean_db, self.noise.std_db);
+        let nothing = (1.0 - self.foreign) * density(self.noise.mean_db) + self.foreign / FOREIGN_RANGE_DB;
+        let ratio = |means_db: &[f64; DEVIATIONS.len()]| {
+            let audible: f64 =
+                self.weights.iter().zip(means_db).map(|(weight, &mean_db)| weight * density(mean_db)).sum();
+            ((1.0 - self.missing) * audible / nothing + self.missing).ln()
+        };
+        self.scattered_db.iter().map(ratio).collect()
+    }
+
+    fn ratio(&self, line: &Line, mean_db: f64) -> f64 {
+        self.nats[line.row]
+            [((mean_db.round() as i32).clamp(*LINE_DB.start(), *LINE_DB.end()) - LINE_DB.start()) as usize]
+    }
+
+    /// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of
+    /// the order. The orders rise.
+    fn sums(&self, lines: &[Line], blades: u32, fall: f64) -> Vec<UpTo> {
+        let falls_db: Vec<f64> =
+            lines.iter().map(|line| fall * 10.0 * (f64::from(line.order) / f64::from(blades)).log10()).collect();
+        (0..SUMS)
+            .map(|index| {
+                let sum_db = f64::from(SUM_DB_MIN + STEP_DB * index as i32);
+                let mut up_to = [0.0; LAST_HARMONICS.len()];
+                let (mut sum, mut next) = (0.0, 0);
+                for (line, fall_db) in lines.iter().zip(&falls_db) {
+                    while line.order > LAST_HARMONICS[next] * blades {
+                        up_to[next] = sum;
+                        next += 1;
+                    }
+                    sum += self.ratio(line, sum_db - fall_db);
+                }
+                up_to[next..].fill(sum);
+                up_to
+            })
+            .collect()
+    }
+}
+
+/// Normal density but for its factor.
+fn normal(deviation: f64) -> f64 {
+    (-0.5 * deviation * deviation).exp()
 }
 
 /// Factor of Student's density with eight degrees of freedom, `35 √2/128`. *Numeric.*
@@ -175,8 +242,8 @@ fn noise_density(deviation_db: f64, std_db: f64) -> f64 {
 
 /// Logarithms of the weights of the offsets of shaft lines: blades are alike, or unlike.
 fn ln_weights_of_shaft_lines(prior: &LevelPrior) -> Vec<f64> {
-    let unlike = ln_weights(&SHAFT_DB, prior.shaft_db, prior.shaft_std_db);
-    let alike = ln_weights(&SHAFT_DB, prior.faint_shaft_db, prior.faint_shaft_std_db);
+    let unlike = ln_weights(&SHAFT_DB.map(f64::from), prior.shaft_db, prior.shaft_std_db);
+    let alike = ln_weights(&SHAFT_DB.map(f64::from), prior.faint_shaft_db, prior.faint_shaft_std_db);
     let (unlike_nats, alike_nats) = ((1.0 - prior.faint_shaft).ln(), prior.faint_shaft.ln());
     let sum = |(unlike, alike): (f64, f64)| log_sum_exp([unlike_nats + unlike, alike_nats + alike].into_iter());
     unlike.into_iter().zip(alike).map(sum).collect()
@@ -198,7 +265,7 @@ mod tests {
     fn evidence(levels_db: &[f64], blades: u32) -> f64 {
         let levels: Vec<OrderLevel> =
             (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db }).collect();
-        evidence_nats(&levels, NOISE, blades, &LevelPrior::default())
+        LevelModel::new(NOISE, blades, &LevelPrior::default()).evidence_nats(&levels)
     }
 
     #[test]

@@ -1,11 +1,8 @@
 //! Levels of orders along a path.
 
-use super::excess::Excess;
+use super::excess::{self, Excess};
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
-use std::f64::consts::LN_10;
 
-/// Lowest excess power that counts in a mean of logarithms. *Numeric.*
-const EXCESS_MIN: f32 = 1e-3;
 /// Share of frames in which a line must be inside the band. *Decision.*
 const INSIDE_SHARE_MIN: f64 = 0.8;
 /// Lowest frequency of a line, Hz: handling and wind are below. *Decision.*
@@ -19,25 +16,23 @@ const LINE_STDS: f64 = 3.0;
 /// Standard deviation of the noise, dB: the least, by skirts of lines, and the most that some seconds of noise can have. *Decision.*
 const NOISE_STD_DB: std::ops::RangeInclusive<f64> = 1.0..=2.0;
 
-/// Level along the path at an order, dB over the floor: the mean over the frames of the logarithm of the highest excess power within a bin.
-/// Lines of something else that cross the path for a moment count little. `None` outside the band.
+/// Level along the path at an order, dB over the floor: the mean over the frames of the highest level within a bin. Lines of something else
+/// that cross the path for a moment count little. `None` outside the band.
 pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Option<f64> {
-    let mut sum = 0.0;
-    let mut count = 0usize;
+    let (mut sum, mut count) = (0u32, 0u32);
     let mut hz_sum = 0.0;
     for (frame, speed_rev_s) in excess.frames.iter().zip(speeds_rev_s) {
         let hz = order * speed_rev_s;
         hz_sum += hz;
         let bin = (hz / excess.bin_hz).round() as usize;
-        if let Some(near) = frame.power.get(bin.saturating_sub(1)..bin + 2) {
-            let highest = near.iter().copied().fold(EXCESS_MIN, f32::max);
-            sum += f64::from(highest).ln();
+        if let Some(&[a, b, c]) = frame.levels.get(bin.saturating_sub(1)..bin + 2) {
+            sum += u32::from(a.max(b).max(c));
             count += 1;
         }
     }
-    let frames = excess.frames.len();
-    let is_inside = count > 0 && count as f64 >= INSIDE_SHARE_MIN * frames as f64;
-    (is_inside && hz_sum >= LINE_HZ_MIN * frames as f64).then(|| 10.0 / LN_10 * sum / count as f64)
+    let frames = excess.frames.len() as f64;
+    let is_inside = count > 0 && f64::from(count) >= INSIDE_SHARE_MIN * frames;
+    (is_inside && hz_sum >= LINE_HZ_MIN * frames).then(|| excess::level_db(f64::from(sum) / f64::from(count)))
 }
 
 /// Level where no line is, and its standard deviation.

@@ -20,36 +20,37 @@ const GAP_HOPS_MAX: usize = 8;
 pub(super) fn best_path(votes: &[Vec<f32>], range: Range<usize>, hops: &[usize], grid_step: f64) -> Vec<usize> {
     let Some(first) = votes.first() else { return Vec::new() };
     let points = range.len();
-    let mut best = first[range.clone()].to_vec();
-    let mut from: Vec<Vec<u16>> = Vec::with_capacity(votes.len());
-    for (votes, &hops) in votes.iter().zip(hops).skip(1) {
+    // for each frame, the votes of the best path to each point
+    let mut sums: Vec<Vec<f32>> = vec![first[range.clone()].to_vec()];
+    for (frame, (votes, &hops)) in votes.iter().zip(hops).enumerate().skip(1) {
         let reach = reach_points(hops, grid_step);
         let mut next = vec![f32::MIN; points];
-        let mut arrived = vec![0u16; points];
-        for shift in 0..=2 * reach {
-            let cost = step_nats(shift.abs_diff(reach), reach);
-            // from the point `to + shift − reach`
-            let low = reach.saturating_sub(shift);
-            let high = points.min((points + reach).saturating_sub(shift));
-            for to in low..high {
-                let value = best[to + shift - reach] - cost;
-                if value > next[to] {
-                    next[to] = value;
-                    arrived[to] = (to + shift - reach) as u16;
-                }
-            }
+        for step in 0..=reach.min(points - 1) {
+            reach_by_step(&mut next, &sums[frame - 1], step, step_nats(step, reach));
         }
         next.iter_mut().zip(&votes[range.clone()]).for_each(|(sum, vote)| *sum += vote);
-        best = next;
-        from.push(arrived);
+        sums.push(next);
     }
-    let last = (0..points).max_by(|&a, &b| best[a].total_cmp(&best[b])).unwrap_or(0);
-    let mut path = vec![last];
-    for arrived in from.iter().rev() {
-        path.push(usize::from(arrived[path[path.len() - 1]]));
+    let mut path = Vec::with_capacity(sums.len());
+    let mut to: Option<usize> = None;
+    for (frame, sums) in sums.iter().enumerate().rev() {
+        let reach = hops.get(frame + 1).map_or(points, |&hops| reach_points(hops, grid_step));
+        let value = |from: usize| to.map_or(sums[from], |to| sums[from] - step_nats(from.abs_diff(to), reach));
+        let near = to.map_or(0..points, |to| to.saturating_sub(reach)..(to + reach + 1).min(points));
+        let from = near.max_by(|&a, &b| value(a).total_cmp(&value(b)));
+        path.extend(from);
+        to = from;
     }
     path.reverse();
     path.into_iter().map(|point| range.start + point).collect()
+}
+
+/// Raises the sums to those that are reached by a step of so many points, up or down, at a cost.
+fn reach_by_step(next: &mut [f32], sums: &[f32], step: usize, cost: f32) {
+    let up = next[step..].iter_mut().zip(sums);
+    up.for_each(|(to, from)| *to = to.max(from - cost));
+    let down = next.iter_mut().zip(&sums[step..]);
+    down.for_each(|(to, from)| *to = to.max(from - cost));
 }
 
 /// Largest step of a path over so many hops, in points of the grid.
@@ -76,21 +77,21 @@ pub(super) fn gain_of_jumps_nats(
 ) -> f64 {
     let points = votes.first().map_or(0, Vec::len);
     let reach = reach_points(1, grid_step);
-    let costs: Vec<f32> = (0..=reach).map(|step| step_nats(step, reach)).collect();
     // votes over those of the path: on the path none
     let mut on_path = 0.0f32;
     let mut elsewhere = vec![f32::MIN; points];
+    let mut moved = vec![0.0; points];
     for (votes, &at) in votes.iter().zip(path) {
         let best = elsewhere.iter().copied().fold(on_path, f32::max) - JUMP_NATS;
-        let next = |to: usize| {
-            let from = to.saturating_sub(reach)..(to + reach + 1).min(points);
-            let moved = from.map(|from| elsewhere[from] - costs[from.abs_diff(to)]).fold(best, f32::max);
-            moved + votes[to] - votes[at]
-        };
-        let moved =
-            (0..points).map(|to| if is_near(to as isize - at as isize) { f32::MIN } else { next(to) }).collect();
+        moved.fill(best);
+        for step in 0..=reach.min(points - 1) {
+            reach_by_step(&mut moved, &elsewhere, step, step_nats(step, reach));
+        }
+        for (to, (moved, vote)) in moved.iter_mut().zip(votes).enumerate() {
+            *moved = if is_near(to as isize - at as isize) { f32::MIN } else { *moved + vote - votes[at] };
+        }
         on_path = on_path.max(best);
-        elsewhere = moved;
+        std::mem::swap(&mut elsewhere, &mut moved);
     }
     f64::from(elsewhere.into_iter().fold(on_path, f32::max)) / path.len().max(1) as f64
 }

@@ -1,6 +1,6 @@
 //! Votes of the lines of a frame for each shaft speed.
 
-use super::excess::ExcessFrame;
+use super::excess::{ExcessFrame, LEVELS, level_db};
 use super::levels::LINE_HZ_MIN;
 
 /// Largest vote of a line for or against, in nats. *Decision.*
@@ -19,13 +19,6 @@ const AUDIBLE_HARMONICS: f64 = 8.0;
 const HARMONICS: u32 = 12;
 /// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*
 const BEYOND_WEIGHT: f32 = 0.5;
-/// Steps of the table of votes: levels from −20 to 60 dB. *Numeric.*
-const LEVELS: usize = 641;
-/// Steps to a dB. *Numeric.*
-const LEVELS_PER_DB: f64 = 8.0;
-/// Lowest level of the table, dB. *Numeric.*
-const LEVEL_DB_MIN: f64 = -20.0;
-
 /// The votes of each order, as a table over the level of the line.
 pub(super) struct VoteTable {
     /// `votes[order − 1][level]`.
@@ -37,7 +30,8 @@ pub(super) struct VoteTable {
 impl VoteTable {
     /// Votes for rotors with so many blades.
     pub(super) fn for_blades(blades: u32) -> Self {
-        let ratios: Vec<f64> = (0..LEVELS).map(|level| ln_likelihood_ratio(10f64.powf(db_of(level) / 10.0))).collect();
+        let ratios: Vec<f64> =
+            (0..LEVELS).map(|level| ln_likelihood_ratio(10f64.powf(level_db(level as f64) / 10.0))).collect();
         let (mut votes, mut beyond) = (Vec::new(), Vec::new());
         for order in 1..=HARMONICS * blades {
             let harmonics = f64::from(order) / f64::from(blades);
@@ -75,9 +69,8 @@ impl VotePlaces {
 
 /// The votes of a frame for each speed of the grid, in nats.
 pub(super) fn votes_of_frame(frame: &ExcessFrame, table: &VoteTable, places: &VotePlaces) -> Vec<f32> {
-    let levels: Vec<u16> = frame.power.iter().map(|&power| level_of(f64::from(power))).collect();
     let vote = |order: usize, place: Option<u32>| match place {
-        Some(bin) => table.votes[order][usize::from(levels[bin as usize])],
+        Some(bin) => table.votes[order][usize::from(frame.levels[bin as usize])],
         None => table.beyond[order],
     };
     places
@@ -96,18 +89,10 @@ fn ln_likelihood_ratio(excess: f64) -> f64 {
     mean.ln().clamp(-VOTE_NATS_MAX, VOTE_NATS_MAX)
 }
 
-fn db_of(level: usize) -> f64 {
-    LEVEL_DB_MIN + level as f64 / LEVELS_PER_DB
-}
-
-fn level_of(excess: f64) -> u16 {
-    let db = 10.0 * excess.max(f64::MIN_POSITIVE).log10();
-    ((db - LEVEL_DB_MIN) * LEVELS_PER_DB).round().clamp(0.0, (LEVELS - 1) as f64) as u16
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::excess::level_of;
 
     #[test]
     fn a_vote_is_bounded_and_noise_votes_against_on_average() {
