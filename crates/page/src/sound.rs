@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use hovertone_analysis::Span;
 use hovertone_signal::{SignalSource, SourceError};
 use rubato::audioadapter::Adapter;
-use rubato::{Fft, FixedSync, Resampler};
+use rubato::{Async, FixedAsync, Resampler, SincInterpolationParameters, WindowFunction};
 
 /// Sample rates that every browser plays, highest first.
 const RATES_HZ: [u32; 6] = [48_000, 24_000, 16_000, 12_000, 8000, 6000];
@@ -21,6 +21,8 @@ const PEAK_SHARE: f32 = 0.7;
 const GAIN_MAX: f32 = 30.0;
 /// Frames per step of the resampler; the result does not depend on it.
 const CHUNK_FRAMES: usize = 1024;
+/// Samples of the filter of the resampler, at the lower rate.
+const FILTER_SAMPLES: usize = 128;
 
 /// A part of the sound of a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,8 +90,10 @@ pub(crate) fn wav_uri(clip: &SoundClip, rate_hz: u32) -> Option<String> {
 
 /// Band-limited resampling to the new rate; `None` where the clip is too short.
 fn resampled(clip: &SoundClip, rate_hz: u32) -> Option<Vec<f32>> {
-    let own_hz = clip.sample_rate_hz.round() as usize;
-    let mut resampler = Fft::<f32>::new(own_hz, rate_hz as usize, CHUNK_FRAMES, 1, FixedSync::Both).ok()?;
+    let ratio = f64::from(rate_hz) / clip.sample_rate_hz.round();
+    let filter_samples = (FILTER_SAMPLES as f64 / ratio) as usize;
+    let filter = SincInterpolationParameters::new(filter_samples, WindowFunction::BlackmanHarris2);
+    let mut resampler = Async::<f32>::new_sinc(ratio, 1.0, &filter, CHUNK_FRAMES, 1, FixedAsync::Input).ok()?;
     let input = InterleavedSlice::new(&clip.samples, 1, clip.samples.len()).ok()?;
     let output = resampler.process_all(&input, clip.samples.len(), None).ok()?;
     (0..output.frames()).map(|frame| output.read_sample(0, frame)).collect()

@@ -211,6 +211,7 @@ mod tests {
 
     /// Three quarters are told: of twelve at that rate, seven or more with a probability of 0.95.
     #[test]
+    #[ignore = "exam: 12 flights"]
     fn rotors_started_one_after_the_other_are_named_or_not_told() {
         let count = by_spin_up(Start::InOrder, 12).unwrap();
         assert!(count.flights == 12 && count.right >= 7 && count.wrong == 0, "{count:?}");

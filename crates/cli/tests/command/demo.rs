@@ -10,6 +10,7 @@ use std::path::Path;
 const ERROR_SHARE_MAX: f64 = 0.005;
 
 #[test]
+#[ignore = "exam: fifteen flights, identified twice"]
 fn both_methods_find_the_truth_in_every_load() {
     let folder = tempfile::tempdir().unwrap();
     let demo = folder.path().join("demo");

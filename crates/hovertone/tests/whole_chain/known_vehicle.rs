@@ -1,0 +1,70 @@
+//! Rotors of a vehicle whose mass, diameter and number of rotors are known: there the evidence of all orders decides the octave.
+use crate::testkit::{analyse, config, hears_nothing, rotor, sound, tone, unlike_blades};
+use hovertone::speed::{Config, Outcome};
+use hovertone::tones::KnownRotor;
+use std::f64::consts::TAU;
+
+const SPEED_REV_S: f64 = 86.0;
+const LENGTH_S: f64 = 5.0;
+
+/// A quadrotor of 1.3 kg whose propellers have the thrust coefficient `thrust_coefficient` in hover at 86 rev/s.
+fn known(thrust_coefficient: f64) -> Config {
+    let (mass_kg, rotor_count) = (1.3, 4);
+    let thrust_n = mass_kg * 9.806_65 / f64::from(rotor_count);
+    let diameter_m = (thrust_n / (1.2 * SPEED_REV_S.powi(2) * thrust_coefficient)).powf(0.25);
+    Config {
+        known: KnownRotor {
+            diameter_m: Some(diameter_m),
+            mass_kg: Some(mass_kg),
+            rotor_count: Some(rotor_count),
+            ..KnownRotor::default()
+        },
+        all_methods: false,
+        ..config(2.0)
+    }
+}
+
+/// A speed that wanders by a percent, as in flight.
+fn wandering(time_s: f64) -> f64 {
+    SPEED_REV_S * (1.0 + 0.01 * (TAU * 0.3 * time_s).sin())
+}
+
+fn flight(lines: &[(f64, f64)], seed: u64) -> Vec<f32> {
+    sound(&[rotor(wandering, lines)], LENGTH_S, 0.01, seed)
+}
+
+#[test]
+fn a_second_harmonic_that_is_louder_than_the_first_is_no_octave() {
+    let blade_pass = [0.01, 0.05, 0.03, 0.025, 0.02, 0.015];
+    let alike: Vec<(f64, f64)> = (1..).map(|k| 2.0 * f64::from(k)).zip(blade_pass).collect();
+    for seed in 0..4 {
+        for lines in [&unlike_blades(&blade_pass), &alike] {
+            let analysis = analyse(flight(lines, seed), &known(0.1));
+            let found = tone(&analysis);
+            assert!(found.alternatives.is_empty(), "{:?}", found.alternatives);
+            let speed_rev_s = found.speeds[0].speed.rev_s();
+            assert!((speed_rev_s / SPEED_REV_S - 1.0).abs() < 0.01, "{speed_rev_s}");
+        }
+    }
+}
+
+#[test]
+fn an_octave_that_neither_levels_nor_thrust_decide_is_left_open() {
+    // even orders fall evenly, odd ones are silent; 0.2 at this speed is 0.05 at twice the speed, each as far from 0.1
+    let lines: Vec<(f64, f64)> = (1..=10).map(|k| (2.0 * f64::from(k), 0.04 / f64::from(k).sqrt())).collect();
+    let analysis = analyse(flight(&lines, 1), &known(0.2));
+    let found = tone(&analysis);
+    let speeds_rev_s: Vec<f64> = found.alternatives.iter().map(|reading| reading.speed.rev_s()).collect();
+    assert!(speeds_rev_s.iter().any(|speed| (speed / SPEED_REV_S - 1.0).abs() < 0.02), "{speeds_rev_s:?}");
+    assert!(speeds_rev_s.iter().any(|speed| (speed / SPEED_REV_S - 2.0).abs() < 0.04), "{speeds_rev_s:?}");
+    let beliefs: f64 = found.alternatives.iter().map(|reading| reading.plausibility).sum();
+    assert!((0.97..=1.0 + 1e-9).contains(&beliefs), "{beliefs}");
+}
+
+#[test]
+fn noise_holds_no_rotor_whatever_is_known() {
+    for seed in 0..8 {
+        let analysis = analyse(sound(&[], LENGTH_S, 0.05, seed), &known(0.1));
+        assert!(hears_nothing(&analysis), "{seed}: {:?}", matches!(analysis.outcome, Outcome::Ok(_)));
+    }
+}
