@@ -12,8 +12,8 @@
 //!
 //! The side lobes of the window suppress a line outside the band by more than 70 dB.
 
-use crate::fft::{ComplexPlanner, TransformNumber};
 use crate::spectrogram::{Window, smooth_at_least};
+use hovertone_fft::{ComplexPlanner, TransformNumber};
 use realfft::RealToComplex;
 use realfft::num_complex::Complex;
 use rustfft::Fft;

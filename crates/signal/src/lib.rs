@@ -17,7 +17,6 @@
 
 pub mod channels;
 mod error;
-pub mod fft;
 pub mod line_solver;
 pub mod passes;
 pub mod peak;
@@ -26,4 +25,5 @@ pub mod spectrogram;
 pub mod statistics;
 
 pub use error::SignalError;
+pub use hovertone_fft as fft;
 pub use source::{Signal, SignalSource, SourceError};

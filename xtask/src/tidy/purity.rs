@@ -4,8 +4,9 @@ use super::fault::Fault;
 use super::paths::paths;
 use crate::tree::Tree;
 
-const PURE: [&str; 12] = [
+const PURE: [&str; 13] = [
     "vehicle",
+    "fft",
     "signal",
     "analysis",
     "rotor-speed",

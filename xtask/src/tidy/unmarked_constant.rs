@@ -8,8 +8,8 @@ use syn::{Attribute, Expr, GenericArgument, Ident, ImplItemConst, ItemConst, Ite
 use syn::{TraitItemConst, Type};
 
 /// Crates whose numbers decide what is heard.
-pub(super) const ESTIMATOR: [&str; 7] =
-    ["vehicle", "signal", "analysis", "rotor-speed", "rotor-id", "thrust", "hovertone"];
+pub(super) const ESTIMATOR: [&str; 8] =
+    ["vehicle", "fft", "signal", "analysis", "rotor-speed", "rotor-id", "thrust", "hovertone"];
 const MARKS: [&str; 3] = ["*Physics.*", "*Numeric.*", "*Decision.*"];
 const NUMBERS: [&str; 14] =
     ["f32", "f64", "i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];

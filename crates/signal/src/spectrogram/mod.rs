@@ -18,7 +18,7 @@ pub use whitening::whitened_db;
 pub use window::Window;
 pub use window::hann_weights;
 
-use crate::fft::TransformNumber;
+use hovertone_fft::TransformNumber;
 use realfft::RealToComplex;
 use realfft::num_complex::Complex;
 use std::sync::Arc;
