@@ -82,6 +82,20 @@ pub fn speed_from_survey(
     Ok(believed.unwrap_or(leading))
 }
 
+/// The stages after the survey, for a rotor that was heard at this speed.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub(crate) fn speed_of_heard_rotor(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<SpeedAnalysis, Error> {
+    let candidates = Candidates::of_heard_rotor(surveyed, speed_rev_s, passes.sample_rate_hz(), config)?;
+    speed_of_candidate(passes, surveyed, &candidates, speed_rev_s, config)
+}
+
 /// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that
 /// come before the speeds, such as the search for the start of each motor.
 ///

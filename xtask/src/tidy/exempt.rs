@@ -15,11 +15,10 @@ struct Exemption {
 
 /// The line of the list.
 const LIST_LINE: usize = line!() as usize + 1;
-const EXEMPT: [Exemption; 4] = [
+const EXEMPT: [Exemption; 3] = [
     Exemption { path: "crates/rotor-speed/src/tone/", reason: FRONT_END },
     Exemption { path: "crates/rotor-speed/src/rotors/", reason: FRONT_END },
     Exemption { path: "crates/rotor-speed/src/detection.rs", reason: FRONT_END },
-    Exemption { path: "crates/rotor-speed/src/discovery.rs", reason: FRONT_END },
 ];
 
 /// Is the file exempt from the rules on tuple parameters, long functions, constants and numbers?

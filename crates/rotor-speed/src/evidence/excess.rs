@@ -4,6 +4,7 @@ use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
 use std::collections::VecDeque;
 use std::f64::consts::LN_2;
+use std::ops::Range;
 
 /// Length of a frame, s. Most rotors are clearest in 0.1 s: their speeds wander by 1 to 3 % in flight. *Decision.*
 const FRAME_S: f64 = 0.1;
@@ -70,7 +71,21 @@ pub(crate) struct ExcessFrame {
     mean_power: f64,
 }
 
+#[cfg(test)]
+impl ExcessFrame {
+    /// A frame with these levels.
+    pub(super) fn of_levels(centre_s: f64, levels: Vec<Level>) -> Self {
+        Self { centre_s, levels, mean_power: 1.0 }
+    }
+}
+
 impl Excess {
+    /// The frames whose middle is in one of these spans of time.
+    pub(crate) fn within(&self, spans_s: &[Range<f64>]) -> Self {
+        let is_within = |frame: &&ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
+        Self { bin_hz: self.bin_hz, frames: self.frames.iter().filter(is_within).cloned().collect() }
+    }
+
     /// Number of hops from each frame to the next: 1 without a gap. The first is 1.
     pub(crate) fn hops(&self) -> Vec<usize> {
         let hops = self.frames.windows(2).map(|pair| ((pair[1].centre_s - pair[0].centre_s) / HOP_S).round() as usize);

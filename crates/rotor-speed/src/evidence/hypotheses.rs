@@ -1,58 +1,51 @@
-//! Hypotheses: paths of speeds in each octave, at each family, and the belief in each.
+//! Hypotheses: speeds and numbers of blades, and the belief in each.
 
 use super::excess::Excess;
 use super::level_model::{LAST_HARMONIC, LevelModel, OrderLevel};
-use super::levels::{level_db, noise_level};
-use super::path::{best_path, gain_of_jumps_nats};
+use super::levels::{NoiseLevel, level_db, noise_level};
+use super::search::{FACTORS, Multiple, OCTAVES, ROTORS_APART, Search, VOTES_NATS_APART};
 use super::settings::EvidenceConfig;
-use super::votes::{VotePlaces, VoteTable, votes_of_frame};
-use hovertone_signal::statistics::{log_sum_exp, mean, median};
+use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 
-/// Step of the logarithm of the speeds of the search: half the width of a line of a frame at the highest frequency. *Numeric.*
-const GRID_STEP: f64 = 1e-3;
-/// Ratio of the ends of a window of speeds in which the best path is looked for: a rotor keeps within it in hover. *Decision.*
-const WINDOW_RATIO: f64 = 1.6;
-/// Ratio of the starts of neighbouring windows; they overlap, so that each path is well inside of one. *Numeric.*
-const WINDOW_STEP_RATIO: f64 = 1.25;
-/// Speeds of the hypotheses over the speed of each path: octaves, and families of three. *Decision.*
-const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
-/// An octave down, none, and one up. *Physics.*
-const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
-/// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
-const VOTES_SHARE_MIN: f64 = 0.5;
-/// These nats. *Decision.*
-const VOTES_NATS_APART: f64 = 3.0;
-/// The same for a path that is no octave or family of the best one. *Decision.*
+/// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats. *Decision.*
 const OTHER_VOTES_SHARE_MIN: f64 = 0.8;
-/// Paths whose mean distance is at most this many points are one path. *Numeric.*
-const SAME_POINTS: usize = 2;
 /// Largest difference of the logarithms of a speed and of an octave or family of another that is the same rotor's. *Numeric.*
 const RELATED: f64 = 0.05;
-/// Largest difference of the logarithms of the speeds of two rotors of one vehicle. *Decision.*
-const ROTORS_APART: f64 = 0.14;
 /// Width of the speeds of a hover, as a share. *Decision.*
 const HOVER_WIDTH_SHARE: f64 = 0.024;
 /// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
 /// *Decision.*
 const RESOLVED_REV_S: f64 = 30.0;
+/// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
+const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
 /// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
 pub(crate) const AIR_KG_M3: f64 = 1.2;
 
-/// The beliefs that a recording gives rise to.
+/// The beliefs that a recording gives rise to, where a rotor is heard.
 #[derive(Clone, Debug)]
 pub(crate) struct Beliefs {
-    /// All hypotheses that are possible, most probable first.
+    /// All hypotheses that are possible, most probable first; at least one.
     pub(crate) hypotheses: Vec<Hypothesis>,
-    /// Votes that a voice or an instrument has more than the most probable rotor, in nats a frame.
-    jumps_nats: f64,
+    /// The noise between the lines.
+    noise: NoiseLevel,
 }
 
 impl Beliefs {
     /// Whether the most probable speed has votes of its own, not those of its octaves alone.
     pub(crate) fn is_clear(&self, config: &EvidenceConfig) -> bool {
         self.hypotheses.first().is_some_and(|first| first.votes_nats >= config.votes_nats_min)
+    }
+
+    /// Harmonics of the blade pass of the most probable rotor that stand out of the noise, with their levels over it in dB.
+    pub(crate) fn harmonics_db(&self) -> Vec<(u32, f64)> {
+        let first = self.hypotheses.iter().take(1);
+        let lines = first.flat_map(|first| first.levels.iter().map(|line| (line.order, first.blades, line.level_db)));
+        lines
+            .filter(|(order, blades, level_db)| order.is_multiple_of(*blades) && self.noise.is_below(*level_db))
+            .map(|(order, blades, level_db)| (order / blades, level_db - self.noise.mean_db))
+            .collect()
     }
 
     /// The speed of the hover of the most probable rotor.
@@ -67,22 +60,13 @@ impl Beliefs {
             self.hypotheses.iter().take_while(|hypothesis| hypothesis.belief >= 1.0 - belief_min).count().max(2);
         &self.hypotheses[..if is_decided { 1 } else { possible.min(self.hypotheses.len()) }]
     }
-
-    /// Whether a rotor is heard: by the levels of the most probable speed, and by the votes for it or one of its octaves.
-    pub(crate) fn is_heard(&self, config: &EvidenceConfig) -> bool {
-        let Some(first) = self.hypotheses.first() else { return false };
-        let is_octave = |other: &&Hypothesis| is_multiple(other.speed_rev_s, first.speed_rev_s, &OCTAVES);
-        let has_votes = |other: &Hypothesis| other.votes_nats >= config.votes_nats_min;
-        first.nats >= config.levels_nats_min
-            && first.speed_rev_s >= RESOLVED_REV_S
-            && self.jumps_nats < config.jumps_nats_max
-            && self.hypotheses.iter().filter(is_octave).any(has_votes)
-    }
 }
 
-/// One shaft speed.
-#[derive(Clone, Copy, Debug)]
+/// One shaft speed, with a number of blades.
+#[derive(Clone, Debug)]
 pub(crate) struct Hypothesis {
+    /// Blades of the propeller.
+    pub(crate) blades: u32,
     /// Mean speed along the path.
     pub(crate) speed_rev_s: f64,
     /// The speed near which the path is longest: that of the hover.
@@ -94,7 +78,9 @@ pub(crate) struct Hypothesis {
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
     /// Evidence of the levels of its lines, and of what is known of the vehicle, in nats.
-    pub(crate) nats: f64,
+    nats: f64,
+    /// Levels of its lines.
+    levels: Vec<OrderLevel>,
     /// Probability among the hypotheses.
     pub(crate) belief: f64,
 }
@@ -102,7 +88,7 @@ pub(crate) struct Hypothesis {
 impl Hypothesis {
     /// Another speed, with the belief that this one leaves.
     pub(crate) fn or_else(&self, speed_rev_s: f64) -> Self {
-        Self { speed_rev_s, hover_rev_s: speed_rev_s, belief: 1.0 - self.belief, ..*self }
+        Self { speed_rev_s, hover_rev_s: speed_rev_s, belief: 1.0 - self.belief, ..self.clone() }
     }
 
     /// Whether a rotor at another speed may belong to the same vehicle, in the same octave.
@@ -114,113 +100,100 @@ impl Hypothesis {
 /// What a rotor is asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct WantedRotor {
-    /// Blades of the propeller.
-    pub(crate) blades: u32,
-    /// Slowest and fastest shaft that is possible.
-    pub(crate) speeds_rev_s: RangeInclusive<f64>,
+    /// The propellers that are possible.
+    pub(crate) propellers: Vec<WantedPropeller>,
     /// What is known of the vehicle.
     pub(crate) known: KnownRotor,
 }
 
-/// Compares the hypotheses on all frames. `None` without frames, or without votes for any speed.
+/// A propeller that is possible.
+#[derive(Clone, Debug)]
+pub(crate) struct WantedPropeller {
+    /// Its blades.
+    pub(crate) blades: u32,
+    /// How common it is.
+    pub(crate) share: f64,
+    /// Slowest and fastest shaft that is possible.
+    pub(crate) speeds_rev_s: RangeInclusive<f64>,
+}
+
+/// Compares the hypotheses on all frames. `None` where no rotor is heard.
 ///
 /// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
-/// octave has its path, and the levels decide among them. The noise is what the path that explains most leaves.
+/// octave has its path, and the levels decide among them. The noise is what the paths that explain most leave between their lines.
 pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    let search = Search::of(excess, wanted)?;
-    let paths = search.best_paths(&excess.hops());
-    let multiples = search.multiples(&paths, config.votes_nats_min)?;
-    let speeds_rev_s = |path: &[usize]| search.grid.speeds_of(path);
-    let noise = paths
-        .iter()
-        .filter_map(|path| noise_level(excess, &speeds_rev_s(path)))
-        .min_by(|a, b| a.lines_share.total_cmp(&b.lines_share))?;
-    let mut model = LevelModel::new(noise, wanted.blades, &config.levels);
+    let mut noises: Vec<NoiseLevel> = Vec::new();
+    let mut learn_noise = |search: &Search| {
+        noises.extend(search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)));
+    };
+    let any = wanted.propellers.first()?;
+    for blades in NOISE_BLADES.filter(|&blades| wanted.propellers.iter().all(|wanted| wanted.blades != blades)) {
+        learn_noise(&Search::of(excess, blades, &any.speeds_rev_s)?);
+    }
+    let mut found: Vec<(&WantedPropeller, Vec<Multiple>)> = Vec::new();
+    // votes are large, so that those of one propeller at a time are kept
+    let mut last: Option<(u32, Search)> = None;
+    for propeller in &wanted.propellers {
+        drop(last.take());
+        let search = Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?;
+        learn_noise(&search);
+        found.push((propeller, search.multiples(config.votes_nats_min)));
+        last = Some((propeller.blades, search));
+    }
+    let noise = NoiseLevel::of_emptiest(noises, config.levels.foreign)?;
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    for Multiple { path, factor, points, votes_nats } in multiples {
-        let speeds_rev_s = speeds_rev_s(&points);
-        let speed_rev_s = mean(&speeds_rev_s)?;
-        let hover_rev_s = most_frequent_rev_s(&speeds_rev_s)?;
-        let nats = model.evidence_nats(&levels_of_orders(excess, &speeds_rev_s, wanted.blades))
-            + nats_of_vehicle(speed_rev_s, &wanted.known, config);
-        hypotheses.push(Hypothesis { speed_rev_s, hover_rev_s, path, factor, votes_nats, nats, belief: 0.0 });
+    for (propeller, multiples) in found.iter().rev() {
+        let mut model = LevelModel::new(noise, propeller.blades, &config.levels);
+        let all = multiples.iter().filter_map(|multiple| {
+            let mut hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
+            hypothesis.nats += nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
+            Some(hypothesis)
+        });
+        let all = one_of_each_speed(all.collect());
+        let Some(first) = all.first().filter(|_| is_heard(&all, config)) else { continue };
+        let search = match last.take().filter(|(blades, _)| *blades == propeller.blades) {
+            Some((_, search)) => search,
+            None => Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?,
+        };
+        if search.jumps_nats(first.path, first.factor)? < config.jumps_nats_max {
+            let share_nats = propeller.share.ln();
+            hypotheses.extend(all.into_iter().map(|it| Hypothesis { nats: it.nats + share_nats, ..it }));
+        }
     }
     let hypotheses = with_beliefs(hypotheses);
-    let first = hypotheses.first()?;
-    let jumps_nats = search.jumps_nats(&paths[first.path], first.factor)?;
-    Some(Beliefs { hypotheses, jumps_nats })
+    (!hypotheses.is_empty()).then_some(Beliefs { hypotheses, noise })
 }
 
-/// The votes of all frames for all speeds.
-struct Search {
-    grid: SpeedGrid,
-    /// `votes[frame][speed]`.
-    votes: Vec<Vec<f32>>,
-}
-
-/// A path with all speeds multiplied by a factor.
-struct Multiple {
-    /// Index of the path.
-    path: usize,
-    factor: f64,
-    points: Vec<usize>,
-    /// Median over the frames of the votes for it, in nats.
-    votes_nats: f64,
-}
-
-impl Search {
-    fn of(excess: &Excess, wanted: &WantedRotor) -> Option<Self> {
-        let bins = excess.frames.first()?.levels.len();
-        let grid = SpeedGrid::of(&wanted.speeds_rev_s);
-        let table = VoteTable::for_blades(wanted.blades);
-        let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
-        let votes = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
-        Some(Self { grid, votes })
-    }
-
-    /// The best path in each window of speeds.
-    fn best_paths(&self, hops: &[usize]) -> Vec<Vec<usize>> {
-        self.grid.windows().into_iter().map(|window| best_path(&self.votes, window, hops, GRID_STEP)).collect()
-    }
-
-    /// The paths at all factors. One with far fewer votes than another is left out: the lines of a rotor sound in most frames. `None` where
-    /// none has the least votes of a rotor.
-    fn multiples(&self, paths: &[Vec<usize>], votes_nats_min: f64) -> Option<Vec<Multiple>> {
-        let mut found: Vec<Multiple> = Vec::new();
-        for factor in FACTORS {
-            for (path, points) in paths.iter().enumerate() {
-                let Some(points) = self.grid.times(points, factor) else { continue };
-                if !found.iter().any(|other| is_same_path(&other.points, &points)) {
-                    let votes_nats = median(&self.votes_along(&points))?;
-                    found.push(Multiple { path, factor, points, votes_nats });
-                }
-            }
-        }
-        let most_nats = found.iter().map(|multiple| multiple.votes_nats).fold(f64::MIN, f64::max);
-        found.retain(|multiple| multiple.votes_nats >= VOTES_SHARE_MIN * most_nats - VOTES_NATS_APART);
-        (most_nats >= votes_nats_min).then_some(found)
-    }
-
-    fn votes_along(&self, path: &[usize]) -> Vec<f64> {
-        path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
-    }
-
-    /// Votes that a voice or an instrument, which jumps, has more than this multiple of a path or the best of its octaves.
-    fn jumps_nats(&self, path: &[usize], factor: f64) -> Option<f64> {
-        let octaves = OCTAVES.iter().filter_map(|octave| self.grid.times(path, octave * factor));
-        let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
-        let best_octave = octaves.max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
-        let is_near = |shift: isize| {
-            let ratio = shift as f64 * GRID_STEP;
-            OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
-        };
-        Some(gain_of_jumps_nats(&self.votes, &best_octave, GRID_STEP, is_near))
-    }
+/// Whether a rotor is heard: by the levels of the most probable speed, and by the votes for it or one of its octaves. The most probable
+/// hypothesis is the first.
+fn is_heard(hypotheses: &[Hypothesis], config: &EvidenceConfig) -> bool {
+    let Some(first) = hypotheses.first() else { return false };
+    let is_octave = |other: &&Hypothesis| is_multiple(other.speed_rev_s, first.speed_rev_s, &OCTAVES);
+    first.nats >= config.levels_nats_min
+        && first.speed_rev_s >= RESOLVED_REV_S
+        && hypotheses.iter().filter(is_octave).any(|other| other.votes_nats >= config.votes_nats_min)
 }
 
 /// Whether a speed is one of these multiples of another one.
 fn is_multiple(speed_rev_s: f64, of_rev_s: f64, factors: &[f64]) -> bool {
     factors.iter().any(|factor| (speed_rev_s / (factor * of_rev_s)).ln().abs() < RELATED)
+}
+
+/// The hypothesis that a rotor turns at this multiple of a path, with the evidence of its lines. `None` without speeds.
+fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut LevelModel<'_>) -> Option<Hypothesis> {
+    let &Multiple { path, factor, votes_nats, ref speeds_rev_s } = multiple;
+    let levels = levels_of_orders(excess, speeds_rev_s, blades);
+    Some(Hypothesis {
+        blades,
+        speed_rev_s: mean(speeds_rev_s)?,
+        hover_rev_s: most_frequent_rev_s(speeds_rev_s)?,
+        path,
+        factor,
+        votes_nats,
+        nats: model.evidence_nats(&levels),
+        levels,
+        belief: 0.0,
+    })
 }
 
 /// The mean of the speeds about which most lie. `None` without speeds.
@@ -235,14 +208,8 @@ fn most_frequent_rev_s(speeds_rev_s: &[f64]) -> Option<f64> {
     mean(&sorted[most])
 }
 
-/// Whether two paths are equal but for the grid.
-fn is_same_path(a: &[usize], b: &[usize]) -> bool {
-    let apart: usize = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum();
-    apart <= SAME_POINTS * a.len()
-}
-
-/// The best path of each speed, most probable first, with its belief. Paths of rotors of one vehicle are one hypothesis.
-fn with_beliefs(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
+/// The best path of each speed, most probable first. Paths of rotors of one vehicle are one hypothesis.
+fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
@@ -258,43 +225,24 @@ fn with_beliefs(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
         }
     }
     hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
-    let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
-    hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
     hypotheses
 }
 
-/// Speeds with a constant step of the logarithm.
-struct SpeedGrid {
-    speeds_rev_s: Vec<f64>,
-}
-
-impl SpeedGrid {
-    fn of(range: &RangeInclusive<f64>) -> Self {
-        let steps = ((range.end() / range.start()).ln() / GRID_STEP).ceil() as u32;
-        Self { speeds_rev_s: (0..=steps).map(|step| range.start() * (GRID_STEP * f64::from(step)).exp()).collect() }
+/// The hypotheses with their beliefs, most probable first. The belief in a speed is that of all numbers of blades; the most probable of them is
+/// told.
+fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
+    all.sort_by(|a, b| b.nats.total_cmp(&a.nats));
+    let mut hypotheses: Vec<Hypothesis> = Vec::new();
+    for it in all {
+        match hypotheses.iter_mut().find(|other| other.is_of_same_vehicle(it.speed_rev_s)) {
+            Some(same) => same.nats = log_sum_exp([same.nats, it.nats].into_iter()),
+            None => hypotheses.push(it),
+        }
     }
-
-    /// Overlapping windows that cover the grid.
-    fn windows(&self) -> Vec<Range<usize>> {
-        let points = self.speeds_rev_s.len();
-        let width = (WINDOW_RATIO.ln() / GRID_STEP) as usize;
-        let step = (WINDOW_STEP_RATIO.ln() / GRID_STEP) as usize;
-        let starts = (0..).step_by(step);
-        let last = points.saturating_sub(width).div_ceil(step);
-        starts.take(last + 1).map(|start| start..(start + width).min(points)).collect()
-    }
-
-    /// The speeds along a path.
-    fn speeds_of(&self, path: &[usize]) -> Vec<f64> {
-        path.iter().map(|&point| self.speeds_rev_s[point]).collect()
-    }
-
-    /// The path with all speeds multiplied by a factor; `None` where it leaves the grid.
-    fn times(&self, path: &[usize], factor: f64) -> Option<Vec<usize>> {
-        let shift = (factor.ln() / GRID_STEP).round() as isize;
-        let shifted = |&point: &usize| point.checked_add_signed(shift).filter(|&point| point < self.speeds_rev_s.len());
-        path.iter().map(shifted).collect()
-    }
+    hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
+    let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
+    hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
+    hypotheses
 }
 
 /// Levels of all orders that are compared, along a path.

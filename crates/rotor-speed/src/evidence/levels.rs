@@ -44,6 +44,25 @@ pub(super) struct NoiseLevel {
     pub(super) lines_share: f64,
 }
 
+impl NoiseLevel {
+    /// The median of those that hold the fewest lines of something else: at most this share, or as few as there are. `None` of none.
+    pub(super) fn of_emptiest(mut noises: Vec<Self>, lines_share_max: f64) -> Option<Self> {
+        let fewest = noises.iter().map(|noise| noise.lines_share).fold(f64::INFINITY, f64::min);
+        noises.retain(|noise| noise.lines_share <= fewest.max(lines_share_max));
+        let median_of = |value: fn(&Self) -> f64| median(&noises.iter().map(value).collect::<Vec<f64>>());
+        Some(Self {
+            mean_db: median_of(|noise| noise.mean_db)?,
+            std_db: median_of(|noise| noise.std_db)?,
+            lines_share: median_of(|noise| noise.lines_share)?,
+        })
+    }
+
+    /// Whether a level is that of a line.
+    pub(super) fn is_below(&self, level_db: f64) -> bool {
+        level_db > self.mean_db + LINE_STDS * self.std_db
+    }
+}
+
 /// Levels between the orders of a path. The median and the median deviation do not feel single lines. `None` without a band.
 pub(super) fn noise_level(excess: &Excess, speeds_rev_s: &[f64]) -> Option<NoiseLevel> {
     let levels: Vec<f64> = (1..=NOISE_ORDERS)
@@ -54,6 +73,22 @@ pub(super) fn noise_level(excess: &Excess, speeds_rev_s: &[f64]) -> Option<Noise
     let deviations: Vec<f64> = levels.iter().map(|level| (level - mean_db).abs()).collect();
     let std_db = STD_PER_MEDIAN_DEVIATION * median(&deviations)?;
     let std_db = std_db.clamp(*NOISE_STD_DB.start(), *NOISE_STD_DB.end());
-    let lines = levels.iter().filter(|&&level| level > mean_db + LINE_STDS * std_db).count();
-    Some(NoiseLevel { mean_db, std_db, lines_share: lines as f64 / levels.len() as f64 })
+    let noise = NoiseLevel { mean_db, std_db, lines_share: 0.0 };
+    let lines = levels.iter().filter(|&&level| noise.is_below(level)).count();
+    Some(NoiseLevel { lines_share: lines as f64 / levels.len() as f64, ..noise })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_noise_is_the_median_of_the_emptiest() {
+        let noise = |mean_db: f64, lines_share: f64| NoiseLevel { mean_db, std_db: 1.5, lines_share };
+        let some = vec![noise(-1.0, 0.01), noise(5.0, 0.4), noise(-2.0, 0.0), noise(0.0, 0.02)];
+        assert_eq!(NoiseLevel::of_emptiest(some, 0.05).unwrap().mean_db, -1.0);
+        // where lines are everywhere, the fewest count
+        assert_eq!(NoiseLevel::of_emptiest(vec![noise(5.0, 0.4), noise(3.0, 0.3)], 0.05).unwrap().mean_db, 3.0);
+        assert!(NoiseLevel::of_emptiest(Vec::new(), 0.05).is_none());
+    }
 }

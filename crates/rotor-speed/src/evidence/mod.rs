@@ -24,10 +24,13 @@ mod excess;
 mod hypotheses;
 mod level_model;
 mod levels;
+mod own_lines;
 mod path;
+mod search;
 mod settings;
 mod votes;
 
 pub(crate) use excess::{Excess, ExcessBuilder};
-pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedRotor, beliefs_from_excess};
+pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_excess};
+pub(crate) use own_lines::own_lines_nats;
 pub use settings::{EvidenceConfig, LevelPrior};

@@ -104,6 +104,18 @@ pub(crate) struct HarmonicTrack {
 }
 
 impl HarmonicTrack {
+    /// The speed at each of these times; between the blocks that of the nearest one. `None` where no block is heard.
+    pub(crate) fn speeds_at(&self, times_s: &[f64]) -> Option<Vec<f64>> {
+        let distance_s =
+            |block: &HarmonicBlock, time_s: f64| (time_s - time_s.clamp(block.span.from_s, block.span.to_s)).abs();
+        let speed_at = |&time_s: &f64| {
+            let heard = self.blocks.iter().filter(|block| block.is_heard);
+            let nearest = heard.min_by(|a, b| distance_s(a, time_s).total_cmp(&distance_s(b, time_s)))?;
+            Some(nearest.speed_at(time_s.clamp(nearest.span.from_s, nearest.span.to_s)))
+        };
+        times_s.iter().map(speed_at).collect()
+    }
+
     /// Share of a hover of length `hover_s` in which lines keep their phase.
     pub(crate) fn steady_share(&self, hover_s: f64) -> f64 {
         let steady_s: f64 = self.blocks.iter().filter(|block| block.is_steady).map(|block| block.span.length_s()).sum();

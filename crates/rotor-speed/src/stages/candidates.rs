@@ -3,11 +3,11 @@
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::or_mains_hum;
-use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, WantedRotor, beliefs_from_excess};
-use crate::survey::MainsHum;
+use crate::error::Error;
+use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, blades_of_tone, search_range_rev_s};
 use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SpeedAnalysis};
-use hovertone_vehicle::RotorSpeed;
+use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
 /// Shaft speeds that may explain the lines of a survey.
@@ -25,6 +25,26 @@ pub(crate) struct Candidates {
 }
 
 impl Candidates {
+    /// Only this speed, for which a rotor was heard.
+    ///
+    /// # Errors
+    /// A tone above half the sample rate.
+    pub(crate) fn of_heard_rotor(
+        surveyed: &Surveyed,
+        speed_rev_s: f64,
+        sample_rate_hz: f64,
+        config: &Config,
+    ) -> Result<Self, Error> {
+        let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
+        Ok(Self {
+            map: CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s),
+            leading_rev_s: speed_rev_s,
+            beliefs: None,
+            beliefs_decide: true,
+            rev_s_min: search_rev_s.0,
+        })
+    }
+
     /// The speed of a slower shaft, where an analysis found that it explains a weak, steady tone better. `None` below the range of the search.
     pub(crate) fn slower_than(&self, analysis: &SpeedAnalysis) -> Option<f64> {
         match &analysis.outcome {
@@ -46,12 +66,12 @@ impl Candidates {
     /// The speeds that remain possible beside an answer, most probable first; empty where it is decided.
     pub(crate) fn alternatives(&self, answer_rev_s: f64, config: &Config) -> Vec<Reading> {
         let readings = |hypotheses: &[Hypothesis]| -> Vec<Reading> {
-            hypotheses.iter().map(|hypothesis| reading_of(hypothesis, config)).collect()
+            hypotheses.iter().map(|hypothesis| reading_of(hypothesis, config.tone.order, &config.known)).collect()
         };
         match self.beliefs.as_ref().map_or(&[][..], |beliefs| beliefs.possible(config.evidence.belief_min)) {
             [_, _, ..] if !self.beliefs_decide => Vec::new(),
             [other] if !self.beliefs_decide && !other.is_of_same_vehicle(answer_rev_s) => {
-                readings(&[*other, other.or_else(answer_rev_s)])
+                readings(&[other.clone(), other.or_else(answer_rev_s)])
             }
             [] | [_] => Vec::new(),
             possible => readings(possible),
@@ -60,17 +80,16 @@ impl Candidates {
 }
 
 /// A hypothesis as a reading of the blade pass.
-fn reading_of(hypothesis: &Hypothesis, config: &Config) -> Reading {
+pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, known: &KnownRotor) -> Reading {
     let speed = RotorSpeed::from_rev_s(hypothesis.hover_rev_s);
-    let order = config.tone.order;
     Reading {
         order,
         tone_hz: speed.tone_hz(order),
-        meaning: Meaning::BladePass { blades: blades_of_tone(&config.tone).unwrap_or(1) },
+        meaning: Meaning::BladePass { blades: hypothesis.blades },
         speed,
         motor_speed: speed,
         tip_mach: None,
-        thrust_coefficient: config.known.hover_thrust_coefficient(hypothesis.hover_rev_s, AIR_KG_M3),
+        thrust_coefficient: known.hover_thrust_coefficient(hypothesis.hover_rev_s, AIR_KG_M3),
         plausibility: hypothesis.belief,
         why: format!("{:.0} % by the levels of its lines", 100.0 * hypothesis.belief),
     }
@@ -101,10 +120,6 @@ pub(crate) fn candidates_from_survey(
 
 /// The beliefs in the speeds of a blade pass. `None` where the tone is something else, or no rotor is heard.
 fn beliefs_of(surveyed: &Surveyed, speeds_rev_s: RangeInclusive<f64>, config: &Config) -> Option<Beliefs> {
-    let wanted = WantedRotor { blades: blades_of_tone(&config.tone)?, speeds_rev_s, known: config.known };
-    let beliefs = beliefs_from_excess(surveyed.excess.as_ref()?, &wanted, &config.evidence)?;
-    let blade_pass_hz = f64::from(wanted.blades) * beliefs.hover_rev_s()?;
-    let is_hum = |hum: &MainsHum| hum.holds(blade_pass_hz, 0.0);
-    let is_heard = beliefs.is_heard(&config.evidence) && !surveyed.survey.hum.as_ref().is_some_and(is_hum);
-    is_heard.then_some(beliefs)
+    let propeller = WantedPropeller { blades: blades_of_tone(&config.tone)?, share: 1.0, speeds_rev_s };
+    surveyed.beliefs(&WantedRotor { propellers: vec![propeller], known: config.known }, config)
 }

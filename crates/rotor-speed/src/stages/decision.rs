@@ -1,14 +1,15 @@
 //! Stage 5: lines → decision whether they belong to a rotor, whether its speed is right or a multiple, and which rotors there are. It
 //! makes one more pass where a weak tone is steady, and two more where several rotors are separated.
 
+use super::rotors::{rotors_from_hover, without_refuted};
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum};
 use crate::error::Error;
 use crate::harmonic::HarmonicTracer;
 use crate::hover::restless_s;
-use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
-use crate::tone::{families_agree, foreign_series, lines_and_between, lines_between_speeds, lines_worth_hearing};
+use crate::rotors::RotorTracks;
+use crate::tone::{families_agree, foreign_series, lines_and_between};
 use hovertone_analysis::{Hover, Method, NoTone, Reading};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
@@ -46,7 +47,8 @@ pub(crate) fn decision_from_lines(
     } else {
         RotorTracks::default()
     };
-    let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
+    let rotors =
+        without_refuted(rotors, surveyed, hover, config).unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(speed_rev_s, config);
     Ok(Decision { lines, rotors, alternatives })
 }
@@ -107,28 +109,4 @@ fn slower_shaft(
         line_count: between.count,
         speed_rev_s: between.times_slower.map(|times| steady_rev_s / f64::from(times)),
     }))
-}
-
-/// Separates the rotors in two passes: the first finds their speeds in a wide band, the second follows each rotor.
-pub(crate) fn rotors_from_hover(
-    passes: &mut Passes<'_>,
-    surveyed: &Surveyed,
-    hover: &Hover,
-    speed_rev_s: f64,
-    config: &Config,
-) -> Result<RotorTracks, Error> {
-    let sample_rate_hz = passes.sample_rate_hz();
-    let lines_in = |limits_rev_s: (f64, f64)| {
-        lines_worth_hearing(lines_between_speeds(limits_rev_s, &config.tone, sample_rate_hz), &surveyed.survey)
-    };
-    let order = config.tone.order.lines_per_turn();
-    let mesh_order = (order > BLADES_MAX).then_some(order);
-    let share = config.rotors.band_half_width_share;
-    let wide = lines_in((speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share)));
-    let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
-    passes.listen(&hover.spans_s(), &mut scout)?;
-    let rough = scout.finish();
-    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
-    passes.listen(&hover.spans_s(), &mut tracer)?;
-    Ok(tracer.finish())
 }

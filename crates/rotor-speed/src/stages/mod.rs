@@ -6,14 +6,16 @@ mod candidates;
 mod decision;
 mod hover;
 mod lines;
+mod rotors;
 mod speeds;
 mod stop;
 mod survey;
 
-pub(crate) use candidates::{Candidates, candidates_from_survey};
-pub(crate) use decision::{Decision, decision_from_lines, rotors_from_hover};
+pub(crate) use candidates::{Candidates, candidates_from_survey, reading_of};
+pub(crate) use decision::{Decision, decision_from_lines};
 pub(crate) use hover::hover_from_candidate;
 pub(crate) use lines::{Lines, lines_from_hover};
+pub(crate) use rotors::rotors_from_hover;
 pub(crate) use speeds::speeds_from_decision;
 pub(crate) use stop::{Silence, Stop};
 pub use survey::Surveyed;

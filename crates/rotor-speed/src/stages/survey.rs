@@ -3,8 +3,8 @@
 use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{Excess, ExcessBuilder};
-use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
+use crate::evidence::{Beliefs, Excess, ExcessBuilder, WantedRotor, beliefs_from_excess};
+use crate::survey::{MainsHum, RowsBuilder, Survey, SurveyBuilder};
 use crate::tone::blades_of_tone;
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
@@ -14,7 +14,7 @@ use hovertone_signal::passes::{Passes, Piece};
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
-    /// Power over the floor in short frames, where the tone is a blade pass.
+    /// Power over the floor in short frames, where the tone is a blade pass, or is looked for.
     pub(crate) excess: Option<Excess>,
 }
 
@@ -22,6 +22,14 @@ impl Surveyed {
     /// The span of the survey on the recording's clock.
     pub fn heard(&self) -> Span {
         self.heard
+    }
+
+    /// The beliefs in the speeds of a rotor. `None` where none is heard, or where its blade pass is a line of the mains.
+    pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Option<Beliefs> {
+        let beliefs = beliefs_from_excess(self.excess.as_ref()?, wanted, &config.evidence)?;
+        let first = beliefs.hypotheses.first()?;
+        let is_hum = |hum: &MainsHum| hum.holds(f64::from(first.blades) * first.hover_rev_s, 0.0);
+        (!self.survey.hum.as_ref().is_some_and(is_hum)).then_some(beliefs)
     }
 
     /// Checks that the survey may hold a tone.
@@ -53,7 +61,8 @@ pub(crate) fn survey_from_source(
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
-    let mut excess = blades_of_tone(&config.tone).map(|_| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
+    let mut excess = (beside.is_some() || blades_of_tone(&config.tone).is_some())
+        .then(|| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
         Piece::Samples(samples) => {

@@ -23,5 +23,7 @@ pub(crate) use comb::CombMap;
 pub use discovery_config::DiscoveryConfig;
 pub(crate) use family::families_from_surveys;
 pub(crate) use foreign_series::foreign_series;
+pub(crate) use pattern::BLADES;
+pub(crate) use reading::{normalise, rule_out};
 pub(crate) use settings::blades_of_tone;
 pub use settings::{ToneConfig, blades_known};

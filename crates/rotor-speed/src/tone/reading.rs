@@ -133,7 +133,7 @@ fn reading(tone_hz: f64, order: f64, meaning: Meaning, plausibility: f64, why: S
 }
 
 /// Tip speed, thrust coefficient and known range; what lies outside loses all belief.
-fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &DiscoveryConfig) {
+pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &DiscoveryConfig) {
     let rev_s = reading.speed.rev_s();
     let (low, high) = known
         .shaft_speed

@@ -1,25 +1,26 @@
 //! A source without a named tone → its tone families, the rotor's among them, and the rotor's speed. No arithmetic of
 //! spectra here: that is in `tone/`.
 
+mod by_beliefs;
+mod by_family;
+
 use crate::config::Config;
 use crate::error::Error;
-use crate::pipeline::{passes_after_survey, passes_of_speed, speed_from_survey};
+use crate::pipeline::{passes_after_survey, passes_of_speed};
 use crate::stages::{Silence, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
 use crate::tone::{DiscoveryConfig, families_from_surveys};
+use by_beliefs::Believed;
+use by_family::speed_of_family;
 use hovertone_analysis::{NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
 use hovertone_vehicle::{KnownRotor, RotorSpeed};
 use serde::Serialize;
 
-/// Other speeds of the same rotor are looked for up to this factor: below an octave, so that it stays settled.
-const OTHER_SPEED_FACTOR: f64 = 1.9;
-/// The analysis must find the family's own tone, within this share.
-const SAME_TONE_SHARE: f64 = 0.08;
-/// Rows of the finer spectrum that are kept: 64 of a second are 6 MB at 44.1 kHz.
+/// Rows of the finer spectrum that are kept: 64 of a second are 6 MB at 44.1 kHz. *Numeric.*
 const DETAIL_ROWS_MAX: usize = 64;
-/// Frames of the finer spectrum to a row. They follow each other without overlap, which costs half as much.
+/// Frames of the finer spectrum to a row. They follow each other without overlap, which costs half as much. *Numeric.*
 const DETAIL_FRAMES: f64 = 2.0;
 
 /// What is looked for, and what is known beforehand.
@@ -57,9 +58,10 @@ impl FoundSpeed {
 
 /// From a recording of which nothing is known to its tone families and the speed of its rotors.
 ///
-/// The strongest family that a rotor can make (not a brief one, where there is another) is read in its most plausible way,
-/// and then analysed as if its order had been given: [`crate::speed_from_source`] says how, and whether it is a rotor.
-/// When several readings stay plausible they are the `alternatives`, and the speed of the analysis is only the first's.
+/// The strongest family that a rotor can make (not a brief one, where there is another) is read in its most plausible way, and then analysed as
+/// if its order had been given: [`crate::speed_from_source`] says how, and whether it is a rotor. Where the lines do not settle the reading and the
+/// evidence of all orders hears a rotor, each reading has half of its belief from the evidence, and the evidence says that it is a rotor. Where
+/// several readings stay plausible they are the `alternatives`, and the speed of the analysis is only that of the first.
 ///
 /// `config` gives all settings but the tone's order, blades and range of speeds; a band in it is where the fundamental is
 /// looked for. Reads the source twice.
@@ -103,47 +105,55 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     let (fundamental_hz_min, fundamental_hz_max) =
         config.tone.band_hz.unwrap_or((discovery.config.fundamental_hz_min, discovery.config.fundamental_hz_max));
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
+    let believed = Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery);
+    let is_believed = |family: &ToneFamily| believed.as_ref().is_none_or(|it| it.has_lines_in(family, discovery));
     let families = families_from_surveys(survey, &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
-        !discovery.wants_all && doubt(family) == Some(0)
+        !discovery.wants_all && doubt(family) == Some(0) && (family.is_settled || is_believed(family))
     });
-    let Some(rotor) = rotor_among(&families) else { return Ok(nothing(NoTone::NoSeries, families)) };
-    let Some(first) = families[rotor].readings.first() else { return Ok(nothing(NoTone::NoSeries, families)) };
-    let mut config_of_found = config.clone();
-    config_of_found.ridge.company_share_min = config.ridge.company_share_min.max(discovery.config.company_share_min);
-    let mut is_first = true;
-    let mut analysed = |reading: &Reading, factor: f64| -> Result<(Config, SpeedAnalysis), Error> {
-        let found = config_for(&config_of_found, reading, factor);
-        if !std::mem::take(&mut is_first) {
-            passes.expect_more(passes_after_survey(&found));
+    let by_lines = rotor_among(&families);
+    let is_settled = by_lines.is_some_and(|rotor| families[rotor].is_settled);
+    let by_beliefs = families.iter().position(|family| believed.is_some() && !is_settled && is_believed(family));
+    let rotor = by_beliefs.or(by_lines);
+    let families = Families { all: families, rotor };
+    // the evidence knows no gears
+    let believed = believed.filter(|_| !families.of_rotor().is_some_and(is_geared));
+    if let Some(believed) = believed.as_ref().filter(|_| !is_settled) {
+        if let Some(found) = believed.speed(passes, &surveyed, &families, config, discovery)? {
+            return Ok(found);
         }
-        let analysis = speed_from_survey(passes, &surveyed, &found)?;
-        Ok((found, analysis))
-    };
-    let mut reading = first;
-    let (mut found, mut analysis) = analysed(reading, OTHER_SPEED_FACTOR)?;
-    // lines that one reading cannot explain refute it, not the others
-    let is_refuted = |analysis: &SpeedAnalysis| {
-        matches!(analysis.outcome, Outcome::NoRotorTone { reason: NoTone::ForeignSeries { .. } })
-    };
-    for other in families[rotor].plausible_readings(discovery.config.plausible_min).into_iter().skip(1) {
-        if !is_refuted(&analysis) {
-            break;
+        passes.expect_more(passes_after_survey(config));
+    }
+    let Some(rotor) = rotor else { return Ok(nothing(NoTone::NoSeries, families.all)) };
+    let found = speed_of_family(passes, &surveyed, families.all, rotor, config, discovery)?;
+    let Some(believed) = believed.filter(|_| is_settled) else { return Ok(found) };
+    match speed_of(&found.analysis, &found.config).zip(found.reading()) {
+        Some((speed, reading)) => {
+            let answered = at_ratio(reading, speed.speed.rad_s() / reading.speed.rad_s());
+            Ok(FoundSpeed { alternatives: believed.objection(answered), ..found })
         }
-        let next = analysed(other, OTHER_SPEED_FACTOR)?;
-        if !is_refuted(&next.1) {
-            (reading, (found, analysis)) = (other, next);
+        None => {
+            passes.expect_more(passes_after_survey(&found.config));
+            let families = Families { all: found.families.clone(), rotor: Some(rotor) };
+            Ok(believed.speed(passes, &surveyed, &families, config, discovery)?.unwrap_or(found))
         }
     }
-    if !speed_of(&analysis, &found).is_none_or(|speed| is_near(speed.speed, reading)) {
-        (found, analysis) = analysed(reading, 1.0 + SAME_TONE_SHARE)?;
+}
+
+/// Families of lines, and which of them is the rotor's.
+struct Families {
+    all: Vec<ToneFamily>,
+    rotor: Option<usize>,
+}
+
+impl Families {
+    fn of_rotor(&self) -> Option<&ToneFamily> {
+        self.all.get(self.rotor?)
     }
-    let alternatives = match speed_of(&analysis, &found) {
-        Some(speed) if !families[rotor].is_settled => {
-            alternatives_of(&families[rotor], reading, speed, &discovery.config)
-        }
-        _ => Vec::new(),
-    };
-    Ok(FoundSpeed { rotor: Some(rotor), config: found, analysis, alternatives, families })
+}
+
+/// Whether the most plausible reading of a family is a gear.
+fn is_geared(family: &ToneFamily) -> bool {
+    family.readings.first().is_some_and(|reading| reading.plausibility > 0.0 && reading.meaning.gear().is_some())
 }
 
 /// The strongest family that any reading can explain; brief ones and single lines only where there is no other.
@@ -162,6 +172,15 @@ fn doubt(family: &ToneFamily) -> Option<u32> {
     })
 }
 
+/// The speed that an analysis with these settings found.
+fn speed_of<'a>(analysis: &'a SpeedAnalysis, config: &Config) -> Option<&'a SpeedEstimate> {
+    match &analysis.outcome {
+        Outcome::Ok(tone) => tone.speed(config.method),
+        Outcome::NoRotorTone { .. } => None,
+    }
+}
+
+/// Settings for a reading, whose speed is looked for up to this factor faster or slower.
 fn config_for(config: &Config, reading: &Reading, factor: f64) -> Config {
     let mut config = config.clone();
     config.tone.order = reading.order;
@@ -172,35 +191,15 @@ fn config_for(config: &Config, reading: &Reading, factor: f64) -> Config {
     config
 }
 
-fn speed_of<'a>(analysis: &'a SpeedAnalysis, config: &Config) -> Option<&'a SpeedEstimate> {
-    match &analysis.outcome {
-        Outcome::Ok(tone) => tone.speed(config.method),
-        Outcome::NoRotorTone { .. } => None,
-    }
-}
-
-fn is_near(speed: RotorSpeed, reading: &Reading) -> bool {
-    (speed.rad_s() / reading.speed.rad_s() - 1.0).abs() < SAME_TONE_SHARE
-}
-
-/// The plausible readings with the speeds that the analysis gives them: it knows the tone better than the survey.
-fn alternatives_of(
-    family: &ToneFamily,
-    analysed: &Reading,
-    speed: &SpeedEstimate,
-    config: &DiscoveryConfig,
-) -> Vec<Reading> {
-    let ratio = speed.speed.rad_s() / analysed.speed.rad_s();
+/// A reading whose speed is multiplied by this ratio.
+fn at_ratio(reading: &Reading, ratio: f64) -> Reading {
     let scaled = |speed: RotorSpeed| RotorSpeed::from_rad_s(ratio * speed.rad_s());
-    let plausible = family.plausible_readings(config.plausible_min).into_iter().cloned();
-    plausible
-        .map(|reading| Reading {
-            tone_hz: ratio * reading.tone_hz,
-            speed: scaled(reading.speed),
-            motor_speed: scaled(reading.motor_speed),
-            tip_mach: reading.tip_mach.map(|mach| ratio * mach),
-            thrust_coefficient: reading.thrust_coefficient.map(|coefficient| coefficient / ratio.powi(2)),
-            ..reading
-        })
-        .collect()
+    Reading {
+        tone_hz: ratio * reading.tone_hz,
+        speed: scaled(reading.speed),
+        motor_speed: scaled(reading.motor_speed),
+        tip_mach: reading.tip_mach.map(|mach| ratio * mach),
+        thrust_coefficient: reading.thrust_coefficient.map(|coefficient| coefficient / ratio.powi(2)),
+        ..reading.clone()
+    }
 }

@@ -1,0 +1,91 @@
+//! Evidence of the lines that a rotor has for itself, beside other rotors.
+
+use super::excess::{self, Excess};
+use super::level_model::{LevelModel, OrderLevel};
+use super::levels::noise_level;
+use super::settings::LevelPrior;
+
+/// Harmonics of the blade pass that are compared. *Decision.*
+const HARMONICS: u32 = 12;
+/// Distance at which two lines stand apart in a frame of 0.1 s, Hz: half the width of the main lobe of each. *Physics.*
+const APART_HZ: f64 = 20.0;
+/// Smallest share of the frames in which a line stands apart, at which it is compared. *Decision.*
+const APART_SHARE_MIN: f64 = 0.3;
+
+/// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: 0 where it has none, and
+/// negative where they are missing. At three quarters of a rotor's speed, for instance, every second line of a blade pass is at a shaft line of that
+/// rotor.
+///
+/// - `speeds_rev_s`: speed of the rotor in each frame.
+/// - `others_rev_s`: speeds of each other rotor in each frame.
+pub(crate) fn own_lines_nats(
+    excess: &Excess,
+    speeds_rev_s: &[f64],
+    others_rev_s: &[&[f64]],
+    blades: u32,
+    prior: &LevelPrior,
+) -> f64 {
+    let own_level = |harmonic: u32| {
+        let order = harmonic * blades;
+        let (mut sum, mut count) = (0u32, 0u32);
+        for (index, (frame, speed_rev_s)) in excess.frames.iter().zip(speeds_rev_s).enumerate() {
+            let hz = f64::from(order) * speed_rev_s;
+            let is_met = |other: &&[f64]| {
+                let other_rev_s = other[index];
+                (hz - (hz / other_rev_s).round() * other_rev_s).abs() < APART_HZ
+            };
+            let bin = (hz / excess.bin_hz).round() as usize;
+            let Some(&[a, b, c]) = frame.levels.get(bin.saturating_sub(1)..bin + 2) else { continue };
+            if !others_rev_s.iter().any(is_met) {
+                sum += u32::from(a.max(b).max(c));
+                count += 1;
+            }
+        }
+        let is_apart = f64::from(count) >= APART_SHARE_MIN * excess.frames.len() as f64;
+        let level_db = excess::level_db(f64::from(sum) / f64::from(count.max(1)));
+        is_apart.then_some(OrderLevel { order, level_db })
+    };
+    let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
+    let Some(noise) = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty()) else { return 0.0 };
+    LevelModel::new(noise, blades, prior).evidence_nats(&levels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::excess::{ExcessFrame, level_of};
+
+    /// Forty frames of 9 kHz, with lines 20 dB over noise.
+    fn lines_at(lines_hz: &[f64]) -> Excess {
+        let bin_hz = 2.5;
+        let mut levels = vec![level_of(0.8); 3600];
+        lines_hz.iter().for_each(|hz| levels[(hz / bin_hz).round() as usize] = level_of(100.0));
+        let frame = |index: u32| ExcessFrame::of_levels(0.05 * f64::from(index), levels.clone());
+        Excess { bin_hz, frames: (0..40).map(frame).collect() }
+    }
+
+    fn nats(excess: &Excess, speed_rev_s: f64, others_rev_s: &[f64]) -> f64 {
+        let constant = |speed_rev_s: f64| vec![speed_rev_s; excess.frames.len()];
+        let others: Vec<Vec<f64>> = others_rev_s.iter().copied().map(constant).collect();
+        let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
+        own_lines_nats(excess, &constant(speed_rev_s), &others, 2, &LevelPrior::default())
+    }
+
+    #[test]
+    fn a_rotor_that_only_shares_lines_is_refuted_and_one_with_own_lines_is_not() {
+        // the blade pass of 300 rev/s, which has lines 8, 16 … of 225 rev/s
+        let alone: Vec<f64> = (1..=8).map(|harmonic| 600.0 * f64::from(harmonic)).collect();
+        let excess = lines_at(&alone);
+        assert!(nats(&excess, 225.0, &[300.0]) < -3.0);
+        assert!(nats(&excess, 300.0, &[]) > 3.0);
+        let both: Vec<f64> = alone.into_iter().chain((1..=8).map(|harmonic| 450.0 * f64::from(harmonic))).collect();
+        let excess = lines_at(&both);
+        assert!(nats(&excess, 225.0, &[300.0]) > 3.0);
+        assert!(nats(&excess, 300.0, &[225.0]) > 3.0);
+    }
+
+    #[test]
+    fn rotors_whose_lines_frames_do_not_resolve_stay() {
+        assert_eq!(nats(&lines_at(&[600.0, 1200.0]), 300.0, &[300.5]), 0.0);
+    }
+}

@@ -1,0 +1,146 @@
+//! The speeds with the most votes: a path in each window of speeds, and its multiples.
+
+use super::excess::Excess;
+use super::path::{best_path, gain_of_jumps_nats};
+use super::votes::{VotePlaces, VoteTable, votes_of_frame};
+use hovertone_signal::statistics::median;
+use std::ops::{Range, RangeInclusive};
+
+/// Step of the logarithm of the speeds of the search: half the width of a line of a frame at the highest frequency. *Numeric.*
+const GRID_STEP: f64 = 1e-3;
+/// Ratio of the ends of a window of speeds in which the best path is looked for: a rotor keeps within it in hover. *Decision.*
+const WINDOW_RATIO: f64 = 1.6;
+/// Ratio of the starts of neighbouring windows; they overlap, so that each path is well inside of one. *Numeric.*
+const WINDOW_STEP_RATIO: f64 = 1.25;
+/// Speeds of the hypotheses over the speed of each path: octaves, and families of three. *Decision.*
+pub(super) const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
+/// An octave down, none, and one up. *Physics.*
+pub(super) const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
+/// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
+const VOTES_SHARE_MIN: f64 = 0.5;
+/// These nats. *Decision.*
+pub(super) const VOTES_NATS_APART: f64 = 3.0;
+/// Paths whose mean distance is at most this many points are one path. *Numeric.*
+const SAME_POINTS: usize = 2;
+/// Largest difference of the logarithms of the speeds of two rotors of one vehicle. *Decision.*
+pub(super) const ROTORS_APART: f64 = 0.14;
+
+/// The votes of all frames for all speeds of a rotor with so many blades.
+pub(super) struct Search {
+    grid: SpeedGrid,
+    /// `votes[frame][speed]`.
+    votes: Vec<Vec<f32>>,
+    /// The best path in each window of speeds.
+    paths: Vec<Vec<usize>>,
+}
+
+/// A path with all speeds multiplied by a factor.
+#[derive(Clone, Debug)]
+pub(super) struct Multiple {
+    /// Index of the path.
+    pub(super) path: usize,
+    pub(super) factor: f64,
+    pub(super) speeds_rev_s: Vec<f64>,
+    /// Median over the frames of the votes for it, in nats.
+    pub(super) votes_nats: f64,
+}
+
+impl Search {
+    /// `None` without frames.
+    pub(super) fn of(excess: &Excess, blades: u32, speeds_rev_s: &RangeInclusive<f64>) -> Option<Self> {
+        let bins = excess.frames.first()?.levels.len();
+        let grid = SpeedGrid::of(speeds_rev_s);
+        let table = VoteTable::for_blades(blades);
+        let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
+        let votes: Vec<Vec<f32>> = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
+        let hops = excess.hops();
+        let paths = grid.windows().into_iter().map(|window| best_path(&votes, window, &hops, GRID_STEP)).collect();
+        Some(Self { grid, votes, paths })
+    }
+
+    /// The speeds along the best path of each window.
+    pub(super) fn speeds_of_paths(&self) -> impl Iterator<Item = Vec<f64>> {
+        self.paths.iter().map(|path| self.grid.speeds_of(path))
+    }
+
+    /// The paths at all factors. One with far fewer votes than another is left out: the lines of a rotor sound in most frames. None where
+    /// none has the least votes of a rotor.
+    pub(super) fn multiples(&self, votes_nats_min: f64) -> Vec<Multiple> {
+        let mut found: Vec<(Vec<usize>, Multiple)> = Vec::new();
+        for factor in FACTORS {
+            for (path, points) in self.paths.iter().enumerate() {
+                let Some(points) = self.grid.times(points, factor) else { continue };
+                if found.iter().any(|(other, _)| is_same_path(other, &points)) {
+                    continue;
+                }
+                if let Some(votes_nats) = median(&self.votes_along(&points)) {
+                    let speeds_rev_s = self.grid.speeds_of(&points);
+                    found.push((points, Multiple { path, factor, speeds_rev_s, votes_nats }));
+                }
+            }
+        }
+        let mut multiples: Vec<Multiple> = found.into_iter().map(|(_, multiple)| multiple).collect();
+        let most_nats = multiples.iter().map(|multiple| multiple.votes_nats).fold(f64::MIN, f64::max);
+        let least_nats =
+            if most_nats < votes_nats_min { f64::INFINITY } else { VOTES_SHARE_MIN * most_nats - VOTES_NATS_APART };
+        multiples.retain(|multiple| multiple.votes_nats >= least_nats);
+        multiples
+    }
+
+    fn votes_along(&self, path: &[usize]) -> Vec<f64> {
+        path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
+    }
+
+    /// Votes that a voice or an instrument, which jumps, has more than this multiple of a path or the best of its octaves, in nats a frame.
+    pub(super) fn jumps_nats(&self, path: usize, factor: f64) -> Option<f64> {
+        let path = self.paths.get(path)?;
+        let octaves = OCTAVES.iter().filter_map(|octave| self.grid.times(path, octave * factor));
+        let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
+        let best_octave = octaves.max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
+        let is_near = |shift: isize| {
+            let ratio = shift as f64 * GRID_STEP;
+            OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
+        };
+        Some(gain_of_jumps_nats(&self.votes, &best_octave, GRID_STEP, is_near))
+    }
+}
+
+/// Whether two paths are equal but for the grid.
+fn is_same_path(a: &[usize], b: &[usize]) -> bool {
+    let apart: usize = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).sum();
+    apart <= SAME_POINTS * a.len()
+}
+
+/// Speeds with a constant step of the logarithm.
+struct SpeedGrid {
+    speeds_rev_s: Vec<f64>,
+}
+
+impl SpeedGrid {
+    fn of(range: &RangeInclusive<f64>) -> Self {
+        let steps = ((range.end() / range.start()).ln() / GRID_STEP).ceil() as u32;
+        Self { speeds_rev_s: (0..=steps).map(|step| range.start() * (GRID_STEP * f64::from(step)).exp()).collect() }
+    }
+
+    /// Overlapping windows that cover the grid.
+    fn windows(&self) -> Vec<Range<usize>> {
+        let points = self.speeds_rev_s.len();
+        let width = (WINDOW_RATIO.ln() / GRID_STEP) as usize;
+        let step = (WINDOW_STEP_RATIO.ln() / GRID_STEP) as usize;
+        let starts = (0..).step_by(step);
+        let last = points.saturating_sub(width).div_ceil(step);
+        starts.take(last + 1).map(|start| start..(start + width).min(points)).collect()
+    }
+
+    /// The speeds along a path.
+    fn speeds_of(&self, path: &[usize]) -> Vec<f64> {
+        path.iter().map(|&point| self.speeds_rev_s[point]).collect()
+    }
+
+    /// The path with all speeds multiplied by a factor; `None` where it leaves the grid.
+    fn times(&self, path: &[usize], factor: f64) -> Option<Vec<usize>> {
+        let shift = (factor.ln() / GRID_STEP).round() as isize;
+        let shifted = |&point: &usize| point.checked_add_signed(shift).filter(|&point| point < self.speeds_rev_s.len());
+        path.iter().map(shifted).collect()
+    }
+}
