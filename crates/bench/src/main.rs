@@ -41,6 +41,10 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    if words.contains(&"--help") {
+        println!("{HELP}");
+        return ExitCode::SUCCESS;
+    }
     let outcome = match words.as_slice() {
         ["speed", options @ ..] => speed::run(&root(), options),
         ["accuracy", options @ ..] => accuracy::run(&root(), options),

@@ -24,22 +24,24 @@ const FILES: [&str; 12] = [
 struct Floor {
     mode: &'static str,
     right_min: usize,
+    /// Right, or ambiguous with the truth first.
+    first_min: usize,
     /// Wrong speeds and octaves.
     wrong_max: usize,
 }
 
-const fn floor(mode: &'static str, right_min: usize, wrong_max: usize) -> Floor {
-    Floor { mode, right_min, wrong_max }
+const fn floor(mode: &'static str, right_min: usize, first_min: usize, wrong_max: usize) -> Floor {
+    Floor { mode, right_min, first_min, wrong_max }
 }
 
 /// What was measured on 2026-11-23; raise them with the program.
 const FLOORS: [Floor; 6] = [
-    floor("blades", 29, 1),
-    floor("blades+span", 5, 0),
-    floor("blind", 20, 0),
-    floor("known", 8, 0),
-    floor("rotors4", 5, 1),
-    floor("rotors4+span", 2, 0),
+    floor("blades", 29, 31, 1),
+    floor("blades+span", 6, 6, 0),
+    floor("blind", 20, 27, 0),
+    floor("known", 8, 9, 0),
+    floor("rotors4", 5, 5, 1),
+    floor("rotors4+span", 3, 3, 0),
 ];
 /// Speeds told where no rotor is, low confidence included.
 const FALSE_ALARMS_MAX: usize = 1;
@@ -60,13 +62,15 @@ pub(super) fn check(rows: &[Row]) -> Result<(), String> {
 }
 
 fn fault(floor: &Floor, rows: &[Row]) -> Option<String> {
-    let &Floor { mode, right_min, wrong_max } = floor;
+    let &Floor { mode, right_min, first_min, wrong_max } = floor;
     let of_mode = || rows.iter().filter(|row| row.mode == mode && !row.is_low_confidence);
     let right = of_mode().filter(|row| row.verdict == Verdict::Right).count();
+    let first = of_mode().filter(|row| matches!(row.verdict, Verdict::Right | Verdict::First)).count();
     let wrong = of_mode().filter(|row| matches!(row.verdict, Verdict::Wrong | Verdict::Octave)).count();
-    (right < right_min || wrong > wrong_max).then(|| {
+    (right < right_min || first < first_min || wrong > wrong_max).then(|| {
         format!(
-            "mode {mode}: {right} right (at least {right_min}), {wrong} wrong or an octave off (at most {wrong_max})"
+            "mode {mode}: {right} right (at least {right_min}), {first} right or first (at least {first_min}), {wrong} wrong or an octave \
+             off (at most {wrong_max})"
         )
     })
 }
@@ -83,12 +87,15 @@ mod tests {
 
     #[test]
     fn floors_that_are_held_are_no_fault() {
-        let floor = floor("blades", 1, 1);
-        let rows = [row("a", "blades", Verdict::Right), row("b", "blades", Verdict::Octave)];
+        let floor = floor("blades", 1, 2, 1);
+        let of = |verdict: Verdict| row("a", "blades", verdict);
+        let rows = [of(Verdict::Right), of(Verdict::First), of(Verdict::Octave)];
         assert_eq!(fault(&floor, &rows), None);
-        let worse = [rows[1].clone(), rows[1].clone(), row("c", "known", Verdict::Right)];
+        assert!(fault(&floor, &rows[..1]).is_some() && fault(&floor, &rows[1..]).is_some());
+        let worse = [rows[2].clone(), rows[2].clone(), row("c", "known", Verdict::Right)];
         let words = fault(&floor, &worse).unwrap();
-        assert_eq!(words, "mode blades: 0 right (at least 1), 2 wrong or an octave off (at most 1)");
+        let counts = "0 right (at least 1), 0 right or first (at least 2), 2 wrong or an octave off (at most 1)";
+        assert_eq!(words, format!("mode blades: {counts}"));
         assert!(check(&[]).unwrap_err().lines().count() > FLOORS.len(), "nothing heard is not enough");
     }
 
