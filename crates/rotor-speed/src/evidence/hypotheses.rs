@@ -122,25 +122,29 @@ pub(crate) struct WantedPropeller {
 /// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
 /// octave has its path, and the levels decide among them. The noise is what the paths that explain most leave between their lines.
 pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    let mut noises: Vec<NoiseLevel> = Vec::new();
-    let mut learn_noise = |search: &Search| {
-        noises.extend(search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)));
+    let noises_of = |search: &Search| -> Vec<NoiseLevel> {
+        search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)).collect()
     };
+    let mut noises: Vec<NoiseLevel> = Vec::new();
     let any = wanted.propellers.first()?;
     for blades in NOISE_BLADES.filter(|&blades| wanted.propellers.iter().all(|wanted| wanted.blades != blades)) {
-        learn_noise(&Search::of(excess, blades, &any.speeds_rev_s)?);
+        noises.extend(noises_of(&Search::of(excess, blades, &any.speeds_rev_s)?));
     }
     let mut found: Vec<(&WantedPropeller, Vec<Multiple>)> = Vec::new();
+    let mut lines_share = f64::INFINITY;
     // votes are large, so that those of one propeller at a time are kept
     let mut last: Option<(u32, Search)> = None;
     for propeller in &wanted.propellers {
         drop(last.take());
         let search = Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?;
-        learn_noise(&search);
+        let own = noises_of(&search);
+        lines_share = own.iter().map(|noise| noise.lines_share).fold(lines_share, f64::min);
+        noises.extend(own);
         found.push((propeller, search.multiples(config.votes_nats_min)));
         last = Some((propeller.blades, search));
     }
-    let noise = NoiseLevel::of_emptiest(noises, config.levels.foreign)?;
+    // lines that no wanted rotor explains are foreign, whatever another one would explain
+    let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     for (propeller, multiples) in found.iter().rev() {
         let mut model = LevelModel::new(noise, propeller.blades, &config.levels);

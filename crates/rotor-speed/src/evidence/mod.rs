@@ -14,7 +14,7 @@
 //! 5. *Hypotheses* (`hypotheses`): each path at its octaves and families, compared on the same frames, with the prior of mass, diameter and
 //!    number of rotors.
 //!
-//! A rotor is heard where the median of the votes over the frames is at least 1 nat, the levels have at least 3 nats, its lines stand apart
+//! A rotor is heard where the median of the votes over the frames is at least 1 nat, the levels have at least 4.6 nats, its lines stand apart
 //! in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 8 nats a frame more.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in

@@ -9,8 +9,11 @@ use serde::{Deserialize, Serialize};
 pub struct EvidenceConfig {
     /// Smallest median over frames of the votes for the path of a rotor, in nats.
     pub votes_nats_min: f64,
-    /// Smallest evidence of the levels for a rotor, against levels of nothing, in nats.
+    /// Smallest evidence of the levels for a rotor, against levels of nothing, in nats: odds of 99 to 1.
     pub levels_nats_min: f64,
+    /// Largest evidence against a separated rotor of those of its lines that no other rotor has, in nats. Rotors that do not turn had 3.6 and
+    /// more, those that turn none.
+    pub refuting_nats_max: f64,
     /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
     /// speech 10 to 80.
     pub jumps_nats_max: f64,
@@ -24,7 +27,8 @@ impl Default for EvidenceConfig {
     fn default() -> Self {
         Self {
             votes_nats_min: 1.0,
-            levels_nats_min: 3.0,
+            levels_nats_min: 4.6,
+            refuting_nats_max: 3.0,
             jumps_nats_max: 8.0,
             belief_min: 0.99,
             levels: LevelPrior::default(),
@@ -36,6 +40,7 @@ impl EvidenceConfig {
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("votes_nats_min", self.votes_nats_min, 0.0, 100.0)?;
         check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;
+        check_range("refuting_nats_max", self.refuting_nats_max, 0.0, 100.0)?;
         check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
         check_range("belief_min", self.belief_min, 0.5, 1.0)
     }

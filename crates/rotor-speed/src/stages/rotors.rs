@@ -58,7 +58,9 @@ pub(super) fn without_refuted(
         };
         let all = (0..speeds_rev_s.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?)));
         match all.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some((rotor, nats)) if nats < -config.evidence.levels_nats_min => tracks.rotors[rotor].track.blocks.clear(),
+            Some((rotor, nats)) if nats < -config.evidence.refuting_nats_max => {
+                tracks.rotors[rotor].track.blocks.clear()
+            }
             _ => return tracks,
         }
     }
