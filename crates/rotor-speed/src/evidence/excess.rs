@@ -93,6 +93,14 @@ impl Excess {
     }
 }
 
+impl ExcessFrame {
+    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart. `None` outside the band.
+    pub(super) fn level_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {
+        let bin = (hz / bin_hz).round() as usize;
+        self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max()
+    }
+}
+
 /// Keeps sections of a stream of samples. Where a recording is longer than the sections that are kept, every second section is dropped and
 /// the gaps double.
 pub(crate) struct ExcessBuilder {

@@ -7,14 +7,13 @@
 //! may be inaudible, so may all lines above some harmonic, and a place without a line may hold a line of something else. An echo that comes half
 //! a period of the blade pass later weakens every other line of the blade pass: so does a reflection from the ground.
 
+use super::excess::LEVEL_DB_MIN;
 use super::levels::NoiseLevel;
 use super::settings::LevelPrior;
 use hovertone_signal::statistics::log_sum_exp;
 
 /// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
 const LINE_DB: std::ops::RangeInclusive<i32> = -45..=80;
-/// Lowest measured level that the tables hold, dB: that of the lowest power that is measured. *Numeric.*
-const MEASURED_DB_MIN: f64 = -30.0;
 /// Steps of a measured level to a dB. *Numeric.*
 const STEPS_PER_DB: f64 = 16.0;
 /// Number of these steps: to 90 dB. *Numeric.*
@@ -176,10 +175,9 @@ impl RatioTable {
 
     /// The row of a measured level.
     fn row(&mut self, level_db: f64) -> usize {
-        let row =
-            ((level_db - MEASURED_DB_MIN) * STEPS_PER_DB).round().clamp(0.0, (MEASURED_STEPS - 1) as f64) as usize;
+        let row = ((level_db - LEVEL_DB_MIN) * STEPS_PER_DB).round().clamp(0.0, (MEASURED_STEPS - 1) as f64) as usize;
         if self.nats[row].is_empty() {
-            self.nats[row] = self.ratios(MEASURED_DB_MIN + row as f64 / STEPS_PER_DB);
+            self.nats[row] = self.ratios(LEVEL_DB_MIN + row as f64 / STEPS_PER_DB);
         }
         row
     }

@@ -24,9 +24,8 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
     for (frame, speed_rev_s) in excess.frames.iter().zip(speeds_rev_s) {
         let hz = order * speed_rev_s;
         hz_sum += hz;
-        let bin = (hz / excess.bin_hz).round() as usize;
-        if let Some(&[a, b, c]) = frame.levels.get(bin.saturating_sub(1)..bin + 2) {
-            sum += u32::from(a.max(b).max(c));
+        if let Some(level) = frame.level_near(hz, excess.bin_hz) {
+            sum += u32::from(level);
             count += 1;
         }
     }

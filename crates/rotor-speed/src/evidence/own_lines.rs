@@ -34,10 +34,10 @@ pub(crate) fn own_lines_nats(
                 let other_rev_s = other[index];
                 (hz - (hz / other_rev_s).round() * other_rev_s).abs() < APART_HZ
             };
-            let bin = (hz / excess.bin_hz).round() as usize;
-            let Some(&[a, b, c]) = frame.levels.get(bin.saturating_sub(1)..bin + 2) else { continue };
-            if !others_rev_s.iter().any(is_met) {
-                sum += u32::from(a.max(b).max(c));
+            if let Some(level) = frame.level_near(hz, excess.bin_hz)
+                && !others_rev_s.iter().any(is_met)
+            {
+                sum += u32::from(level);
                 count += 1;
             }
         }

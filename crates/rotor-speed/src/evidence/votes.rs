@@ -19,6 +19,7 @@ const AUDIBLE_HARMONICS: f64 = 8.0;
 const HARMONICS: u32 = 12;
 /// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*
 const BEYOND_WEIGHT: f32 = 0.5;
+
 /// The votes of each order, as a table over the level of the line.
 pub(super) struct VoteTable {
     /// `votes[order − 1][level]`.

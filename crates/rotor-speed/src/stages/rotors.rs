@@ -48,9 +48,9 @@ pub(super) fn without_refuted(
     }
     let excess = excess.within(&hover.spans_s());
     let times_s: Vec<f64> = excess.frames.iter().map(|frame| frame.centre_s).collect();
+    let mut speeds_rev_s: Vec<Option<Vec<f64>>> =
+        tracks.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
     loop {
-        let speeds_rev_s: Vec<Option<Vec<f64>>> =
-            tracks.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
         let own_nats = |rotor: usize| {
             let others = speeds_rev_s.iter().enumerate().filter(|(other, _)| *other != rotor);
             let others: Vec<&[f64]> = others.filter_map(|(_, speeds_rev_s)| speeds_rev_s.as_deref()).collect();
@@ -59,7 +59,8 @@ pub(super) fn without_refuted(
         let all = (0..speeds_rev_s.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?)));
         match all.min_by(|a, b| a.1.total_cmp(&b.1)) {
             Some((rotor, nats)) if nats < -config.evidence.refuting_nats_max => {
-                tracks.rotors[rotor].track.blocks.clear()
+                tracks.rotors[rotor].track.blocks.clear();
+                speeds_rev_s[rotor] = None;
             }
             _ => return tracks,
         }
