@@ -1,6 +1,6 @@
 //! All settings of an analysis. The settings of a stage, with their defaults and reasons, stand in the stage's folder.
 
-use crate::evidence::{AIR_KG_M3, EvidenceConfig};
+use crate::evidence::EvidenceConfig;
 use crate::hover::{HoverConfig, HoverPart};
 use crate::ridge::{RidgeConfig, SpectrogramConfig};
 use crate::rotors::RotorsConfig;
@@ -61,12 +61,6 @@ impl Config {
             method: Method::default(),
             all_methods: false,
         }
-    }
-
-    /// Whether the thrust of a rotor in hover is known, by mass, number of rotors and diameter. By sound and blades alone the octave is often
-    /// open.
-    pub(crate) fn knows_thrust(&self) -> bool {
-        self.known.hover_thrust_coefficient(1.0, AIR_KG_M3).is_some()
     }
 
     /// The methods that are computed.

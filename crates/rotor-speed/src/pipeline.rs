@@ -34,7 +34,7 @@ pub fn speed_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Spe
 }
 
 /// Passes that a speed needs: one for the survey, one for the lines, and two where rotors are separated. Where a weak tone is steady, one
-/// more tells its octave; where no rotor is heard there, but a slower shaft or the evidence points at another speed, its lines take as many as the
+/// more tells its octave; where no rotor is heard there, but a slower shaft explains the tone, its lines take as many as the
 /// first ones. These are announced when they turn out to be needed.
 pub fn passes_of_speed(config: &Config) -> u32 {
     passes_of_survey() + passes_after_survey(config)
@@ -77,9 +77,7 @@ pub fn speed_from_survey(
     {
         return Ok(slower);
     }
-    let Some(candidates) = candidates.by_beliefs(config) else { return Ok(leading) };
-    let believed = rotor_at_another_speed(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
-    Ok(believed.unwrap_or(leading))
+    Ok(leading)
 }
 
 /// The stages after the survey, for a rotor that was heard at this speed.

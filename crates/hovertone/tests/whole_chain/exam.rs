@@ -128,7 +128,7 @@ fn the_gaussian_threshold_changes_little_between_a_half_and_nine_tenths() {
 }
 
 #[test]
-fn the_octave_is_right_whichever_harmonic_is_loudest() {
+fn the_octave_is_right_or_open_whichever_harmonic_is_loudest() {
     let truth_rev_s = 71.3;
     let series: [&[(f64, f64)]; 4] = [
         &[(2.0, 0.1), (4.0, 0.05), (6.0, 0.03)],                            // falling
@@ -138,8 +138,13 @@ fn the_octave_is_right_whichever_harmonic_is_loudest() {
     ];
     for (index, lines) in series.into_iter().enumerate() {
         let samples = sound(&[rotor(|_| truth_rev_s, lines)], 5.0, 0.02, 5);
-        let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
-        assert!((got / truth_rev_s - 1.0).abs() < 2e-3, "series {index}: {got}");
+        let analysis = analyse(samples, &config(2.0));
+        let found = tone(&analysis);
+        let got = found.speeds[0].speed.rev_s();
+        // with five lines, the second series may also be that of unlike blades at twice the speed: then the octave is left open
+        let is_open =
+            index == 1 && found.alternatives.iter().any(|other| (other.speed.rev_s() / truth_rev_s - 1.0).abs() < 0.02);
+        assert!(is_open || (got / truth_rev_s - 1.0).abs() < 2e-3, "series {index}: {got} {:?}", found.alternatives);
     }
 }
 

@@ -41,18 +41,21 @@ fn a_second_harmonic_that_is_louder_than_the_first_is_no_octave() {
         for lines in [&unlike_blades(&blade_pass), &alike] {
             let analysis = analyse(flight(lines, seed), &known(0.1));
             let found = tone(&analysis);
-            assert!(found.alternatives.is_empty(), "{:?}", found.alternatives);
             let speed_rev_s = found.speeds[0].speed.rev_s();
             assert!((speed_rev_s / SPEED_REV_S - 1.0).abs() < 0.01, "{speed_rev_s}");
+            // without shaft lines, the levels are those of a rotor at twice the speed: the thrust outweighs them, but not by 99 to 1
+            let belief = found.alternatives.first().map_or(1.0, |first| first.plausibility);
+            assert!(if lines == &alike { belief > 0.9 } else { belief == 1.0 }, "{:?}", found.alternatives);
         }
     }
 }
 
 #[test]
-fn an_octave_that_neither_levels_nor_thrust_decide_is_left_open() {
-    // even orders fall evenly, odd ones are silent; 0.2 at this speed is 0.05 at twice the speed, each as far from 0.1
-    let lines: Vec<(f64, f64)> = (1..=10).map(|k| (2.0 * f64::from(k), 0.04 / f64::from(k).sqrt())).collect();
-    let analysis = analyse(flight(&lines, 1), &known(0.2));
+fn an_octave_on_which_levels_and_thrust_disagree_is_left_open() {
+    // every other line of the blade pass is weak, as behind an echo, or as the shaft lines of a rotor at twice the speed
+    let levels = [0.004, 0.04, 0.004, 0.03, 0.003, 0.02, 0.003, 0.015, 0.002, 0.01];
+    let lines: Vec<(f64, f64)> = (1..).map(|k| 2.0 * f64::from(k)).zip(levels).collect();
+    let analysis = analyse(flight(&lines, 1), &known(0.14));
     let found = tone(&analysis);
     let speeds_rev_s: Vec<f64> = found.alternatives.iter().map(|reading| reading.speed.rev_s()).collect();
     assert!(speeds_rev_s.iter().any(|speed| (speed / SPEED_REV_S - 1.0).abs() < 0.02), "{speeds_rev_s:?}");

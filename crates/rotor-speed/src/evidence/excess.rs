@@ -1,15 +1,18 @@
 //! Sound → power over the local floor, in short frames, in bounded memory and time.
 
 use hovertone_signal::spectrogram::{Stft, Window};
-use hovertone_signal::statistics::median;
 use std::collections::VecDeque;
-use std::f64::consts::LN_2;
+use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
 
-/// Length of a frame, s. Most rotors are clearest in 0.1 s: their speeds wander by 1 to 3 % in flight. *Decision.*
-const FRAME_S: f64 = 0.1;
-/// Step between frames, s. *Numeric.*
+/// Length of a short frame, s. Most rotors in flight are clearest in 0.1 s: their speeds wander by 1 to 3 %. *Decision.*
+const SHORT_S: f64 = 0.1;
+/// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s. *Decision.*
+const LONG_S: f64 = 0.4;
+/// Step between short frames, s. *Numeric.*
 const HOP_S: f64 = 0.05;
+/// Steps between short frames to a step between long ones. *Numeric.*
+const LONG_HOPS: u32 = 2;
 /// Bins to the resolution of a frame. *Numeric.*
 const ZERO_PAD_FACTOR: u32 = 4;
 /// Highest frequency, Hz: lines of small rotors are audible to their twelfth blade pass. *Decision.*
@@ -19,14 +22,18 @@ const RATE_SHARE_MAX: f64 = 0.45;
 /// Width of the running median of the floor, Hz: wider than several lines of a small rotor's comb, narrower than the slope of noise.
 /// *Decision.*
 const FLOOR_HZ: f64 = 120.0;
-/// Lowest floor as a share of the mean power of the frame: codecs leave holes in the spectrum. *Numeric.*
-const FLOOR_SHARE_MIN: f64 = 1e-7;
+/// Noise that is added to power and floor, as a share of the mean power of the frame: codecs leave holes in the spectrum. *Numeric.*
+const ADDED_NOISE_SHARE: f64 = 1e-7;
 /// Bins to either side among which a line is the highest: the main lobe of the window. *Numeric.*
 const LOBE_BINS: usize = 2;
 /// Share of the highest neighbour below which a bin is a skirt of it, and counts as noise at most. *Numeric.*
 const SKIRT_SHARE: f64 = 0.5;
-/// Share of the median power of the frames below which a frame is silent. *Decision.*
-const SILENT_SHARE: f64 = 1e-4;
+/// Distances at which the side lobes of a line are looked for, in bins: from the end of its main lobe. *Numeric.*
+const SIDE_LOBES: Range<usize> = 8..40;
+/// A side lobe may be higher than that of a steady line by this factor, because the line moves. *Decision.*
+const SIDE_LOBE_MARGIN: f64 = 2.0;
+/// Share of the power in the upper quartile of the frames below which no rotor hovers: before take-off, after landing. *Decision.*
+const QUIET_SHARE: f64 = 0.01;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
 /// Largest number of sections. *Numeric.*
@@ -52,12 +59,21 @@ pub(super) fn level_db(level: f64) -> f64 {
     LEVEL_DB_MIN + level / LEVELS_PER_DB
 }
 
+/// Two looks at the same sound.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Looks {
+    /// In short frames.
+    pub(crate) short: Excess,
+    /// In long frames.
+    pub(crate) long: Excess,
+}
+
 /// Power over the local floor.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Excess {
     /// Distance between bins, Hz.
     pub(crate) bin_hz: f64,
-    /// The frames in order of time; silent ones are left out.
+    /// The frames in order of time; quiet ones are left out.
     pub(crate) frames: Vec<ExcessFrame>,
 }
 
@@ -86,7 +102,7 @@ impl Excess {
         Self { bin_hz: self.bin_hz, frames: self.frames.iter().filter(is_within).cloned().collect() }
     }
 
-    /// Number of hops from each frame to the next: 1 without a gap. The first is 1.
+    /// Number of short hops from each frame to the next. The first is 1.
     pub(crate) fn hops(&self) -> Vec<usize> {
         let hops = self.frames.windows(2).map(|pair| ((pair[1].centre_s - pair[0].centre_s) / HOP_S).round() as usize);
         std::iter::once(1).chain(hops.map(|hops| hops.max(1))).collect()
@@ -153,16 +169,20 @@ impl ExcessBuilder {
         }
     }
 
-    /// The frames of the sections.
-    pub(crate) fn finish(self) -> Excess {
+    /// The sections in frames of both lengths.
+    pub(crate) fn finish(self) -> Looks {
+        Looks { short: self.frames_of(SHORT_S, HOP_S), long: self.frames_of(LONG_S, f64::from(LONG_HOPS) * HOP_S) }
+    }
+
+    fn frames_of(&self, frame_s: f64, hop_s: f64) -> Excess {
         let section_samples = self.section_samples();
-        let mut stft = Stft::<f32>::new(self.sample_rate_hz, Window::Hann, FRAME_S, HOP_S, ZERO_PAD_FACTOR);
+        let mut stft = Stft::<f32>::new(self.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         let bin_hz = stft.bin_hz();
         let bins = (HZ_MAX.min(RATE_SHARE_MAX * self.sample_rate_hz) / bin_hz) as usize;
         let mut floor = RunningMedian::of_width((FLOOR_HZ / bin_hz) as usize | 1);
         let mut frames: Vec<ExcessFrame> = Vec::new();
         let mut next = None;
-        for section in self.sections {
+        for section in &self.sections {
             if next != Some(section.index) {
                 stft.restart(self.start_s + (section.index * section_samples) as f64 / self.sample_rate_hz);
             }
@@ -173,28 +193,51 @@ impl ExcessBuilder {
                 frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
             });
         }
-        let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
-        let power_min = SILENT_SHARE * median(&powers).unwrap_or(0.0);
+        let mut powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
+        powers.sort_by(f64::total_cmp);
+        let power_min = powers.get(powers.len() / 2).map_or(0.0, |median| QUIET_SHARE * median);
         frames.retain(|frame| frame.mean_power > power_min);
         Excess { bin_hz, frames }
     }
 }
 
-/// Levels over the floor. A skirt of a line counts as noise at most.
+/// Levels over the floor. A skirt or a side lobe of a line counts as noise at most.
 fn over_floor(power: &[f64], floor: &mut RunningMedian, mean_power: f64) -> Vec<Level> {
-    let lowest = (FLOOR_SHARE_MIN * mean_power).max(f64::MIN_POSITIVE);
+    let added = (ADDED_NOISE_SHARE * mean_power).max(f64::MIN_POSITIVE);
     // the median of noise is ln 2 of its mean
     let floors = floor.of(power);
-    let excess: Vec<f64> = power.iter().zip(floors).map(|(power, floor)| power / (floor / LN_2).max(lowest)).collect();
+    let over = |(power, floor): (&f64, f64)| (power + added) / (floor / LN_2 + added);
+    let excess: Vec<f64> = power.iter().zip(floors).map(over).collect();
+    let limits = skirt_limits(&excess);
+    let without_skirts = |(&excess, limit): (&f64, f64)| if excess < limit { excess.min(1.0) } else { excess };
+    excess.iter().zip(limits).map(|pair| level_of(without_skirts(pair))).collect()
+}
+
+/// For each bin, the power over the floor below which it is a skirt or a side lobe of a line nearby.
+fn skirt_limits(excess: &[f64]) -> Vec<f64> {
     let highest_near = |bin: usize| {
         let near = bin.saturating_sub(LOBE_BINS)..(bin + LOBE_BINS + 1).min(excess.len());
         excess[near].iter().copied().fold(0.0, f64::max)
     };
-    let without_skirts = |bin: usize| {
-        let is_skirt = excess[bin] < SKIRT_SHARE * highest_near(bin);
-        if is_skirt { excess[bin].min(1.0) } else { excess[bin] }
-    };
-    (0..excess.len()).map(|bin| level_of(without_skirts(bin))).collect()
+    let mut limits: Vec<f64> = (0..excess.len()).map(|bin| SKIRT_SHARE * highest_near(bin)).collect();
+    let side_lobes: Vec<(usize, f64)> =
+        SIDE_LOBES.map(|bins| (bins, side_lobe_share(bins as f64 / f64::from(ZERO_PAD_FACTOR)))).collect();
+    let Some(&(_, most)) = side_lobes.first() else { return limits };
+    for (peak, &power) in excess.iter().enumerate().filter(|(_, power)| **power * most > 1.0) {
+        for &(bins, share) in &side_lobes {
+            for bin in [peak.checked_sub(bins), Some(peak + bins)].into_iter().flatten() {
+                if let Some(limit) = limits.get_mut(bin) {
+                    *limit = limit.max(SIDE_LOBE_MARGIN * share * power);
+                }
+            }
+        }
+    }
+    limits
+}
+
+/// Largest share of the power of a line that a Hann window leaves so many resolutions beside it.
+fn side_lobe_share(resolutions: f64) -> f64 {
+    (PI * resolutions * (resolutions * resolutions - 1.0)).powi(-2)
 }
 
 /// Median of a window that runs over a series; at the ends the window holds the values that there are.
@@ -267,7 +310,7 @@ mod tests {
                 .collect();
             builder.push(&second);
         }
-        let excess = builder.finish();
+        let excess = builder.finish().short;
         assert!((300..=640).contains(&excess.frames.len()), "{}", excess.frames.len());
         assert!(excess.frames.first().is_some_and(|frame| frame.centre_s < 3.2));
         assert!(excess.frames.last().is_some_and(|frame| frame.centre_s > 180.0));

@@ -1,10 +1,12 @@
 //! Hypotheses: speeds and numbers of blades, and the belief in each.
 
-use super::excess::Excess;
-use super::level_model::{LAST_HARMONIC, LevelModel, OrderLevel};
-use super::levels::{NoiseLevel, level_db, noise_level};
-use super::search::{FACTORS, Multiple, OCTAVES, ROTORS_APART, Search, VOTES_NATS_APART};
+use super::excess::{Excess, Looks};
+use super::level_model::{LevelModel, OrderLevel};
+use super::levels::{NoiseLevel, levels_of_orders, noise_level};
+use super::search::{FACTORS, Multiple, ROTORS_APART, Search, VOTES_NATS_APART};
+use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
+use super::votes::VoteTable;
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
@@ -20,6 +22,8 @@ const HOVER_WIDTH_SHARE: f64 = 0.024;
 const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
+/// Weight of the nats of levels that deceive. *Decision.*
+const DECEIVED_WEIGHT: f64 = 0.1;
 /// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
 pub(crate) const AIR_KG_M3: f64 = 1.2;
 
@@ -67,6 +71,8 @@ impl Beliefs {
 pub(crate) struct Hypothesis {
     /// Blades of the propeller.
     pub(crate) blades: u32,
+    /// Speed in each short frame.
+    speeds_rev_s: Vec<f64>,
     /// Mean speed along the path.
     pub(crate) speed_rev_s: f64,
     /// The speed near which the path is longest: that of the hover.
@@ -77,7 +83,9 @@ pub(crate) struct Hypothesis {
     factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
-    /// Evidence of the levels of its lines, and of what is known of the vehicle, in nats.
+    /// Evidence of the levels of its lines, in nats.
+    levels_nats: f64,
+    /// The same, with what is known of the vehicle.
     nats: f64,
     /// Levels of its lines.
     levels: Vec<OrderLevel>,
@@ -86,11 +94,6 @@ pub(crate) struct Hypothesis {
 }
 
 impl Hypothesis {
-    /// Another speed, with the belief that this one leaves.
-    pub(crate) fn or_else(&self, speed_rev_s: f64) -> Self {
-        Self { speed_rev_s, hover_rev_s: speed_rev_s, belief: 1.0 - self.belief, ..self.clone() }
-    }
-
     /// Whether a rotor at another speed may belong to the same vehicle, in the same octave.
     pub(crate) fn is_of_same_vehicle(&self, speed_rev_s: f64) -> bool {
         (self.speed_rev_s / speed_rev_s).ln().abs() < ROTORS_APART
@@ -117,11 +120,86 @@ pub(crate) struct WantedPropeller {
     pub(crate) speeds_rev_s: RangeInclusive<f64>,
 }
 
-/// Compares the hypotheses on all frames. `None` where no rotor is heard.
+/// Compares the hypotheses in two looks at the same sound. `None` where no rotor is heard.
+pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
+    let Look { noise, mut of_propellers } = look_at(&looks.short, wanted, config)?;
+    look_again(looks, &mut of_propellers, config);
+    let heard = of_propellers.into_iter().filter(|look| is_heard(&look.hypotheses, config));
+    let hypotheses = heard.filter(|look| {
+        let search = Search::of(&looks.short, look.blades, &look.speeds_rev_s);
+        let first = look.hypotheses.first();
+        let jumps_nats = search.zip(first).and_then(|(search, first)| search.jumps_nats(first.path, first.factor));
+        jumps_nats.is_some_and(|nats| nats < config.jumps_nats_max)
+    });
+    let hypotheses: Vec<Hypothesis> = hypotheses
+        .flat_map(|look| {
+            look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
+        })
+        .collect();
+    let hypotheses = with_doubt(hypotheses, config);
+    (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise })
+}
+
+/// Adds to each hypothesis what the long frames show along its path, and sorts them again. The two looks are at the same sound, so that both
+/// count less than two other sounds would.
+fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &EvidenceConfig) {
+    let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
+    for look in &*of_propellers {
+        let table = VoteTable::for_blades(look.blades);
+        // octaves are compared along one path: that of the one with the most votes
+        let mut paths: Vec<(&Hypothesis, Vec<f64>)> = Vec::new();
+        let mut by_votes: Vec<&Hypothesis> = look.hypotheses.iter().collect();
+        by_votes.sort_by(|a, b| b.votes_nats.total_cmp(&a.votes_nats));
+        for it in by_votes {
+            if !paths.iter().any(|(other, _)| other.path == it.path)
+                && let Some(path) = path_in_long_frames(looks, &it.speeds_rev_s, &table)
+            {
+                paths.push((it, path));
+            }
+        }
+        let along = |it: &Hypothesis| {
+            let (of, path) = paths.iter().find(|(other, _)| other.path == it.path)?;
+            let speeds_rev_s: Vec<f64> = path.iter().map(|speed_rev_s| it.factor / of.factor * speed_rev_s).collect();
+            SecondLook::along(&looks.long, &speeds_rev_s, look.blades)
+        };
+        seen.push(look.hypotheses.iter().map(along).collect());
+    }
+    let noises: Vec<NoiseLevel> = seen.iter().flatten().flatten().map(|seen| seen.noise).collect();
+    let Some(noise) = NoiseLevel::of_emptiest(noises, config.levels.foreign) else { return };
+    for (look, seen) in of_propellers.iter_mut().zip(seen) {
+        let mut model = LevelModel::new(noise, look.blades, &config.levels);
+        let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
+        for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
+            let long_nats = model.evidence_nats(&seen.levels);
+            it.nats += long_nats;
+            it.levels_nats += long_nats;
+        }
+        look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
+    }
+}
+
+/// What frames of one length show.
+struct Look {
+    noise: NoiseLevel,
+    /// The hypotheses with each of the propellers that are heard.
+    of_propellers: Vec<OfPropeller>,
+}
+
+/// The hypotheses with one propeller.
+struct OfPropeller {
+    blades: u32,
+    speeds_rev_s: RangeInclusive<f64>,
+    /// Logarithm of how common it is.
+    share_nats: f64,
+    /// Most probable first; none where no path has the votes of a rotor.
+    hypotheses: Vec<Hypothesis>,
+}
+
+/// The hypotheses on frames of one length. `None` without frames.
 ///
 /// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
 /// octave has its path, and the levels decide among them. The noise is what the paths that explain most leave between their lines.
-pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
+fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Look> {
     let noises_of = |search: &Search| -> Vec<NoiseLevel> {
         search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)).collect()
     };
@@ -132,50 +210,41 @@ pub(crate) fn beliefs_from_excess(excess: &Excess, wanted: &WantedRotor, config:
     }
     let mut found: Vec<(&WantedPropeller, Vec<Multiple>)> = Vec::new();
     let mut lines_share = f64::INFINITY;
-    // votes are large, so that those of one propeller at a time are kept
-    let mut last: Option<(u32, Search)> = None;
     for propeller in &wanted.propellers {
-        drop(last.take());
         let search = Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?;
         let own = noises_of(&search);
         lines_share = own.iter().map(|noise| noise.lines_share).fold(lines_share, f64::min);
         noises.extend(own);
         found.push((propeller, search.multiples(config.votes_nats_min)));
-        last = Some((propeller.blades, search));
     }
     // lines that no wanted rotor explains are foreign, whatever another one would explain
     let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
-    let mut hypotheses: Vec<Hypothesis> = Vec::new();
-    for (propeller, multiples) in found.iter().rev() {
+    let of_propeller = |(propeller, multiples): (&WantedPropeller, Vec<Multiple>)| {
         let mut model = LevelModel::new(noise, propeller.blades, &config.levels);
         let all = multiples.iter().filter_map(|multiple| {
-            let mut hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
-            hypothesis.nats += nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
-            Some(hypothesis)
+            let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
+            let nats = hypothesis.levels_nats + nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
+            Some(Hypothesis { nats, ..hypothesis })
         });
-        let all = one_of_each_speed(all.collect());
-        let Some(first) = all.first().filter(|_| is_heard(&all, config)) else { continue };
-        let search = match last.take().filter(|(blades, _)| *blades == propeller.blades) {
-            Some((_, search)) => search,
-            None => Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?,
-        };
-        if search.jumps_nats(first.path, first.factor)? < config.jumps_nats_max {
-            let share_nats = propeller.share.ln();
-            hypotheses.extend(all.into_iter().map(|it| Hypothesis { nats: it.nats + share_nats, ..it }));
+        OfPropeller {
+            blades: propeller.blades,
+            speeds_rev_s: propeller.speeds_rev_s.clone(),
+            share_nats: propeller.share.ln(),
+            hypotheses: one_of_each_speed(all.collect()),
         }
-    }
-    let hypotheses = with_beliefs(hypotheses);
-    (!hypotheses.is_empty()).then_some(Beliefs { hypotheses, noise })
+    };
+    Some(Look { noise, of_propellers: found.into_iter().map(of_propeller).collect() })
 }
 
-/// Whether a rotor is heard: by the levels of the most probable speed, and by the votes for it or one of its octaves. The most probable
-/// hypothesis is the first.
+/// Whether a rotor is heard: the first, most probable hypothesis has the levels, and so has the one with the best levels the votes.
+/// What is known of the vehicle tells octaves apart, and no rotor from none.
 fn is_heard(hypotheses: &[Hypothesis], config: &EvidenceConfig) -> bool {
-    let Some(first) = hypotheses.first() else { return false };
-    let is_octave = |other: &&Hypothesis| is_multiple(other.speed_rev_s, first.speed_rev_s, &OCTAVES);
-    first.nats >= config.levels_nats_min
-        && first.speed_rev_s >= RESOLVED_REV_S
-        && hypotheses.iter().filter(is_octave).any(|other| other.votes_nats >= config.votes_nats_min)
+    let best = hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
+    hypotheses.first().zip(best).is_some_and(|(first, best)| {
+        first.nats >= config.levels_nats_min
+            && first.speed_rev_s >= RESOLVED_REV_S
+            && best.votes_nats >= config.votes_nats_min
+    })
 }
 
 /// Whether a speed is one of these multiples of another one.
@@ -189,12 +258,14 @@ fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut 
     let levels = levels_of_orders(excess, speeds_rev_s, blades);
     Some(Hypothesis {
         blades,
+        speeds_rev_s: speeds_rev_s.clone(),
         speed_rev_s: mean(speeds_rev_s)?,
         hover_rev_s: most_frequent_rev_s(speeds_rev_s)?,
         path,
         factor,
         votes_nats,
-        nats: model.evidence_nats(&levels),
+        levels_nats: model.evidence_nats(&levels),
+        nats: 0.0,
         levels,
         belief: 0.0,
     })
@@ -232,6 +303,20 @@ fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     hypotheses
 }
 
+/// The hypotheses, where the levels deceive in a share of the recordings: there they say little of what they seem to say.
+fn with_doubt(mut hypotheses: Vec<Hypothesis>, config: &EvidenceConfig) -> Vec<Hypothesis> {
+    let sum = |weight: f64| log_sum_exp(hypotheses.iter().map(|it| weight * it.levels_nats));
+    let (trusted, doubted) = (sum(1.0), sum(DECEIVED_WEIGHT));
+    for it in &mut hypotheses {
+        let trust = (1.0 - config.levels_deceive) * (it.levels_nats - trusted).exp();
+        let doubt = config.levels_deceive * (DECEIVED_WEIGHT * it.levels_nats - doubted).exp();
+        let levels_nats = (trust + doubt).ln();
+        it.nats += levels_nats - it.levels_nats;
+        it.levels_nats = levels_nats;
+    }
+    hypotheses
+}
+
 /// The hypotheses with their beliefs, most probable first. The belief in a speed is that of all numbers of blades; the most probable of them is
 /// told.
 fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
@@ -247,13 +332,6 @@ fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
     hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
     hypotheses
-}
-
-/// Levels of all orders that are compared, along a path.
-fn levels_of_orders(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Vec<OrderLevel> {
-    (1..=LAST_HARMONIC * blades)
-        .filter_map(|order| Some(OrderLevel { order, level_db: level_db(excess, speeds_rev_s, f64::from(order))? }))
-        .collect()
 }
 
 /// Logarithm of the prior of a speed: by the thrust coefficient of the hover where mass, rotors and diameter are known, else slow shafts are

@@ -28,17 +28,21 @@ const STEP_DB: i32 = 3;
 const LOUDNESS_DB: [i32; 20] = [-4, -1, 2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32, 35, 38, 41, 47, 53, 59, 65];
 /// Steps of the integral over the fall. *Numeric.*
 const FALLS: [f64; 5] = [0.0, 0.6, 1.2, 2.0, 3.0];
+/// Steps of the integral over the smear, dB for each harmonic. *Numeric.*
+const SMEARS_DB: [f64; 3] = [1.0, 2.0, 4.0];
 /// Steps of the integral over the offset of the shaft lines, dB. *Numeric.*
 const SHAFT_DB: [i32; 16] = [-39, -36, -33, -30, -27, -24, -21, -18, -15, -12, -9, -6, -3, 0, 3, 6];
 /// Steps of the integral over the level that an echo takes from every other line, dB. *Numeric.*
 const ECHO_DB: [i32; 3] = [-6, -12, -18];
+/// Scatter of the lines of a recording over that of most, and the share of the recordings that have it. *Decision.*
+const SCATTERS: [(f64, f64); 2] = [(1.0, 0.7), (1.7, 0.3)];
 /// Lowest sum of loudness and offset, dB. *Numeric.*
 const SUM_DB_MIN: i32 = LOUDNESS_DB[0] + SHAFT_DB[0];
 /// Number of sums of loudness and offset. *Numeric.*
 const SUMS: usize = 39;
 /// Harmonics of the blade pass above which all lines are inaudible: wander smears them, and recorders and codecs cut them. Each is as
 /// probable. *Decision.*
-const LAST_HARMONICS: [u32; 10] = [2, 3, 4, 6, 8, 12, 16, 24, 40, LAST_HARMONIC];
+const LAST_HARMONICS: [u32; 13] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 28, 40, LAST_HARMONIC];
 /// The highest harmonic of the blade pass that is compared. *Decision.*
 pub(super) const LAST_HARMONIC: u32 = 64;
 
@@ -57,47 +61,66 @@ pub(super) struct LevelModel<'a> {
     prior: &'a LevelPrior,
     blades: u32,
     below: RatioTable,
-    blade_pass: RatioTable,
-    shaft: RatioTable,
+    scatters: Vec<Scatter>,
     /// Logarithms of the weights of the integrals.
     loudness_nats: Vec<f64>,
-    fall_nats: Vec<f64>,
+    falls: Vec<(Fall, f64)>,
     offset_nats: Vec<f64>,
+}
+
+/// The lines of recordings whose levels scatter as much.
+struct Scatter {
+    /// Logarithm of their share.
+    share_nats: f64,
+    blade_pass: RatioTable,
+    shaft: RatioTable,
 }
 
 impl<'a> LevelModel<'a> {
     /// The model of rotors with so many blades.
     pub(super) fn new(noise: NoiseLevel, blades: u32, prior: &'a LevelPrior) -> Self {
         let foreign = prior.foreign.max(noise.lines_share);
-        let table = |std_db: f64, missing: f64| RatioTable::new(noise, std_db, missing, foreign);
+        let table = |std_db: f64, missing: f64, notched: f64| {
+            RatioTable::new(noise, &LineScatter { std_db, missing, notched, prior }, foreign)
+        };
         Self {
             prior,
             blades,
-            below: table(prior.below_std_db, prior.below_missing),
-            blade_pass: table(prior.line_std_db, prior.blade_pass_missing),
-            shaft: table(prior.shaft_line_std_db, prior.shaft_missing),
+            below: table(prior.below_std_db, prior.below_missing, 0.0),
+            scatters: SCATTERS
+                .iter()
+                .map(|(factor, share)| Scatter {
+                    share_nats: share.ln(),
+                    blade_pass: table(factor * prior.line_std_db, prior.blade_pass_missing, prior.notched),
+                    shaft: table(factor * prior.shaft_line_std_db, prior.shaft_missing, 0.0),
+                })
+                .collect(),
             loudness_nats: ln_weights(&LOUDNESS_DB.map(f64::from), prior.blade_pass_db, prior.blade_pass_std_db),
-            fall_nats: ln_weights(&FALLS, prior.fall, prior.fall_std),
+            falls: falls(prior),
             offset_nats: ln_weights_of_shaft_lines(prior),
         }
     }
 
     /// The evidence of levels for a rotor, in nats: log-likelihood ratio against noise with lines of something else.
     pub(super) fn evidence_nats(&mut self, levels: &[OrderLevel]) -> f64 {
-        let lines_of = |table: &mut RatioTable, is_wanted: &dyn Fn(u32) -> bool| -> Vec<Line> {
-            let wanted = levels.iter().filter(|level| is_wanted(level.order));
-            wanted.map(|level| Line { order: level.order, row: table.row(level.level_db) }).collect()
-        };
         let blades = self.blades;
-        let below = lines_of(&mut self.below, &|order| order < blades);
-        let even = lines_of(&mut self.blade_pass, &|order| order.is_multiple_of(2 * blades));
-        let odd = lines_of(&mut self.blade_pass, &|order| order % (2 * blades) == blades);
-        let shaft = lines_of(&mut self.shaft, &|order| order > blades && !order.is_multiple_of(blades));
+        let below = lines_of(&mut self.below, levels, |order| order < blades);
+        let lines: Vec<LinesOfClasses> =
+            self.scatters.iter_mut().map(|scatter| LinesOfClasses::of(scatter, levels, blades)).collect();
+        let of_scatter = self.scatters.iter().zip(&lines);
+        log_sum_exp(
+            of_scatter.map(|(scatter, lines)| scatter.share_nats + self.nats_of_scatter(scatter, lines, &below)),
+        )
+    }
+
+    /// The evidence where the lines scatter as much.
+    fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line]) -> f64 {
+        let blades = self.blades;
         let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
-        let at_fall = FALLS.iter().zip(&self.fall_nats).map(|(&fall, weight)| {
-            let even = self.blade_pass.sums(&even, blades, fall);
-            let odd = self.blade_pass.sums(&odd, blades, fall);
-            let shaft = self.shaft.sums(&shaft, blades, fall);
+        let at_fall = self.falls.iter().map(|(fall, weight)| {
+            let even = scatter.blade_pass.sums(&lines.even, blades, fall);
+            let odd = scatter.blade_pass.sums(&lines.odd, blades, fall);
+            let shaft = scatter.shaft.sums(&lines.shaft, blades, fall);
             let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
                 let mean_db = f64::from(loudness_db) + self.prior.below_db;
                 let below_nats: f64 = below.iter().map(|line| self.below.ratio(line, mean_db)).sum();
@@ -136,6 +159,34 @@ impl<'a> LevelModel<'a> {
     }
 }
 
+/// How the levels fall with the harmonics of the blade pass.
+#[derive(Clone, Copy)]
+struct Fall {
+    /// For a tenfold harmonic, in units of 10 dB.
+    decade: f64,
+    /// From one harmonic to the next, dB: lines that move within a frame are smeared in proportion to their order.
+    smear_db: f64,
+}
+
+impl Fall {
+    /// The fall up to a harmonic, which may be between two.
+    fn db(&self, harmonic: f64) -> f64 {
+        self.decade * 10.0 * harmonic.log10() + self.smear_db * (harmonic - 1.0)
+    }
+}
+
+/// The falls over which the evidence is integrated, with the logarithms of their weights.
+fn falls(prior: &LevelPrior) -> Vec<(Fall, f64)> {
+    let steady = ln_weights(&FALLS, prior.fall, prior.fall_std);
+    let steady = FALLS
+        .iter()
+        .zip(steady)
+        .map(|(&decade, nats)| (Fall { decade, smear_db: 0.0 }, nats + (1.0 - prior.smeared).ln()));
+    let share = prior.smeared / f64::from(SMEARS_DB.len() as u32);
+    let smeared = SMEARS_DB.iter().map(|&smear_db| (Fall { decade: prior.fall, smear_db }, share.ln()));
+    steady.chain(smeared).collect()
+}
+
 /// Index of a sum of loudness and offset.
 fn sum_index(sum_db: i32) -> usize {
     ((sum_db - SUM_DB_MIN) / STEP_DB) as usize
@@ -148,29 +199,69 @@ struct Line {
     row: usize,
 }
 
+/// The lines of each class.
+struct LinesOfClasses {
+    /// Even harmonics of the blade pass.
+    even: Vec<Line>,
+    /// Odd harmonics of the blade pass.
+    odd: Vec<Line>,
+    /// Other lines of the shaft above the blade pass.
+    shaft: Vec<Line>,
+}
+
+impl LinesOfClasses {
+    fn of(scatter: &mut Scatter, levels: &[OrderLevel], blades: u32) -> Self {
+        Self {
+            even: lines_of(&mut scatter.blade_pass, levels, |order| order.is_multiple_of(2 * blades)),
+            odd: lines_of(&mut scatter.blade_pass, levels, |order| order % (2 * blades) == blades),
+            shaft: lines_of(&mut scatter.shaft, levels, |order| order > blades && !order.is_multiple_of(blades)),
+        }
+    }
+}
+
+/// The lines of the wanted orders.
+fn lines_of(table: &mut RatioTable, levels: &[OrderLevel], is_wanted: impl Fn(u32) -> bool) -> Vec<Line> {
+    let wanted = levels.iter().filter(|level| is_wanted(level.order));
+    wanted.map(|level| Line { order: level.order, row: table.row(level.level_db) }).collect()
+}
+
+/// How the lines of one class scatter about their mean level.
+struct LineScatter<'a> {
+    std_db: f64,
+    /// Share of lines that are missing.
+    missing: f64,
+    /// Share of lines in a notch.
+    notched: f64,
+    prior: &'a LevelPrior,
+}
+
 /// Log-likelihood ratios of the lines of one class, as a table over their measured and mean levels. A row is filled when it is first asked for.
 struct RatioTable {
     noise: NoiseLevel,
     missing: f64,
+    notched: f64,
     foreign: f64,
     weights: [f64; DEVIATIONS.len()],
-    /// For each mean level, the levels in noise of the lines that scatter about it.
-    scattered_db: Vec<[f64; DEVIATIONS.len()]>,
+    /// For each mean level, the levels in noise of the lines that scatter about it, and of those in a notch.
+    scattered_db: Vec<[[f64; DEVIATIONS.len()]; 2]>,
     /// `nats[measured level][mean level]`; empty where it was not asked for.
     nats: Vec<Vec<f64>>,
 }
 
 impl RatioTable {
-    fn new(noise: NoiseLevel, line_std_db: f64, missing: f64, foreign: f64) -> Self {
+    fn new(noise: NoiseLevel, scatter: &LineScatter<'_>, foreign: f64) -> Self {
+        let LineScatter { std_db, missing, notched, prior } = *scatter;
         // mean level of a line of level x in noise: the powers add
         let noise_power = 10f64.powf(noise.mean_db / 10.0);
         let in_noise = |x: f64| 10.0 * (10f64.powf(x / 10.0) + noise_power).log10();
+        let about = |mean_db: f64, std_db: f64| DEVIATIONS.map(|deviation| in_noise(mean_db + deviation * std_db));
         let scattered_db = LINE_DB
-            .map(|mean_db| DEVIATIONS.map(|deviation| in_noise(f64::from(mean_db) + deviation * line_std_db)))
+            .map(f64::from)
+            .map(|mean_db| [about(mean_db, std_db), about(mean_db + prior.notch_db, prior.notch_std_db)])
             .collect();
         let sum: f64 = DEVIATIONS.iter().map(|deviation| normal(*deviation)).sum();
         let weights = DEVIATIONS.map(|deviation| normal(deviation) / sum);
-        Self { noise, missing, foreign, weights, scattered_db, nats: vec![Vec::new(); MEASURED_STEPS] }
+        Self { noise, missing, notched, foreign, weights, scattered_db, nats: vec![Vec::new(); MEASURED_STEPS] }
     }
 
     /// The row of a measured level.
@@ -186,10 +277,13 @@ impl RatioTable {
     fn ratios(&self, level_db: f64) -> Vec<f64> {
         let density = |mean_db: f64| noise_density(level_db - mean_db, self.noise.std_db);
         let nothing = (1.0 - self.foreign) * density(self.noise.mean_db) + self.foreign / FOREIGN_RANGE_DB;
-        let ratio = |means_db: &[f64; DEVIATIONS.len()]| {
-            let audible: f64 =
-                self.weights.iter().zip(means_db).map(|(weight, &mean_db)| weight * density(mean_db)).sum();
-            ((1.0 - self.missing) * audible / nothing + self.missing).ln()
+        let mean_density = |means_db: &[f64; DEVIATIONS.len()]| -> f64 {
+            self.weights.iter().zip(means_db).map(|(weight, &mean_db)| weight * density(mean_db)).sum()
+        };
+        let ratio = |[whole_db, in_notch_db]: &[[f64; DEVIATIONS.len()]; 2]| {
+            let whole = (1.0 - self.missing - self.notched) * mean_density(whole_db);
+            let in_notch = if self.notched > 0.0 { self.notched * mean_density(in_notch_db) } else { 0.0 };
+            ((whole + in_notch) / nothing + self.missing).ln()
         };
         self.scattered_db.iter().map(ratio).collect()
     }
@@ -201,9 +295,8 @@ impl RatioTable {
 
     /// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of
     /// the order. The orders rise.
-    fn sums(&self, lines: &[Line], blades: u32, fall: f64) -> Vec<UpTo> {
-        let falls_db: Vec<f64> =
-            lines.iter().map(|line| fall * 10.0 * (f64::from(line.order) / f64::from(blades)).log10()).collect();
+    fn sums(&self, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpTo> {
+        let falls_db: Vec<f64> = lines.iter().map(|line| fall.db(f64::from(line.order) / f64::from(blades))).collect();
         (0..SUMS)
             .map(|index| {
                 let sum_db = f64::from(SUM_DB_MIN + STEP_DB * index as i32);

@@ -1,6 +1,7 @@
 //! Levels of orders along a path.
 
 use super::excess::{self, Excess};
+use super::level_model::{LAST_HARMONIC, OrderLevel};
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
 
 /// Share of frames in which a line must be inside the band. *Decision.*
@@ -32,6 +33,13 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
     let frames = excess.frames.len() as f64;
     let is_inside = count > 0 && f64::from(count) >= INSIDE_SHARE_MIN * frames;
     (is_inside && hz_sum >= LINE_HZ_MIN * frames).then(|| excess::level_db(f64::from(sum) / f64::from(count)))
+}
+
+/// Levels of all orders that are compared, along a path.
+pub(super) fn levels_of_orders(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Vec<OrderLevel> {
+    (1..=LAST_HARMONIC * blades)
+        .filter_map(|order| Some(OrderLevel { order, level_db: level_db(excess, speeds_rev_s, f64::from(order))? }))
+        .collect()
 }
 
 /// Level where no line is, and its standard deviation.

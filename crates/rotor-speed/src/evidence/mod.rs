@@ -27,10 +27,11 @@ mod levels;
 mod own_lines;
 mod path;
 mod search;
+mod second_look;
 mod settings;
 mod votes;
 
-pub(crate) use excess::{Excess, ExcessBuilder};
-pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_excess};
-pub(crate) use own_lines::own_lines_nats;
+pub(crate) use excess::{ExcessBuilder, Looks};
+pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
+pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
 pub use settings::{EvidenceConfig, LevelPrior};

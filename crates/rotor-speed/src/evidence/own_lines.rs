@@ -2,7 +2,7 @@
 
 use super::excess::{self, Excess};
 use super::level_model::{LevelModel, OrderLevel};
-use super::levels::noise_level;
+use super::levels::{level_db, noise_level};
 use super::settings::LevelPrior;
 
 /// Harmonics of the blade pass that are compared. *Decision.*
@@ -12,19 +12,29 @@ const APART_HZ: f64 = 20.0;
 /// Smallest share of the frames in which a line stands apart, at which it is compared. *Decision.*
 const APART_SHARE_MIN: f64 = 0.3;
 
+/// Level of the loudest line of the blade pass of a rotor, dB over the floor. `None` outside the band.
+///
+/// - `speeds_rev_s`: speed of the rotor in each frame.
+pub(crate) fn loudness_db(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Option<f64> {
+    let levels = (1..=HARMONICS).filter_map(|harmonic| level_db(excess, speeds_rev_s, f64::from(harmonic * blades)));
+    levels.max_by(f64::total_cmp)
+}
+
 /// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: 0 where it has none, and
 /// negative where they are missing. At three quarters of a rotor's speed, for instance, every second line of a blade pass is at a shaft line of that
 /// rotor.
 ///
 /// - `speeds_rev_s`: speed of the rotor in each frame.
 /// - `others_rev_s`: speeds of each other rotor in each frame.
+/// - `loudest_db`: loudness of the loudest rotor, [`loudness_db`]: the rotors of one vehicle are about as loud.
 pub(crate) fn own_lines_nats(
     excess: &Excess,
     speeds_rev_s: &[f64],
     others_rev_s: &[&[f64]],
-    blades: u32,
-    prior: &LevelPrior,
+    loudest_db: f64,
+    propeller: &OwnPropeller<'_>,
 ) -> f64 {
+    let OwnPropeller { blades, prior } = *propeller;
     let own_level = |harmonic: u32| {
         let order = harmonic * blades;
         let (mut sum, mut count) = (0u32, 0u32);
@@ -47,7 +57,15 @@ pub(crate) fn own_lines_nats(
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
     let Some(noise) = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty()) else { return 0.0 };
-    LevelModel::new(noise, blades, prior).evidence_nats(&levels)
+    let prior = LevelPrior { blade_pass_db: loudest_db, blade_pass_std_db: prior.rotors_std_db, ..*prior };
+    LevelModel::new(noise, blades, &prior).evidence_nats(&levels)
+}
+
+/// The propeller of the rotors, with the levels of real ones.
+#[derive(Clone, Copy)]
+pub(crate) struct OwnPropeller<'a> {
+    pub(crate) blades: u32,
+    pub(crate) prior: &'a LevelPrior,
 }
 
 #[cfg(test)]
@@ -68,7 +86,8 @@ mod tests {
         let constant = |speed_rev_s: f64| vec![speed_rev_s; excess.frames.len()];
         let others: Vec<Vec<f64>> = others_rev_s.iter().copied().map(constant).collect();
         let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
-        own_lines_nats(excess, &constant(speed_rev_s), &others, 2, &LevelPrior::default())
+        let propeller = OwnPropeller { blades: 2, prior: &LevelPrior::default() };
+        own_lines_nats(excess, &constant(speed_rev_s), &others, 20.0, &propeller)
     }
 
     #[test]

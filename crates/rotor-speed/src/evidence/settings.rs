@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 pub struct EvidenceConfig {
     /// Smallest median over frames of the votes for the path of a rotor, in nats.
     pub votes_nats_min: f64,
-    /// Smallest evidence of the levels for a rotor, against levels of nothing, in nats: odds of 99 to 1.
+    /// Smallest evidence of the levels for a rotor, against levels of nothing, in nats: odds of 10,000 to 1. A single line
+    /// of something else has up to 6.
     pub levels_nats_min: f64,
     /// Largest evidence against a separated rotor of those of its lines that no other rotor has, in nats. Rotors that do not turn had 3.6 and
     /// more, those that turn none.
@@ -17,6 +18,8 @@ pub struct EvidenceConfig {
     /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
     /// speech 10 to 80.
     pub jumps_nats_max: f64,
+    /// Share of the recordings in which the levels deceive: an echo or unlike blades make a rotor sound like one in another octave.
+    pub levels_deceive: f64,
     /// Smallest belief with which an octave counts as decided: odds of 99 to 1.
     pub belief_min: f64,
     /// Levels of the lines of real rotors.
@@ -27,9 +30,10 @@ impl Default for EvidenceConfig {
     fn default() -> Self {
         Self {
             votes_nats_min: 1.0,
-            levels_nats_min: 4.6,
+            levels_nats_min: 9.2,
             refuting_nats_max: 3.0,
             jumps_nats_max: 8.0,
+            levels_deceive: 0.01,
             belief_min: 0.99,
             levels: LevelPrior::default(),
         }
@@ -42,6 +46,7 @@ impl EvidenceConfig {
         check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;
         check_range("refuting_nats_max", self.refuting_nats_max, 0.0, 100.0)?;
         check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
+        check_range("levels_deceive", self.levels_deceive, 0.0, 1.0)?;
         check_range("belief_min", self.belief_min, 0.5, 1.0)
     }
 }
@@ -55,10 +60,14 @@ pub struct LevelPrior {
     pub blade_pass_db: f64,
     /// Its standard deviation over recordings.
     pub blade_pass_std_db: f64,
+    /// Standard deviation of the loudness of the rotors of one vehicle at one microphone.
+    pub rotors_std_db: f64,
     /// Fall of the levels for a tenfold order, in units of 10 dB.
     pub fall: f64,
     /// Its standard deviation over recordings.
     pub fall_std: f64,
+    /// Share of recordings whose lines are smeared: their speed changes within a frame, or several rotors turn.
+    pub smeared: f64,
     /// Standard deviation of the level of one line of the blade pass about its mean.
     pub line_std_db: f64,
     /// Mean level of the shaft lines of unlike blades, against the blade pass.
@@ -83,6 +92,12 @@ pub struct LevelPrior {
     pub shaft_inaudible: f64,
     /// Share of lines of the blade pass that are missing.
     pub blade_pass_missing: f64,
+    /// Share of lines of the blade pass that are in a notch: a reflection takes most of them away.
+    pub notched: f64,
+    /// Mean level of a line in a notch, against its level without.
+    pub notch_db: f64,
+    /// Its standard deviation.
+    pub notch_std_db: f64,
     /// Share of shaft lines that are missing, where the others are audible.
     pub shaft_missing: f64,
     /// Share of places without a line of this rotor that hold a line of something else.
@@ -104,10 +119,12 @@ pub struct LevelPrior {
 impl Default for LevelPrior {
     fn default() -> Self {
         Self {
-            blade_pass_db: 13.0,
-            blade_pass_std_db: 10.0,
+            blade_pass_db: 20.0,
+            blade_pass_std_db: 15.0,
+            rotors_std_db: 12.0,
             fall: 1.3,
             fall_std: 1.0,
+            smeared: 0.3,
             line_std_db: 3.0,
             shaft_db: -7.0,
             shaft_std_db: 4.5,
@@ -120,6 +137,9 @@ impl Default for LevelPrior {
             below_missing: 0.2,
             shaft_inaudible: 0.15,
             blade_pass_missing: 0.05,
+            notched: 0.1,
+            notch_db: -10.0,
+            notch_std_db: 5.0,
             shaft_missing: 0.15,
             foreign: 0.05,
             echo: 0.03,

@@ -18,8 +18,8 @@ pub(crate) struct Candidates {
     pub(crate) leading_rev_s: f64,
     /// The beliefs in the speeds of a blade pass; `None` where the tone is something else, or no rotor is heard.
     beliefs: Option<Beliefs>,
-    /// Whether the beliefs decide that a rotor is heard, and its octave; otherwise they can only object to an octave.
-    pub(crate) beliefs_decide: bool,
+    /// Whether the evidence has heard a rotor: then it decides. Otherwise the thresholds do.
+    pub(crate) is_heard: bool,
     /// Lowest speed of the search.
     rev_s_min: f64,
 }
@@ -40,7 +40,7 @@ impl Candidates {
             map: CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s),
             leading_rev_s: speed_rev_s,
             beliefs: None,
-            beliefs_decide: true,
+            is_heard: true,
             rev_s_min: search_rev_s.0,
         })
     }
@@ -55,26 +55,13 @@ impl Candidates {
         }
     }
 
-    /// The same candidates where the beliefs decide; `None` where they do already, or hear no rotor clearly.
-    pub(crate) fn by_beliefs(self, config: &Config) -> Option<Self> {
-        let beliefs =
-            self.beliefs.as_ref().filter(|beliefs| !self.beliefs_decide && beliefs.is_clear(&config.evidence))?;
-        let leading_rev_s = beliefs.hover_rev_s()?;
-        Some(Self { leading_rev_s, beliefs_decide: true, ..self })
-    }
-
-    /// The speeds that remain possible beside an answer, most probable first; empty where it is decided.
-    pub(crate) fn alternatives(&self, answer_rev_s: f64, config: &Config) -> Vec<Reading> {
-        let readings = |hypotheses: &[Hypothesis]| -> Vec<Reading> {
-            hypotheses.iter().map(|hypothesis| reading_of(hypothesis, config.tone.order, &config.known)).collect()
-        };
+    /// The speeds that remain possible, most probable first; empty where one is decided.
+    pub(crate) fn alternatives(&self, config: &Config) -> Vec<Reading> {
         match self.beliefs.as_ref().map_or(&[][..], |beliefs| beliefs.possible(config.evidence.belief_min)) {
-            [_, _, ..] if !self.beliefs_decide => Vec::new(),
-            [other] if !self.beliefs_decide && !other.is_of_same_vehicle(answer_rev_s) => {
-                readings(&[other.clone(), other.or_else(answer_rev_s)])
-            }
             [] | [_] => Vec::new(),
-            possible => readings(possible),
+            possible => {
+                possible.iter().map(|hypothesis| reading_of(hypothesis, config.tone.order, &config.known)).collect()
+            }
         }
     }
 }
@@ -108,11 +95,12 @@ pub(crate) fn candidates_from_survey(
     surveyed.check(config)?;
     let map = CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s);
     let beliefs = beliefs_of(surveyed, search_rev_s.0..=search_rev_s.1, config);
-    let beliefs_decide = beliefs.is_some() && config.knows_thrust();
-    let believed_rev_s = beliefs.as_ref().filter(|_| beliefs_decide).and_then(Beliefs::hover_rev_s);
-    match believed_rev_s.or_else(|| map.leading_speed_rev_s()) {
+    let believed_rev_s = beliefs.as_ref().and_then(Beliefs::hover_rev_s);
+    let leading_rev_s = believed_rev_s.or_else(|| map.leading_speed_rev_s());
+    match leading_rev_s {
         Some(leading_rev_s) => {
-            Ok(Candidates { map, leading_rev_s, beliefs, beliefs_decide, rev_s_min: search_rev_s.0 })
+            let is_heard = beliefs.is_some();
+            Ok(Candidates { map, leading_rev_s, beliefs, is_heard, rev_s_min: search_rev_s.0 })
         }
         None => Err(Silence::because(or_mains_hum(NoTone::NoSeries, &surveyed.survey)).into()),
     }

@@ -49,7 +49,7 @@ pub(crate) fn decision_from_lines(
     };
     let rotors =
         without_refuted(rotors, surveyed, hover, config).unless_doubtful_beside(&lines.harmonic, config.tone.order);
-    let alternatives = candidates.alternatives(speed_rev_s, config);
+    let alternatives = candidates.alternatives(config);
     Ok(Decision { lines, rotors, alternatives })
 }
 
@@ -69,7 +69,7 @@ fn why_no_rotor(
         not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover)
             .or_else(|| mains_hum_reason(&lines.clearest, survey))
     };
-    if candidates.beliefs_decide {
+    if candidates.is_heard {
         return Ok(not_held_or_hum());
     }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);

@@ -3,7 +3,7 @@
 use super::Surveyed;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::own_lines_nats;
+use crate::evidence::{OwnPropeller, loudness_db, own_lines_nats};
 use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
 use crate::tone::{blades_of_tone, lines_between_speeds, lines_worth_hearing};
 use hovertone_analysis::Hover;
@@ -46,15 +46,18 @@ pub(super) fn without_refuted(
     if tracks.rotors.is_empty() {
         return tracks;
     }
-    let excess = excess.within(&hover.spans_s());
+    let excess = excess.short.within(&hover.spans_s());
     let times_s: Vec<f64> = excess.frames.iter().map(|frame| frame.centre_s).collect();
     let mut speeds_rev_s: Vec<Option<Vec<f64>>> =
         tracks.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
+    let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
+    let loudness = speeds_rev_s.iter().flatten().filter_map(|speeds_rev_s| loudness_db(&excess, speeds_rev_s, blades));
+    let loudest_db = loudness.fold(f64::MIN, f64::max);
     loop {
         let own_nats = |rotor: usize| {
             let others = speeds_rev_s.iter().enumerate().filter(|(other, _)| *other != rotor);
             let others: Vec<&[f64]> = others.filter_map(|(_, speeds_rev_s)| speeds_rev_s.as_deref()).collect();
-            Some(own_lines_nats(&excess, speeds_rev_s[rotor].as_deref()?, &others, blades, &config.evidence.levels))
+            Some(own_lines_nats(&excess, speeds_rev_s[rotor].as_deref()?, &others, loudest_db, &propeller))
         };
         let all = (0..speeds_rev_s.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?)));
         match all.min_by(|a, b| a.1.total_cmp(&b.1)) {

@@ -3,7 +3,7 @@
 use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{Beliefs, Excess, ExcessBuilder, WantedRotor, beliefs_from_excess};
+use crate::evidence::{Beliefs, ExcessBuilder, Looks, WantedRotor, beliefs_from_looks};
 use crate::survey::{MainsHum, RowsBuilder, Survey, SurveyBuilder};
 use crate::tone::blades_of_tone;
 use hovertone_analysis::{NoTone, Span};
@@ -15,7 +15,7 @@ pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
     /// Power over the floor in short frames, where the tone is a blade pass, or is looked for.
-    pub(crate) excess: Option<Excess>,
+    pub(crate) excess: Option<Looks>,
 }
 
 impl Surveyed {
@@ -26,7 +26,7 @@ impl Surveyed {
 
     /// The beliefs in the speeds of a rotor. `None` where none is heard, or where its blade pass is a line of the mains.
     pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Option<Beliefs> {
-        let beliefs = beliefs_from_excess(self.excess.as_ref()?, wanted, &config.evidence)?;
+        let beliefs = beliefs_from_looks(self.excess.as_ref()?, wanted, &config.evidence)?;
         let first = beliefs.hypotheses.first()?;
         let is_hum = |hum: &MainsHum| hum.holds(f64::from(first.blades) * first.hover_rev_s, 0.0);
         (!self.survey.hum.as_ref().is_some_and(is_hum)).then_some(beliefs)

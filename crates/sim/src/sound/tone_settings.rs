@@ -41,6 +41,9 @@ impl BladePassTones {
     }
 }
 
+/// Level of the shaft lines of a propeller without a gear, as a share of the blade pass: −14 dB.
+const UNLIKE_BLADES_LEVEL: f64 = 0.2;
+
 /// The lines of a rotor. All rotors have the same set of lines; phases and levels are drawn for each rotor and line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToneSettings {
@@ -50,6 +53,9 @@ pub struct ToneSettings {
     pub blade_pass: Option<BladePassTones>,
     /// Level of the line at the shaft speed itself: imbalance.
     pub shaft_level: f64,
+    /// Level of the other lines of the shaft, as a share of the level that the blade pass has at their order: no two blades are quite alike.
+    /// Sounds of hovers have these lines; sounds of flights do not yet.
+    pub unlike_blades_level: f64,
     /// Standard deviation of every line's level about the set one, drawn once per rotor and line.
     pub level_spread_db: f64,
 }
@@ -62,15 +68,18 @@ impl Default for ToneSettings {
             gear_mesh: Some(GearMeshTones::with_order(69)),
             blade_pass: Some(BladePassTones::with_blades(2)),
             shaft_level: 0.2,
+            unlike_blades_level: 0.0,
             level_spread_db: 3.0,
         }
     }
 }
 
 impl ToneSettings {
-    /// The lines of a vehicle's gear and blades.
+    /// The lines of a vehicle's gear and blades. Without a gear, the lines of unlike blades are 14 dB below the blade pass: real propellers have
+    /// 7 dB where the blades are unlike, and 18 dB where they are alike (`docs/measurements.md`).
     pub fn for_vehicle(vehicle: &Vehicle) -> Self {
         Self {
+            unlike_blades_level: if vehicle.gear.is_some() { 0.0 } else { UNLIKE_BLADES_LEVEL },
             gear_mesh: vehicle.gear.map(|gear| GearMeshTones::with_order(gear.value.wheel)),
             blade_pass: vehicle.blade_count.map(|blades| BladePassTones::with_blades(blades.value)),
             ..Self::default()
@@ -80,11 +89,21 @@ impl ToneSettings {
     /// One line of level 1 at that order and nothing else, for checks against a closed form.
     pub fn single(order: u32) -> Self {
         let mesh = GearMeshTones { order, harmonic_levels: vec![1.0], sideband_levels: Vec::new() };
-        Self { gear_mesh: Some(mesh), blade_pass: None, shaft_level: 0.0, level_spread_db: 0.0 }
+        Self {
+            gear_mesh: Some(mesh),
+            blade_pass: None,
+            shaft_level: 0.0,
+            unlike_blades_level: 0.0,
+            level_spread_db: 0.0,
+        }
     }
 
     pub(crate) fn check(&self) -> Result<(), QuantityError> {
-        let mut levels = vec![("shaft_level", self.shaft_level), ("level_spread_db", self.level_spread_db)];
+        let mut levels = vec![
+            ("shaft_level", self.shaft_level),
+            ("unlike_blades_level", self.unlike_blades_level),
+            ("level_spread_db", self.level_spread_db),
+        ];
         let mut counts = Vec::new();
         if let Some(mesh) = &self.gear_mesh {
             counts.push(("gear mesh order", mesh.order));

@@ -19,7 +19,13 @@ fn line(order: u32, microphones_m: &[[f64; 3]]) -> SoundSettings {
 fn comb(count: u32) -> SourceSettings {
     let blades = BladePassTones { blade_count: 1, harmonic_count: count, level: 1.0, exponent: 0.0 };
     SourceSettings {
-        tones: ToneSettings { gear_mesh: None, blade_pass: Some(blades), shaft_level: 0.0, level_spread_db: 0.0 },
+        tones: ToneSettings {
+            gear_mesh: None,
+            blade_pass: Some(blades),
+            shaft_level: 0.0,
+            unlike_blades_level: 0.0,
+            level_spread_db: 0.0,
+        },
         // So that a hundred of them are not clipped.
         tone_level_db_spl: 50.0,
         ..SourceSettings::single_line(1, RotorSpeed::from_rev_s(50.0))

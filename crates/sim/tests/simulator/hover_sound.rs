@@ -283,7 +283,13 @@ fn settings_out_of_bounds_are_refused_by_name() {
     assert_eq!(refused(HoverSettings { rotors: vec![rotor(0.0)], ..four_rotors() }), Some("mean_speed"));
     let shaky = RotorSound { wander_std_share: 0.2, ..rotor(60.0) };
     assert_eq!(refused(HoverSettings { rotors: vec![shaky], ..four_rotors() }), Some("wander_std_share"));
-    let mute = ToneSettings { gear_mesh: None, blade_pass: None, shaft_level: 0.0, level_spread_db: 0.0 };
+    let mute = ToneSettings {
+        gear_mesh: None,
+        blade_pass: None,
+        shaft_level: 0.0,
+        unlike_blades_level: 0.0,
+        level_spread_db: 0.0,
+    };
     assert_eq!(refused(HoverSettings { tones: mute, ..four_rotors() }), Some("lines to measure the noise against"));
     let toothless = ToneSettings { gear_mesh: Some(GearMeshTones::with_order(0)), ..ToneSettings::default() };
     assert_eq!(refused(HoverSettings { tones: toothless, ..four_rotors() }), Some("gear mesh order"));

@@ -1,0 +1,59 @@
+//! A second look at each hypothesis, in long frames: along the best path near that of the short frames, so that both look at one rotor.
+
+use super::excess::{Excess, Looks};
+use super::level_model::OrderLevel;
+use super::levels::{NoiseLevel, levels_of_orders, noise_level};
+use super::path::best_path;
+use super::votes::{VotePlaces, VoteTable, votes_of_frame};
+
+/// Largest distance of the paths, as a logarithm of the speed. *Decision.*
+const NEAR: f64 = 0.03;
+/// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
+const STEP: f64 = 1e-3;
+
+/// What long frames show along a path.
+pub(super) struct SecondLook {
+    /// Levels of the lines.
+    pub(super) levels: Vec<OrderLevel>,
+    /// Levels between them.
+    pub(super) noise: NoiseLevel,
+}
+
+impl SecondLook {
+    /// Looks along a path. `None` without a band.
+    pub(super) fn along(long: &Excess, speeds_rev_s: &[f64], blades: u32) -> Option<Self> {
+        Some(Self { levels: levels_of_orders(long, speeds_rev_s, blades), noise: noise_level(long, speeds_rev_s)? })
+    }
+}
+
+/// The best path in long frames near a path of the short frames, which has this speed in each. `None` without frames.
+pub(super) fn path_in_long_frames(looks: &Looks, speeds_rev_s: &[f64], table: &VoteTable) -> Option<Vec<f64>> {
+    let long = &looks.long;
+    let bins = long.frames.first()?.levels.len();
+    let steps = (NEAR / STEP) as i32;
+    let ratios: Vec<f64> = (-steps..=steps).map(|step| (STEP * f64::from(step)).exp()).collect();
+    let middles_rev_s = speeds_at(&looks.short, speeds_rev_s, long)?;
+    let votes: Vec<Vec<f32>> = long
+        .frames
+        .iter()
+        .zip(&middles_rev_s)
+        .map(|(frame, middle_rev_s)| {
+            let speeds_rev_s: Vec<f64> = ratios.iter().map(|ratio| ratio * middle_rev_s).collect();
+            votes_of_frame(frame, table, &VotePlaces::new(&speeds_rev_s, table, long.bin_hz, bins))
+        })
+        .collect();
+    let path = best_path(&votes, 0..ratios.len(), &long.hops(), STEP);
+    Some(path.iter().zip(&middles_rev_s).map(|(&point, middle_rev_s)| ratios[point] * middle_rev_s).collect())
+}
+
+/// The speeds of a path of the short frames at the middles of the long frames; constant beyond the ends. `None` without short frames.
+fn speeds_at(short: &Excess, speeds_rev_s: &[f64], long: &Excess) -> Option<Vec<f64>> {
+    let at = |time_s: f64| {
+        let after = short.frames.partition_point(|frame| frame.centre_s < time_s);
+        let (before, after) = (after.saturating_sub(1), after.min(short.frames.len().checked_sub(1)?));
+        let (from_s, to_s) = (short.frames[before].centre_s, short.frames[after].centre_s);
+        let share = if to_s > from_s { ((time_s - from_s) / (to_s - from_s)).clamp(0.0, 1.0) } else { 0.0 };
+        Some(speeds_rev_s.get(before)? * (1.0 - share) + speeds_rev_s.get(after)? * share)
+    };
+    long.frames.iter().map(|frame| at(frame.centre_s)).collect()
+}
