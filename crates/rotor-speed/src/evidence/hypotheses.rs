@@ -83,8 +83,10 @@ pub(crate) struct Hypothesis {
     factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
-    /// Evidence of the levels of its lines, in nats.
+    /// Evidence of the levels of its lines, in nats: of all looks together.
     levels_nats: f64,
+    /// The evidence of the look that has the least.
+    least_nats: f64,
     /// The same, with what is known of the vehicle.
     nats: f64,
     /// Levels of its lines.
@@ -172,6 +174,7 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
         for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
             let long_nats = model.evidence_nats(&seen.levels);
             it.nats += long_nats;
+            it.least_nats = it.levels_nats.min(long_nats);
             it.levels_nats += long_nats;
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
@@ -236,12 +239,12 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     Some(Look { noise, of_propellers: found.into_iter().map(of_propeller).collect() })
 }
 
-/// Whether a rotor is heard: the first, most probable hypothesis has the levels, and so has the one with the best levels the votes.
-/// What is known of the vehicle tells octaves apart, and no rotor from none.
+/// Whether a rotor is heard: the first, most probable hypothesis has the levels in each look, and the one with the best levels has the
+/// votes. What is known of the vehicle tells octaves apart, and no rotor from none.
 fn is_heard(hypotheses: &[Hypothesis], config: &EvidenceConfig) -> bool {
     let best = hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
     hypotheses.first().zip(best).is_some_and(|(first, best)| {
-        first.nats >= config.levels_nats_min
+        first.least_nats >= config.levels_nats_min
             && first.speed_rev_s >= RESOLVED_REV_S
             && best.votes_nats >= config.votes_nats_min
     })
@@ -256,6 +259,7 @@ fn is_multiple(speed_rev_s: f64, of_rev_s: f64, factors: &[f64]) -> bool {
 fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut LevelModel<'_>) -> Option<Hypothesis> {
     let &Multiple { path, factor, votes_nats, ref speeds_rev_s } = multiple;
     let levels = levels_of_orders(excess, speeds_rev_s, blades);
+    let levels_nats = model.evidence_nats(&levels);
     Some(Hypothesis {
         blades,
         speeds_rev_s: speeds_rev_s.clone(),
@@ -264,7 +268,8 @@ fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut 
         path,
         factor,
         votes_nats,
-        levels_nats: model.evidence_nats(&levels),
+        levels_nats,
+        least_nats: levels_nats,
         nats: 0.0,
         levels,
         belief: 0.0,

@@ -9,14 +9,13 @@ use serde::{Deserialize, Serialize};
 pub struct EvidenceConfig {
     /// Smallest median over frames of the votes for the path of a rotor, in nats.
     pub votes_nats_min: f64,
-    /// Smallest evidence of the levels for a rotor, against levels of nothing, in nats: odds of 10,000 to 1. A single line
-    /// of something else has up to 6.
+    /// Smallest evidence of the levels for a rotor in each look, against levels of nothing, in nats: odds of 99 to 1.
     pub levels_nats_min: f64,
     /// Largest evidence against a separated rotor of those of its lines that no other rotor has, in nats. Rotors that do not turn had 3.6 and
     /// more, those that turn none.
     pub refuting_nats_max: f64,
     /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
-    /// speech 10 to 80.
+    /// speech 8 to 80.
     pub jumps_nats_max: f64,
     /// Share of the recordings in which the levels deceive: an echo or unlike blades make a rotor sound like one in another octave.
     pub levels_deceive: f64,
@@ -30,9 +29,9 @@ impl Default for EvidenceConfig {
     fn default() -> Self {
         Self {
             votes_nats_min: 1.0,
-            levels_nats_min: 9.2,
+            levels_nats_min: 4.6,
             refuting_nats_max: 3.0,
-            jumps_nats_max: 8.0,
+            jumps_nats_max: 7.8,
             levels_deceive: 0.01,
             belief_min: 0.99,
             levels: LevelPrior::default(),
