@@ -35,7 +35,7 @@ const SHAFT_DB: [i32; 16] = [-39, -36, -33, -30, -27, -24, -21, -18, -15, -12, -
 /// Steps of the integral over the level that an echo takes from every other line, dB. *Numeric.*
 const ECHO_DB: [i32; 3] = [-6, -12, -18];
 /// Scatter of the lines of a recording over that of most, and the share of the recordings that have it. *Decision.*
-const SCATTERS: [(f64, f64); 2] = [(1.0, 0.7), (1.7, 0.3)];
+const SCATTERS: [(f64, f64); 3] = [(1.0, 0.65), (1.6, 0.25), (2.4, 0.1)];
 /// Lowest sum of loudness and offset, dB. *Numeric.*
 const SUM_DB_MIN: i32 = LOUDNESS_DB[0] + SHAFT_DB[0];
 /// Number of sums of loudness and offset. *Numeric.*
