@@ -63,6 +63,11 @@ impl Config {
         }
     }
 
+    /// The same settings for several rotors, which are separated.
+    pub(crate) fn with_several_rotors(&self) -> Self {
+        Self { rotors: self.rotors.with_several(), ..self.clone() }
+    }
+
     /// The methods that are computed.
     pub(crate) fn methods(&self) -> impl Iterator<Item = Method> {
         let is_possible = |method: &Method| *method != Method::Separated || self.rotors.are_several();

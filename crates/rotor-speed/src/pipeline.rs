@@ -33,15 +33,20 @@ pub fn speed_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Spe
     speed_from_survey(passes, &surveyed, config)
 }
 
-/// Passes that a speed needs: one for the survey, one for the lines, and two where rotors are separated. Where a weak tone is steady, one
-/// more tells its octave; where no rotor is heard there, but a slower shaft explains the tone, its lines take as many as the
-/// first ones. These are announced when they turn out to be needed.
+/// Passes that a speed needs: one for the survey, one for the lines, and two where a known number of rotors is separated. Where several are
+/// heard, two more separate them; where a weak tone is steady, one more tells its octave; where no rotor is heard there, but a slower
+/// shaft explains the tone, its lines take as many as the first ones. These are announced when they turn out to be needed.
 pub fn passes_of_speed(config: &Config) -> u32 {
     passes_of_survey() + passes_after_survey(config)
 }
 
 pub(crate) fn passes_after_survey(config: &Config) -> u32 {
-    if config.methods().any(|method| method == Method::Separated) { 3 } else { 1 }
+    1 + if config.methods().any(|method| method == Method::Separated) { passes_of_rotors() } else { 0 }
+}
+
+/// Passes in which rotors are separated.
+fn passes_of_rotors() -> u32 {
+    2
 }
 
 /// The first stage by itself, for several analyses of one recording.
@@ -68,6 +73,11 @@ pub fn speed_from_survey(
         Ok(candidates) => candidates,
         Err(stop) => return stop.answer(surveyed.heard),
     };
+    let several = candidates.are_several.then(|| config.with_several_rotors());
+    let config = several.as_ref().unwrap_or(config);
+    if candidates.are_several {
+        passes.expect_more(passes_of_rotors());
+    }
     let leading = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
     if matches!(leading.outcome, Outcome::Ok(_)) {
         return Ok(leading);

@@ -14,7 +14,7 @@ const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*
 const LONG_HOPS: u32 = 2;
 /// Bins to the resolution of a frame. *Numeric.*
-const ZERO_PAD_FACTOR: u32 = 4;
+pub(super) const ZERO_PAD_FACTOR: u32 = 4;
 /// Highest frequency, Hz: lines of small rotors are audible to their twelfth blade pass. *Decision.*
 const HZ_MAX: f64 = 9000.0;
 /// Highest frequency as a share of the sample rate: filters of recorders end below one half. *Decision.*

@@ -1,8 +1,10 @@
 //! Hypotheses: speeds and numbers of blades, and the belief in each.
 
+use super::companions::companion_nats;
 use super::excess::{Excess, Looks};
 use super::level_model::{LevelModel, OrderLevel};
 use super::levels::{NoiseLevel, levels_of_orders, noise_level};
+use super::own_lines::OwnPropeller;
 use super::search::{FACTORS, Multiple, ROTORS_APART, Search, VOTES_NATS_APART};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
@@ -50,6 +52,15 @@ impl Beliefs {
             .filter(|(order, blades, level_db)| order.is_multiple_of(*blades) && self.noise.is_below(*level_db))
             .map(|(order, blades, level_db)| (order / blades, level_db - self.noise.mean_db))
             .collect()
+    }
+
+    /// Whether the most probable rotor is one of several, which turn at other speeds.
+    pub(crate) fn are_several(&self, looks: &Looks, config: &EvidenceConfig) -> bool {
+        self.hypotheses.first().is_some_and(|first| {
+            let propeller = OwnPropeller { blades: first.blades, prior: &config.levels };
+            let nats = companion_nats(looks, &first.speeds_rev_s, &propeller);
+            nats.is_some_and(|nats| nats >= config.companion_nats_min)
+        })
     }
 
     /// The speed of the hover of the most probable rotor.

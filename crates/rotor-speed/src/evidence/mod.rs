@@ -20,6 +20,7 @@
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
 
+mod companions;
 mod excess;
 mod hypotheses;
 mod level_model;

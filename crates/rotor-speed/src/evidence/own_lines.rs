@@ -1,16 +1,21 @@
 //! Evidence of the lines that a rotor has for itself, beside other rotors.
 
-use super::excess::{self, Excess};
+use super::excess::{self, Excess, ZERO_PAD_FACTOR};
 use super::level_model::{LevelModel, OrderLevel};
 use super::levels::{level_db, noise_level};
 use super::settings::LevelPrior;
 
 /// Harmonics of the blade pass that are compared. *Decision.*
 const HARMONICS: u32 = 12;
-/// Distance at which two lines stand apart in a frame of 0.1 s, Hz: half the width of the main lobe of each. *Physics.*
-const APART_HZ: f64 = 20.0;
+/// Distance at which two lines stand apart, in resolutions of a frame: half the width of the main lobe of each. *Physics.*
+const APART_RESOLUTIONS: f64 = 2.0;
 /// Smallest share of the frames in which a line stands apart, at which it is compared. *Decision.*
 const APART_SHARE_MIN: f64 = 0.3;
+
+/// Distance at which two lines stand apart, Hz.
+pub(super) fn apart_hz(excess: &Excess) -> f64 {
+    APART_RESOLUTIONS * f64::from(ZERO_PAD_FACTOR) * excess.bin_hz
+}
 
 /// Level of the loudest line of the blade pass of a rotor, dB over the floor. `None` outside the band.
 ///
@@ -35,6 +40,7 @@ pub(crate) fn own_lines_nats(
     propeller: &OwnPropeller<'_>,
 ) -> f64 {
     let OwnPropeller { blades, prior } = *propeller;
+    let apart_hz = apart_hz(excess);
     let own_level = |harmonic: u32| {
         let order = harmonic * blades;
         let (mut sum, mut count) = (0u32, 0u32);
@@ -42,7 +48,7 @@ pub(crate) fn own_lines_nats(
             let hz = f64::from(order) * speed_rev_s;
             let is_met = |other: &&[f64]| {
                 let other_rev_s = other[index];
-                (hz - (hz / other_rev_s).round() * other_rev_s).abs() < APART_HZ
+                (hz - (hz / other_rev_s).round() * other_rev_s).abs() < apart_hz
             };
             if let Some(level) = frame.level_near(hz, excess.bin_hz)
                 && !others_rev_s.iter().any(is_met)

@@ -14,6 +14,9 @@ pub struct EvidenceConfig {
     /// Largest evidence against a separated rotor of those of its lines that no other rotor has, in nats. Rotors that do not turn had 3.6 and
     /// more, those that turn none.
     pub refuting_nats_max: f64,
+    /// Smallest evidence for another rotor of the vehicle, in nats: its path is the best of many, and the tail rotor of a helicopter beside its
+    /// main rotor had 16.
+    pub companion_nats_min: f64,
     /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
     /// speech 8 to 80.
     pub jumps_nats_max: f64,
@@ -31,6 +34,7 @@ impl Default for EvidenceConfig {
             votes_nats_min: 1.0,
             levels_nats_min: 4.6,
             refuting_nats_max: 3.0,
+            companion_nats_min: 18.4,
             jumps_nats_max: 7.8,
             levels_deceive: 0.01,
             belief_min: 0.99,
@@ -44,6 +48,7 @@ impl EvidenceConfig {
         check_range("votes_nats_min", self.votes_nats_min, 0.0, 100.0)?;
         check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;
         check_range("refuting_nats_max", self.refuting_nats_max, 0.0, 100.0)?;
+        check_range("companion_nats_min", self.companion_nats_min, 0.0, 1000.0)?;
         check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
         check_range("levels_deceive", self.levels_deceive, 0.0, 1.0)?;
         check_range("belief_min", self.belief_min, 0.5, 1.0)

@@ -1,6 +1,6 @@
 //! Votes of the lines of a frame for each shaft speed.
 
-use super::excess::{ExcessFrame, LEVELS, level_db};
+use super::excess::{ExcessFrame, LEVELS, Level, level_db};
 use super::levels::LINE_HZ_MIN;
 
 /// Largest vote of a line for or against, in nats. *Decision.*
@@ -16,7 +16,7 @@ const SHAFT_AUDIBLE: f64 = 0.35;
 /// Harmonics of the blade pass over which both probabilities fall by a factor e. *Decision.*
 const AUDIBLE_HARMONICS: f64 = 8.0;
 /// Harmonics of the blade pass that vote. *Decision.*
-const HARMONICS: u32 = 12;
+pub(super) const HARMONICS: u32 = 12;
 /// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*
 const BEYOND_WEIGHT: f32 = 0.5;
 
@@ -42,6 +42,11 @@ impl VoteTable {
             beyond.push(BEYOND_WEIGHT * (1.0 - audible).ln() as f32);
         }
         Self { votes, beyond }
+    }
+
+    /// The vote of a line of this order, at a level.
+    pub(super) fn vote(&self, order: u32, level: Level) -> f32 {
+        self.votes[order as usize - 1][usize::from(level)]
     }
 
     fn orders(&self) -> usize {

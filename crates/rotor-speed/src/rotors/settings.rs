@@ -8,6 +8,9 @@ use serde::Serialize;
 pub struct RotorsConfig {
     /// Rotors that turn at once. One is not told apart from anything.
     pub count: u32,
+    /// Whether the number of rotors is known. Otherwise `count` rotors turn, or as many as a quadrotor has where others are heard beside the
+    /// first.
+    pub is_count_known: bool,
     /// Half width of the band of speeds in which they are looked for, as a share of the speed that was heard. Rotors of real
     /// quadrotors lie up to 22 % apart, and a rotor outside the band is silently taken for another one.
     pub band_half_width_share: f64,
@@ -15,11 +18,19 @@ pub struct RotorsConfig {
 
 impl Default for RotorsConfig {
     fn default() -> Self {
-        Self { count: 1, band_half_width_share: 0.25 }
+        Self { count: 1, is_count_known: true, band_half_width_share: 0.25 }
     }
 }
 
+/// Rotors of a vehicle of which several are heard: most multirotors are quadrotors. *Decision.*
+const SEVERAL: u32 = 4;
+
 impl RotorsConfig {
+    /// The same settings where several rotors are heard.
+    pub(crate) fn with_several(self) -> Self {
+        Self { count: SEVERAL, ..self }
+    }
+
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("rotors", f64::from(self.count), 1.0, 12.0)?;
         check_range("rotors.band_half_width_share", self.band_half_width_share, 0.005, 0.3)

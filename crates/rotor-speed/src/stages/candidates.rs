@@ -20,6 +20,8 @@ pub(crate) struct Candidates {
     beliefs: Option<Beliefs>,
     /// Whether the evidence has heard a rotor: then it decides. Otherwise the thresholds do.
     pub(crate) is_heard: bool,
+    /// Whether several rotors are heard, where their number is not known.
+    pub(crate) are_several: bool,
     /// Lowest speed of the search.
     rev_s_min: f64,
 }
@@ -41,6 +43,7 @@ impl Candidates {
             leading_rev_s: speed_rev_s,
             beliefs: None,
             is_heard: true,
+            are_several: false,
             rev_s_min: search_rev_s.0,
         })
     }
@@ -98,12 +101,22 @@ pub(crate) fn candidates_from_survey(
     let believed_rev_s = beliefs.as_ref().and_then(Beliefs::hover_rev_s);
     let leading_rev_s = believed_rev_s.or_else(|| map.leading_speed_rev_s());
     match leading_rev_s {
-        Some(leading_rev_s) => {
-            let is_heard = beliefs.is_some();
-            Ok(Candidates { map, leading_rev_s, beliefs, is_heard, rev_s_min: search_rev_s.0 })
-        }
+        Some(leading_rev_s) => Ok(Candidates {
+            map,
+            leading_rev_s,
+            is_heard: beliefs.is_some(),
+            are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
+            beliefs,
+            rev_s_min: search_rev_s.0,
+        }),
         None => Err(Silence::because(or_mains_hum(NoTone::NoSeries, &surveyed.survey)).into()),
     }
+}
+
+/// Whether other rotors are heard beside the most probable one.
+fn are_several(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) -> bool {
+    let heard = beliefs.zip(surveyed.excess.as_ref());
+    heard.is_some_and(|(beliefs, looks)| beliefs.are_several(looks, &config.evidence))
 }
 
 /// The beliefs in the speeds of a blade pass. `None` where the tone is something else, or no rotor is heard.

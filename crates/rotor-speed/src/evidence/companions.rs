@@ -1,0 +1,56 @@
+//! Other rotors of the same vehicle, beside one that is heard.
+
+use super::excess::Looks;
+use super::own_lines::{OwnPropeller, apart_hz, loudness_db, own_lines_nats};
+use super::path::best_path;
+use super::second_look::path_in_long_frames;
+use super::votes::{HARMONICS, VoteTable};
+
+/// Largest distance of a rotor of the same vehicle, as a logarithm of the speed. *Decision.*
+const DISTANCE_MAX: f64 = 0.15;
+/// Smallest distance of a rotor that stands apart, as a logarithm of the speed: the speed of one rotor is not known better in a frame.
+/// *Decision.*
+const DISTANCE_MIN: f64 = 0.01;
+/// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
+const STEP: f64 = 1e-3;
+
+/// The evidence in nats for another rotor of the vehicle: that of the path in long frames with the most votes from blade passes which stand
+/// apart from all lines of the heard rotor. `None` without frames.
+///
+/// - `speeds_rev_s`: speed of the heard rotor in each short frame.
+///
+/// One propeller had up to 13 nats, several rotors 15 to 50 (`docs/measurements.md`). Rotors less than 1 % apart are not told.
+pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &OwnPropeller<'_>) -> Option<f64> {
+    let long = &looks.long;
+    let table = VoteTable::for_blades(propeller.blades);
+    let heard_rev_s = path_in_long_frames(looks, speeds_rev_s, &table)?;
+    let steps = (DISTANCE_MAX / STEP) as i32;
+    let ratios: Vec<f64> = (-steps..=steps).map(|step| (STEP * f64::from(step)).exp()).collect();
+    let apart_hz = apart_hz(long);
+    let vote_in = |frame: usize, speed_rev_s: f64| -> f32 {
+        let other_rev_s = heard_rev_s[frame];
+        let vote = |harmonic: u32| {
+            let order = harmonic * propeller.blades;
+            let hz = f64::from(order) * speed_rev_s;
+            let is_apart = (hz - (hz / other_rev_s).round() * other_rev_s).abs() >= apart_hz;
+            let level = long.frames[frame].level_near(hz, long.bin_hz).filter(|_| is_apart);
+            level.map_or(0.0, |level| table.vote(order, level))
+        };
+        (1..=HARMONICS).map(vote).sum()
+    };
+    let votes: Vec<Vec<f32>> = heard_rev_s
+        .iter()
+        .enumerate()
+        .map(|(frame, heard_rev_s)| ratios.iter().map(|ratio| vote_in(frame, ratio * heard_rev_s)).collect())
+        .collect();
+    let loudest_db = loudness_db(long, &heard_rev_s, propeller.blades)?;
+    let beside = (DISTANCE_MIN / STEP) as usize;
+    let middle = ratios.len() / 2;
+    let found = [0..middle - beside, middle + beside + 1..ratios.len()].map(|range| {
+        let path = best_path(&votes, range, &long.hops(), STEP);
+        let speeds_rev_s: Vec<f64> =
+            path.iter().zip(&heard_rev_s).map(|(&point, heard_rev_s)| ratios[point] * heard_rev_s).collect();
+        own_lines_nats(long, &speeds_rev_s, &[&heard_rev_s], loudest_db, propeller)
+    });
+    found.into_iter().max_by(f64::total_cmp)
+}
