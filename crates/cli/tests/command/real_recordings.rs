@@ -18,7 +18,7 @@ fn name(line: &Value) -> &str {
 fn bench_recordings_of_a_propeller_have_the_known_speeds() {
     let Some(folder) = recordings("crazyflie-propeller") else { return };
     let known_rev_s = [325.6, 347.3, 360.1, 376.6, 388.3, 405.2, 405.1];
-    let lines = speed(&files_in(&folder, ".wav"), &[]).ends_with(0).json_lines();
+    let lines = speed(&files_in(&folder, ".wav"), &["--rotors", "1"]).ends_with(0).json_lines();
     assert_eq!(lines.len(), known_rev_s.len());
     for (line, known) in lines.iter().zip(known_rev_s) {
         let speed_rev_s = line["speed_rev_s"].as_f64().unwrap();
@@ -69,7 +69,7 @@ fn every_container_tells_the_same_blade_pass_without_an_ffmpeg() {
     let Some(folder) = recordings("containers") else { return };
     let files = files_in(&folder, "");
     let names: Vec<&str> = files.iter().map(|file| text(file)).collect();
-    let arguments = [&["speed", "--blades", "2", "--json"], &names[..]].concat();
+    let arguments = [&["speed", "--blades", "2", "--rotors", "1", "--json"], &names[..]].concat();
     let run = hovertone_with(&arguments, |command| command.env("PATH", "")).ends_with(1);
     let lines = run.json_lines();
     assert_eq!(lines.len(), 52);
@@ -102,7 +102,7 @@ fn the_other_containers_are_heard_through_an_ffmpeg() {
         return;
     }
     let files: Vec<PathBuf> = NEEDS_FFMPEG.iter().map(|file| folder.join(file)).collect();
-    for line in speed(&files, &[]).ends_with(0).json_lines() {
+    for line in speed(&files, &["--rotors", "1"]).ends_with(0).json_lines() {
         let tone_hz = line["tone_hz"].as_f64().unwrap();
         assert!((tone_hz - 735.6).abs() < 0.6, "{}: {tone_hz}", name(&line));
     }
