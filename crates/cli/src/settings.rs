@@ -26,8 +26,9 @@ pub(crate) fn config_of(
     config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
     // where nothing is said of the tone, the number of rotors is not searched for
     config.rotors.is_count_known = config.known.rotor_count.is_some() || discovery.is_some();
-    let rotor_count = if config.rotors.is_count_known { config.rotors.count } else { u32::MAX };
-    config.method = analysis.method.unwrap_or(Method::for_rotors(rotor_count));
+    let may_be_several = !config.rotors.is_count_known || config.rotors.count > 1;
+    let default = if may_be_several && !analysis.mean_only { Method::Separated } else { Method::Harmonic };
+    config.method = analysis.method.unwrap_or(default);
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);

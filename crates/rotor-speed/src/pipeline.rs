@@ -41,12 +41,7 @@ pub fn passes_of_speed(config: &Config) -> u32 {
 }
 
 pub(crate) fn passes_after_survey(config: &Config) -> u32 {
-    1 + if config.methods().any(|method| method == Method::Separated) { passes_of_rotors() } else { 0 }
-}
-
-/// Passes in which rotors are separated.
-fn passes_of_rotors() -> u32 {
-    2
+    if config.methods().any(|method| method == Method::Separated) { 3 } else { 1 }
 }
 
 /// The first stage by itself, for several analyses of one recording.
@@ -74,10 +69,10 @@ pub fn speed_from_survey(
         Err(stop) => return stop.answer(surveyed.heard),
     };
     let several = candidates.are_several.then(|| config.with_several_rotors());
-    let config = several.as_ref().unwrap_or(config);
-    if candidates.are_several {
-        passes.expect_more(passes_of_rotors());
+    if let Some(several) = &several {
+        passes.expect_more(passes_after_survey(several) - passes_after_survey(config));
     }
+    let config = several.as_ref().unwrap_or(config);
     let leading = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
     if matches!(leading.outcome, Outcome::Ok(_)) {
         return Ok(leading);

@@ -4,7 +4,7 @@ use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};
 use hovertone_sim::SpeedProfile;
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Bias of an interpolated peak (Hann, two-fold zero padding), with room for noise, in bins of the frame.
 const PEAK_BIAS_BINS: f64 = 0.01;
@@ -138,6 +138,37 @@ fn take_off_and_landing_are_cut_away_and_said() {
     let line = &all.json_lines()[0];
     assert_eq!((line["from_s"].as_f64(), line["to_s"].as_f64()), (Some(4.0), Some(9.5)));
     assert!(!all.stderr.contains("cut"), "{}", all.stderr);
+}
+
+#[test]
+fn several_rotors_are_found_where_their_number_is_not_said() {
+    let folder = Folder::new();
+    let (four, one) = (folder.path("four.wav"), folder.path("one.wav"));
+    let hover = steady_hover("crazyflie", RotorSpeed::from_rev_s(100.0), 6.0);
+    let rotors = [98.0, 99.5, 101.2, 103.3].map(|rev_s| {
+        let rotor = hovertone_sim::RotorSound::at(RotorSpeed::from_rev_s(rev_s));
+        hovertone_sim::RotorSound { wander_std_share: 0.002, ..rotor }
+    });
+    write_hover(&four, hovertone_sim::HoverSettings { rotors: rotors.to_vec(), ..hover.clone() });
+    write_hover(&one, hovertone_sim::HoverSettings { rotors: vec![rotors[0]], ..hover });
+    let speed = |flags: &[&str], path: &Path| {
+        let run = hovertone(&[&["speed", "--blades", "2", "--json"], flags, &[text(path)]].concat()).ends_with(0);
+        run.json_lines()[0].clone()
+    };
+    let number = |line: &serde_json::Value, name: &str| line[name].as_f64().unwrap();
+    let found = speed(&[], &four);
+    assert_eq!(found["method"], "separated");
+    assert_eq!(found["rotors"].as_array().unwrap().len(), 4);
+    assert!((number(&found, "speed_rev_s") - 100.5).abs() < 0.1, "{}", found["speed_rev_s"]);
+    // without the separation, the ± covers that one tone stands for all
+    let mean = speed(&["--mean-only"], &four);
+    assert_eq!(mean["method"], "harmonic");
+    assert!(mean.get("rotors").is_none_or(serde_json::Value::is_null));
+    let error = number(&mean, "speed_rev_s") - 100.5;
+    assert!(error.abs() < 2.0 * number(&mean, "combined_std_uncertainty_rev_s"), "{error}");
+    let single = speed(&[], &one);
+    assert_eq!(single["method"], "harmonic");
+    assert!(single.get("rotors").is_none_or(serde_json::Value::is_null));
 }
 
 #[test]

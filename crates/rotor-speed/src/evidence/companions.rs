@@ -54,3 +54,38 @@ pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &Ow
     });
     found.into_iter().max_by(f64::total_cmp)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::excess::{Excess, ExcessFrame, level_of};
+    use crate::evidence::settings::LevelPrior;
+
+    /// Two seconds of noise to 9 kHz, with lines of 20 dB at twelve harmonics of the blade pass of each rotor.
+    fn rotors(speeds_rev_s: &[f64], bin_hz: f64, hop_s: f64) -> Excess {
+        let mut levels = vec![level_of(0.8); (9000.0 / bin_hz) as usize];
+        for speed_rev_s in speeds_rev_s {
+            for harmonic in 1..=12u32 {
+                levels[(f64::from(2 * harmonic) * speed_rev_s / bin_hz).round() as usize] = level_of(100.0);
+            }
+        }
+        let frames = (2.0 / hop_s) as u32;
+        let frame = |index: u32| ExcessFrame::of_levels(hop_s * f64::from(index), levels.clone());
+        Excess { bin_hz, frames: (0..frames).map(frame).collect() }
+    }
+
+    fn nats(speeds_rev_s: &[f64]) -> f64 {
+        let looks = Looks { short: rotors(speeds_rev_s, 2.5, 0.05), long: rotors(speeds_rev_s, 0.625, 0.1) };
+        let heard = vec![speeds_rev_s[0]; looks.short.frames.len()];
+        let propeller = OwnPropeller { blades: 2, prior: &LevelPrior::default() };
+        companion_nats(&looks, &heard, &propeller).expect("frames")
+    }
+
+    #[test]
+    fn another_rotor_has_lines_of_its_own() {
+        assert!(nats(&[90.0, 93.0]) > 20.0, "{}", nats(&[90.0, 93.0]));
+        assert!(nats(&[90.0]) < 0.0, "{}", nats(&[90.0]));
+        // closer than a path tells
+        assert!(nats(&[90.0, 90.2]) < 18.0, "{}", nats(&[90.0, 90.2]));
+    }
+}
