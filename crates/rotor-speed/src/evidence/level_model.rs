@@ -1,11 +1,13 @@
 //! Levels of the lines of a rotor, against levels of nothing.
 //!
-//! With the loudness g, the fall s and the offset d of the shaft lines, the line of order k of a propeller with B blades has the mean level
-//! `g − s · 10 log₁₀(k/B)`, plus d where k is no multiple of B; it scatters about its mean. Lines below the blade pass are weaker, as a slow
-//! force radiates little: their mean is g less some dB. A measured level has the noise of the frames.
-//! The evidence is the integral of the product of all likelihood ratios over g, s and d, on a grid. Lines may be missing, all shaft lines
-//! may be inaudible, so may all lines above some harmonic, and a place without a line may hold a line of something else. An echo that comes half
-//! a period of the blade pass later weakens every other line of the blade pass: so does a reflection from the ground.
+//! With the loudness g, the fall s, the smear c and the offset d of the shaft lines, the line of order k of a propeller with B blades has the
+//! mean level `g − s · 10 log₁₀(k/B) − c · (k/B − 1)`, plus d where k is no multiple of B; it scatters about its mean, in some recordings more
+//! than in others. Lines below the blade pass are weaker, as a slow force radiates little: their mean is g less some dB. A measured level has
+//! the noise of the frames.
+//! The evidence is the integral of the product of all likelihood ratios over g, s, c, d and the scatter, on a grid. Lines may be missing, all
+//! shaft lines may be inaudible, so may all lines above some harmonic, and a place without a line may hold a line of something else. A
+//! reflection may take most of a line of the blade pass away (a notch), or weaken every other one: an echo that comes half a period of the
+//! blade pass later.
 
 use super::excess::LEVEL_DB_MIN;
 use super::levels::NoiseLevel;
