@@ -44,7 +44,7 @@ const FLOORS: [Floor; 6] = [
     floor("rotors4+span", 2, 2, 1),
 ];
 /// Speeds told where no rotor is, low confidence included.
-const FALSE_ALARMS_MAX: usize = 1;
+const FALSE_ALARMS_MAX: usize = 0;
 
 /// Is the recording in the subset? All recordings without a rotor are.
 pub(super) fn is_in_subset(truth: &Truth) -> bool {

@@ -24,6 +24,9 @@ const HOVER_WIDTH_SHARE: f64 = 0.024;
 const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
+/// Weight of the nats of two looks where numbers of blades are compared: both are at the same sound, and tell blades no better than one.
+/// *Decision.*
+const BLADES_WEIGHT: f64 = 0.5;
 /// Weight of the nats of levels that deceive. *Decision.*
 const DECEIVED_WEIGHT: f64 = 0.1;
 /// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
@@ -149,7 +152,12 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
             look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
         })
         .collect();
-    let hypotheses = with_doubt(hypotheses, config);
+    let weight = if wanted.propellers.len() > 1 { BLADES_WEIGHT } else { 1.0 };
+    let weighted = |it: Hypothesis| {
+        let levels_nats = weight * it.levels_nats;
+        Hypothesis { nats: it.nats + levels_nats - it.levels_nats, levels_nats, ..it }
+    };
+    let hypotheses = with_doubt(hypotheses.into_iter().map(weighted).collect(), config);
     (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise })
 }
 

@@ -97,7 +97,7 @@ pub(crate) fn candidates_from_survey(
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     surveyed.check(config)?;
     let map = CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s);
-    let beliefs = beliefs_of(surveyed, search_rev_s.0..=search_rev_s.1, config);
+    let beliefs = beliefs_of(surveyed, search_rev_s.0..=search_rev_s.1, config).map_err(Silence::because)?;
     let believed_rev_s = beliefs.as_ref().and_then(Beliefs::hover_rev_s);
     let leading_rev_s = believed_rev_s.or_else(|| map.leading_speed_rev_s());
     match leading_rev_s {
@@ -120,7 +120,15 @@ fn are_several(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) 
 }
 
 /// The beliefs in the speeds of a blade pass. `None` where the tone is something else, or no rotor is heard.
-fn beliefs_of(surveyed: &Surveyed, speeds_rev_s: RangeInclusive<f64>, config: &Config) -> Option<Beliefs> {
-    let propeller = WantedPropeller { blades: blades_of_tone(&config.tone)?, share: 1.0, speeds_rev_s };
+///
+/// # Errors
+/// Mains hum.
+fn beliefs_of(
+    surveyed: &Surveyed,
+    speeds_rev_s: RangeInclusive<f64>,
+    config: &Config,
+) -> Result<Option<Beliefs>, NoTone> {
+    let Some(blades) = blades_of_tone(&config.tone) else { return Ok(None) };
+    let propeller = WantedPropeller { blades, share: 1.0, speeds_rev_s };
     surveyed.beliefs(&WantedRotor { propellers: vec![propeller], known: config.known }, config)
 }

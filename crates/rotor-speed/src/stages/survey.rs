@@ -24,12 +24,19 @@ impl Surveyed {
         self.heard
     }
 
-    /// The beliefs in the speeds of a rotor. `None` where none is heard, or where its blade pass is a line of the mains.
-    pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Option<Beliefs> {
-        let beliefs = beliefs_from_looks(self.excess.as_ref()?, wanted, &config.evidence)?;
-        let first = beliefs.hypotheses.first()?;
-        let is_hum = |hum: &MainsHum| hum.holds(f64::from(first.blades) * first.hover_rev_s, 0.0);
-        (!self.survey.hum.as_ref().is_some_and(is_hum)).then_some(beliefs)
+    /// The beliefs in the speeds of a rotor. `None` where none is heard.
+    ///
+    /// # Errors
+    /// Mains hum, where the blade pass of the rotor is one of its lines.
+    pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Result<Option<Beliefs>, NoTone> {
+        let heard = self.excess.as_ref().and_then(|looks| beliefs_from_looks(looks, wanted, &config.evidence));
+        let first = heard.as_ref().and_then(|beliefs| beliefs.hypotheses.first());
+        let holds =
+            |hum: &&MainsHum| first.is_some_and(|first| hum.holds(f64::from(first.blades) * first.hover_rev_s, 0.0));
+        match self.survey.hum.as_ref().filter(holds) {
+            Some(hum) => Err(NoTone::MainsHum { mains_hz: hum.mains_hz }),
+            None => Ok(heard),
+        }
     }
 
     /// Checks that the survey may hold a tone.
