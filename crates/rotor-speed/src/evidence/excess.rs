@@ -1,6 +1,7 @@
 //! Sound → power over the local floor, in short frames, in bounded memory and time.
 
 use hovertone_signal::spectrogram::{Stft, Window};
+use hovertone_signal::statistics::median;
 use std::collections::VecDeque;
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
@@ -32,7 +33,7 @@ const SKIRT_SHARE: f64 = 0.5;
 const SIDE_LOBES: Range<usize> = 8..40;
 /// A side lobe may be higher than that of a steady line by this factor, because the line moves. *Decision.*
 const SIDE_LOBE_MARGIN: f64 = 2.0;
-/// Share of the power in the upper quartile of the frames below which no rotor hovers: before take-off, after landing. *Decision.*
+/// Share of the median power of the frames below which no rotor hovers: before take-off, after landing. *Decision.*
 const QUIET_SHARE: f64 = 0.01;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
@@ -193,9 +194,8 @@ impl ExcessBuilder {
                 frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
             });
         }
-        let mut powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
-        powers.sort_by(f64::total_cmp);
-        let power_min = powers.get(powers.len() / 2).map_or(0.0, |median| QUIET_SHARE * median);
+        let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
+        let power_min = QUIET_SHARE * median(&powers).unwrap_or(0.0);
         frames.retain(|frame| frame.mean_power > power_min);
         Excess { bin_hz, frames }
     }

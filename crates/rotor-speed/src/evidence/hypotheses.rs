@@ -141,28 +141,27 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
     let Look { noise, mut of_propellers } = look_at(&looks.short, wanted, config)?;
     look_again(looks, &mut of_propellers, config);
     let heard = of_propellers.into_iter().filter(|look| is_heard(&look.hypotheses, config));
-    let hypotheses = heard.filter(|look| {
-        let search = Search::of(&looks.short, look.blades, &look.speeds_rev_s);
-        let first = look.hypotheses.first();
-        let jumps_nats = search.zip(first).and_then(|(search, first)| search.jumps_nats(first.path, first.factor));
-        jumps_nats.is_some_and(|nats| nats < config.jumps_nats_max)
+    let hypotheses = heard.filter(|look| !is_tune(look, &looks.short, config)).flat_map(|look| {
+        look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
     });
-    let hypotheses: Vec<Hypothesis> = hypotheses
-        .flat_map(|look| {
-            look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
-        })
-        .collect();
     let weight = if wanted.propellers.len() > 1 { BLADES_WEIGHT } else { 1.0 };
     let weighted = |it: Hypothesis| {
         let levels_nats = weight * it.levels_nats;
         Hypothesis { nats: it.nats + levels_nats - it.levels_nats, levels_nats, ..it }
     };
-    let hypotheses = with_doubt(hypotheses.into_iter().map(weighted).collect(), config);
+    let hypotheses = with_doubt(hypotheses.map(weighted).collect(), config);
     (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise })
 }
 
-/// Adds to each hypothesis what the long frames show along its path, and sorts them again. The two looks are at the same sound, so that both
-/// count less than two other sounds would.
+/// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
+fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool {
+    let search = Search::of(short, look.blades, &look.speeds_rev_s);
+    let jumps_nats =
+        search.zip(look.hypotheses.first()).and_then(|(search, first)| search.jumps_nats(first.path, first.factor));
+    jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
+}
+
+/// Adds to each hypothesis what the long frames show along its path, and sorts them again.
 fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &EvidenceConfig) {
     let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
     for look in &*of_propellers {
