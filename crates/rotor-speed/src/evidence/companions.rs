@@ -1,7 +1,7 @@
 //! Other rotors of the same vehicle, beside one that is heard.
 
 use super::excess::Looks;
-use super::own_lines::{OwnPropeller, apart_hz, loudness_db, own_lines_nats};
+use super::own_lines::{OwnPropeller, is_apart, loudness_db, own_lines_nats};
 use super::path::best_path;
 use super::second_look::path_in_long_frames;
 use super::votes::{HARMONICS, VoteTable};
@@ -26,14 +26,12 @@ pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &Ow
     let heard_rev_s = path_in_long_frames(looks, speeds_rev_s, &table)?;
     let steps = (DISTANCE_MAX / STEP) as i32;
     let ratios: Vec<f64> = (-steps..=steps).map(|step| (STEP * f64::from(step)).exp()).collect();
-    let apart_hz = apart_hz(long);
     let vote_in = |frame: usize, speed_rev_s: f64| -> f32 {
         let other_rev_s = heard_rev_s[frame];
         let vote = |harmonic: u32| {
             let order = harmonic * propeller.blades;
             let hz = f64::from(order) * speed_rev_s;
-            let is_apart = (hz - (hz / other_rev_s).round() * other_rev_s).abs() >= apart_hz;
-            let level = long.frames[frame].level_near(hz, long.bin_hz).filter(|_| is_apart);
+            let level = long.frames[frame].level_near(hz, long.bin_hz).filter(|_| is_apart(long, hz, other_rev_s));
             level.map_or(0.0, |level| table.vote(order, level))
         };
         (1..=HARMONICS).map(vote).sum()

@@ -1,4 +1,4 @@
-//! Sound → power over the local floor, in short frames, in bounded memory and time.
+//! Sound → power over the local floor, in short and long frames, in bounded memory and time.
 
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
@@ -15,7 +15,7 @@ const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*
 const LONG_HOPS: u32 = 2;
 /// Bins to the resolution of a frame. *Numeric.*
-pub(super) const ZERO_PAD_FACTOR: u32 = 4;
+const ZERO_PAD_FACTOR: u32 = 4;
 /// Highest frequency, Hz: lines of small rotors are audible to their twelfth blade pass. *Decision.*
 const HZ_MAX: f64 = 9000.0;
 /// Highest frequency as a share of the sample rate: filters of recorders end below one half. *Decision.*
@@ -101,6 +101,11 @@ impl Excess {
     pub(crate) fn within(&self, spans_s: &[Range<f64>]) -> Self {
         let is_within = |frame: &&ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
         Self { bin_hz: self.bin_hz, frames: self.frames.iter().filter(is_within).cloned().collect() }
+    }
+
+    /// Resolution of a frame, Hz.
+    pub(super) fn resolution_hz(&self) -> f64 {
+        f64::from(ZERO_PAD_FACTOR) * self.bin_hz
     }
 
     /// Number of short hops from each frame to the next. The first is 1.

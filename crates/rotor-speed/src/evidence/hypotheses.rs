@@ -155,9 +155,12 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
 
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
 fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool {
-    let search = Search::of(short, look.blades, &look.speeds_rev_s);
-    let jumps_nats =
-        search.zip(look.hypotheses.first()).and_then(|(search, first)| search.jumps_nats(first.path, first.factor));
+    let Some(first) = look.hypotheses.first() else { return true };
+    let jumps_nats = match &look.search {
+        Some(search) => search.jumps_nats(first.path, first.factor),
+        None => Search::of(short, look.blades, &look.speeds_rev_s)
+            .and_then(|search| search.jumps_nats(first.path, first.factor)),
+    };
     jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
 }
 
@@ -214,6 +217,8 @@ struct OfPropeller {
     share_nats: f64,
     /// Most probable first; none where no path has the votes of a rotor.
     hypotheses: Vec<Hypothesis>,
+    /// The search that found them, where it was kept.
+    search: Option<Search>,
 }
 
 /// The hypotheses on frames of one length. `None` without frames.
@@ -229,14 +234,18 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     for blades in NOISE_BLADES.filter(|&blades| wanted.propellers.iter().all(|wanted| wanted.blades != blades)) {
         noises.extend(noises_of(&Search::of(excess, blades, &any.speeds_rev_s)?));
     }
+    // votes are large, so that those of the last propeller alone are kept
+    let mut last: Option<Search> = None;
     let mut found: Vec<(&WantedPropeller, Vec<Multiple>)> = Vec::new();
     let mut lines_share = f64::INFINITY;
     for propeller in &wanted.propellers {
+        drop(last.take());
         let search = Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?;
         let own = noises_of(&search);
         lines_share = own.iter().map(|noise| noise.lines_share).fold(lines_share, f64::min);
         noises.extend(own);
         found.push((propeller, search.multiples(config.votes_nats_min)));
+        last = Some(search);
     }
     // lines that no wanted rotor explains are foreign, whatever another one would explain
     let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
@@ -252,9 +261,14 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
             speeds_rev_s: propeller.speeds_rev_s.clone(),
             share_nats: propeller.share.ln(),
             hypotheses: one_of_each_speed(all.collect()),
+            search: None,
         }
     };
-    Some(Look { noise, of_propellers: found.into_iter().map(of_propeller).collect() })
+    let mut of_propellers: Vec<OfPropeller> = found.into_iter().map(of_propeller).collect();
+    if let Some(propeller) = of_propellers.last_mut() {
+        propeller.search = last;
+    }
+    Some(Look { noise, of_propellers })
 }
 
 /// Whether a rotor is heard: the first, most probable hypothesis has the levels in each look, and the one with the best levels has the

@@ -1,20 +1,19 @@
 //! Evidence of the lines that a rotor has for itself, beside other rotors.
 
-use super::excess::{self, Excess, ZERO_PAD_FACTOR};
+use super::excess::{self, Excess};
 use super::level_model::{LevelModel, OrderLevel};
 use super::levels::{level_db, noise_level};
 use super::settings::LevelPrior;
+use super::votes::HARMONICS;
 
-/// Harmonics of the blade pass that are compared. *Decision.*
-const HARMONICS: u32 = 12;
 /// Distance at which two lines stand apart, in resolutions of a frame: half the width of the main lobe of each. *Physics.*
 const APART_RESOLUTIONS: f64 = 2.0;
 /// Smallest share of the frames in which a line stands apart, at which it is compared. *Decision.*
 const APART_SHARE_MIN: f64 = 0.3;
 
-/// Distance at which two lines stand apart, Hz.
-pub(super) fn apart_hz(excess: &Excess) -> f64 {
-    APART_RESOLUTIONS * f64::from(ZERO_PAD_FACTOR) * excess.bin_hz
+/// Whether a frequency stands apart, in a frame, from all lines of a shaft.
+pub(super) fn is_apart(excess: &Excess, hz: f64, shaft_rev_s: f64) -> bool {
+    (hz - (hz / shaft_rev_s).round() * shaft_rev_s).abs() >= APART_RESOLUTIONS * excess.resolution_hz()
 }
 
 /// Level of the loudest line of the blade pass of a rotor, dB over the floor. `None` outside the band.
@@ -40,26 +39,21 @@ pub(crate) fn own_lines_nats(
     propeller: &OwnPropeller<'_>,
 ) -> f64 {
     let OwnPropeller { blades, prior } = *propeller;
-    let apart_hz = apart_hz(excess);
     let own_level = |harmonic: u32| {
         let order = harmonic * blades;
         let (mut sum, mut count) = (0u32, 0u32);
         for (index, (frame, speed_rev_s)) in excess.frames.iter().zip(speeds_rev_s).enumerate() {
             let hz = f64::from(order) * speed_rev_s;
-            let is_met = |other: &&[f64]| {
-                let other_rev_s = other[index];
-                (hz - (hz / other_rev_s).round() * other_rev_s).abs() < apart_hz
-            };
             if let Some(level) = frame.level_near(hz, excess.bin_hz)
-                && !others_rev_s.iter().any(is_met)
+                && others_rev_s.iter().all(|other_rev_s| is_apart(excess, hz, other_rev_s[index]))
             {
                 sum += u32::from(level);
                 count += 1;
             }
         }
-        let is_apart = f64::from(count) >= APART_SHARE_MIN * excess.frames.len() as f64;
+        let is_often_apart = f64::from(count) >= APART_SHARE_MIN * excess.frames.len() as f64;
         let level_db = excess::level_db(f64::from(sum) / f64::from(count.max(1)));
-        is_apart.then_some(OrderLevel { order, level_db })
+        is_often_apart.then_some(OrderLevel { order, level_db })
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
     let Some(noise) = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty()) else { return 0.0 };

@@ -15,7 +15,7 @@ const WINDOW_STEP_RATIO: f64 = 1.25;
 /// Speeds of the hypotheses over the speed of each path: octaves, and families of three. *Decision.*
 pub(super) const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
 /// An octave down, none, and one up. *Physics.*
-pub(super) const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
+const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
 /// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
 const VOTES_SHARE_MIN: f64 = 0.5;
 /// These nats. *Decision.*

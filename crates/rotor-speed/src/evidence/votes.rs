@@ -15,7 +15,7 @@ const BLADE_PASS_AUDIBLE: f64 = 0.7;
 const SHAFT_AUDIBLE: f64 = 0.35;
 /// Harmonics of the blade pass over which both probabilities fall by a factor e. *Decision.*
 const AUDIBLE_HARMONICS: f64 = 8.0;
-/// Harmonics of the blade pass that vote. *Decision.*
+/// Harmonics of the blade pass that vote, and that tell rotors apart. *Decision.*
 pub(super) const HARMONICS: u32 = 12;
 /// Weight of the vote of a line above the band of the recording, which cannot be heard: its absence proves little. *Decision.*
 const BEYOND_WEIGHT: f32 = 0.5;

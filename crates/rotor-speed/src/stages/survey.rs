@@ -14,7 +14,7 @@ use hovertone_signal::passes::{Passes, Piece};
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
-    /// Power over the floor in short frames, where the tone is a blade pass, or is looked for.
+    /// Power over the floor in short and long frames, where the tone is a blade pass, or is looked for.
     pub(crate) excess: Option<Looks>,
 }
 
