@@ -27,7 +27,14 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
         let more: &[&str] = if format == "airsim" { &AIRSIM_NEEDS } else { &[] };
         let out = exports.join(format);
         run_quietly(
-            Command::new(&hovertone).arg("export").arg(&results).args(["--to", format]).args(more).arg("-o").arg(out),
+            Command::new(&hovertone)
+                .arg("export")
+                .arg(&results)
+                .args(["--to", format])
+                .args(more)
+                .arg("--force")
+                .arg("-o")
+                .arg(out),
         )?;
     }
     let python = python_with_rotorpy(&folder)?;

@@ -2,6 +2,7 @@
 
 use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
+use crate::outputs::Outputs;
 use crate::terminal::Terminal;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_exchange::{IdentifiedRotor, export_text, identified_from_results};
@@ -11,11 +12,12 @@ use std::path::Path;
 /// Writes or prints the lines.
 pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let rotor = resolve(arguments)?;
+    let outputs = Outputs::beside([&arguments.results], arguments.replace.force);
     let text = export_text(&rotor, arguments.to)
         .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
     match &arguments.output {
         Some(path) => {
-            fs::write(path, text).map_err(|error| Failure::cannot_write(&error, path))?;
+            outputs.write(path, text)?;
             terminal.say(&format!("written: {}", path.display()));
         }
         None => terminal.data(&text)?,

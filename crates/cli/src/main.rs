@@ -5,6 +5,7 @@
 
 mod args;
 mod compare;
+mod copies;
 mod demo;
 mod drawing;
 mod export;
@@ -16,7 +17,9 @@ mod jobs;
 mod labels;
 mod microphones;
 mod nearest;
+mod output_file;
 mod output_folder;
+mod outputs;
 mod place;
 mod progress;
 mod recording;

@@ -2,6 +2,7 @@
 
 use crate::drawing::{draw_all, trial_of};
 use crate::failure::Failure;
+use crate::output_folder::{FolderKind, OutputFolder};
 use crate::recording::{Hearing, Job};
 use hovertone::speed::Method;
 use hovertone_figures::{
@@ -13,10 +14,27 @@ use hovertone_report::{
     tables_latex, tables_markdown,
 };
 use rayon::prelude::*;
-use std::fs;
-use std::path::Path;
 
 const FIGURES: &str = "figures";
+const MARKED: &str = "results.schema.json";
+
+/// The folder of `identify`.
+pub(crate) const RESULTS: FolderKind = FolderKind {
+    name: "folder of results",
+    marked: MARKED,
+    mark: "{\n \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n \"$id\": \"urn:hovertone:results:",
+    files: &[
+        MARKED,
+        "results.json",
+        "samples.csv",
+        "samples.parquet",
+        "loads.csv",
+        "loads.parquet",
+        "tables.md",
+        "tables.tex",
+        "report.html",
+    ],
+};
 
 /// Content of the report beside the identification.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,22 +53,21 @@ pub(crate) fn write_report(
     jobs: &[Job],
     hearing: Hearing,
     extras: &Extras<'_>,
-    folder: &Path,
+    folder: &OutputFolder,
 ) -> Result<Vec<String>, Failure> {
-    let figures_folder = folder.join(FIGURES);
-    fs::create_dir_all(&figures_folder).map_err(|error| Failure::cannot_write(&error, &figures_folder))?;
+    // the file that marks the folder comes first, so that a later run may write here even after an interrupt
+    folder.write(MARKED, RESULTS_SCHEMA)?;
     // write the measured results before the drawing, which takes long
-    write(&folder.join("results.json"), results_json(identification).map_err(Failure::internal)?)?;
-    write(&folder.join("results.schema.json"), RESULTS_SCHEMA)?;
+    folder.write("results.json", results_json(identification).map_err(Failure::internal)?)?;
     for table in [samples_data(identification.tables), loads_data(identification.tables)] {
-        write(&folder.join(format!("{}.csv", table.name)), table.csv().map_err(Failure::internal)?)?;
+        folder.write(&format!("{}.csv", table.name), table.csv().map_err(Failure::internal)?)?;
         #[cfg(feature = "parquet")]
-        write(&folder.join(format!("{}.parquet", table.name)), table.parquet().map_err(Failure::internal)?)?;
+        folder.write(&format!("{}.parquet", table.name), table.parquet().map_err(Failure::internal)?)?;
     }
     let mut tables = experiment_tables(identification);
     tables.extend_from_slice(extras.more_tables);
-    write(&folder.join("tables.md"), tables_markdown(&tables))?;
-    write(&folder.join("tables.tex"), tables_latex(&tables))?;
+    folder.write("tables.md", tables_markdown(&tables))?;
+    folder.write("tables.tex", tables_latex(&tables))?;
 
     let records: Vec<&SpeedRecord> = identification.inputs.iter().map(|input| &input.record).collect();
     let drawings = draw_all(jobs, &records, hearing, SOUND_S_MAX);
@@ -64,7 +81,7 @@ pub(crate) fn write_report(
         .collect();
     let drawn = ExperimentFigures { trials: &trials, tables: identification.tables, method: identification.method };
     let figures = figures_of_experiment(&drawn).map_err(Failure::internal)?;
-    figures.par_iter().try_for_each(|figure| write_figure(figure, &figures_folder))?;
+    figures.par_iter().try_for_each(|figure| write_figure(figure, folder))?;
 
     let trial_figures: Vec<Option<Figure>> = trials
         .par_iter()
@@ -89,18 +106,24 @@ pub(crate) fn write_report(
         command: extras.command,
     };
     let page = report_html(&report).map_err(Failure::internal)?;
-    write(&folder.join("report.html"), page)?;
-    let named = |name: &str| folder.join(name).display().to_string();
+    folder.write("report.html", page)?;
+    let named = |name: &str| folder.place(name).display().to_string();
     Ok(["report.html", "results.json", "samples.csv", "tables.md", "tables.tex", FIGURES].map(named).to_vec())
 }
 
 /// Writes a figure as SVG and as PNG.
-fn write_figure(figure: &Figure, folder: &Path) -> Result<(), Failure> {
-    write(&folder.join(format!("{}.svg", figure.name)), &figure.svg)?;
+fn write_figure(figure: &Figure, folder: &OutputFolder) -> Result<(), Failure> {
+    folder.write(&format!("{FIGURES}/{}.svg", figure.name), &figure.svg)?;
     let png = figure_png(figure, DOTS_PER_INCH).map_err(Failure::internal)?;
-    write(&folder.join(format!("{}.png", figure.name)), png)
+    folder.write(&format!("{FIGURES}/{}.png", figure.name), png)
 }
 
-fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
-    fs::write(path, content).map_err(|error| Failure::cannot_write(&error, path))
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_schema_marks_a_folder_of_results() {
+        assert!(RESULTS_SCHEMA.starts_with(RESULTS.mark) && RESULTS.files.contains(&MARKED));
+    }
 }

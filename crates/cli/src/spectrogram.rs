@@ -4,12 +4,12 @@ use crate::args::SpectrogramArguments;
 use crate::drawing::{drawing_of, trial_of};
 use crate::failure::{Ending, Failure};
 use crate::jobs::ending_of;
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
 use hovertone_figures::{figure_png, recording_figure};
-use std::fs;
 use std::path::Path;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -35,6 +35,8 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         wants_hash: false,
         wants_samples: false,
     };
+    let outputs = Outputs::beside([&arguments.file], arguments.replace.force);
+    outputs.check(&arguments.output)?;
     let jobs = [job];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
@@ -54,7 +56,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         Kind::Svg => figure.svg.into_bytes(),
         Kind::Png => figure_png(&figure, f64::from(arguments.dpi)).map_err(Failure::internal)?,
     };
-    fs::write(&arguments.output, bytes).map_err(|error| Failure::cannot_write(&error, &arguments.output))?;
+    outputs.write(&arguments.output, bytes)?;
     terminal.say(&format!("written: {}", arguments.output.display()));
     Ok(ending)
 }

@@ -5,6 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::labels::{LabelPlan, label};
 use crate::microphones::{ArrayPlan, label_all};
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, hear_all};
 use crate::settings::config_of;
@@ -18,6 +19,7 @@ struct Plan {
     jobs: Vec<Job>,
     hearing: Hearing,
     track: Option<PathBuf>,
+    outputs: Outputs,
     labels: Option<LabelPlan>,
     microphones: Option<ArrayPlan>,
 }
@@ -48,8 +50,7 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     terminal.flush()?;
     terminal.notes(&records.iter().collect::<Vec<_>>());
     if let Some(path) = plan.track {
-        let track = track_csv(&records).map_err(Failure::internal)?;
-        std::fs::write(&path, track).map_err(|error| Failure::cannot_write(&error, &path))?;
+        plan.outputs.write(&path, track_csv(&records).map_err(Failure::internal)?)?;
     }
     Ok(ending_of(&records))
 }
@@ -67,5 +68,10 @@ fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
     let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let labels = crate::labels::resolve(&arguments.labels, vehicle, jobs.len(), config.rotors.count)?;
     let microphones = crate::microphones::resolve(&arguments.labels, vehicle, &jobs, hearing, config.rotors.count)?;
-    Ok(Plan { jobs, hearing, track: arguments.track.clone(), labels, microphones })
+    let of_flight = [&arguments.labels.log, &arguments.labels.microphones].into_iter().flatten();
+    let inputs = jobs.iter().map(|job| &job.path).chain(of_flight);
+    let outputs = Outputs::beside(inputs, arguments.replace.force);
+    let track = arguments.track.clone();
+    track.as_deref().map_or(Ok(()), |track| outputs.check(track))?;
+    Ok(Plan { jobs, hearing, track, outputs, labels, microphones })
 }

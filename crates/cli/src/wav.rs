@@ -1,23 +1,24 @@
 //! Simulated sound into WAV files, channel by channel.
 
 use crate::failure::Failure;
+use crate::output_file::OutputFile;
 use hound::{SampleFormat as Stored, WavSpec, WavWriter};
 use hovertone_sim::scenario::SampleFormat;
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A WAV file that is written in pieces.
 pub(crate) struct WavFile {
     writer: WavWriter<BufWriter<File>>,
     format: SampleFormat,
-    path: PathBuf,
+    output: OutputFile,
 }
 
 impl WavFile {
     /// Begins a file with the given number of channels.
     pub(crate) fn create(
-        path: &Path,
+        output: OutputFile,
         channels: usize,
         sample_rate: u32,
         format: SampleFormat,
@@ -29,8 +30,9 @@ impl WavFile {
         let channels = u16::try_from(channels)
             .map_err(|_| Failure::usage("too many microphones for a WAV file", "have at most 65535"))?;
         let spec = WavSpec { channels, sample_rate, bits_per_sample, sample_format };
-        let writer = WavWriter::create(path, spec).map_err(|error| cannot_write(error, path))?;
-        Ok(Self { writer, format, path: path.to_owned() })
+        let file = BufWriter::new(output.handle()?);
+        let writer = WavWriter::new(file, spec).map_err(|error| cannot_write(error, output.place()))?;
+        Ok(Self { writer, format, output })
     }
 
     /// Writes and empties the channels, which have equal lengths.
@@ -41,17 +43,18 @@ impl WavFile {
                     Some(bits) => self.writer.write_sample(SampleFormat::whole_number(bits, channel[index])),
                     None => self.writer.write_sample(channel[index]),
                 };
-                written.map_err(|error| cannot_write(error, &self.path))?;
+                written.map_err(|error| cannot_write(error, self.output.place()))?;
             }
         }
         channels.iter_mut().for_each(Vec::clear);
         Ok(())
     }
 
-    /// Finishes the file.
+    /// Finishes the file and puts it into its place.
     pub(crate) fn finish(self) -> Result<(), Failure> {
-        let path = self.path;
-        self.writer.finalize().map_err(|error| cannot_write(error, &path))
+        let output = self.output;
+        self.writer.finalize().map_err(|error| cannot_write(error, output.place()))?;
+        output.keep()
     }
 }
 

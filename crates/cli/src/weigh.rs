@@ -1,6 +1,7 @@
 //! `hovertone weigh`: the mass of a hovering vehicle from its sound.
 
 use crate::args::WeighArguments;
+use crate::copies::refuse_copies;
 use crate::export::identified;
 use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
@@ -32,6 +33,7 @@ struct Plan {
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
     let jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default());
+    refuse_copies(&jobs.iter().collect::<Vec<_>>(), "give each recording once", None)?;
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,

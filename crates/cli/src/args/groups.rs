@@ -94,6 +94,13 @@ pub(crate) struct HearingArguments {
     pub(crate) no_progress: bool,
 }
 
+#[derive(Args, Debug)]
+pub(crate) struct ReplaceArguments {
+    /// Replace files that exist already; a file that the command reads is never replaced
+    #[arg(long, help_heading = "Output")]
+    pub(crate) force: bool,
+}
+
 pub(crate) fn method_parser() -> impl TypedValueParser<Value = Method> {
     let named = |name: String| Method::ALL.into_iter().find(|method| method.name() == name).ok_or("no such method");
     PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(named)

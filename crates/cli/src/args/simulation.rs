@@ -1,5 +1,6 @@
 //! Arguments of the commands that simulate a flight: demo and simulate.
 
+use super::groups::ReplaceArguments;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,9 +12,11 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
 pub(crate) struct DemoArguments {
-    /// Where to write; must be empty, new, or an earlier demo
+    /// Where to write: a folder that is empty, new, or of an earlier demo
     #[arg(short, long, value_name = "DIR", default_value = "demo")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
     /// Everything random comes from here
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
@@ -66,9 +69,11 @@ pub(crate) struct SimulateArguments {
     /// What is flown and what hears it
     #[arg(value_name = "SCENARIO.toml")]
     pub(crate) scenario: PathBuf,
-    /// Where to write; must be empty, new, or an earlier simulation
+    /// Where to write: a folder that is empty, new, or of an earlier simulation
     #[arg(short, long, value_name = "DIR", default_value = "simulation")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
     /// Everything random comes from here [default: the scenario's]
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,

@@ -1,6 +1,6 @@
 //! Arguments of `spectrogram`.
 
-use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -23,6 +23,8 @@ pub(crate) struct SpectrogramArguments {
     /// Where to write: x.png or x.svg
     #[arg(short, long, value_name = "PICTURE", help_heading = "Output")]
     pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
     /// Dots per inch of a PNG
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(50..=1200), help_heading = "Output")]
     pub(crate) dpi: u16,

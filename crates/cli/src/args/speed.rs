@@ -1,6 +1,6 @@
 //! Arguments of `speed`.
 
-use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments};
 use super::labels::LabelArguments;
 use clap::Args;
 use std::path::PathBuf;
@@ -45,4 +45,6 @@ pub(crate) struct SpeedArguments {
     /// Write the speed of every frame as CSV; with several recordings the first column is the file
     #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
     pub(crate) track: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
 }

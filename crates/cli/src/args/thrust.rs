@@ -1,6 +1,6 @@
 //! Arguments of the commands about forces: identify, fit, weigh, export, compare.
 
-use super::groups::{HearingArguments, ToneArguments, method_parser};
+use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
@@ -55,9 +55,11 @@ pub(crate) struct IdentifyArguments {
     /// What was flown, with which masses, and where the recordings are
     #[arg(value_name = "EXPERIMENT.toml")]
     pub(crate) experiment: PathBuf,
-    /// Write report.html, results.json, tables and figures there
+    /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of earlier results
     #[arg(short, long, value_name = "DIR", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
     /// Print results.json instead of the tables
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
@@ -232,8 +234,10 @@ pub(crate) struct ExportArguments {
     #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
     pub(crate) to: SimulatorFormat,
     /// Write there instead of printing
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
     /// Torque of a rotor over its squared speed, if it was measured: N m/(rad/s)²
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub(crate) torque_constant_n_m_s2: Option<f64>,

@@ -2,7 +2,8 @@
 
 use super::render::{TrialTruth, folder_of_load};
 use crate::failure::Failure;
-use crate::output_folder::{self, write_csv};
+use crate::output_folder::{FolderKind, OutputFolder};
+use crate::outputs::Outputs;
 use hovertone_sim::paper::{GRAVITY_M_S2, LOADS, ROTOR_COUNT, TONE_ORDER};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
@@ -12,13 +13,37 @@ use std::path::{Path, PathBuf};
 const MARK: &str = "# Written by `hovertone demo`";
 const EXPERIMENT: &str = "experiment.toml";
 
-/// Makes the folder. A folder with other files than those of an earlier demo is refused.
-pub(super) fn prepare(folder: &Path) -> Result<(), Failure> {
-    output_folder::prepare(folder, "demo", EXPERIMENT, MARK)
+const KIND: FolderKind = FolderKind { name: "demo", marked: EXPERIMENT, mark: MARK, files: &[] };
+
+/// Makes the folder. A folder with other files than those of an earlier demo is refused, and so is one whose experiment file was changed.
+pub(super) fn prepare(path: &Path, force: bool) -> Result<OutputFolder, Failure> {
+    let nothing: [&Path; 0] = [];
+    let folder = OutputFolder::prepare(path, Outputs::beside(nothing, force), &KIND)?;
+    let experiment = folder.place(EXPERIMENT);
+    if !force && fs::read_to_string(&experiment).is_ok_and(|text| !is_as_written(&text)) {
+        return Err(Failure::Usage {
+            what: "this experiment file was changed, or is of another version of hovertone: nothing was written"
+                .to_owned(),
+            hint: "choose a new folder with -o DIR, or say --force to replace it".to_owned(),
+            path: Some(experiment),
+        });
+    }
+    Ok(folder)
+}
+
+/// Whether an experiment file is as the demo of its seed writes it.
+fn is_as_written(text: &str) -> bool {
+    let seed = text.lines().next().and_then(|line| line.split_once("seed ")?.1.strip_suffix(")."));
+    seed.and_then(|seed| seed.parse().ok()).is_some_and(|seed| experiment_text(seed) == text)
 }
 
 /// Writes the experiment file and returns its path.
-pub(super) fn write_experiment(folder: &Path, seed: u64) -> Result<PathBuf, Failure> {
+pub(super) fn write_experiment(folder: &OutputFolder, seed: u64) -> Result<PathBuf, Failure> {
+    folder.write(EXPERIMENT, experiment_text(seed))?;
+    Ok(folder.place(EXPERIMENT))
+}
+
+fn experiment_text(seed: u64) -> String {
     let vehicle_kg = LOADS[0].mass_kg;
     let mut text = format!(
         "{MARK} (hovertone {version}, seed {seed}).
@@ -47,14 +72,12 @@ overlap = 0.4
             folder_of_load(load)
         );
     }
-    let path = folder.join(EXPERIMENT);
-    fs::write(&path, text).map_err(|error| Failure::cannot_write(&error, &path))?;
-    Ok(path)
+    text
 }
 
 /// Writes `truth.csv` with a line for each trial, and `truth_tracks.csv` with the speed of every rotor at every row of the truth.
-pub(super) fn write_truth(folder: &Path, trials: &[TrialTruth]) -> Result<(), Failure> {
-    write_csv(&folder.join("truth.csv"), |writer| {
+pub(super) fn write_truth(folder: &OutputFolder, trials: &[TrialTruth]) -> Result<(), Failure> {
+    folder.write_csv("truth.csv", |writer| {
         let rotors = (1..=ROTOR_COUNT).map(|rotor| format!("rotor_{rotor}_mean_speed_rev_s"));
         let head = ["load", "trial", "recording", "seed", "mass_kg"].map(str::to_owned).into_iter().chain(rotors);
         writer.write_record(
@@ -80,7 +103,7 @@ pub(super) fn write_truth(folder: &Path, trials: &[TrialTruth]) -> Result<(), Fa
         }
         Ok(())
     })?;
-    write_csv(&folder.join("truth_tracks.csv"), |writer| {
+    folder.write_csv("truth_tracks.csv", |writer| {
         let rotors = (1..=ROTOR_COUNT).map(|rotor| format!("rotor_{rotor}_speed_rev_s"));
         writer.write_record(["load", "trial", "time_s"].map(str::to_owned).into_iter().chain(rotors))?;
         for trial in trials {
@@ -92,4 +115,16 @@ pub(super) fn write_truth(folder: &Path, trials: &[TrialTruth]) -> Result<(), Fa
         }
         Ok(())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_changed_experiment_file_is_seen() {
+        let text = experiment_text(7);
+        assert!(text.starts_with(MARK) && is_as_written(&text));
+        assert!(!is_as_written(&text.replace("0.413", "0.420")) && !is_as_written(&(text + "# my notes\n")));
+    }
 }

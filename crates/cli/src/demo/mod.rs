@@ -5,7 +5,7 @@ mod render;
 
 use crate::args::DemoArguments;
 use crate::failure::{Ending, Failure};
-use crate::identify::{ExperimentSource, identify};
+use crate::identify::{ExperimentSource, identify, jobs_of};
 use crate::recording::Hearing;
 use crate::report_folder::Extras;
 use crate::terminal::Terminal;
@@ -19,15 +19,16 @@ use hovertone_sim::paper::{LOADS, PaperLoad};
 
 /// Simulates, writes, identifies and compares.
 pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let folder = &arguments.output;
-    folder::prepare(folder)?;
-    let truths = render::render_all(arguments.seed, folder, !arguments.no_progress)?;
+    let folder = &folder::prepare(&arguments.output, arguments.replace.force)?;
+    // the experiment file marks the folder: after an interrupt the demo can simply be run again
     let experiment = folder::write_experiment(folder, arguments.seed)?;
+    let truths = render::render_all(arguments.seed, folder, !arguments.no_progress)?;
     folder::write_truth(folder, &truths)?;
     let source = ExperimentSource::read(&experiment)?;
+    let recordings = jobs_of(&source, None)?;
     let hearing = Hearing { wants_hash: true, wants_samples: true, ..Hearing::default() };
     let method = source.experiment.config.method;
-    let identified = identify(source, None, hearing, method, !arguments.no_progress)?;
+    let identified = identify(source, recordings, hearing, method, !arguments.no_progress)?;
     let compared: Vec<(Method, TextTable)> = identified
         .tables()
         .iter()
@@ -56,7 +57,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     terminal.say(&format!(
         "written: report.html, results.json, tables and figures; experiment.toml, {} recordings, truth.csv, truth_tracks.csv\n  {}",
         truths.len(),
-        folder.display()
+        folder.path().display()
     ));
     Ok(identified.ending())
 }

@@ -1,6 +1,7 @@
 //! The flights of all trials, their sound as 16-bit WAV files, and their truth.
 
 use crate::failure::Failure;
+use crate::output_folder::OutputFolder;
 use crate::progress::{Progress, Share};
 use crate::wav::WavFile;
 use hovertone_report::LoadTruth;
@@ -9,8 +10,6 @@ use hovertone_sim::scenario::{ScenarioFile, ScenarioRun, SpanTruth};
 use hovertone_vehicle::RotorSpeed;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 
 /// Steps of the flight between two writes to the file.
 const STEPS_AT_ONCE: usize = 100;
@@ -35,11 +34,7 @@ pub(super) fn folder_of_load(load: &PaperLoad) -> String {
 }
 
 /// Simulates and writes all trials in parallel; the truths are in the order of loads and trials.
-pub(super) fn render_all(seed: u64, folder: &Path, shows_progress: bool) -> Result<Vec<TrialTruth>, Failure> {
-    for load in &LOADS {
-        let folder = folder.join(folder_of_load(load));
-        fs::create_dir_all(&folder).map_err(|error| Failure::cannot_write(&error, &folder))?;
-    }
+pub(super) fn render_all(seed: u64, folder: &OutputFolder, shows_progress: bool) -> Result<Vec<TrialTruth>, Failure> {
     let trials: Vec<(PaperLoad, u32)> =
         LOADS.iter().flat_map(|load| (0..TRIAL_COUNT).map(|trial| (*load, trial))).collect();
     let progress = Progress::new("flying", trials.len(), shows_progress);
@@ -49,13 +44,19 @@ pub(super) fn render_all(seed: u64, folder: &Path, shows_progress: bool) -> Resu
     rendered
 }
 
-fn render(seed: u64, load: PaperLoad, trial: u32, folder: &Path, share: &mut Share<'_>) -> Result<TrialTruth, Failure> {
+fn render(
+    seed: u64,
+    load: PaperLoad,
+    trial: u32,
+    folder: &OutputFolder,
+    share: &mut Share<'_>,
+) -> Result<TrialTruth, Failure> {
     let number = trial + 1;
-    let path = folder.join(folder_of_load(&load)).join(format!("trial_{number}.wav"));
+    let name = format!("{}/trial_{number}.wav", folder_of_load(&load));
     let file = ScenarioFile::paper_trial(&load, trial, seed);
     let scenario = file.resolve(&BTreeMap::new()).map_err(Failure::internal)?;
     let mut wav = WavFile::create(
-        &path,
+        folder.create(&name)?,
         scenario.sound.microphones.len(),
         scenario.sound.sample_rate_hz,
         scenario.sample_format,

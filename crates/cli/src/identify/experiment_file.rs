@@ -28,6 +28,12 @@ pub(crate) struct ExperimentSource {
 }
 
 impl ExperimentSource {
+    /// The experiment file and the simulator's model that it names.
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
+        let model = self.experiment.model.as_ref().map(|model| self.folder.join(&model.file));
+        [self.path.clone()].into_iter().chain(model).collect()
+    }
+
     /// Reads and resolves an experiment file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let toml = TomlFile::read(path, "experiment file", "recording", SEE_EXAMPLE)?;

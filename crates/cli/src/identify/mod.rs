@@ -4,14 +4,17 @@ mod experiment_file;
 mod recordings;
 
 pub(crate) use experiment_file::ExperimentSource;
+pub(crate) use recordings::{LoadJob, jobs_of};
 
 use crate::args::HearingArguments;
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::jobs::ending_of;
+use crate::output_folder::OutputFolder;
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, records_of};
-use crate::report_folder::{Extras, write_report};
+use crate::report_folder::{Extras, RESULTS, write_report};
 use crate::terminal::Terminal;
 use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
@@ -21,9 +24,8 @@ use hovertone_report::{
     ExperimentFacts, Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary,
     thrust_table, vehicle_model_text,
 };
-use recordings::{LoadJob, jobs_of};
 use serde_json::Value;
-use std::path::Path;
+use std::path::PathBuf;
 
 /// An experiment with the records of its recordings and the fits of its loads.
 pub(crate) struct Identified {
@@ -43,8 +45,12 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     let source = ExperimentSource::read(&arguments.experiment)?;
     let hearing = hearing_of(&arguments.hearing, arguments.json || arguments.output.is_some());
     let method = arguments.method.unwrap_or(source.experiment.config.method);
-    let data_root = arguments.data_root.as_deref();
-    let identified = identify(source, data_root, hearing, method, !arguments.hearing.no_progress)?;
+    let recordings = jobs_of(&source, arguments.data_root.as_deref())?;
+    let inputs = recordings.iter().map(|LoadJob { job, .. }| job.path.clone()).chain(source.inputs());
+    let outputs = Outputs::beside(inputs, arguments.replace.force);
+    let prepare = |folder: &PathBuf| OutputFolder::prepare(folder, outputs, &RESULTS);
+    let folder = arguments.output.as_ref().map(prepare).transpose()?;
+    let identified = identify(source, recordings, hearing, method, !arguments.hearing.no_progress)?;
     if arguments.json {
         terminal.data(&results_json(&identified.identification()).map_err(Failure::internal)?)?;
     } else {
@@ -52,7 +58,7 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     }
     terminal.flush()?;
     identified.say_notes(terminal);
-    match &arguments.output {
+    match &folder {
         Some(folder) => {
             let extras = Extras { command: &typed_command(), ..Extras::default() };
             let written = identified.write(folder, &extras)?;
@@ -73,13 +79,13 @@ fn hearing_of(arguments: &HearingArguments, wants_hash: bool) -> Hearing {
 /// Analyses all recordings of an experiment and fits its loads by every method.
 pub(crate) fn identify(
     source: ExperimentSource,
-    data_root: Option<&Path>,
+    recordings: Vec<LoadJob>,
     hearing: Hearing,
     method: Method,
     shows_progress: bool,
 ) -> Result<Identified, Failure> {
     let (jobs, loads): (Vec<Job>, Vec<String>) =
-        jobs_of(&source, data_root)?.into_iter().map(|LoadJob { job, load }| (job, load)).unzip();
+        recordings.into_iter().map(|LoadJob { job, load }| (job, load)).unzip();
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
@@ -209,7 +215,7 @@ impl Identified {
     }
 
     /// Writes the report with all its files; returns their names.
-    pub(crate) fn write(&self, folder: &Path, extras: &Extras<'_>) -> Result<Vec<String>, Failure> {
+    pub(crate) fn write(&self, folder: &OutputFolder, extras: &Extras<'_>) -> Result<Vec<String>, Failure> {
         write_report(&self.identification(), &self.jobs, self.hearing, extras, folder)
     }
 }

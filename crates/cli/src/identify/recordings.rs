@@ -1,6 +1,7 @@
 //! From the names and patterns in an experiment file to recordings on disk.
 
 use super::ExperimentSource;
+use crate::copies::refuse_copies;
 use crate::failure::Failure;
 use crate::files::files_of;
 use crate::recording::{Job, Requests};
@@ -11,10 +12,10 @@ use std::path::{Path, PathBuf};
 const NAMES_MAX: usize = 8;
 
 /// A recording of a load.
-pub(super) struct LoadJob {
-    pub(super) job: Job,
+pub(crate) struct LoadJob {
+    pub(crate) job: Job,
     /// Name of the load.
-    pub(super) load: String,
+    pub(crate) load: String,
 }
 
 /// A name or pattern of a load that no file matches.
@@ -23,8 +24,8 @@ struct Missing<'a> {
     name: &'a str,
 }
 
-/// All recordings, load by load.
-pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Result<Vec<LoadJob>, Failure> {
+/// All recordings, load by load. Two that are the same recording are refused.
+pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Result<Vec<LoadJob>, Failure> {
     let root = data_root.unwrap_or(&source.folder);
     if !root.is_dir() && data_root.is_some() {
         let hint = "give --data-root the folder that holds the recordings";
@@ -52,7 +53,12 @@ pub(super) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
             }
         }
     }
-    if missing.is_empty() { Ok(jobs) } else { Err(missing_failure(&missing, source, root, data_root.is_some())) }
+    if !missing.is_empty() {
+        return Err(missing_failure(&missing, source, root, data_root.is_some()));
+    }
+    let hint = "take one of them out of the experiment file, or out of the folder";
+    refuse_copies(&jobs.iter().map(|LoadJob { job, .. }| job).collect::<Vec<_>>(), hint, Some(&source.path))?;
+    Ok(jobs)
 }
 
 /// Name of a recording relative to the folder, with forward slashes on all systems.

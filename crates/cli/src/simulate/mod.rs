@@ -5,7 +5,8 @@ mod truth_json;
 
 use crate::args::SimulateArguments;
 use crate::failure::{Ending, Failure};
-use crate::output_folder::{self, cannot_write_csv};
+use crate::output_folder::{FolderKind, OutputFolder, cannot_write_csv};
+use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::terminal::Terminal;
 use crate::wav::WavFile;
@@ -16,26 +17,31 @@ use hovertone_vehicle::RotorSpeed;
 use scenario_file::ScenarioSource;
 use std::fs::File;
 use std::iter::zip;
-use std::path::Path;
 
 /// Steps between two updates of the progress bar, and between two writes.
 const STEPS_AT_ONCE: usize = 100;
 const SOUND: &str = "sound.wav";
 const TABLE: &str = "truth.csv";
+const KIND: FolderKind = FolderKind {
+    name: "simulation",
+    marked: truth_json::NAME,
+    mark: truth_json::MARK,
+    files: &[SOUND, TABLE, truth_json::NAME],
+};
 
 /// Simulates, writes the files, and prints a summary of the hovers.
 pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let source = ScenarioSource::read(&arguments.scenario, arguments.seed)?;
     let flown = ScenarioRun::new(source.scenario.clone()).map_err(|error| source.failure(&error))?;
-    let folder = &arguments.output;
-    output_folder::prepare(folder, "simulation", truth_json::NAME, truth_json::MARK)?;
+    let outputs = Outputs::beside(source.inputs(), arguments.replace.force);
+    let folder = OutputFolder::prepare(&arguments.output, outputs, &KIND)?;
     // mark the folder first, so that a later run recognises it even after a failure
-    truth_json::begin(folder)?;
-    let truth = write(flown, &source, folder, !arguments.no_progress)?;
-    truth_json::write(folder, &source, &truth)?;
+    truth_json::begin(&folder)?;
+    let truth = write(flown, &source, &folder, !arguments.no_progress)?;
+    truth_json::write(&folder, &source, &truth)?;
     terminal.data(&simulated_flight_table(&summary_of(&source, &truth)))?;
     terminal.flush()?;
-    terminal.say(&format!("written: {SOUND}, {TABLE}, {}\n  {}", truth_json::NAME, folder.display()));
+    terminal.say(&format!("written: {SOUND}, {TABLE}, {}\n  {}", truth_json::NAME, folder.path().display()));
     Ok(Ending::Done)
 }
 
@@ -43,15 +49,15 @@ pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Res
 fn write(
     mut flown: ScenarioRun,
     source: &ScenarioSource,
-    folder: &Path,
+    folder: &OutputFolder,
     shows_progress: bool,
 ) -> Result<ScenarioTruth, Failure> {
     let scenario = &source.scenario;
     let (microphones, rate_hz) = (scenario.sound.microphones.len(), scenario.sound.sample_rate_hz);
-    let mut sound = WavFile::create(&folder.join(SOUND), microphones, rate_hz, scenario.sample_format)?;
-    let path = folder.join(TABLE);
-    let cannot_write = |error: csv::Error| cannot_write_csv(&error, &path);
-    let mut table = csv::Writer::from_path(&path).map_err(cannot_write)?;
+    let mut sound = WavFile::create(folder.create(SOUND)?, microphones, rate_hz, scenario.sample_format)?;
+    let output = folder.create(TABLE)?;
+    let cannot_write = |error: csv::Error| cannot_write_csv(&error, output.place());
+    let mut table = csv::Writer::from_writer(output.handle()?);
     table.write_record(TRUTH_COLUMNS).map_err(cannot_write)?;
     let progress = Progress::new("simulating", 1, shows_progress);
     let mut share = progress.recording();
@@ -70,7 +76,8 @@ fn write(
     let truth = flown.finish(&mut channels);
     sound.drain(&mut channels)?;
     sound.finish()?;
-    table.flush().map_err(|error| Failure::cannot_write(&error, &path))?;
+    table.flush().map_err(|error| Failure::cannot_write(&error, output.place()))?;
+    output.keep()?;
     drop(share);
     progress.finish();
     Ok(truth)

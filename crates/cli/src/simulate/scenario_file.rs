@@ -52,6 +52,13 @@ impl ScenarioSource {
         })
     }
 
+    /// The scenario file and its tables of commands.
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let tables = self.file.command_files();
+        [self.path.clone()].into_iter().chain(tables.into_iter().map(|name| folder.join(name))).collect()
+    }
+
     /// The failure for a part of the file that fails later.
     pub(crate) fn failure(&self, error: &ScenarioError) -> Failure {
         failure_of(error, &self.path)

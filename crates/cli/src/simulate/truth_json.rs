@@ -2,12 +2,12 @@
 
 use super::{SOUND, ScenarioSource, TABLE};
 use crate::failure::Failure;
+use crate::output_folder::OutputFolder;
 use hovertone_report::VERSION;
 use hovertone_sim::scenario::{ScenarioFile, ScenarioTruth};
 use hovertone_vehicle::FlightParameters;
 use serde::Serialize;
 use std::fs;
-use std::path::Path;
 
 /// Name of the file.
 pub(super) const NAME: &str = "truth.json";
@@ -39,13 +39,16 @@ struct Settings<'a> {
     vehicle: &'a FlightParameters,
 }
 
-/// Writes the mark alone, before there is a truth.
-pub(super) fn begin(folder: &Path) -> Result<(), Failure> {
-    write_text(folder, &format!("{MARK},\n  \"ending\": \"unfinished\"\n}}\n"))
+/// Writes the mark alone, before there is a truth. The truth of an earlier simulation stays until the new one is finished.
+pub(super) fn begin(folder: &OutputFolder) -> Result<(), Failure> {
+    if fs::read_to_string(folder.place(NAME)).is_ok_and(|text| text.starts_with(MARK)) {
+        return Ok(());
+    }
+    folder.write(NAME, format!("{MARK},\n  \"ending\": \"unfinished\"\n}}\n"))
 }
 
 /// Writes the truth.
-pub(super) fn write(folder: &Path, source: &ScenarioSource, truth: &ScenarioTruth) -> Result<(), Failure> {
+pub(super) fn write(folder: &OutputFolder, source: &ScenarioSource, truth: &ScenarioTruth) -> Result<(), Failure> {
     let file = TruthFile {
         made_by: "hovertone simulate",
         version: VERSION,
@@ -59,10 +62,5 @@ pub(super) fn write(folder: &Path, source: &ScenarioSource, truth: &ScenarioTrut
             vehicle: &source.scenario.flight.vehicle,
         },
     };
-    write_text(folder, &(serde_json::to_string_pretty(&file).map_err(Failure::internal)? + "\n"))
-}
-
-fn write_text(folder: &Path, text: &str) -> Result<(), Failure> {
-    let path = folder.join(NAME);
-    fs::write(&path, text).map_err(|error| Failure::cannot_write(&error, &path))
+    folder.write(NAME, serde_json::to_string_pretty(&file).map_err(Failure::internal)? + "\n")
 }

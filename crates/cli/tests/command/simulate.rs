@@ -128,10 +128,10 @@ fn a_flight_through_the_wall_ends_with_its_time() {
 fn a_folder_of_something_else_is_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     let file = scenario(folder.path(), STILL_HOVER);
-    let run = hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(1);
+    let run = hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(2);
     assert!(run.stderr.contains("not empty") && run.stderr.contains("-o DIR"), "{}", run.stderr);
     fs::write(folder.path().join("truth.json"), "{}").unwrap();
-    hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(1);
+    hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(2);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
 }
 

@@ -184,7 +184,7 @@ fn the_track_is_a_table_of_frames() {
     assert!(rows.len() > 10, "{} frames", rows.len());
     assert!(rows.windows(2).all(|pair| pair[0][0] < pair[1][0]), "time goes on");
     assert!(rows.iter().all(|row| (row[1] / row[2] - 2.0).abs() < 1e-9 && row[4] < 0.0));
-    hovertone(&["speed", "--blades", "2", "--track", text(&track), text(&hover), text(&hover)]).ends_with(0);
+    hovertone(&["speed", "--blades", "2", "--track", text(&track), "--force", text(&hover), text(&hover)]).ends_with(0);
     let mut table = csv::Reader::from_path(&track).unwrap();
     assert_eq!(table.headers().unwrap().get(0), Some("file"));
     assert_eq!(table.records().count(), 2 * rows.len());

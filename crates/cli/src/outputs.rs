@@ -1,0 +1,138 @@
+//! What a run may write: never over a file that it reads, and over an existing file only where the user says so. All outputs go this way.
+
+use crate::failure::Failure;
+use crate::output_file::OutputFile;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The rules for all outputs of a run.
+pub(crate) struct Outputs {
+    /// The files that the run reads.
+    inputs: Vec<PathBuf>,
+    /// Whether existing files may be replaced.
+    may_replace: bool,
+}
+
+impl Outputs {
+    /// The rules of a run that reads these files.
+    pub(crate) fn beside<P: AsRef<Path>>(inputs: impl IntoIterator<Item = P>, may_replace: bool) -> Self {
+        Self { inputs: inputs.into_iter().map(|input| input.as_ref().to_owned()).collect(), may_replace }
+    }
+
+    /// Whether existing files may be replaced.
+    pub(crate) fn may_replace(&self) -> bool {
+        self.may_replace
+    }
+
+    /// Checks, before any long work, that a file may and can be written.
+    pub(crate) fn check(&self, place: &Path) -> Result<(), Failure> {
+        self.create(place).map(drop)
+    }
+
+    /// Writes a whole file.
+    pub(crate) fn write(&self, place: &Path, content: impl AsRef<[u8]>) -> Result<(), Failure> {
+        write_whole(self.create(place)?, content.as_ref())
+    }
+
+    /// Begins a file.
+    fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
+        self.refuse_input(place)?;
+        if !self.may_replace && has_content(place) {
+            let what = "this file exists already: it was not replaced";
+            return Err(refused(what, "choose another name, or say --force to replace it", place));
+        }
+        OutputFile::create(place)
+    }
+
+    /// Begins a file in a folder that was checked as a whole.
+    pub(crate) fn create_over(&self, place: &Path) -> Result<OutputFile, Failure> {
+        self.refuse_input(place)?;
+        OutputFile::create(place)
+    }
+
+    /// Refuses an output that is an input, also with --force: the recording would be lost.
+    pub(crate) fn refuse_input(&self, place: &Path) -> Result<(), Failure> {
+        if !self.inputs.iter().any(|input| is_same_file(input, place)) {
+            return Ok(());
+        }
+        let what = "this file would be written, and the same command reads it: its content would be lost";
+        Err(refused(what, "choose another name for the output", place))
+    }
+}
+
+/// Writes the content of a file that was begun, and puts it into its place.
+pub(crate) fn write_whole(output: OutputFile, content: &[u8]) -> Result<(), Failure> {
+    output.handle()?.write_all(content).map_err(|error| Failure::cannot_write(&error, output.place()))?;
+    output.keep()
+}
+
+fn refused(what: &str, hint: &str, place: &Path) -> Failure {
+    Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(place.to_owned()) }
+}
+
+/// Whether something would be lost by writing here: a file with content, a link that leads nowhere. A device keeps nothing.
+fn has_content(place: &Path) -> bool {
+    match fs::metadata(place) {
+        Ok(old) => old.is_file() && old.len() > 0,
+        Err(_) => fs::symlink_metadata(place).is_ok(),
+    }
+}
+
+/// Whether two names lead to one file: by symbolic links, and on Unix by hard links. Two names of a terminal are no danger.
+fn is_same_file(one: &Path, other: &Path) -> bool {
+    if one == other {
+        return true;
+    }
+    let (Ok(of_one), Ok(of_other)) = (fs::metadata(one), fs::metadata(other)) else { return false };
+    if !(of_one.is_file() && of_other.is_file()) {
+        return false;
+    }
+    let is_one_path = fs::canonicalize(one).ok().zip(fs::canonicalize(other).ok()).is_some_and(|(a, b)| a == b);
+    is_one_path || is_hard_link(&of_one, &of_other)
+}
+
+#[cfg(unix)]
+fn is_hard_link(one: &fs::Metadata, other: &fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    (one.dev(), one.ino()) == (other.dev(), other.ino())
+}
+
+#[cfg(not(unix))]
+fn is_hard_link(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_existing_file_is_replaced_only_by_force_and_an_input_never() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = |name: &str| folder.path().join(name);
+        fs::write(file("sound.wav"), "sound").unwrap();
+        fs::write(file("old.csv"), "old").unwrap();
+        fs::write(file("empty.csv"), "").unwrap();
+        let careful = Outputs::beside([file("sound.wav")], false);
+        let forced = Outputs::beside([file("sound.wav")], true);
+        assert!(careful.write(&file("old.csv"), "new").is_err());
+        assert_eq!(fs::read_to_string(file("old.csv")).unwrap(), "old");
+        careful.check(&file("empty.csv")).unwrap();
+        careful.check(&file("new.csv")).unwrap();
+        assert!(!file("new.csv").exists());
+        forced.write(&file("old.csv"), "new").unwrap();
+        assert_eq!(fs::read_to_string(file("old.csv")).unwrap(), "new");
+        let mut names = vec![file("sound.wav"), file("../").join(folder.path().file_name().unwrap()).join("sound.wav")];
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(file("sound.wav"), file("link.wav")).unwrap();
+            fs::hard_link(file("sound.wav"), file("hard.wav")).unwrap();
+            names.extend([file("link.wav"), file("hard.wav")]);
+        }
+        for name in names {
+            assert!(forced.write(&name, "new").is_err() && forced.create_over(&name).is_err(), "{name:?}");
+        }
+        assert_eq!(fs::read_to_string(file("sound.wav")).unwrap(), "sound");
+    }
+}
