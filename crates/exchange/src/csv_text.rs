@@ -9,6 +9,16 @@ pub enum CsvError {
     /// No CSV with a header.
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
+    /// A row with more or fewer cells than the header.
+    #[error("line {line} has {cells} cells, and the header has {columns}")]
+    RaggedRow {
+        /// Line, counted from 1.
+        line: u64,
+        /// Number of its cells.
+        cells: usize,
+        /// Number of columns.
+        columns: usize,
+    },
     /// A cell that is not a number.
     #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
     NotANumber {
@@ -26,6 +36,9 @@ impl CsvError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::RaggedRow { .. } => {
+                "complete or remove the row; a decimal comma needs semicolons or quotes: 3,5 is two cells"
+            }
             Self::NotANumber { .. } => "correct the cell, or remove the row",
         }
     }
@@ -65,6 +78,16 @@ impl<'a> CsvText<'a> {
     /// The rows.
     pub(crate) fn records(&self) -> impl Iterator<Item = Result<StringRecord, CsvError>> + use<'a> {
         reader(self.text, self.delimiter).into_records().map(|record| Ok(record?))
+    }
+
+    /// Refuses a row that ends before the last of the columns that are used, or has more cells than the header that are not empty: its
+    /// cells may stand in the wrong columns. RCbenchmark leaves out empty cells at the end of a row.
+    pub(crate) fn check_length(&self, record: &StringRecord, last_used: usize) -> Result<(), CsvError> {
+        let (cells, columns) = (record.len(), self.headers.len());
+        if cells > last_used && record.iter().skip(columns).all(str::is_empty) {
+            return Ok(());
+        }
+        Err(CsvError::RaggedRow { line: line_of(record), cells, columns })
     }
 
     /// The headers, for messages.

@@ -46,4 +46,4 @@ pub use square_law::{
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 pub use warning::ThrustWarning;
-pub use weighing::{AcousticScale, HeardHover, WeighedHover};
+pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

@@ -19,6 +19,10 @@ const TRIALS: [usize; 6] = [3, 4, 5, 8, 12, 20];
 const SECONDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 60.0];
 /// Time of a flight beside the hover, s: take-off, landing and the change of the load. *Decision.*
 const OVERHEAD_S: f64 = 20.0;
+/// Largest wanted uncertainty and largest spread of a speed, as shares. Above it a percentage was meant. *Decision.*
+const SHARE_MAX: f64 = 0.5;
+/// Largest ratio of the added to the vehicle's mass. Above it grams were meant. *Decision.*
+const ADDED_FACTOR_MAX: f64 = 10.0;
 /// Speed of the synthetic campaign without added mass, rad/s. Only relative speeds matter. *Numeric.*
 const SPEED_RAD_S: f64 = 400.0;
 
@@ -112,6 +116,17 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
     for (name, value) in [("mass_std_kg", wish.mass_std_kg), ("gravity_std_m_s2", wish.gravity_std_m_s2)] {
         if !(value.is_finite() && value >= 0.0) {
             return Err(PlanError::OutOfRange { name, value, must_be: "0 or more" });
+        }
+    }
+    for (name, value) in [("expanded_share", wish.expanded_share), ("speed_spread_share", wish.speed_spread_share)] {
+        if value > SHARE_MAX {
+            return Err(PlanError::OutOfRange { name, value, must_be: "a share of at most 0.5: 2 % are 0.02" });
+        }
+    }
+    for (name, value) in [("added_mass_kg_max", wish.added_mass_kg_max), ("mass_std_kg", wish.mass_std_kg)] {
+        if value > ADDED_FACTOR_MAX * wish.vehicle_mass_kg {
+            let must_be = "at most ten times the vehicle's mass: masses are in kilograms, 31 g are 0.031";
+            return Err(PlanError::OutOfRange { name, value, must_be });
         }
     }
     if let Some(value) = wish.settings.propeller_diameter_m.filter(|value| !PROPELLER_DIAMETER_M.contains(value)) {

@@ -49,6 +49,8 @@ pub enum ThrustWarning {
         /// Number of loads.
         count: usize,
     },
+    /// Two rows without uncertainties: one difference tells the ± of the constant.
+    TwoRows,
     /// The loads are too similar to show an intercept.
     NarrowLoadRange(LoadRange),
     /// The evidence prefers another law than F = C ω².
@@ -111,6 +113,7 @@ impl ThrustWarning {
             }
             Self::SingleLoad => "fly a second load: one load cannot show whether it fits",
             Self::EqualLoads { .. } => "fly loads as far apart as is safe: equal ones show nothing of the law",
+            Self::TwoRows => "measure three rows or more, or state the standard uncertainty of each thrust",
             Self::NarrowLoadRange(_) => {
                 "the square law is assumed, not tested; `hovertone fit --plan` says what loads and trials would do"
             }
@@ -172,6 +175,7 @@ impl fmt::Display for ThrustWarning {
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),
             Self::EqualLoads { count } => write!(f, "all {count} loads weigh the same"),
+            Self::TwoRows => f.write_str("the ± comes from two rows alone: chance can make it ten times too small"),
             Self::NarrowLoadRange(range) => {
                 write!(
                     f,

@@ -4,6 +4,59 @@ use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std};
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 use serde::Serialize;
+use std::ops::RangeInclusive;
+
+/// A payload may come out negative by this share of the vehicle's mass: thinner or denser air, another battery. *Decision.*
+const LIGHTER_SHARE_MAX: f64 = 0.05;
+/// … and by this many standard uncertainties. *Decision.*
+const LIGHTER_STD_MAX: f64 = 3.0;
+/// Largest ratio of the weighed mass to the vehicle's: most multirotors safely carry a quarter of their mass. *Decision.*
+const HEAVIER_FACTOR_MAX: f64 = 10.0;
+/// Ratios of the given to the weighed mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
+const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
+/// Speeds of one load lie closer than this many of their standard uncertainties. *Decision.*
+const ALIKE_STD_MAX: f64 = 4.0;
+/// … or closer than this share, 3 % of the mass: trials in moving air differ by more than they state. *Decision.*
+const ALIKE_SHARE_MAX: f64 = 0.015;
+
+/// A mass that contradicts the hover.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WeighError {
+    /// The vehicle alone is heavier than what hovers.
+    #[error("the hover carries {:.0} g, and the vehicle alone is said to weigh {:.0} g", 1e3 * .hover_kg, 1e3 * .vehicle_kg)]
+    LighterThanVehicle {
+        /// Mass by the sound.
+        hover_kg: f64,
+        /// Mass of the vehicle, as given.
+        vehicle_kg: f64,
+    },
+    /// No vehicle carries so much.
+    #[error(
+        "the hover carries {:.0} g, which is more than ten times the vehicle's {:.0} g",
+        1e3 * .hover_kg, 1e3 * .vehicle_kg
+    )]
+    FarHeavier {
+        /// Mass by the sound.
+        hover_kg: f64,
+        /// Mass of the vehicle, as given.
+        vehicle_kg: f64,
+    },
+}
+
+impl WeighError {
+    /// Advice to the user.
+    pub fn hint(&self) -> String {
+        match self {
+            Self::LighterThanVehicle { hover_kg, vehicle_kg } if GRAMS_FACTOR.contains(&(vehicle_kg / hover_kg)) => {
+                format!("masses are in kilograms: {vehicle_kg} g are --mass-kg {}", vehicle_kg / 1e3)
+            }
+            _ => "check the mass of the vehicle (in kilograms), the thrust constant (of the whole vehicle, in \
+                  N/(rad/s)²), and which tone is the rotor's"
+                .to_owned(),
+        }
+    }
+}
 
 /// A thrust constant with the facts about the flights that it was measured in.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +102,48 @@ pub struct WeighedHover {
     pub recording_count: usize,
 }
 
+/// Two hovers that carry different loads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DifferentLoads {
+    /// Position of the lighter one.
+    pub light: usize,
+    /// Its mass.
+    pub light_kg: f64,
+    /// Position of the heavier one.
+    pub heavy: usize,
+    /// Its mass.
+    pub heavy_kg: f64,
+}
+
+/// Two neighbours in speed.
+struct Gap {
+    light: usize,
+    heavy: usize,
+    /// Difference of their speeds.
+    share: f64,
+}
+
+impl WeighedHover {
+    /// Compares the weighed mass with the mass of the vehicle, where it is known. A payload below zero by less than 5 % of the vehicle or
+    /// 3 standard uncertainties passes.
+    ///
+    /// # Errors
+    /// A vehicle that is heavier than the hover, or ten times lighter.
+    pub fn check(&self) -> Result<(), WeighError> {
+        let Some(payload) = self.payload_kg else { return Ok(()) };
+        let hover_kg = self.mass_kg.value;
+        let vehicle_kg = hover_kg - payload.value;
+        let allowed_kg = (LIGHTER_SHARE_MAX * vehicle_kg).max(LIGHTER_STD_MAX * payload.std_uncertainty.unwrap_or(0.0));
+        if payload.value < -allowed_kg {
+            return Err(WeighError::LighterThanVehicle { hover_kg, vehicle_kg });
+        }
+        if hover_kg > HEAVIER_FACTOR_MAX * vehicle_kg {
+            return Err(WeighError::FarHeavier { hover_kg, vehicle_kg });
+        }
+        Ok(())
+    }
+}
+
 impl AcousticScale {
     /// Total mass m = C ω²/g, and the mass of the payload: m minus the mass of the vehicle.
     /// u²(m)/m² = u²(C)/C² + 4 u²(ω)/ω² + 4 u²(loudest) + u²(g)/g². `None` without hovers.
@@ -85,6 +180,28 @@ impl AcousticScale {
             speed: RotorSpeed::from_rad_s(speed_rad_s),
             recording_count: hovers.len(),
         })
+    }
+
+    /// Where the hovers carry different loads, the masses below and above the widest gap between their speeds; `None` where all carry
+    /// the same. Neighbours in speed are of one load within 4 standard uncertainties of their difference, or within 1.5 %.
+    pub fn different_loads(&self, hovers: &[HeardHover]) -> Option<DifferentLoads> {
+        let std_share =
+            |hover: &HeardHover| self.own_std_share(hover).into_iter().chain(self.trial_std_share).fold(0.0, f64::max);
+        let mut order: Vec<usize> = (0..hovers.len()).collect();
+        order.sort_by(|&a, &b| hovers[a].speed.rad_s().total_cmp(&hovers[b].speed.rad_s()));
+        let gap = |pair: &[usize]| {
+            let (slow, fast) = (hovers.get(*pair.first()?)?, hovers.get(*pair.last()?)?);
+            let share = fast.speed.rad_s() / slow.speed.rad_s() - 1.0;
+            let alike = ALIKE_SHARE_MAX.max(ALIKE_STD_MAX * std_share(slow).hypot(std_share(fast)));
+            (share > alike).then_some(Gap { light: *pair.first()?, heavy: *pair.last()?, share })
+        };
+        let widest = order.windows(2).filter_map(gap).max_by(|a, b| a.share.total_cmp(&b.share))?;
+        let mass_kg = |index: usize| {
+            let speed_rad_s = hovers[index].speed.rad_s();
+            self.thrust_constant_total_n_s2.value * speed_rad_s.powi(2) / self.gravity_m_s2
+        };
+        let Gap { light, heavy, .. } = widest;
+        Some(DifferentLoads { light, light_kg: mass_kg(light), heavy, heavy_kg: mass_kg(heavy) })
     }
 
     fn own_std_share(&self, hover: &HeardHover) -> Option<f64> {
@@ -148,6 +265,41 @@ mod tests {
         // two speeds 1 % apart: their mean is known to 0.5 %, the mass to 1 %
         assert!((mass.std_uncertainty.unwrap() / mass.value - 0.01).abs() < 2e-4, "{mass:?}");
         assert!(scale.weigh(&hovers).unwrap().payload_kg.is_none() && scale.weigh(&[]).is_none());
+    }
+
+    #[test]
+    fn a_vehicle_that_is_heavier_than_its_hover_is_a_slip() {
+        let weighed = |vehicle_kg: f64| {
+            let scale = AcousticScale {
+                vehicle_mass_kg: Some(estimate(vehicle_kg, 0.0005)),
+                ..scale(estimate(2.83e-5, 0.005 * 2.83e-5))
+            };
+            // 0.413 kg
+            scale.weigh(&[heard(RotorSpeed::from_rad_s((0.413 * 9.8 / 2.83e-5_f64).sqrt()), 1e-3)]).unwrap().check()
+        };
+        for vehicle_kg in [0.35, 0.413, 0.42, 0.05] {
+            assert_eq!(weighed(vehicle_kg), Ok(()), "{vehicle_kg}");
+        }
+        let grams = weighed(413.0).unwrap_err();
+        assert!(grams.hint().contains("413 g are --mass-kg 0.413"), "{}", grams.hint());
+        assert!(weighed(0.5).unwrap_err().hint().contains("check the mass"));
+        assert!(matches!(weighed(0.02), Err(WeighError::FarHeavier { .. })));
+    }
+
+    #[test]
+    fn different_loads_are_told_from_trials_of_one() {
+        let scale = scale(estimate(2.83e-5, 0.0));
+        let hover = |mass_kg: f64| heard(RotorSpeed::from_rad_s((mass_kg * 9.8 / 2.83e-5_f64).sqrt()), 1e-4);
+        let mixed = scale.different_loads(&[0.462, 0.413, 0.4632, 0.414].map(hover)).unwrap();
+        assert_eq!((mixed.light, mixed.heavy), (3, 0));
+        assert!((mixed.light_kg - 0.414).abs() < 1e-9 && (mixed.heavy_kg - 0.462).abs() < 1e-9, "{mixed:?}");
+        // the paper's small and big hull
+        assert!(scale.different_loads(&[0.444, 0.462].map(hover)).is_some());
+        assert_eq!(scale.different_loads(&[0.413, 0.418, 0.424].map(hover)), None);
+        assert_eq!(scale.different_loads(&[0.413].map(hover)), None);
+        // trials that scatter by 1 %
+        let restless = AcousticScale { trial_std_share: Some(0.01), ..scale };
+        assert_eq!(restless.different_loads(&[0.444, 0.462].map(hover)), None);
     }
 
     #[test]

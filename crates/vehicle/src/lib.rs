@@ -4,6 +4,7 @@
 //! so that recovering a simulated flight proves something.
 
 mod constants;
+mod contradiction;
 mod estimate;
 mod flight;
 mod frame;
@@ -14,6 +15,7 @@ mod speed;
 mod vehicle;
 
 pub use constants::{GRAVITY_STANDARD_M_S2, SOUND_M_S};
+pub use contradiction::{Contradiction, TIP_MACH_MAX, check_tips};
 pub use estimate::{Ending, Estimate};
 pub use flight::{
     BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters, RotorParameters,

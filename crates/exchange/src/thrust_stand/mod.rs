@@ -115,11 +115,14 @@ pub enum TableError {
 /// Commas are decimal commas where a cell proves it ("3,5").
 ///
 /// # Errors
-/// No header, no speed, no force, a cell that is not a number, masses that are zero or negative, no usable row.
+/// No header, no speed, no force, a row that is too short or too long, a cell that is not a number, masses that are zero or negative, no usable row.
 pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let csv = CsvText::open(text)?;
     let records: Vec<StringRecord> = csv.records().collect::<Result<_, _>>()?;
     let columns = columns_of(&csv.headers, &records);
+    let used = columns.iter().filter(|column| column.quantity.is_some());
+    let last_used = used.map(|column| column.index).max().unwrap_or(0);
+    records.iter().try_for_each(|record| csv.check_length(record, last_used))?;
     let missing = |what| TableError::NoColumn { what, columns: csv.names() };
     let speed =
         best(&csv, &columns, &records, Quantity::Speed).ok_or_else(|| missing("a speed (rpm, rad/s or rev/s)"))?;

@@ -90,3 +90,15 @@ fn a_column_of_scatter_is_never_the_thrust() {
     assert_eq!(table.force_column, "thrust_n");
     assert_eq!(table.groups[0].rows[0].force_std, Some(0.02));
 }
+
+/// RCbenchmark's rows end before the columns of its comments, where these are empty.
+#[test]
+fn a_row_may_end_after_the_last_column_that_is_used() {
+    let table = table_from_csv("rpm,thrust_n,App message\n3000,1.0\n3600,1.44,\n4000,1.78,warm,\n").unwrap();
+    assert_eq!(table.groups.iter().map(|group| group.rows.len()).sum::<usize>(), 3);
+    for (row, cells) in [("3500", 1), ("3500,1,36,,7", 5)] {
+        let error = table_from_csv(&format!("rpm,thrust_n,App message\n3000,1.0,\n{row}\n")).unwrap_err();
+        let TableError::Csv(error @ CsvError::RaggedRow { line: 3, .. }) = error else { panic!("{error}") };
+        assert!(error.to_string().contains(&format!("has {cells} cells, and the header has 3")), "{error}");
+    }
+}

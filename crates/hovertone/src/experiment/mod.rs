@@ -34,7 +34,7 @@ use hovertone_rotor_speed::{
     Config, HoverConfig, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig,
 };
 use hovertone_thrust::{Air, Force, ThrustSettings, UncertaintyInputs, VehicleModel};
-use hovertone_vehicle::{ConfigError, Gear, Order, QuantityError};
+use hovertone_vehicle::{ConfigError, Contradiction, Gear, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
 /// An experiment file as written. Unknown keys are refused.
@@ -267,6 +267,9 @@ pub enum ExperimentError {
         /// Advice.
         hint: &'static str,
     },
+    /// An entry that no vehicle has.
+    #[error(transparent)]
+    Vehicle(#[from] Contradiction),
     /// An error in a setting of the analysis.
     #[error(transparent)]
     Config(#[from] ConfigError),

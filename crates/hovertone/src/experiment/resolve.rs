@@ -4,7 +4,7 @@ use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSec
 use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
-use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset};
+use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, Gear, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset};
 
 /// Largest ratio between the given mass and the mass of the preset or the model. Beyond it the mass is in grams, or of another vehicle.
 /// *Decision.*
@@ -124,6 +124,7 @@ impl ExperimentFile {
     fn resolve_tone(&self, preset: Option<&Vehicle>) -> Result<ToneConfig, ExperimentError> {
         let blades = self.vehicle.blades.or_else(|| preset.and_then(|preset| Some(preset.blade_count.as_ref()?.value)));
         let gear = self.vehicle.gear.or_else(|| preset.and_then(|preset| Some(preset.gear.as_ref()?.value)));
+        gear.map_or(Ok(()), Gear::check)?;
         let order = match (self.tone.order, gear, blades) {
             (OrderSetting::Lines(order), ..) => order,
             (OrderSetting::Auto, Some(gear), _) => gear.mesh_order()?,
@@ -181,6 +182,9 @@ impl ExperimentFile {
         if load.recordings.is_empty() {
             return Err(missing(&named("recordings"), "name at least one file or pattern"));
         }
+        for (field, time_s) in [("from_s", load.from_s), ("to_s", load.to_s)] {
+            not_negative(&named(field), time_s.unwrap_or(0.0))?;
+        }
         let span = SpanConfig { from_s: load.from_s, to_s: load.to_s };
         span.check()?;
         let power_w = load.power_w.map(|power_w| positive(&named("power_w"), power_w)).transpose()?;
@@ -236,7 +240,14 @@ impl ExperimentFile {
                 must_be: "is more than ten times off the preset's or the model's; masses are in kg",
             });
         }
-        positive(&named("total mass"), mass_kg + added_mass_kg)?;
+        not_negative(&named("added_mass_kg"), added_mass_kg)?;
+        if added_mass_kg > MASS_FACTOR_MAX * mass_kg {
+            return Err(ExperimentError::OutOfRange {
+                name: named("added_mass_kg"),
+                value: added_mass_kg,
+                must_be: "is more than ten times the vehicle's mass; masses are in kg",
+            });
+        }
         Ok(Force::Weight {
             vehicle_mass_kg: mass_kg,
             added_mass_kg,

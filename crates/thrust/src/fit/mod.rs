@@ -295,6 +295,9 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
             .collect()
     };
     warnings.extend(range_warnings(points, fit, are_split_points(points)));
+    if points.len() == 2 && fit.agreement.is_none() {
+        warnings.push(ThrustWarning::TwoRows);
+    }
     warnings
 }
 

@@ -46,9 +46,9 @@ pub struct SquareLawFit {
     pub(crate) own_std_n_s2: f64,
     /// Weight of each point: C is the mean of the constants of the points with these weights. 0 for points that are left out.
     pub(crate) shares: Vec<f64>,
-    /// The law with an intercept; absent where all speeds are equal.
+    /// The law with an intercept; absent where all speeds are equal, and with two points without uncertainties.
     pub with_intercept: Option<InterceptLaw>,
-    /// The force as a power of the speed; absent where all speeds are equal.
+    /// The force as a power of the speed; absent in the same cases.
     pub power_law: Option<PowerLaw>,
     /// Probabilities of the laws.
     pub laws: Vec<LawProbability>,
@@ -58,6 +58,19 @@ pub struct SquareLawFit {
     pub points: Vec<PointVerdict>,
     /// How far the loads are apart, and whether an intercept can be seen at that distance.
     pub range: Option<LoadRange>,
+}
+
+/// Residuals below this share of the largest force are those of rounding: a thrust is measured to five digits at best. *Decision.*
+const ROUNDING_SHARE: f64 = 1e-6;
+
+impl SquareLawFit {
+    /// Whether points of different speeds lie on the law but for rounding, without stated uncertainties: a table that was computed. Its
+    /// scatter tells no uncertainty.
+    pub fn is_computed(&self, points: &[ForcePoint]) -> bool {
+        let squares = || points.iter().map(|point| point.speed_square_rad2_s2);
+        let (low, high) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
+        self.agreement.is_none() && high > low * (1.0 + ROUNDING_SHARE) && self.residual_max_share < ROUNDING_SHARE
+    }
 }
 
 /// Fits the square law F = C ω² with uncertainty in both coordinates (York et al. 2004). Points that are off by a factor (wrong
@@ -75,8 +88,10 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
         points.iter().zip(&gross).filter(|(_, gross)| !**gross).map(|(point, _)| point).collect();
     let fit = law_through_origin(&kept, noise)?;
     let all_points = verdicts(points, &gross, noise);
-    let (with_intercept, line) = intercept_law(&kept, noise).unzip();
-    let power_law = power_law(&kept, noise);
+    // two points without uncertainties leave nothing to tell the ± of a law with two parameters
+    let has_freedom = noise != PointNoise::FromResiduals || kept.len() > 2;
+    let (with_intercept, line) = intercept_law(&kept, noise).filter(|_| has_freedom).unzip();
+    let power_law = power_law(&kept, noise).filter(|_| has_freedom);
     let laws = law_probabilities(&kept, with_intercept.as_ref(), power_law.as_ref(), noise);
     let largest_n = kept.iter().map(|point| point.force_n).fold(0.0, f64::max);
     let residuals = || kept.iter().map(|p| (p.force_n - fit.slope * p.speed_square_rad2_s2).abs());
