@@ -1,5 +1,6 @@
 //! Endings of a run and their exit codes.
 
+use hovertone_vehicle::Contradiction;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -39,6 +40,11 @@ pub(crate) enum Failure {
 impl Failure {
     pub(crate) fn usage(what: impl Into<String>, hint: impl Into<String>) -> Self {
         Self::Usage { what: what.into(), hint: hint.into(), path: None }
+    }
+
+    /// Two statements about a vehicle of which one must be wrong.
+    pub(crate) fn contradiction(contradiction: &Contradiction) -> Self {
+        Self::usage(contradiction.to_string(), contradiction.hint())
     }
 
     pub(crate) fn failed(what: impl Into<String>, hint: impl Into<String>, path: &Path) -> Self {

@@ -104,6 +104,15 @@ fn fitted_table(
         };
         Failure::failed(what, "correct or remove that row of the table", path)
     })?;
+    if fit.is_computed(&points) {
+        return Err(Failure::Usage {
+            what: "the rows lie exactly on F = C ω², as measured rows never do: without scatter there is no ±".to_owned(),
+            hint: "state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g), or give the \
+                   measured rows"
+                .to_owned(),
+            path: Some(path.to_owned()),
+        });
+    }
     let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
     let is_weighed = group.rows.iter().all(is_mass);
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);

@@ -3,9 +3,10 @@
 use crate::args::{AnalysisArguments, KnownArguments, ToneArguments};
 use crate::failure::Failure;
 use crate::vehicles::preset;
-use hovertone::speed::{Config, Method, ToneConfig};
+use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
 use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
-use hovertone_vehicle::Order;
+use hovertone_report::SpeedRecord;
+use hovertone_vehicle::{Gear, Order, check_tips};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
 pub(crate) fn config_of(
@@ -32,8 +33,7 @@ pub(crate) fn config_of(
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);
-    config.span.from_s = analysis.from;
-    config.span.to_s = analysis.to;
+    config.span = span_of(analysis.from, analysis.to)?;
     config.spectrogram.window_s = analysis.window_s;
     config.spectrogram.hop_share = analysis.hop_share.unwrap_or(config.spectrogram.hop_share);
     let threshold_share = analysis.gaussian_threshold_share;
@@ -46,6 +46,10 @@ pub(crate) fn config_of(
 /// helps to find the tone of a gear. `None` where the tone has to be searched for.
 pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
     let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
+    let checked = arguments.gear.map_or(Ok(()), Gear::check);
+    let checked =
+        checked.and_then(|()| vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(arguments.blades, arguments.gear)));
+    checked.map_err(|contradiction| Failure::contradiction(&contradiction))?;
     let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
     let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {
         (Some(lines_per_turn), ..) => Order::new(lines_per_turn),
@@ -65,6 +69,26 @@ pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, F
     tone.band_hz = arguments.band;
     tone.harmonics = arguments.harmonics.unwrap_or(tone.harmonics);
     Ok(Some(tone))
+}
+
+/// The part of a recording that the arguments name. A recording begins at 0 s.
+pub(crate) fn span_of(from_s: Option<f64>, to_s: Option<f64>) -> Result<SpanConfig, Failure> {
+    for (name, time_s) in [("from", from_s), ("to", to_s)] {
+        if let Some(time_s) = time_s.filter(|time_s| !(time_s.is_finite() && *time_s >= 0.0)) {
+            let hint = "the recording begins at 0 s: give seconds from its beginning";
+            return Err(Failure::usage(format!("{name} = {time_s} s, must be 0 or more"), hint));
+        }
+    }
+    Ok(SpanConfig { from_s, to_s })
+}
+
+/// Refuses the diameter of the arguments where the blade tips of a heard rotor would be faster than any multirotor's.
+pub(crate) fn check_tips_heard(known: &KnownArguments, records: &[SpeedRecord]) -> Result<(), Failure> {
+    let Some(diameter_m) = known.diameter_m else { return Ok(()) };
+    let speeds = records.iter().filter_map(|record| Some(record.speed()?.speed));
+    speeds.into_iter().try_for_each(|speed| {
+        check_tips(diameter_m, speed).map_err(|contradiction| Failure::contradiction(&contradiction))
+    })
 }
 
 /// The search for a tone of unknown order with the facts about the vehicle, and settings for it whose order is a placeholder.

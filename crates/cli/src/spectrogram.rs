@@ -7,7 +7,7 @@ use crate::jobs::ending_of;
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
-use crate::settings::config_of;
+use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
 use hovertone_figures::{figure_png, recording_figure};
 use std::path::Path;
@@ -41,6 +41,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
+    check_tips_heard(&arguments.known, &records)?;
     let ending = ending_of(&records);
     terminal.notes(&records.iter().collect::<Vec<_>>());
     let [job] = &jobs;

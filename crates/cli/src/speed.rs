@@ -8,7 +8,7 @@ use crate::microphones::{ArrayPlan, label_all};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, hear_all};
-use crate::settings::config_of;
+use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use hovertone_report::{SpeedRecord, condition_table, speed_json, speed_table, track_csv};
@@ -37,6 +37,7 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         label_all(&mut heard, &plan.jobs, array, !arguments.hearing.no_progress);
     }
     let records: Vec<SpeedRecord> = heard.into_iter().map(|heard| heard.record).collect();
+    check_tips_heard(&arguments.known, &records)?;
     if arguments.json {
         for record in &records {
             terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;

@@ -5,7 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::settings::discovery_of;
+use crate::settings::{discovery_of, span_of};
 use crate::terminal::Terminal;
 use hovertone::speed::Config;
 use hovertone_report::{tones_json, tones_text};
@@ -14,7 +14,7 @@ use hovertone_report::{tones_json, tones_text};
 pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let (tone, discovery) = discovery_of(&arguments.known, arguments.vehicle.as_deref(), true)?;
     let mut config = Config::for_tone(tone);
-    (config.span.from_s, config.span.to_s) = (arguments.from, arguments.to);
+    config.span = span_of(arguments.from, arguments.to)?;
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone tones --help`"))?;
     let jobs = jobs_of(&arguments.files, &config, Some(discovery), Requests::default());
     let hearing = Hearing {

@@ -15,7 +15,7 @@ use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
 use hovertone_exchange::IdentifiedRotor;
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
-use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
+use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed, presets};
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 
@@ -43,7 +43,10 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
     let hovers: Vec<HeardHover> = records.iter().filter_map(hover_of).collect();
-    if let Some(weighed) = plan.scale_for(&records).weigh(&hovers) {
+    let scale = plan.scale_for(&records);
+    refuse_different_loads(&scale, &hovers, &records)?;
+    if let Some(weighed) = scale.weigh(&hovers) {
+        weighed.check().map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
         let text =
             if arguments.json { weighed_json(&weighed).map_err(Failure::internal)? } else { weighed_text(&weighed) };
         terminal.data(&text)?;
@@ -51,6 +54,26 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     }
     terminal.notes(&records.iter().collect::<Vec<_>>());
     Ok(ending_of(&records))
+}
+
+/// Refuses recordings of different loads: their mean mass is that of none.
+fn refuse_different_loads(
+    scale: &AcousticScale,
+    hovers: &[HeardHover],
+    records: &[SpeedRecord],
+) -> Result<(), Failure> {
+    let Some(different) = scale.different_loads(hovers) else { return Ok(()) };
+    let names: Vec<&str> =
+        records.iter().filter(|record| hover_of(record).is_some()).map(|record| record.file.as_str()).collect();
+    let name = |index: usize| names.get(index).copied().unwrap_or_default();
+    let what = format!(
+        "the recordings do not carry the same mass: {} has {:.0} g, {} has {:.0} g",
+        name(different.light),
+        1e3 * different.light_kg,
+        name(different.heavy),
+        1e3 * different.heavy_kg
+    );
+    Err(Failure::usage(what, "weigh the recordings of each load in a command of their own"))
 }
 
 fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
@@ -93,6 +116,7 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
     let results = arguments.constant.as_deref().map(identified).transpose()?;
     let results = results.as_ref();
     check(arguments)?;
+    check_vehicle(arguments, results)?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };
     let rotor_count = rotors_of(arguments, results)?;
     let constant = match (results, arguments.constant_n_s2) {
@@ -143,6 +167,22 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
         return Err(Failure::usage(what, "say --rotors, or --vehicle"));
     }
     Ok(rotor_count)
+}
+
+/// Compares the vehicle that the arguments name with the vehicle of the results.
+fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
+    let Some(said) = arguments.tone.vehicle.as_deref().map(preset).transpose()? else { return Ok(()) };
+    let measured = results.and_then(|rotor| presets().iter().find(|vehicle| vehicle.name == rotor.vehicle_name));
+    match measured.filter(|measured| measured.id != said.id) {
+        Some(measured) => {
+            let what = format!(
+                "the constant was measured with the vehicle \"{}\", and --vehicle says \"{}\"",
+                measured.id, said.id
+            );
+            Err(Failure::usage(what, "leave --vehicle out, or give the results of this vehicle"))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Checks the numbers of the arguments.

@@ -72,6 +72,7 @@ fn meaning_failure(error: &ExperimentError, path: &Path) -> Failure {
         ExperimentError::UnknownPreset { name } => {
             (format!("the experiment file names a vehicle preset that does not exist: \"{name}\""), preset_hint(name))
         }
+        ExperimentError::Vehicle(contradiction) => (contradiction.to_string(), contradiction.hint()),
         _ => (error.to_string(), SEE_EXAMPLE.to_owned()),
     };
     Failure::Usage { what, hint, path: Some(path.to_owned()) }

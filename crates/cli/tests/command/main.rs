@@ -9,6 +9,7 @@ mod demo;
 mod identify;
 mod labels;
 mod microphones;
+mod nonsense;
 mod outputs;
 mod real_recordings;
 mod report;

@@ -1,0 +1,205 @@
+//! Nonsense is refused: exit code 2, no data, what is wrong, why, and what to do.
+
+use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover};
+use hovertone_vehicle::RotorSpeed;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const CONSTANT_TOTAL_N_S2: f64 = 2.83e-5;
+const GRAVITY_M_S2: f64 = 9.8;
+
+/// A hover of the AR.Drone with this mass.
+fn hover(folder: &Path, mass_kg: f64) -> PathBuf {
+    let path = folder.join(format!("{:.0}g.wav", 1e3 * mass_kg));
+    let speed = RotorSpeed::from_rad_s((mass_kg * GRAVITY_M_S2 / CONSTANT_TOTAL_N_S2).sqrt());
+    write_hover(&path, steady_hover("ardrone", speed, 3.0));
+    path
+}
+
+#[test]
+fn a_mass_in_grams_is_a_slip_that_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = hover(folder.path(), 0.413);
+    let weigh = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone", "--mass-kg"];
+    refused_with(&[&weigh[..], &["413"]].concat(), &["carries 41", "said to weigh 413000 g", "--mass-kg 0.413"]);
+    refused_with(&[&weigh[..], &["0.01"]].concat(), &["more than ten times the vehicle's 10 g", "check the mass"]);
+    refused_with(&[&weigh[..], &["-0.413"]].concat(), &["mass_kg = -0.413", "above 0"]);
+    hovertone(&[&weigh[..], &["0.413"]].concat()).ends_with(0);
+    let plan = ["fit", "--plan", "--mass-kg", "0.413", "--added-mass-kg"];
+    refused_with(&[&plan[..], &["31"]].concat(), &["added_mass_kg_max = 31", "31 g are 0.031"]);
+    refused_with(&[&plan[..], &["-0.1"]].concat(), &["added_mass_kg_max = -0.1", "above 0"]);
+    let experiment = folder.path().join("experiment.toml");
+    for (vehicle, load, words) in [
+        ("mass_kg = 413", "", "masses are in kg"),
+        ("mass_kg = 0.413", "added_mass_kg = 31", "masses are in kg"),
+        ("mass_kg = 0.413", "added_mass_kg = -0.031", "0 or more"),
+        ("mass_kg = -0.413", "", "mass_kg = -0.413"),
+        ("propeller_diameter_m = -0.2", "", "propeller_diameter_m = -0.2"),
+        ("mass_kg = 0.413", "from_s = -1.0", "from_s of load"),
+    ] {
+        let loads = format!("[[load]]\nname = \"a\"\nrecordings = [\"*.wav\"]\n{load}\n");
+        fs::write(&experiment, format!("[vehicle]\npreset = \"ardrone\"\n{vehicle}\n{loads}")).unwrap();
+        refused_with(&["identify", text(&experiment)], &[words, "experiment.toml"]);
+    }
+}
+
+#[test]
+fn a_percentage_is_no_share() {
+    let plan = ["fit", "--plan", "--mass-kg", "0.413"];
+    refused_with(&[&plan[..], &["--wanted-share", "2"]].concat(), &["expanded_share = 2", "2 % are 0.02"]);
+    refused_with(
+        &[&plan[..], &["--speed-spread-share", "1.23"]].concat(),
+        &["speed_spread_share = 1.23", "2 % are 0.02"],
+    );
+}
+
+#[test]
+fn times_and_lengths_are_not_negative() {
+    for command in ["speed", "tones"] {
+        refused_with(&[command, "a.wav", "--from", "-5"], &["from = -5 s", "begins at 0 s"]);
+        refused_with(&[command, "a.wav", "--to", "-1"], &["to = -1 s"]);
+        refused_with(&[command, "a.wav", "--diameter-m", "-0.2"], &["diameter_m = -0.2"]);
+        refused_with(&[command, "a.wav", "--mass-kg", "-0.4"], &["mass_kg = -0.4"]);
+    }
+    for (flag, value) in
+        [("--window-s", "-1"), ("--drift-m-max", "-1"), ("--clock-ppm", "-1"), ("--radial-speed-m-s-max", "-1")]
+    {
+        let name = flag.trim_start_matches("--").replace('-', "_");
+        refused_with(&["speed", "a.wav", "--blades", "2", flag, value], &[&format!("{name} = -1")]);
+    }
+    for flag in ["--correlation-s", "--mass-std-kg", "--diameter-m"] {
+        refused_with(&["fit", "--plan", "--mass-kg", "0.413", flag, "-1"], &["= -1"]);
+    }
+}
+
+#[test]
+fn blades_and_gear_are_those_of_the_vehicle() {
+    let ardrone = |more: &[&str], words: &[&str]| {
+        for command in ["speed", "spectrogram"] {
+            let output: &[&str] = if command == "spectrogram" { &["-o", "never.png"] } else { &[] };
+            refused_with(&[&[command, "a.wav", "--vehicle", "ardrone"], more, output].concat(), words);
+        }
+        refused_with(&[&["weigh", "a.wav", "--constant-n-s2", "2.8e-5", "--vehicle", "ardrone"], more].concat(), words);
+    };
+    ardrone(&["--blades", "3"], &["blades = 3", "\"ardrone\" have 2 blades", "leave out one"]);
+    ardrone(&["--gear", "8:68"], &["gear = 8:68", "\"ardrone\" is 8:69", "leave out one"]);
+    ardrone(&["--gear", "68"], &["gear = 1:68", "8:69"]);
+    ardrone(&["--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
+    refused_with(&["speed", "a.wav", "--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
+    let folder = tempfile::tempdir().unwrap();
+    let experiment = folder.path().join("experiment.toml");
+    let load = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
+    fs::write(
+        &experiment,
+        format!("[vehicle]\nrotors = 4\nmass_kg = 0.4\ngear = {{ pinion = 69, wheel = 8 }}\n{load}"),
+    )
+    .unwrap();
+    refused_with(&["identify", text(&experiment)], &["gear = 69:8", "swapped", "write 8:69"]);
+}
+
+#[test]
+fn the_vehicles_own_blades_and_gear_may_be_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = hover(folder.path(), 0.413);
+    let speed = ["speed", "--rotors", "1", "--json", text(&wav), "--vehicle", "ardrone"];
+    let heard =
+        |more: &[&str]| hovertone(&[&speed[..], more].concat()).ends_with(0).json_lines()[0]["speed_rpm"].as_f64();
+    let alone = heard(&[]).unwrap();
+    for more in [&["--gear", "8:69"][..], &["--gear", "69"], &["--gear", "8:69", "--blades", "2"]] {
+        assert!((heard(more).unwrap() / alone - 1.0).abs() < 1e-3, "{more:?}");
+    }
+}
+
+#[test]
+fn a_constant_belongs_to_its_vehicle() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = folder.path().join("results.json");
+    let name = hovertone_vehicle::find_preset("ardrone").unwrap().name;
+    let written = format!(
+        "{{\"thrust_constant_per_rotor_n_s2\":{{\"value\":7e-6}},\
+         \"settings\":{{\"experiment\":{{\"vehicle_name\":\"{name}\",\"rotor_count\":4}}}}}}"
+    );
+    fs::write(&results, written).unwrap();
+    refused_with(
+        &["weigh", "a.wav", "--constant", text(&results), "--vehicle", "crazyflie"],
+        &["measured with the vehicle \"ardrone\"", "--vehicle says \"crazyflie\"", "leave --vehicle out"],
+    );
+    let same = hovertone(&["weigh", "nowhere.wav", "--constant", text(&results), "--vehicle", "ardrone"]).ends_with(1);
+    assert!(same.stderr.contains("nowhere.wav"), "{}", same.stderr);
+}
+
+#[test]
+fn tips_faster_than_mach_0_6_are_refused_also_with_blades() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = folder.path().join("hover.wav");
+    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(300.0), 3.0);
+    settings.rotors.truncate(1);
+    write_hover(&wav, settings);
+    let speed = ["speed", "--blades", "2", "--rotors", "1", text(&wav), "--diameter-m"];
+    // 45 mm, and 4.5 m by a slip
+    hovertone(&[&speed[..], &["0.045"]].concat()).ends_with(0);
+    refused_with(&[&speed[..], &["4.5"]].concat(), &["diameter_m = 4.5", "300", "Mach 0.6", "in metres"]);
+    let png = folder.path().join("x.png");
+    let picture =
+        ["spectrogram", "--blades", "2", "--rotors", "1", text(&wav), "-o", text(&png), "--diameter-m", "4.5"];
+    refused_with(&picture, &["Mach 0.6"]);
+    assert!(!png.exists());
+}
+
+#[test]
+fn one_weighing_is_of_one_load() {
+    let folder = tempfile::tempdir().unwrap();
+    let [light, heavy] = [0.413, 0.462].map(|mass_kg| hover(folder.path(), mass_kg));
+    let weigh = ["weigh", text(&heavy), text(&light), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
+    refused_with(&weigh, &["do not carry the same mass", "413g.wav has 41", "462g.wav has 46", "of their own"]);
+}
+
+#[test]
+fn rows_have_the_cells_of_the_header() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    let fit = |rows: &str| {
+        fs::write(&table, format!("rpm,thrust_n\n3000,1.00\n{rows}\n4000,1.80\n5000,2.75\n")).unwrap();
+        vec!["fit".to_owned(), text(&table).to_owned()]
+    };
+    for (row, words) in [
+        ("3500", "line 3 has 1 cells, and the header has 2"),
+        ("3500,1.36,7", "line 3 has 3 cells, and the header has 2"),
+        ("3500,1,36", "line 3 has 3 cells"),
+    ] {
+        let arguments = fit(row);
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        refused_with(&arguments, &[words, "decimal comma", "stand.csv"]);
+    }
+    let arguments = fit("3500,1.36,");
+    hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0);
+}
+
+#[test]
+fn every_shown_constant_of_two_rows_has_its_uncertainty() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    fs::write(&table, "rpm,thrust_n\n3600,1.0\n5000,2.0\n").unwrap();
+    let run = hovertone(&["fit", text(&table)]).ends_with(0);
+    let rows: Vec<&str> = run.stdout.lines().filter(|line| line.contains("F = ")).collect();
+    assert_eq!(rows.len(), 1, "{}", run.stdout);
+    assert!(rows[0].contains('±'), "{}", run.stdout);
+    assert!(run.stderr.contains("two rows alone") && run.stderr.contains("three rows"), "{}", run.stderr);
+}
+
+#[test]
+fn rows_that_were_computed_are_no_measurement() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    let rows = |std: &str| -> String {
+        [3000.0, 3600.0, 4200.0, 5000.0]
+            .map(|rpm| format!("{rpm},{}{std}\n", 7e-6 * RotorSpeed::from_rpm(rpm).rad_s().powi(2)))
+            .concat()
+    };
+    fs::write(&table, format!("rpm,thrust_n\n{}", rows(""))).unwrap();
+    refused_with(&["fit", text(&table)], &["exactly on F = C ω²", "no ±", "thrust_std_n", "stand.csv"]);
+    // with a stated uncertainty they have one, and nothing is said not to fit
+    fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{}", rows(",0.001"))).unwrap();
+    let stated = hovertone(&["fit", text(&table)]).ends_with(0);
+    assert!(!stated.stderr.contains("does not fit"), "{}", stated.stderr);
+}
