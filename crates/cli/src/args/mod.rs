@@ -34,8 +34,8 @@ Examples:
   hovertone fit --plan --mass-kg 0.413        how much flying a wanted uncertainty needs
   hovertone weigh loaded.mov --constant out/results.json   what it lifts, by its sound
   hovertone export out/results.json --to gazebo            lines for a simulator
-  hovertone compare out/results.json iris.sdf              a simulator's model against what was heard
-  hovertone simulate scenario.toml -o out     a flight, its sound, and the truth about both
+  hovertone compare out/results.json iris.sdf              a simulator's model against it
+  hovertone simulate scenario.toml -o flight  a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
 
 Exit codes:

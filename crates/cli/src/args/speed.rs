@@ -14,8 +14,8 @@ Examples:
   hovertone speed hover.mp4
   hovertone speed --gear 8:69 --blades 2 ardrone/*.mov
   hovertone speed --blades 2 --from 14 --to 17 --track track.csv bench.wav
-  hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov    which rotor is which
-  hovertone speed --vehicle ardrone --microphones stands.toml hover.wav          the same, by the channels' microphones
+  hovertone speed --vehicle ardrone --log flight.csv --log-axes frd hover.mov   names of rotors
+  hovertone speed --vehicle ardrone --microphones stands.toml hover.wav         by microphones
   hovertone speed --vehicle ardrone --spin-up front-left,rear-right,rear-left,front-right bench.wav
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 

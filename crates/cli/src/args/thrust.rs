@@ -83,7 +83,7 @@ Examples:
   hovertone fit stand.csv
   hovertone fit stand.csv --diameter-m 0.254 --temperature-c 22 --pressure-hpa 1003
   hovertone fit hovers.csv --rotors 4 --latitude-deg -20.3
-  hovertone fit --plan --mass-kg 0.413 --added-mass-kg 0.1 --wanted-share 0.02";
+  hovertone fit --plan --mass-kg 0.413 --added-mass-kg 0.1 --wanted-share 0.03";
 
 /// Thrust constant from tables of speed and thrust; or, with --plan, how much flying a wanted uncertainty needs
 ///
@@ -175,7 +175,7 @@ The constant was found with the same vehicle, and best with the same phone at th
 
 Examples:
   hovertone weigh loaded.mov --constant out/results.json
-  hovertone weigh loaded.mov --constant-n-s2 2.831e-5 --constant-std-n-s2 0.01e-5 --vehicle ardrone --mass-kg 0.413";
+  hovertone weigh loaded.mov --constant-n-s2 2.831e-5 --vehicle ardrone --mass-kg 0.413";
 
 /// Mass of an unknown payload, from the sound of a hover and a known thrust constant
 #[derive(Args, Debug)]

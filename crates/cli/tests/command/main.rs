@@ -6,6 +6,7 @@
 mod chromium;
 mod codecs;
 mod demo;
+mod examples;
 mod identify;
 mod labels;
 mod microphones;
