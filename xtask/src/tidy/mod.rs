@@ -5,6 +5,7 @@
 //! dependency           crates use only crates below them
 //! tuple_parameter      no function takes a tuple                    long_function       a function fits on a screen
 //! unmarked_constant    a constant says what kind of number it is    unnamed_number      no tuning number inside an algorithm
+//! outputs              the command line writes files in one place
 //! architecture         ARCHITECTURE.md names every folder           file_length, file_name, purity, prose
 //! ```
 //!
@@ -19,6 +20,7 @@ mod file_length;
 mod file_name;
 mod functions;
 mod long_function;
+mod outputs;
 mod paths;
 mod prose;
 mod purity;
@@ -36,7 +38,7 @@ struct Rule {
     check: fn(&Tree) -> Vec<Fault>,
 }
 
-const RULES: [Rule; 12] = [
+const RULES: [Rule; 13] = [
     Rule { name: "circle", check: circle::check },
     Rule { name: "dependency", check: dependency::check },
     Rule { name: "tuple parameter", check: tuple_parameter::check },
@@ -47,6 +49,7 @@ const RULES: [Rule; 12] = [
     Rule { name: "file length", check: file_length::check },
     Rule { name: "file name", check: file_name::check },
     Rule { name: "purity", check: purity::check },
+    Rule { name: "outputs", check: outputs::check },
     Rule { name: "prose", check: prose::check },
     Rule { name: "exempt", check: exempt::check },
 ];
