@@ -105,7 +105,8 @@ pub(crate) fn discovery_of(
 
 /// What is known of the rotors before they are heard: the arguments, and for the rest the vehicle.
 fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRotor, Failure> {
-    let of_vehicle = vehicle.map(preset).transpose()?.map(KnownRotor::of_vehicle).unwrap_or_default();
+    let vehicle = vehicle.map(preset).transpose()?;
+    let of_vehicle = vehicle.map(KnownRotor::of_vehicle).unwrap_or_default();
     let known = KnownRotor {
         diameter_m: arguments.diameter_m.or(of_vehicle.diameter_m),
         mass_kg: arguments.mass_kg.or(of_vehicle.mass_kg),
@@ -115,5 +116,8 @@ fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRo
     known
         .check()
         .map_err(|error| Failure::usage(error.to_string(), "give metres, kilograms and a number of rotors"))?;
+    vehicle
+        .map_or(Ok(()), |vehicle| vehicle.check_flown(arguments.rotors, arguments.mass_kg))
+        .map_err(|contradiction| Failure::contradiction(&contradiction))?;
     Ok(known)
 }

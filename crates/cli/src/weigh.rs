@@ -169,9 +169,11 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
     Ok(rotor_count)
 }
 
-/// Compares the vehicle that the arguments name with the vehicle of the results.
+/// Compares the vehicle that the arguments name with their own numbers and with the vehicle of the results.
 fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
     let Some(said) = arguments.tone.vehicle.as_deref().map(preset).transpose()? else { return Ok(()) };
+    said.check_flown(arguments.rotors, arguments.mass_kg)
+        .map_err(|contradiction| Failure::contradiction(&contradiction))?;
     let measured = results.and_then(|rotor| presets().iter().find(|vehicle| vehicle.name == rotor.vehicle_name));
     match measured.filter(|measured| measured.id != said.id) {
         Some(measured) => {

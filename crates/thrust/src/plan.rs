@@ -8,7 +8,7 @@ use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 use crate::square_law::force_ratio_for_intercept;
 use hovertone_analysis::{Method, Span};
-use hovertone_vehicle::{PROPELLER_DIAMETER_M, RotorSpeed};
+use hovertone_vehicle::{MASS_FACTOR_MAX, PROPELLER_DIAMETER_M, RotorSpeed};
 use serde::Serialize;
 
 /// Numbers of loads that are tried. From three loads on, one that does not fit can be named. *Numeric.*
@@ -21,8 +21,6 @@ const SECONDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 60.0];
 const OVERHEAD_S: f64 = 20.0;
 /// Largest wanted uncertainty and largest spread of a speed, as shares. Above it a percentage was meant. *Decision.*
 const SHARE_MAX: f64 = 0.5;
-/// Largest ratio of the added to the vehicle's mass. Above it grams were meant. *Decision.*
-const ADDED_FACTOR_MAX: f64 = 10.0;
 /// Speed of the synthetic campaign without added mass, rad/s. Only relative speeds matter. *Numeric.*
 const SPEED_RAD_S: f64 = 400.0;
 
@@ -124,7 +122,7 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         }
     }
     for (name, value) in [("added_mass_kg_max", wish.added_mass_kg_max), ("mass_std_kg", wish.mass_std_kg)] {
-        if value > ADDED_FACTOR_MAX * wish.vehicle_mass_kg {
+        if value > MASS_FACTOR_MAX * wish.vehicle_mass_kg {
             let must_be = "at most ten times the vehicle's mass: masses are in kilograms, 31 g are 0.031";
             return Err(PlanError::OutOfRange { name, value, must_be });
         }

@@ -2,7 +2,7 @@
 
 use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std};
-use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
+use hovertone_vehicle::{Ending, Estimate, MASS_FACTOR_MAX, RotorSpeed};
 use serde::Serialize;
 use std::ops::RangeInclusive;
 
@@ -10,8 +10,6 @@ use std::ops::RangeInclusive;
 const LIGHTER_SHARE_MAX: f64 = 0.05;
 /// … and by this many standard uncertainties. *Decision.*
 const LIGHTER_STD_MAX: f64 = 3.0;
-/// Largest ratio of the weighed mass to the vehicle's: most multirotors safely carry a quarter of their mass. *Decision.*
-const HEAVIER_FACTOR_MAX: f64 = 10.0;
 /// Ratios of the given to the weighed mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
 const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
 /// Speeds of one load lie closer than this many of their standard uncertainties. *Decision.*
@@ -137,7 +135,7 @@ impl WeighedHover {
         if payload.value < -allowed_kg {
             return Err(WeighError::LighterThanVehicle { hover_kg, vehicle_kg });
         }
-        if hover_kg > HEAVIER_FACTOR_MAX * vehicle_kg {
+        if hover_kg > MASS_FACTOR_MAX * vehicle_kg {
             return Err(WeighError::FarHeavier { hover_kg, vehicle_kg });
         }
         Ok(())

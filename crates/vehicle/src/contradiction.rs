@@ -1,6 +1,6 @@
 //! What a person says of a vehicle, against what is known of it and what can fly.
 
-use crate::{Gear, RotorSpeed, SOUND_M_S, Vehicle};
+use crate::{Gear, MASS_FACTOR_MAX, RotorSpeed, SOUND_M_S, Vehicle};
 use std::f64::consts::PI;
 
 /// Largest Mach number of the blade tips of a multirotor in hover. Tips are kept slower for the sake of noise and efficiency. *Physics.*
@@ -33,6 +33,26 @@ pub enum Contradiction {
         /// The given gear.
         said: Gear,
     },
+    /// More rotors than the vehicle has.
+    #[error("rotors = {said}, and the vehicle \"{vehicle}\" has {known} rotors")]
+    Rotors {
+        /// Name of the vehicle in files and flags.
+        vehicle: &'static str,
+        /// Its number of rotors.
+        known: u32,
+        /// The given number.
+        said: u32,
+    },
+    /// A mass that is far from the vehicle's.
+    #[error("mass_kg = {said_kg}, and the vehicle \"{vehicle}\" weighs {known_kg} kg")]
+    Mass {
+        /// Name of the vehicle in files and flags.
+        vehicle: &'static str,
+        /// Its mass.
+        known_kg: f64,
+        /// The given mass.
+        said_kg: f64,
+    },
     /// A pinion with more teeth than the wheel.
     #[error("gear = {}:{} would turn the rotor faster than its motor: the two numbers are swapped", .0.pinion, .0.wheel)]
     GearSwapped(Gear),
@@ -60,6 +80,10 @@ impl Contradiction {
             Self::Gear { .. } => "leave out one of the two; another gear than the usual one needs --gear without \
                                   --vehicle"
                 .to_owned(),
+            Self::Rotors { .. } => "say how many of its rotors turn".to_owned(),
+            Self::Mass { said_kg, .. } => {
+                format!("masses are in kilograms: {said_kg} g are {}", said_kg / 1e3)
+            }
             Self::GearSwapped(gear) => {
                 format!("the pinion on the motor comes first: write {}:{}", gear.wheel, gear.pinion)
             }
@@ -100,6 +124,23 @@ impl Vehicle {
         }
         Ok(())
     }
+
+    /// Compares a number of running rotors and a mass as flown with those of the vehicle. On a bench fewer rotors may run than it has.
+    ///
+    /// # Errors
+    /// More rotors than it has; a mass more than [`MASS_FACTOR_MAX`] times larger or smaller than its own.
+    pub fn check_flown(&self, rotors: Option<u32>, mass_kg: Option<f64>) -> Result<(), Contradiction> {
+        let (vehicle, known) = (self.id, self.rotor_count.value);
+        if let Some(said) = rotors.filter(|&said| said > known) {
+            return Err(Contradiction::Rotors { vehicle, known, said });
+        }
+        if let (Some(said_kg), Some(known_kg)) = (mass_kg, self.mass_kg.map(|mass| mass.value))
+            && !(known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&said_kg)
+        {
+            return Err(Contradiction::Mass { vehicle, known_kg, said_kg });
+        }
+        Ok(())
+    }
 }
 
 /// Checks that the blade tips of a propeller, π D n, stay below [`TIP_MACH_MAX`] in air of 20 °C.
@@ -135,6 +176,21 @@ mod tests {
         }
         // nothing is known of the first Bebop's blades
         find_preset("bebop").unwrap().check_said(Some(3), Some(known)).unwrap();
+    }
+
+    #[test]
+    fn a_vehicle_has_its_own_rotors_and_mass() {
+        let vehicle = find_preset("ardrone").unwrap();
+        for (rotors, mass_kg) in [(Some(1), None), (Some(4), Some(0.413)), (None, Some(0.6))] {
+            vehicle.check_flown(rotors, mass_kg).unwrap();
+        }
+        assert_eq!(
+            vehicle.check_flown(Some(6), None),
+            Err(Contradiction::Rotors { vehicle: "ardrone", known: 4, said: 6 })
+        );
+        let grams = vehicle.check_flown(None, Some(413.0)).unwrap_err();
+        assert!(grams.hint().ends_with("413 g are 0.413"), "{}", grams.hint());
+        assert!(vehicle.check_flown(None, Some(0.04)).is_err());
     }
 
     #[test]

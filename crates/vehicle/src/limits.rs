@@ -14,6 +14,10 @@ pub const PROPELLER_DIAMETER_M: RangeInclusive<f64> = 0.01..=10.0;
 /// Thrust coefficients T/(ρ n² D⁴) of hovering propellers. Measured ones lie between 0.06 and 0.15. *Physics.*
 pub const THRUST_COEFFICIENT: RangeInclusive<f64> = 0.03..=0.25;
 
+/// Largest ratio between two masses of one vehicle: its given and its known mass, or with and without load. Beyond it one of the two is in
+/// grams, or of another vehicle. *Decision.*
+pub const MASS_FACTOR_MAX: f64 = 10.0;
+
 /// A shaft is searched for down to the known slowest speed divided by this factor, and up to the fastest times this factor. *Decision.*
 pub const KNOWN_RANGE_MARGIN: f64 = 1.5;
 

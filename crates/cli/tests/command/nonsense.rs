@@ -20,11 +20,15 @@ fn hover(folder: &Path, mass_kg: f64) -> PathBuf {
 fn a_mass_in_grams_is_a_slip_that_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let wav = hover(folder.path(), 0.413);
-    let weigh = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone", "--mass-kg"];
+    let weigh = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--gear", "8:69", "--rotors", "4", "--mass-kg"];
     refused_with(&[&weigh[..], &["413"]].concat(), &["carries 41", "said to weigh 413000 g", "--mass-kg 0.413"]);
     refused_with(&[&weigh[..], &["0.01"]].concat(), &["more than ten times the vehicle's 10 g", "check the mass"]);
     refused_with(&[&weigh[..], &["-0.413"]].concat(), &["mass_kg = -0.413", "above 0"]);
     hovertone(&[&weigh[..], &["0.413"]].concat()).ends_with(0);
+    for command in [&["speed"][..], &["tones"], &["weigh", "--constant-n-s2", "2.83e-5"]] {
+        let flown = ["a.wav", "--vehicle", "ardrone", "--mass-kg", "413"];
+        refused_with(&[command, &flown].concat(), &["mass_kg = 413", "weighs 0.413 kg", "413 g are 0.413"]);
+    }
     let plan = ["fit", "--plan", "--mass-kg", "0.413", "--added-mass-kg"];
     refused_with(&[&plan[..], &["31"]].concat(), &["added_mass_kg_max = 31", "31 g are 0.031"]);
     refused_with(&[&plan[..], &["-0.1"]].concat(), &["added_mass_kg_max = -0.1", "above 0"]);
@@ -85,6 +89,7 @@ fn blades_and_gear_are_those_of_the_vehicle() {
     ardrone(&["--gear", "8:68"], &["gear = 8:68", "\"ardrone\" is 8:69", "leave out one"]);
     ardrone(&["--gear", "68"], &["gear = 1:68", "8:69"]);
     ardrone(&["--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
+    ardrone(&["--rotors", "6"], &["rotors = 6", "\"ardrone\" has 4 rotors"]);
     refused_with(&["speed", "a.wav", "--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
     let folder = tempfile::tempdir().unwrap();
     let experiment = folder.path().join("experiment.toml");

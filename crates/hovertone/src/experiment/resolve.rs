@@ -4,11 +4,10 @@ use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSec
 use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
-use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, Gear, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset};
+use hovertone_vehicle::{
+    GRAVITY_STANDARD_M_S2, Gear, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset,
+};
 
-/// Largest ratio between the given mass and the mass of the preset or the model. Beyond it the mass is in grams, or of another vehicle.
-/// *Decision.*
-const MASS_FACTOR_MAX: f64 = 10.0;
 /// Smallest gravity, m/s². On the highest equatorial mountain it is 9.764. *Physics.*
 const GRAVITY_M_S2_MIN: f64 = 9.70;
 /// Largest gravity, m/s². At the poles it is 9.832. *Physics.*
