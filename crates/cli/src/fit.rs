@@ -215,6 +215,7 @@ fn plan_campaign(
             PlanError::OutOfReach { .. } => {
                 "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-told-apart)"
             }
+            PlanError::OutOfRange { name: "expanded_share", .. } => "for 2 % say --wanted-share 0.02",
             _ => "see `hovertone fit --help`",
         };
         Failure::usage(error.to_string(), hint)

@@ -10,7 +10,7 @@ pub enum CsvError {
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
     /// A row with more or fewer cells than the header.
-    #[error("line {line} has {cells} cells, and the header has {columns}")]
+    #[error("line {line}: the number of cells is {cells}, and the header has {columns}")]
     RaggedRow {
         /// Line, counted from 1.
         line: u64,

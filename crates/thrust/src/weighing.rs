@@ -2,16 +2,13 @@
 
 use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std};
-use hovertone_vehicle::{Ending, Estimate, MASS_FACTOR_MAX, RotorSpeed};
+use hovertone_vehicle::{Ending, Estimate, GRAMS_FACTOR, MASS_FACTOR_MAX, RotorSpeed};
 use serde::Serialize;
-use std::ops::RangeInclusive;
 
 /// A payload may come out negative by this share of the vehicle's mass: thinner or denser air, another battery. *Decision.*
 const LIGHTER_SHARE_MAX: f64 = 0.05;
 /// … and by this many standard uncertainties. *Decision.*
 const LIGHTER_STD_MAX: f64 = 3.0;
-/// Ratios of the given to the weighed mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
-const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
 /// Speeds of one load lie closer than this many of their standard uncertainties. *Decision.*
 const ALIKE_STD_MAX: f64 = 4.0;
 /// … or closer than this share, 3 % of the mass: trials in moving air differ by more than they state. *Decision.*

@@ -1,6 +1,6 @@
 //! What a person says of a vehicle, against what is known of it and what can fly.
 
-use crate::{Gear, MASS_FACTOR_MAX, RotorSpeed, SOUND_M_S, Vehicle};
+use crate::{GRAMS_FACTOR, Gear, MASS_FACTOR_MAX, RotorSpeed, SOUND_M_S, Vehicle};
 use std::f64::consts::PI;
 
 /// Largest Mach number of the blade tips of a multirotor in hover. Tips are kept slower for the sake of noise and efficiency. *Physics.*
@@ -81,9 +81,10 @@ impl Contradiction {
                                   --vehicle"
                 .to_owned(),
             Self::Rotors { .. } => "say how many of its rotors turn".to_owned(),
-            Self::Mass { said_kg, .. } => {
+            Self::Mass { known_kg, said_kg, .. } if GRAMS_FACTOR.contains(&(said_kg / known_kg)) => {
                 format!("masses are in kilograms: {said_kg} g are {}", said_kg / 1e3)
             }
+            Self::Mass { .. } => "check the mass (in kilograms) and the name of the vehicle".to_owned(),
             Self::GearSwapped(gear) => {
                 format!("the pinion on the motor comes first: write {}:{}", gear.wheel, gear.pinion)
             }
@@ -190,7 +191,8 @@ mod tests {
         );
         let grams = vehicle.check_flown(None, Some(413.0)).unwrap_err();
         assert!(grams.hint().ends_with("413 g are 0.413"), "{}", grams.hint());
-        assert!(vehicle.check_flown(None, Some(0.04)).is_err());
+        let another = vehicle.check_flown(None, Some(0.04)).unwrap_err();
+        assert!(another.hint().contains("name of the vehicle"), "{}", another.hint());
     }
 
     #[test]

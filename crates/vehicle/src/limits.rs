@@ -18,6 +18,9 @@ pub const THRUST_COEFFICIENT: RangeInclusive<f64> = 0.03..=0.25;
 /// grams, or of another vehicle. *Decision.*
 pub const MASS_FACTOR_MAX: f64 = 10.0;
 
+/// Ratios of a given to an expected mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
+pub const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
+
 /// A shaft is searched for down to the known slowest speed divided by this factor, and up to the fastest times this factor. *Decision.*
 pub const KNOWN_RANGE_MARGIN: f64 = 1.5;
 

@@ -50,7 +50,10 @@ fn a_mass_in_grams_is_a_slip_that_is_named() {
 #[test]
 fn a_percentage_is_no_share() {
     let plan = ["fit", "--plan", "--mass-kg", "0.413"];
-    refused_with(&[&plan[..], &["--wanted-share", "2"]].concat(), &["expanded_share = 2", "2 % are 0.02"]);
+    refused_with(
+        &[&plan[..], &["--wanted-share", "2"]].concat(),
+        &["expanded_share = 2", "2 % are 0.02", "--wanted-share 0.02"],
+    );
     refused_with(
         &[&plan[..], &["--speed-spread-share", "1.23"]].concat(),
         &["speed_spread_share = 1.23", "2 % are 0.02"],
@@ -168,9 +171,9 @@ fn rows_have_the_cells_of_the_header() {
         vec!["fit".to_owned(), text(&table).to_owned()]
     };
     for (row, words) in [
-        ("3500", "line 3 has 1 cells, and the header has 2"),
-        ("3500,1.36,7", "line 3 has 3 cells, and the header has 2"),
-        ("3500,1,36", "line 3 has 3 cells"),
+        ("3500", "line 3: the number of cells is 1, and the header has 2"),
+        ("3500,1.36,7", "line 3: the number of cells is 3, and the header has 2"),
+        ("3500,1,36", "line 3: the number of cells is 3"),
     ] {
         let arguments = fit(row);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
