@@ -26,6 +26,13 @@ impl Ending {
     }
 }
 
+/// Two statements about a vehicle of which one must be wrong.
+impl From<Contradiction> for Failure {
+    fn from(contradiction: Contradiction) -> Self {
+        Self::usage(contradiction.to_string(), contradiction.hint())
+    }
+}
+
 /// Reason why a run was impossible: what happened and why, what to do, and which file.
 #[derive(Debug)]
 pub(crate) enum Failure {
@@ -40,11 +47,6 @@ pub(crate) enum Failure {
 impl Failure {
     pub(crate) fn usage(what: impl Into<String>, hint: impl Into<String>) -> Self {
         Self::Usage { what: what.into(), hint: hint.into(), path: None }
-    }
-
-    /// Two statements about a vehicle of which one must be wrong.
-    pub(crate) fn contradiction(contradiction: &Contradiction) -> Self {
-        Self::usage(contradiction.to_string(), contradiction.hint())
     }
 
     pub(crate) fn failed(what: impl Into<String>, hint: impl Into<String>, path: &Path) -> Self {

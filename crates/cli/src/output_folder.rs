@@ -22,6 +22,8 @@ pub(crate) struct FolderKind {
 pub(crate) struct OutputFolder {
     path: PathBuf,
     outputs: Outputs,
+    /// Whether an earlier run of the same command wrote it.
+    is_own: bool,
 }
 
 impl OutputFolder {
@@ -34,8 +36,8 @@ impl OutputFolder {
             }
             Err(_) => true,
         };
-        let is_own = || fs::read_to_string(path.join(kind.marked)).is_ok_and(|text| text.starts_with(kind.mark));
-        if !is_empty && !outputs.may_replace() && !is_own() {
+        let is_own = fs::read_to_string(path.join(kind.marked)).is_ok_and(|text| text.starts_with(kind.mark));
+        if !is_empty && !outputs.may_replace() && !is_own {
             return Err(Failure::Usage {
                 what: format!(
                     "this folder is not empty, and what is in it is not an earlier {}: nothing was written",
@@ -47,7 +49,7 @@ impl OutputFolder {
                 path: Some(path.to_owned()),
             });
         }
-        let folder = Self { path: path.to_owned(), outputs };
+        let folder = Self { path: path.to_owned(), outputs, is_own };
         kind.files.iter().try_for_each(|name| folder.outputs.refuse_input(&path.join(name)))?;
         fs::create_dir_all(path).map_err(|error| Failure::cannot_write(&error, path))?;
         // a folder without the right to write is refused now, and not after the work
@@ -58,6 +60,11 @@ impl OutputFolder {
     /// Path of the folder.
     pub(crate) fn path(&self) -> &Path {
         &self.path
+    }
+
+    /// Whether an earlier run of the same command wrote the folder.
+    pub(crate) fn is_own(&self) -> bool {
+        self.is_own
     }
 
     /// Path of a file in the folder.

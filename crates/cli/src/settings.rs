@@ -46,10 +46,8 @@ pub(crate) fn config_of(
 /// helps to find the tone of a gear. `None` where the tone has to be searched for.
 pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
     let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
-    let checked = arguments.gear.map_or(Ok(()), Gear::check);
-    let checked =
-        checked.and_then(|()| vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(arguments.blades, arguments.gear)));
-    checked.map_err(|contradiction| Failure::contradiction(&contradiction))?;
+    arguments.gear.map_or(Ok(()), Gear::check)?;
+    vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(arguments.blades, arguments.gear))?;
     let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
     let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {
         (Some(lines_per_turn), ..) => Order::new(lines_per_turn),
@@ -85,10 +83,8 @@ pub(crate) fn span_of(from_s: Option<f64>, to_s: Option<f64>) -> Result<SpanConf
 /// Refuses the diameter of the arguments where the blade tips of a heard rotor would be faster than any multirotor's.
 pub(crate) fn check_tips_heard(known: &KnownArguments, records: &[SpeedRecord]) -> Result<(), Failure> {
     let Some(diameter_m) = known.diameter_m else { return Ok(()) };
-    let speeds = records.iter().filter_map(|record| Some(record.speed()?.speed));
-    speeds.into_iter().try_for_each(|speed| {
-        check_tips(diameter_m, speed).map_err(|contradiction| Failure::contradiction(&contradiction))
-    })
+    let mut speeds = records.iter().filter_map(|record| Some(record.speed()?.speed));
+    Ok(speeds.try_for_each(|speed| check_tips(diameter_m, speed))?)
 }
 
 /// The search for a tone of unknown order with the facts about the vehicle, and settings for it whose order is a placeholder.
@@ -116,8 +112,6 @@ fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRo
     known
         .check()
         .map_err(|error| Failure::usage(error.to_string(), "give metres, kilograms and a number of rotors"))?;
-    vehicle
-        .map_or(Ok(()), |vehicle| vehicle.check_flown(arguments.rotors, arguments.mass_kg))
-        .map_err(|contradiction| Failure::contradiction(&contradiction))?;
+    vehicle.map_or(Ok(()), |vehicle| vehicle.check_flown(arguments.rotors, arguments.mass_kg))?;
     Ok(known)
 }

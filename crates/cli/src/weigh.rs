@@ -42,9 +42,10 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
-    let hovers: Vec<HeardHover> = records.iter().filter_map(hover_of).collect();
+    let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
+        records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
     let scale = plan.scale_for(&records);
-    refuse_different_loads(&scale, &hovers, &records)?;
+    refuse_different_loads(&scale, &hovers, &names)?;
     if let Some(weighed) = scale.weigh(&hovers) {
         weighed.check().map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
         let text =
@@ -57,14 +58,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
 }
 
 /// Refuses recordings of different loads: their mean mass is that of none.
-fn refuse_different_loads(
-    scale: &AcousticScale,
-    hovers: &[HeardHover],
-    records: &[SpeedRecord],
-) -> Result<(), Failure> {
+fn refuse_different_loads(scale: &AcousticScale, hovers: &[HeardHover], names: &[&str]) -> Result<(), Failure> {
     let Some(different) = scale.different_loads(hovers) else { return Ok(()) };
-    let names: Vec<&str> =
-        records.iter().filter(|record| hover_of(record).is_some()).map(|record| record.file.as_str()).collect();
     let name = |index: usize| names.get(index).copied().unwrap_or_default();
     let what = format!(
         "the recordings do not carry the same mass: {} has {:.0} g, {} has {:.0} g",
@@ -172,8 +167,7 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
 /// Compares the vehicle that the arguments name with their own numbers and with the vehicle of the results.
 fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
     let Some(said) = arguments.tone.vehicle.as_deref().map(preset).transpose()? else { return Ok(()) };
-    said.check_flown(arguments.rotors, arguments.mass_kg)
-        .map_err(|contradiction| Failure::contradiction(&contradiction))?;
+    said.check_flown(arguments.rotors, arguments.mass_kg)?;
     let measured = results.and_then(|rotor| presets().iter().find(|vehicle| vehicle.name == rotor.vehicle_name));
     match measured.filter(|measured| measured.id != said.id) {
         Some(measured) => {

@@ -1,6 +1,6 @@
 //! What a person says of a vehicle, against what is known of it and what can fly.
 
-use crate::{GRAMS_FACTOR, Gear, MASS_FACTOR_MAX, RotorSpeed, SOUND_M_S, Vehicle};
+use crate::{GRAMS_FACTOR, Gear, RotorSpeed, SOUND_M_S, Vehicle, are_masses_of_one_vehicle};
 use std::f64::consts::PI;
 
 /// Largest Mach number of the blade tips of a multirotor in hover. Tips are kept slower for the sake of noise and efficiency. *Physics.*
@@ -129,14 +129,14 @@ impl Vehicle {
     /// Compares a number of running rotors and a mass as flown with those of the vehicle. On a bench fewer rotors may run than it has.
     ///
     /// # Errors
-    /// More rotors than it has; a mass more than [`MASS_FACTOR_MAX`] times larger or smaller than its own.
+    /// More rotors than it has; a mass more than [`crate::MASS_FACTOR_MAX`] times larger or smaller than its own.
     pub fn check_flown(&self, rotors: Option<u32>, mass_kg: Option<f64>) -> Result<(), Contradiction> {
         let (vehicle, known) = (self.id, self.rotor_count.value);
         if let Some(said) = rotors.filter(|&said| said > known) {
             return Err(Contradiction::Rotors { vehicle, known, said });
         }
         if let (Some(said_kg), Some(known_kg)) = (mass_kg, self.mass_kg.map(|mass| mass.value))
-            && !(known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&said_kg)
+            && !are_masses_of_one_vehicle(said_kg, known_kg)
         {
             return Err(Contradiction::Mass { vehicle, known_kg, said_kg });
         }

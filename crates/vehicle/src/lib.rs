@@ -25,7 +25,8 @@ pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;
 pub use limits::{
     BLADES_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR, KNOWN_RANGE_MARGIN, MASS_FACTOR_MAX, MESH_SIDEBANDS,
-    PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT, check_range, loudest_rotor_share,
+    PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT, are_masses_of_one_vehicle, check_range,
+    loudest_rotor_share,
 };
 pub use presets::{find_preset, presets};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};

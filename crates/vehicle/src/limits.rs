@@ -18,6 +18,11 @@ pub const THRUST_COEFFICIENT: RangeInclusive<f64> = 0.03..=0.25;
 /// grams, or of another vehicle. *Decision.*
 pub const MASS_FACTOR_MAX: f64 = 10.0;
 
+/// Whether two masses may be of one vehicle: neither is more than [`MASS_FACTOR_MAX`] times the other.
+pub fn are_masses_of_one_vehicle(given_kg: f64, known_kg: f64) -> bool {
+    (known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&given_kg)
+}
+
 /// Ratios of a given to an expected mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
 pub const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
 

@@ -1,8 +1,8 @@
 //! The command line writes files in one place, which never replaces what a command reads.
 
 use super::fault::Fault;
-use super::paths::paths;
-use crate::tree::Tree;
+use super::paths::{NamedPath, faults_of_paths};
+use crate::tree::{Source, Tree};
 
 const WRITER: &str = "crates/cli/src/output_file.rs";
 /// The last two names of a function that writes or removes a file.
@@ -21,20 +21,14 @@ const WRITING: [[&str; 2]; 11] = [
 ];
 
 pub(super) fn check(tree: &Tree) -> Vec<Fault> {
-    let mut faults = Vec::new();
-    let of_cli = |path: &str| path.starts_with("crates/cli/src/") && path != WRITER;
-    for source in tree.sources.iter().filter(|source| of_cli(&source.path)) {
-        for path in paths(&source.code) {
-            let ends_so = |end: &[&str; 2]| {
-                path.segments.len() > 1 && path.segments.iter().rev().zip(end.iter().rev()).all(|(a, b)| a == b)
-            };
-            if WRITING.iter().any(ends_so) {
-                let message = format!("{} beside {WRITER}: write through `Outputs` or `OutputFolder`", path.text());
-                faults.push(Fault::new(&source.path, path.line, message));
-            }
-        }
-    }
-    faults
+    let is_checked = |source: &Source| source.path.starts_with("crates/cli/src/") && source.path != WRITER;
+    faults_of_paths(tree, is_checked, |path: &NamedPath| {
+        let ends_so = |end: &[&str; 2]| {
+            path.segments.len() > 1 && path.segments.iter().rev().zip(end.iter().rev()).all(|(a, b)| a == b)
+        };
+        let writes = WRITING.iter().any(ends_so);
+        writes.then(|| format!("{} beside {WRITER}: write through `Outputs` or `OutputFolder`", path.text()))
+    })
 }
 
 #[cfg(test)]

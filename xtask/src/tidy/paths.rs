@@ -1,5 +1,7 @@
 //! All paths that the code of a file names: in `use`, in types and expressions, in macros and attributes.
 
+use super::fault::Fault;
+use crate::tree::{Source, Tree};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Block, File, ItemMod, ItemUse, Lit, Macro, Meta, Path, UseTree, VisRestricted};
@@ -30,6 +32,19 @@ impl NamedPath {
         let end = if self.kind == PathKind::Glob { "::*" } else { "" };
         format!("{}{end}", self.segments.join("::"))
     }
+}
+
+/// A fault at each path of the wanted sources for which there is a message.
+pub(super) fn faults_of_paths(
+    tree: &Tree,
+    is_checked: impl Fn(&Source) -> bool,
+    message_of: impl Fn(&NamedPath) -> Option<String>,
+) -> Vec<Fault> {
+    let of_source = |source: &Source| -> Vec<Fault> {
+        let fault = |path: NamedPath| Some(Fault::new(&source.path, path.line, message_of(&path)?));
+        paths(&source.code).into_iter().filter_map(fault).collect()
+    };
+    tree.sources.iter().filter(|source| is_checked(source)).flat_map(of_source).collect()
 }
 
 pub(super) fn paths(file: &File) -> Vec<NamedPath> {

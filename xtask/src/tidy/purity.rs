@@ -1,8 +1,8 @@
 //! Files, environment, clock, threads, network and printing belong at the edges, not in the pure crates.
 
 use super::fault::Fault;
-use super::paths::paths;
-use crate::tree::Tree;
+use super::paths::{NamedPath, faults_of_paths};
+use crate::tree::{Source, Tree};
 
 const PURE: [&str; 13] = [
     "vehicle",
@@ -23,25 +23,17 @@ const IMPURE_MODULES: [&str; 5] = ["fs", "env", "time", "thread", "net"];
 const IMPURE_MACROS: [&str; 5] = ["println!", "print!", "eprintln!", "eprint!", "dbg!"];
 
 pub(super) fn check(tree: &Tree) -> Vec<Fault> {
-    let mut faults = Vec::new();
-    let is_pure = |name: &str| PURE.contains(&name);
-    for source in tree.sources.iter().filter(|source| is_pure(&source.crate_name) && source.below_src().is_some()) {
-        for path in paths(&source.code) {
-            let is_impure = match path.segments.as_slice() {
-                [first, second, ..] if first == "std" => IMPURE_MODULES.contains(&second.as_str()),
-                [.., last] => IMPURE_MACROS.contains(&last.as_str()),
-                [] => false,
-            };
-            if is_impure {
-                let message = format!(
-                    "{} in a pure crate: hand the value over as a parameter, and leave this to the caller",
-                    path.text()
-                );
-                faults.push(Fault::new(&source.path, path.line, message));
-            }
-        }
-    }
-    faults
+    let is_checked = |source: &Source| PURE.contains(&source.crate_name.as_str()) && source.below_src().is_some();
+    faults_of_paths(tree, is_checked, |path: &NamedPath| {
+        let is_impure = match path.segments.as_slice() {
+            [first, second, ..] if first == "std" => IMPURE_MODULES.contains(&second.as_str()),
+            [.., last] => IMPURE_MACROS.contains(&last.as_str()),
+            [] => false,
+        };
+        is_impure.then(|| {
+            format!("{} in a pure crate: hand the value over as a parameter, and leave this to the caller", path.text())
+        })
+    })
 }
 
 #[cfg(test)]

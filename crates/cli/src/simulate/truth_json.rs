@@ -7,7 +7,6 @@ use hovertone_report::VERSION;
 use hovertone_sim::scenario::{ScenarioFile, ScenarioTruth};
 use hovertone_vehicle::FlightParameters;
 use serde::Serialize;
-use std::fs;
 
 /// Name of the file.
 pub(super) const NAME: &str = "truth.json";
@@ -41,7 +40,7 @@ struct Settings<'a> {
 
 /// Writes the mark alone, before there is a truth. The truth of an earlier simulation stays until the new one is finished.
 pub(super) fn begin(folder: &OutputFolder) -> Result<(), Failure> {
-    if fs::read_to_string(folder.place(NAME)).is_ok_and(|text| text.starts_with(MARK)) {
+    if folder.is_own() {
         return Ok(());
     }
     folder.write(NAME, format!("{MARK},\n  \"ending\": \"unfinished\"\n}}\n"))

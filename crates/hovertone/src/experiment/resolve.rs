@@ -5,7 +5,8 @@ use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
 use hovertone_vehicle::{
-    GRAVITY_STANDARD_M_S2, Gear, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M, Vehicle, find_preset,
+    GRAVITY_STANDARD_M_S2, Gear, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M, Vehicle, are_masses_of_one_vehicle,
+    find_preset,
 };
 
 /// Smallest gravity, m/s². On the highest equatorial mountain it is 9.764. *Physics.*
@@ -231,7 +232,7 @@ impl ExperimentFile {
         };
         positive("vehicle.mass_kg", mass_kg)?;
         if let Some(known_kg) = known.mass_kg()
-            && !(known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&mass_kg)
+            && !are_masses_of_one_vehicle(mass_kg, known_kg)
         {
             return Err(ExperimentError::OutOfRange {
                 name: "vehicle.mass_kg".to_owned(),

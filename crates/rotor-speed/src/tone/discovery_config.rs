@@ -1,6 +1,6 @@
 //! Settings of the discovery of tones: every default with its unit and its reason.
 
-use hovertone_vehicle::{ConfigError, THRUST_COEFFICIENT, check_range};
+use hovertone_vehicle::{ConfigError, THRUST_COEFFICIENT, TIP_MACH_MAX, check_range};
 use serde::Serialize;
 
 /// How tone families are found, and when their meaning counts as settled.
@@ -89,7 +89,7 @@ impl Default for DiscoveryConfig {
             settled_plausibility_min: 0.95,
             plausible_min: 0.01,
             blade_shares: [0.58, 0.26, 0.05, 0.05, 0.05],
-            tip_mach_max: 0.6,
+            tip_mach_max: TIP_MACH_MAX,
             thrust_coefficient_min: *THRUST_COEFFICIENT.start(),
             thrust_coefficient_max: *THRUST_COEFFICIENT.end(),
             air_density_kg_m3: 1.2,
