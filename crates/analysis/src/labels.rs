@@ -220,7 +220,7 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors have too many assignments; up to {} can be told", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{tracks} rotors are told apart by their sound, and {needed} are needed")
+                write!(f, "{tracks} rotors are separated, and {needed} are needed")
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(f, "the log could be anywhere from {low_s:.0} to {high_s:.0} s off the recording")
@@ -252,7 +252,7 @@ impl fmt::Display for NotTold {
                 write!(f, "the recording has {channels} channels, and {microphones} microphones have a position")
             }
             Self::OtherPlaces { tracks, places } => {
-                write!(f, "{tracks} rotors are told apart by their sound, and {places} have a place")
+                write!(f, "{tracks} rotors are separated, and {places} have a place")
             }
             Self::NothingHeard { microphone } => {
                 write!(f, "microphone {microphone} hears no line of the rotors for long enough")

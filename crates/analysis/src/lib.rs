@@ -10,6 +10,7 @@ mod labels;
 mod method;
 mod no_tone;
 mod ridge;
+mod rotors_heard;
 mod span;
 mod speed;
 mod speed_analysis;
@@ -23,6 +24,7 @@ pub use labels::{LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorLabel, RotorLab
 pub use method::Method;
 pub use no_tone::NoTone;
 pub use ridge::{Band, Peak, Ridge, RidgeFrame};
+pub use rotors_heard::{RotorsHeard, RotorsHeardCounts};
 pub use span::Span;
 pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint};
 pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};

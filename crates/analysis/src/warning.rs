@@ -93,12 +93,12 @@ impl Warning {
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "one speed stands for all of them, and the budget counts that; rotors that turn alike cannot be told apart, \
-                 others by a nearer microphone and higher harmonics"
+                "rotors with equal speeds cannot be separated; to separate others, place the microphone nearer and keep the high \
+                 frequencies"
             }
             Self::RotorsNotApart { .. } => {
-                "their mean and mean square stand all the same, with a wider uncertainty; a nearer microphone and higher \
-                 harmonics tell more apart"
+                "the mean speed is still valid, with a larger uncertainty; to separate more rotors, place the microphone nearer and \
+                 keep the high frequencies"
             }
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds and the loudest wins; a narrower --band follows one line"
@@ -135,7 +135,13 @@ impl fmt::Display for Warning {
             }
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
             Self::FewFrames { frame_count } => write!(f, "a sample rests on {frame_count} frames only"),
-            Self::RotorsNotApart { resolved, of, .. } => write!(f, "{resolved} of {of} rotors are told apart"),
+            Self::RotorsNotApart { resolved: 0, of, has_mean: true } => {
+                write!(f, "the {of} rotors could not be separated and are heard as a group")
+            }
+            Self::RotorsNotApart { resolved: 0, of, .. } => {
+                write!(f, "the {of} rotors could not be separated: one tone is used for all of them")
+            }
+            Self::RotorsNotApart { resolved, of, .. } => write!(f, "{resolved} of {of} rotors are separated"),
             Self::SeveralLines { spread_share } => {
                 write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
             }

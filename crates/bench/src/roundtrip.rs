@@ -128,7 +128,7 @@ fn trip(program: &Path, folder: &Path, seed: u64, spread_share: f64) -> Result<T
     let answer = |method: &Value| {
         let constant = &method["thrust_constant_total_n_s2"];
         let value = constant["value"].as_f64()?;
-        let std_share = constant["std_uncertainty"].as_f64().map(|std| std / value);
+        let std_share = method["measured_std_total_n_s2"].as_f64().map(|std| std / value);
         let expanded_share = method["expanded_uncertainty_total_n_s2"].as_f64().map(|expanded| expanded / value);
         Some(Answer { error_share: value / true_total - 1.0, std_share, expanded_share })
     };

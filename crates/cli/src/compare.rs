@@ -11,12 +11,12 @@ use std::path::Path;
 
 /// Reads all models and prints them beside the results.
 pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let heard = identified(&arguments.results)?;
+    let heard = identified(&arguments.results, arguments.of.group.as_deref())?;
     let models: Vec<ComparedModel> = arguments.models.iter().map(|path| model_of(path)).collect::<Result<_, _>>()?;
     let text = if arguments.json {
         models_json(&models, &heard).map_err(Failure::internal)?
     } else {
-        models_text(&models, &heard)
+        models_text(&models, &heard, terminal.fold_width())
     };
     terminal.data(&text)?;
     Ok(Ending::Done)

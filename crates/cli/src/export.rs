@@ -2,10 +2,10 @@
 
 use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
-use crate::outputs::Outputs;
+use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
-use hovertone_exchange::{IdentifiedRotor, export_text, identified_from_results};
+use hovertone_exchange::{IdentifiedRotor, ResultsError, export_text, identified_from_results};
 use std::fs;
 use std::path::Path;
 
@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
     match &arguments.output {
         Some(path) => {
             outputs.write(path, text)?;
-            terminal.say(&format!("written: {}", path.display()));
+            terminal.say(&written(path));
         }
         None => terminal.data(&text)?,
     }
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
 }
 
 fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
-    let rotor = identified(&arguments.results)?;
+    let rotor = identified(&arguments.results, arguments.of.group.as_deref())?;
     let diameter = PROPELLER_DIAMETER_M;
     for (name, value, allowed, words) in [
         ("torque_constant_n_m_s2", arguments.torque_constant_n_m_s2, f64::MIN_POSITIVE..=f64::MAX, "a number above 0"),
@@ -48,10 +48,17 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
     })
 }
 
-/// Reads results.json.
-pub(crate) fn identified(path: &Path) -> Result<IdentifiedRotor, Failure> {
+/// Reads results.json, or one group of the results of a table.
+pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedRotor, Failure> {
     let text = fs::read_to_string(path)
         .map_err(|error| Failure::failed(format!("the results cannot be read: {error}"), "check the name", path))?;
-    let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
-    identified_from_results(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))
+    identified_from_results(&text, group).map_err(|error| match error {
+        ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => {
+            Failure::Usage { what: error.to_string(), hint: "say --group NAME".to_owned(), path: Some(path.to_owned()) }
+        }
+        _ => {
+            let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
+            Failure::failed(error.to_string(), hint, path)
+        }
+    })
 }

@@ -8,13 +8,13 @@ use crate::terminal::Terminal;
 
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
-    ForcePoint, Gravity, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
-    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
+    ForcePoint, Gravity, PlanError, PlanWish, PointNoise, SquareLawFit, ThrustCoefficients, ThrustSettings,
+    ThrustWarning, TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
     torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
-use hovertone_report::{FittedTable, Notice, fitted_table_json, fitted_table_text, flight_plan_text};
-use hovertone_vehicle::{Estimate, RotorSpeed};
+use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
+use hovertone_vehicle::{Estimate, RotorSpeed, check_tips};
 use std::fs;
 use std::path::Path;
 
@@ -43,17 +43,21 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         diameter_m: arguments.air.diameter_m,
         density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
     };
+    if arguments.json {
+        let mut all = Vec::new();
+        for path in &arguments.tables {
+            all.extend(fitted_tables(path, &plan)?);
+        }
+        terminal.data(&fitted_tables_json(&all).map_err(Failure::internal)?)?;
+        return Ok(Ending::Done);
+    }
     let mut is_first = true;
     for path in &arguments.tables {
         for table in fitted_tables(path, &plan)? {
-            if arguments.json {
-                terminal.data(&(fitted_table_json(&table).map_err(Failure::internal)? + "\n"))?;
-                continue;
-            }
             if !std::mem::take(&mut is_first) {
                 terminal.data("\n")?;
             }
-            terminal.data(&fitted_table_text(&table))?;
+            terminal.data(&fitted_table_text(&table, terminal.fold_width()))?;
             terminal.flush()?;
             for notice in &table.notices {
                 terminal.warning(notice, "");
@@ -89,6 +93,7 @@ fn fitted_table(
     sha256: &str,
     plan: &Plan,
 ) -> Result<FittedTable, Failure> {
+    check_tips_of(group, path, plan)?;
     let points: Vec<ForcePoint> = group.rows.iter().map(|row| point_of(row, plan)).collect();
     let is_stated = group.rows.iter().any(|row| row.force_std.is_some() || row.speed_std_rad_s.is_some());
     let noise = if is_stated { PointNoise::Stated } else { PointNoise::FromResiduals };
@@ -104,15 +109,7 @@ fn fitted_table(
         };
         Failure::failed(what, "correct or remove that row of the table", path)
     })?;
-    if fit.is_computed(&points) {
-        return Err(Failure::Usage {
-            what: "the rows lie exactly on F = C ω², as measured rows never do: without scatter there is no ±".to_owned(),
-            hint: "state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g), or give the \
-                   measured rows"
-                .to_owned(),
-            path: Some(path.to_owned()),
-        });
-    }
+    refuse_computed(&fit, &points, path)?;
     let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
     let is_weighed = group.rows.iter().all(is_mass);
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
@@ -163,6 +160,33 @@ fn fitted_table(
     })
 }
 
+/// Refuses the diameter of the arguments where the blade tips of a row would be faster than any multirotor's.
+fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Failure> {
+    for row in &group.rows {
+        let tips = plan.diameter_m.map(|diameter_m| check_tips(diameter_m, RotorSpeed::from_rad_s(row.speed_rad_s)));
+        tips.transpose().map_err(|tips| Failure::Usage {
+            what: format!("line {}: {tips}", row.line_number),
+            hint: tips.hint(),
+            path: Some(path.to_owned()),
+        })?;
+    }
+    Ok(())
+}
+
+/// Refuses rows that were computed from the law: without scatter there is no uncertainty.
+fn refuse_computed(fit: &SquareLawFit, points: &[ForcePoint], path: &Path) -> Result<(), Failure> {
+    if fit.is_computed(points) {
+        return Err(Failure::Usage {
+            what: "the rows lie exactly on F = C ω², as measured rows never do: without scatter there is no ±".to_owned(),
+            hint: "state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g), or give the \
+                   measured rows"
+                .to_owned(),
+            path: Some(path.to_owned()),
+        });
+    }
+    Ok(())
+}
+
 /// The uncertainty of gravity is common to all masses and does not average out.
 fn with_gravity(constant: Estimate, gravity: Gravity, is_weighed: bool) -> Estimate {
     let shared = if is_weighed { constant.value * gravity.std_m_s2 / gravity.m_s2 } else { 0.0 };
@@ -196,7 +220,7 @@ fn plan_campaign(
 ) -> Result<Ending, Failure> {
     let asked = &arguments.plan;
     let wish = PlanWish {
-        expanded_share: asked.wanted_share,
+        wanted_share: asked.wanted_share,
         vehicle_mass_kg: mass_kg,
         added_mass_kg_max: asked.added_mass_kg.unwrap_or(ADDED_MASS_SHARE * mass_kg),
         mass_std_kg: asked.mass_std_kg,
@@ -205,7 +229,7 @@ fn plan_campaign(
         speed_spread_share: asked.speed_spread_share,
         correlation_time_s: asked.correlation_s,
         settings: ThrustSettings {
-            follows_loudest: !asked.rotors_told_apart,
+            follows_loudest: !asked.rotors_separated,
             propeller_diameter_m: arguments.air.diameter_m,
             ..ThrustSettings::for_rotors(arguments.rotors.unwrap_or(ROTORS_OF_MOST))
         },
@@ -213,9 +237,9 @@ fn plan_campaign(
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match error {
             PlanError::OutOfReach { .. } => {
-                "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-told-apart)"
+                "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-separated)"
             }
-            PlanError::OutOfRange { name: "expanded_share", .. } => "for 2 % say --wanted-share 0.02",
+            PlanError::OutOfRange { name: "wanted_share", .. } => "for 2 % say --wanted-share 0.02",
             _ => "see `hovertone fit --help`",
         };
         Failure::usage(error.to_string(), hint)

@@ -26,6 +26,7 @@ pub(crate) fn jobs_of(
             config: config.clone(),
             discovery,
             requests,
+            sha256: None,
         }));
     }
     jobs

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::output_file::OutputFile;
+use hovertone_report::printable;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -67,6 +68,11 @@ pub(crate) fn write_whole(output: OutputFile, content: &[u8]) -> Result<(), Fail
     output.keep()
 }
 
+/// The message about a written file.
+pub(crate) fn written(place: &Path) -> String {
+    format!("written: {}", printable(&place.display().to_string()))
+}
+
 fn refused(what: &str, hint: &str, place: &Path) -> Failure {
     Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(place.to_owned()) }
 }
@@ -88,19 +94,21 @@ fn is_same_file(one: &Path, other: &Path) -> bool {
     if !(of_one.is_file() && of_other.is_file()) {
         return false;
     }
-    let is_one_path = fs::canonicalize(one).ok().zip(fs::canonicalize(other).ok()).is_some_and(|(a, b)| a == b);
-    is_one_path || is_hard_link(&of_one, &of_other)
+    is_one_inode(&of_one, &of_other).unwrap_or_else(|| {
+        fs::canonicalize(one).ok().zip(fs::canonicalize(other).ok()).is_some_and(|(one, other)| one == other)
+    })
 }
 
+/// Whether two files are one by their numbers in the file system, which links of both kinds share; `None` where it has no numbers.
 #[cfg(unix)]
-fn is_hard_link(one: &fs::Metadata, other: &fs::Metadata) -> bool {
+fn is_one_inode(one: &fs::Metadata, other: &fs::Metadata) -> Option<bool> {
     use std::os::unix::fs::MetadataExt;
-    (one.dev(), one.ino()) == (other.dev(), other.ino())
+    Some((one.dev(), one.ino()) == (other.dev(), other.ino()))
 }
 
 #[cfg(not(unix))]
-fn is_hard_link(_: &fs::Metadata, _: &fs::Metadata) -> bool {
-    false
+fn is_one_inode(_: &fs::Metadata, _: &fs::Metadata) -> Option<bool> {
+    None
 }
 
 #[cfg(test)]

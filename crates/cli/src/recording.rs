@@ -39,6 +39,8 @@ pub(crate) struct Job {
     pub(crate) discovery: Option<Discovery>,
     /// Analyses of the rotors after the speed.
     pub(crate) requests: Requests,
+    /// Hash of the file, where the search for copies has made it.
+    pub(crate) sha256: Option<String>,
 }
 
 /// Analyses of the rotors after the speed. Each needs more passes over the sound.
@@ -101,7 +103,8 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
     }
     let options = OpenOptions { audio_track: hearing.audio_track, channel: hearing.channel, ..OpenOptions::default() };
     let mut recording = Recording::open(&job.path, &options).map_err(NotHeard::because)?;
-    let sha256 = hearing.wants_hash.then(|| sha256_of_file(&job.path)).transpose().map_err(|error| {
+    let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
+    let sha256 = hearing.wants_hash.then(hashed).transpose().map_err(|error| {
         NotHeard::because(format!("the file could not be read to its end: {error}; check the disk"))
     })?;
     let analysed = analysed(&mut recording, job, share);

@@ -16,6 +16,8 @@ use hovertone_report::{
 use rayon::prelude::*;
 
 const FIGURES: &str = "figures";
+/// The page that a person opens.
+pub(crate) const PAGE: &str = "report.html";
 const MARKED: &str = "results.schema.json";
 
 /// The folder of `identify`.
@@ -32,7 +34,7 @@ pub(crate) const RESULTS: FolderKind = FolderKind {
         "loads.parquet",
         "tables.md",
         "tables.tex",
-        "report.html",
+        PAGE,
     ],
 };
 
@@ -47,14 +49,14 @@ pub(crate) struct Extras<'a> {
     pub(crate) command: &'a str,
 }
 
-/// Reads the recordings again for their pictures and writes all files; returns the names of the most important ones.
+/// Reads the recordings again for their pictures and writes all files.
 pub(crate) fn write_report(
     identification: &Identification<'_>,
     jobs: &[Job],
     hearing: Hearing,
     extras: &Extras<'_>,
     folder: &OutputFolder,
-) -> Result<Vec<String>, Failure> {
+) -> Result<(), Failure> {
     // the file that marks the folder comes first, so that a later run may write here even after an interrupt
     folder.write(MARKED, RESULTS_SCHEMA)?;
     // write the measured results before the drawing, which takes long
@@ -106,9 +108,7 @@ pub(crate) fn write_report(
         command: extras.command,
     };
     let page = report_html(&report).map_err(Failure::internal)?;
-    folder.write("report.html", page)?;
-    let named = |name: &str| folder.place(name).display().to_string();
-    Ok(["report.html", "results.json", "samples.csv", "tables.md", "tables.tex", FIGURES].map(named).to_vec())
+    folder.write(PAGE, page)
 }
 
 /// Writes a figure as SVG and as PNG.

@@ -4,7 +4,7 @@ use crate::args::SpectrogramArguments;
 use crate::drawing::{drawing_of, trial_of};
 use crate::failure::{Ending, Failure};
 use crate::jobs::ending_of;
-use crate::outputs::Outputs;
+use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::{check_tips_heard, config_of};
@@ -28,6 +28,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         config,
         discovery,
         requests: Requests::default(),
+        sha256: None,
     };
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
@@ -58,7 +59,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         Kind::Png => figure_png(&figure, f64::from(arguments.dpi)).map_err(Failure::internal)?,
     };
     outputs.write(&arguments.output, bytes)?;
-    terminal.say(&format!("written: {}", arguments.output.display()));
+    terminal.say(&written(&arguments.output));
     Ok(ending)
 }
 

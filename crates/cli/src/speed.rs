@@ -43,8 +43,8 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
             terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;
         }
     } else {
-        terminal.data(&speed_table(&records))?;
-        if let Some(table) = condition_table(&records) {
+        terminal.data(&speed_table(&records, terminal.fold_width()))?;
+        if let Some(table) = condition_table(&records, terminal.fold_width()) {
             terminal.data(&format!("\n{table}"))?;
         }
     }

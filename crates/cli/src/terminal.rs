@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use anstream::AutoStream;
-use hovertone_report::{Notice, SpeedRecord, cuts_in_words, wrapped};
+use hovertone_report::{Notice, SpeedRecord, cuts_in_words, printable, wrapped};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
 
 const RED: &str = "\x1b[1;31m";
@@ -11,6 +11,15 @@ const CYAN: &str = "\x1b[36m";
 const BOLD: &str = "\x1b[1m";
 const PLAIN: &str = "";
 const RESET: &str = "\x1b[0m";
+const ERROR: Label = Label { words: "error:", colour: RED };
+const WARNING: Label = Label { words: "warning:", colour: YELLOW };
+
+/// Words before a message, and their colour.
+#[derive(Clone, Copy)]
+struct Label {
+    words: &'static str,
+    colour: &'static str,
+}
 
 /// Width of the output without a terminal.
 const WIDTH_WITHOUT_TERMINAL: usize = 100;
@@ -31,6 +40,11 @@ impl Terminal {
             err: AutoStream::auto(io::stderr()),
             err_width: width_of(&io::stderr()),
         }
+    }
+
+    /// Columns that tables fold to; `None` where the output is no terminal, and lines stay whole for programs.
+    pub(crate) fn fold_width(&self) -> Option<usize> {
+        width_of(&io::stdout())
     }
 
     /// Width of the output in columns.
@@ -65,44 +79,44 @@ impl Terminal {
         self.say(&format!("{indent}{colour}{label}{RESET} {text}"));
     }
 
-    /// Writes the reason of a failure.
+    /// A message with its hint: on a terminal the hint stands below, elsewhere all of it is one line for programs.
+    fn with_hint(&mut self, indent: &str, label: Label, words: &str, hint: &str) {
+        if hint.is_empty() {
+            self.labelled(indent, label.words, label.colour, words);
+        } else if self.err_width.is_some() || words.contains('\n') {
+            self.labelled(indent, label.words, label.colour, words);
+            self.labelled(&format!("{indent}  "), "hint:", CYAN, hint);
+        } else {
+            self.labelled(indent, label.words, label.colour, &format!("{words} (hint: {hint})"));
+        }
+    }
+
+    /// Writes the reason of a failure, with the name of the file first.
     pub(crate) fn failure(&mut self, failure: &Failure) {
         let (Failure::Usage { what, hint, path } | Failure::Failed { what, hint, path }) = failure else { return };
-        self.labelled("", "error:", RED, what);
-        self.hint(hint, "");
-        if let Some(path) = path {
-            self.say(&format!("  {}", path.display()));
-        }
+        let place = path.as_ref().map_or(String::new(), |path| format!("{}: ", printable(&path.display().to_string())));
+        self.with_hint("", ERROR, &format!("{place}{what}"), hint);
     }
 
     /// A file that could not be analysed. The reason contains the advice.
     fn file_error(&mut self, reason: &str, file: &str) {
-        self.labelled("", "error:", RED, reason);
-        self.say(&format!("  {file}"));
+        self.with_hint("", ERROR, &format!("{}: {reason}", printable(file)), "");
+    }
+
+    /// A line above messages.
+    pub(crate) fn heading(&mut self, words: &str) {
+        self.say(&format!("{BOLD}{words}{RESET}"));
     }
 
     /// A warning with its hint.
     pub(crate) fn warning(&mut self, notice: &Notice, indent: &str) {
-        self.labelled(indent, "warning:", YELLOW, &notice.text);
-        self.hint(&notice.hint, indent);
-    }
-
-    fn hint(&mut self, hint: &str, indent: &str) {
-        if !hint.is_empty() {
-            self.labelled(&format!("{indent}  "), "hint:", CYAN, hint);
-        }
+        self.with_hint(indent, WARNING, &notice.text, &notice.hint);
     }
 
     /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several
     /// recordings is written once.
     pub(crate) fn notes(&mut self, records: &[&SpeedRecord]) {
-        let of_all: Vec<&Notice> = match records {
-            [first, _, _, ..] => {
-                let is_of_all = |notice: &&Notice| records.iter().all(|record| record.notices.contains(notice));
-                first.notices.iter().filter(is_of_all).collect()
-            }
-            _ => Vec::new(),
-        };
+        let of_all = notices_of_all(records);
         let mut is_first = true;
         for record in records {
             let notices: Vec<&Notice> = record.notices.iter().filter(|notice| !of_all.contains(notice)).collect();
@@ -121,11 +135,11 @@ impl Terminal {
                     continue;
                 }
                 (Some(reason), false) => {
-                    self.say(&format!("{BOLD}{}{RESET}", record.file));
+                    self.heading(&printable(&record.file));
                     let label = if record.is_ambiguous() { "ambiguous:" } else { "no rotor tone:" };
                     self.labelled("  ", label, PLAIN, &reason);
                 }
-                (None, _) => self.say(&format!("{BOLD}{}{RESET}", record.file)),
+                (None, _) => self.heading(&printable(&record.file)),
             }
             if let Some(cuts) = cuts {
                 self.labelled("  ", "cut", PLAIN, &cuts);
@@ -139,6 +153,31 @@ impl Terminal {
             self.warning(&Notice::new(text, notice.hint.as_str()), "");
         }
     }
+}
+
+/// The notices that hold for all of three or more recordings.
+fn notices_of_all<'a>(records: &[&'a SpeedRecord]) -> Vec<&'a Notice> {
+    match records {
+        [first, _, _, ..] => {
+            let is_of_all = |notice: &&Notice| records.iter().all(|record| record.notices.contains(notice));
+            first.notices.iter().filter(is_of_all).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Number of warnings about recordings that [`Terminal::notes`] prints. A recording without a speed counts as one.
+pub(crate) fn warning_count(records: &[&SpeedRecord]) -> usize {
+    let of_all = notices_of_all(records);
+    let of_one = |record: &&SpeedRecord| {
+        let own = if record.has_failed() {
+            0
+        } else {
+            record.notices.iter().filter(|notice| !of_all.contains(notice)).count()
+        };
+        own + usize::from(record.speed().is_none())
+    };
+    of_all.len() + records.iter().map(of_one).sum::<usize>()
 }
 
 fn width_of(stream: &impl IsTerminal) -> Option<usize> {

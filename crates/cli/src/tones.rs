@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
             terminal.data(&(tones_json(record).map_err(Failure::internal)? + "\n"))?;
         }
     } else {
-        let blocks: Vec<String> = records.iter().map(tones_text).collect();
+        let blocks: Vec<String> = records.iter().map(|record| tones_text(record, terminal.fold_width())).collect();
         terminal.data(&blocks.join("\n"))?;
     }
     terminal.flush()?;

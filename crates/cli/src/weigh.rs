@@ -32,8 +32,8 @@ struct Plan {
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
-    let jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default());
-    refuse_copies(&jobs.iter().collect::<Vec<_>>(), "give each recording once", None)?;
+    let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default());
+    refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing {
         audio_track: arguments.hearing.audio_track,
         channel: arguments.hearing.channel,
@@ -108,7 +108,8 @@ impl Plan {
 }
 
 fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
-    let results = arguments.constant.as_deref().map(identified).transpose()?;
+    let results =
+        arguments.constant.as_deref().map(|path| identified(path, arguments.of.group.as_deref())).transpose()?;
     let results = results.as_ref();
     check(arguments)?;
     check_vehicle(arguments, results)?;

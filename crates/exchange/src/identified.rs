@@ -86,6 +86,20 @@ pub enum ResultsError {
         /// The missing field.
         what: &'static str,
     },
+    /// Several groups, and none is chosen.
+    #[error("these results have several groups: {names}")]
+    SeveralGroups {
+        /// Their names.
+        names: String,
+    },
+    /// No group of this name.
+    #[error("these results have no group \"{name}\"; they have: {names}")]
+    NoSuchGroup {
+        /// The wanted name.
+        name: String,
+        /// The names.
+        names: String,
+    },
     /// The result has no constant.
     #[error("nothing was identified in these results: no recording had a rotor tone")]
     NothingIdentified,
@@ -112,12 +126,34 @@ fn rotors_std_share(results: &Value) -> f64 {
     line.and_then(|line| line["std_uncertainty"].as_f64()).filter(|share| share.is_finite()).unwrap_or(0.0)
 }
 
-/// Reads `results.json`.
+/// Name of a group of a table: its words, or else the name of its file.
+fn name_of_group(results: &Value) -> &str {
+    let text = |field: &str| results.get(field).and_then(Value::as_str).filter(|name| !name.is_empty());
+    text("group").or(text("file")).unwrap_or("?")
+}
+
+/// The results of the group with this name; without a name the only results.
+fn one_of(document: Value, group: Option<&str>) -> Result<Value, ResultsError> {
+    let all = match document.get("groups").and_then(Value::as_array) {
+        Some(groups) => groups.clone(),
+        None => vec![document],
+    };
+    let names = || all.iter().map(name_of_group).collect::<Vec<_>>().join(", ");
+    let named: Vec<&Value> =
+        all.iter().filter(|results| group.is_none_or(|group| name_of_group(results) == group)).collect();
+    match (named.as_slice(), group) {
+        ([one], _) => Ok((*one).clone()),
+        ([], Some(name)) => Err(ResultsError::NoSuchGroup { name: name.to_owned(), names: names() }),
+        _ => Err(ResultsError::SeveralGroups { names: names() }),
+    }
+}
+
+/// Reads `results.json`, or the output of `hovertone fit --json`, of which `group` chooses one of several groups.
 ///
 /// # Errors
-/// Not JSON, no results of hovertone, no constant, a number out of range.
-pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsError> {
-    let results: Value = serde_json::from_str(text)?;
+/// Not JSON, no results of hovertone, no such group, no constant, a number out of range.
+pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<IdentifiedRotor, ResultsError> {
+    let results = one_of(serde_json::from_str(text)?, group)?;
     let constant = results
         .get("thrust_constant_per_rotor_n_s2")
         .ok_or(ResultsError::Missing { what: "thrust_constant_per_rotor_n_s2" })?;
@@ -144,7 +180,11 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
         expanded_uncertainty_n_s2: budgeted
             .map(|total| total / f64::from(rotor_count))
             .or(constant.std_uncertainty.map(|std| 2.0 * std)),
-        measured_std_total_n_s2: constant.std_uncertainty.map(|std| std * f64::from(rotor_count)),
+        // the first version of the file had no such field: there the uncertainty of the constant was that of weighing and speeds
+        measured_std_total_n_s2: match results.get("measured_std_total_n_s2") {
+            Some(measured) => measured.as_f64(),
+            None => constant.std_uncertainty.map(|std| std * f64::from(rotor_count)),
+        },
         rotors_std_share: rotors_std_share(&results),
         rotor_count,
         mass_kg: hover.map(|hover| hover.mass_kg),
@@ -162,9 +202,19 @@ pub fn identified_from_results(text: &str) -> Result<IdentifiedRotor, ResultsErr
             "hovertone {} from {file} (sha256 {}){}",
             text("/version").unwrap_or("?"),
             sha256.chars().take(12).collect::<String>(),
-            text("/method").map_or(String::new(), |method| format!(", method {method}"))
+            text("/method").map_or(String::new(), |method| format!(", method {method}{}", heard_as_a_group(&results)))
         ),
     })
+}
+
+/// The recordings in which the rotors were heard as a group, for the comment; empty without one.
+fn heard_as_a_group(results: &Value) -> String {
+    let of = |way: &str| results.pointer(&format!("/rotors_heard/{way}")).and_then(Value::as_u64).unwrap_or(0);
+    match (of("group"), of("separated") + of("one_tone")) {
+        (0, _) => String::new(),
+        (_, 0) => " (rotors as a group)".to_owned(),
+        (group, others) => format!(" (rotors as a group in {group} of {} recordings)", group + others),
+    }
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), ResultsError> {

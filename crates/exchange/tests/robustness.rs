@@ -48,7 +48,7 @@ proptest! {
     fn any_text_is_answered(text in "\\PC{0,200}") {
         let _ = model_from_text(&text);
         let _ = table_from_csv(&text);
-        prop_assert!(identified_from_results(&text).is_err());
+        prop_assert!(identified_from_results(&text, None).is_err());
     }
 
     #[test]

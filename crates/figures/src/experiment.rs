@@ -34,8 +34,8 @@ pub fn figures_of_experiment(experiment: &ExperimentFigures<'_>) -> Result<Vec<F
     if let Some(table) = tables.iter().find(|table| table.method == method) {
         figures.push(budget::figure(table)?);
     }
-    let told_apart = trials.iter().find(|trial| trial.tone().is_some_and(|tone| !tone.rotors.is_empty()));
-    figures.push(match told_apart {
+    let separated = trials.iter().find(|trial| trial.tone().is_some_and(|tone| !tone.rotors.is_empty()));
+    figures.push(match separated {
         Some(trial) => rotors::rotors_figure(trial, "rotors")?,
         None => None,
     });

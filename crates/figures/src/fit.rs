@@ -212,7 +212,7 @@ impl<'a> Drawing<'a> {
         canvas.layer("key", |sheet| {
             let mut at = Point::new(200, LETTER - 4);
             for table in self.tables.iter().filter(|table| table.fit.is_some()) {
-                at.x = sheet.key(at, colour_of_method(table.method), &table.method.name().replace('_', " "))?;
+                at.x = sheet.key(at, colour_of_method(table.method), table.title())?;
             }
             if self.fit.with_intercept.is_some() {
                 sheet.text("dashed: with an intercept", at, Anchor::Left, MUTED)?;

@@ -65,7 +65,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
             x: Axis::new("share per Hz", Extent::new(0.0, 1.08 * highest)).with_ticks(2),
             y: Axis::new("", range_hz).with_ticks(5),
             right: None,
-            title: format!("{mean_hz:.1} Hz ± {std_hz:.1} Hz"),
+            title: format!("{mean_hz:.1} Hz, standard deviation {std_hz:.1} Hz"),
         };
         canvas.panel(&beside)?;
         canvas.plot(&beside, "distribution", |plot| {

@@ -26,7 +26,7 @@ pub fn rotors_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, Fi
     let mut canvas = Canvas::new(name, 940);
     let place = Place { left: 180, top: 100, right: WIDTH - 180, bottom: 810 };
     let Some(words) = draw(&mut canvas, trial, place)? else { return Ok(None) };
-    Ok(Some(canvas.finish(format!("Rotors told apart: {}", trial.recording), words)))
+    Ok(Some(canvas.finish(format!("Separated rotors: {}", trial.recording), words)))
 }
 
 /// Draws the panel and returns its description; `None` without separated rotors or picture.
@@ -43,7 +43,7 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
         x: Axis::new("time (s)", Extent::of_span(picture.span)).with_ticks(11),
         y: Axis::new("frequency (Hz)", range_hz).with_ticks(7),
         right: Some(("shaft speed (rev/s)".to_owned(), order)),
-        title: format!("rotors told apart, {}", harmonic_name(band.harmonic)),
+        title: format!("separated rotors, {}", harmonic_name(band.harmonic)),
     };
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Greys);
@@ -66,7 +66,7 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
         Ok(())
     })?;
     Ok(Some(format!(
-        "The {} rotors of {}, told apart: the track of each, times the order {order} of the {}, over the spectrogram.",
+        "The {} separated rotors of {}: the track of each, times the order {order} of the {}, over the spectrogram.",
         tone.rotors.len(),
         trial.recording,
         harmonic_name(band.harmonic)

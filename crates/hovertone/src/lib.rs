@@ -118,8 +118,8 @@ pub mod sound {
 pub mod speed {
     pub use hovertone_analysis::{
         Band, Cut, CutReason, HarmonicSpeed, Hover, Method, NoTone, Outcome, Peak, Ridge, RidgeFrame, RotorEstimate,
-        RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, TrackPoint, UncertaintySource, UncertaintyTerm,
-        Warning,
+        RotorTone, RotorsHeard, RotorsHeardCounts, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, TrackPoint,
+        UncertaintySource, UncertaintyTerm, Warning,
     };
     pub use hovertone_rotor_speed::{
         BudgetConfig, Config, Error, HoverConfig, HoverPart, HoverRotors, RidgeConfig, RotorsConfig, SampleConfig,
@@ -231,7 +231,13 @@ pub mod rotors {
 ///         let span = Span { from_s: 0.0, to_s: 10.0 };
 ///         let hover =
 ///             SampleSpeed { span, speed, std_uncertainty_rev_s: Some(0.01), spread_rev_s: Some(0.5), frame_count: 250 };
-///         TrialSpeeds { recording: format!("{added_mass_kg} kg, trial {number}"), hover_s: 10.0, hover: Some(hover), samples: vec![] }
+///         TrialSpeeds {
+///             recording: format!("{added_mass_kg} kg, trial {number}"),
+///             hover_s: 10.0,
+///             hover: Some(hover),
+///             samples: vec![],
+///             rotors_heard: None,
+///         }
 ///     };
 ///     LoadSpeeds {
 ///         name: format!("{added_mass_kg} kg"),

@@ -8,8 +8,8 @@ use askama::Template;
 use hovertone_analysis::Method;
 use hovertone_figures::{Figure, level_colours, method_colour};
 use hovertone_report::{
-    Identification, TitledTable, VERSION, agreement_text, budget_table, laws_table, method_title, methods_table,
-    thrust_table,
+    Identification, LOADS_FOOTNOTE, TitledTable, VERSION, agreement_text, budget_table, counted, laws_table,
+    methods_table, preferred_text, thrust_table,
 };
 
 const STYLE: &str = include_str!("../templates/report.css");
@@ -43,6 +43,10 @@ struct Page<'a> {
     method_constants: PageTable,
     laws: Option<PageTable>,
     agreement: String,
+    preferred: String,
+    loads_footnote: &'static str,
+    /// "2 warnings" about single recordings.
+    recording_warnings: String,
     budget: Option<PageTable>,
     more_tables: Vec<PageTable>,
     trials: Vec<TrialView<'a>>,
@@ -116,6 +120,12 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         method_constants: PageTable::new("", &methods_table(identification.tables, identification.method)),
         laws: reported.and_then(|table| table.fit.as_ref()).map(|fit| PageTable::new("", &laws_table(fit))),
         agreement: reported.and_then(|table| table.fit.as_ref()).map(agreement_text).unwrap_or_default(),
+        preferred: reported.and_then(|table| table.fit.as_ref()).map(preferred_text).unwrap_or_default(),
+        loads_footnote: LOADS_FOOTNOTE,
+        recording_warnings: counted(
+            identification.inputs.iter().map(|input| input.record.notices.len()).sum(),
+            "warning",
+        ),
         budget: reported.and_then(|table| {
             let (budget, fit) = (table.budget.as_ref()?, table.fit.as_ref()?);
             Some(PageTable::new("", &budget_table(budget, fit.thrust_constant_n_s2.value)))
@@ -142,9 +152,7 @@ pub fn experiment_tables(identification: &Identification<'_>) -> Vec<TitledTable
     let mut tables: Vec<TitledTable> = identification
         .tables
         .iter()
-        .map(|table| {
-            TitledTable::new(format!("{}{}", number(table.method), method_title(table.method)), thrust_table(table))
-        })
+        .map(|table| TitledTable::new(format!("{}{}", number(table.method), table.title()), thrust_table(table)))
         .collect();
     tables.sort_by_key(|titled| !titled.title.starts_with("Table"));
     tables.push(TitledTable::new("Thrust constant", methods_table(identification.tables, identification.method)));

@@ -4,10 +4,10 @@ use crate::input::TrialReport;
 use crate::sound::wav_uri;
 use hovertone_analysis::Method;
 use hovertone_report::{
-    Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, TextTable, cuts_in_words, method_title,
-    scaled_number, with_uncertainty,
+    Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, TextTable, Verdict, counted, cuts_in_words,
+    rotors_heard_text, scaled_number, with_uncertainty,
 };
-use hovertone_thrust::ThrustTable;
+use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
 use hovertone_vehicle::Estimate;
 
 /// A unit: "1e-5 N s²" becomes 10⁻⁵ N s².
@@ -74,72 +74,79 @@ impl PageTable {
     }
 }
 
-/// A number of the result: rounded for people, and exact.
+/// A number of the result with its ±, k = 2: rounded for people, and exact.
 pub(crate) struct Number {
     pub(crate) scaled: ScaledNumber,
     pub(crate) value: f64,
-    pub(crate) uncertainty: Option<f64>,
+    pub(crate) expanded_uncertainty: Option<f64>,
 }
 
 impl Number {
-    fn new(value: f64, uncertainty: Option<f64>) -> Self {
-        Self { scaled: scaled_number(value, uncertainty), value, uncertainty }
+    fn new(Estimate { value, std_uncertainty, .. }: Estimate) -> Self {
+        Self {
+            scaled: scaled_number(value, std_uncertainty),
+            value,
+            expanded_uncertainty: std_uncertainty.map(|std| COVERAGE_FACTOR * std),
+        }
     }
 
-    fn of_estimate(estimate: Estimate) -> Self {
-        Self::new(estimate.value, estimate.std_uncertainty)
+    /// The number alone, where its uncertainty is that of other numbers.
+    fn bare(Estimate { value, .. }: Estimate) -> Self {
+        Self { scaled: scaled_number(value, None), value, expanded_uncertainty: None }
     }
 
     /// The uncertainty in full; empty without one.
     pub(crate) fn exact_uncertainty(&self) -> String {
-        self.uncertainty.map_or(String::new(), |uncertainty| uncertainty.to_string())
+        self.expanded_uncertainty.map_or(String::new(), |uncertainty| uncertainty.to_string())
     }
 }
 
 /// The result at the top.
 pub(crate) struct Answer {
-    pub(crate) method: &'static str,
-    /// The constant of the whole vehicle with its expanded uncertainty, or with its standard uncertainty where there is no budget.
+    pub(crate) method: String,
+    /// The constant of the whole vehicle.
     pub(crate) total: Number,
+    /// k of every ±; absent where the uncertainty is unknown.
     pub(crate) coverage: Option<f64>,
     pub(crate) expanded_percent: Option<String>,
-    pub(crate) total_with_std: Number,
     pub(crate) per_rotor: Option<Number>,
     pub(crate) plain_mean: Option<Number>,
     pub(crate) coefficient: Option<String>,
-    pub(crate) verdict: Option<(bool, String)>,
+    pub(crate) verdict: Verdict,
     pub(crate) warnings: Vec<Notice>,
+    /// "2 warnings".
+    pub(crate) warning_count: String,
 }
 
 impl Answer {
     pub(crate) fn new(table: &ThrustTable) -> Option<Self> {
         let constant = table.thrust_constant_total_n_s2?;
-        let budget = table.budget.as_ref();
-        let uncertainty = budget.map(|budget| budget.expanded_uncertainty_n_s2).or(constant.std_uncertainty);
-        let misfits: Vec<&str> =
-            table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
-        let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
-            format!(" (χ² = {:.2}, p = {:.2})", agreement.chi_square, agreement.p_value)
-        });
-        let is_compared = table.loads.iter().any(|load| load.fits.is_some());
-        let verdict = is_compared.then(|| match misfits.as_slice() {
-            [] => (true, format!("every load agrees with the others{agreement}")),
-            _ => (false, format!("these loads do not fit the others: {}{agreement}", misfits.join(", "))),
-        });
+        let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!(": {heard}"));
+        let share = constant.std_uncertainty.map(|std| COVERAGE_FACTOR * std / constant.value);
+        let warnings: Vec<Notice> = table.warnings.iter().map(Notice::from).collect();
         Some(Self {
-            method: method_title(table.method),
-            total: Number::new(constant.value, uncertainty),
-            coverage: budget.map(|budget| budget.coverage_factor),
-            expanded_percent: budget.map(|budget| format!("{:.2}", 100.0 * budget.expanded_share)),
-            total_with_std: Number::of_estimate(constant),
-            per_rotor: table.thrust_constant_per_rotor_n_s2.map(Number::of_estimate),
-            plain_mean: table.plain_mean_total_n_s2.map(Number::of_estimate),
+            method: format!("{}{heard}", table.title()),
+            total: Number::new(constant),
+            coverage: share.map(|_| COVERAGE_FACTOR),
+            expanded_percent: share.map(|share| format!("{:.2}", 100.0 * share)),
+            per_rotor: table.thrust_constant_per_rotor_n_s2.map(Number::new),
+            plain_mean: table.plain_mean_total_n_s2.map(Number::bare),
             coefficient: table
                 .coefficients
                 .map(|both| format!("{:.4} = T/(ρ n² D⁴), or {:.5} = T/(ρ A (ωR)²)", both.propeller, both.rotorcraft)),
-            verdict,
-            warnings: table.warnings.iter().map(Notice::from).collect(),
+            verdict: Verdict::of(table),
+            warning_count: counted(warnings.len(), "warning"),
+            warnings,
         })
+    }
+
+    /// Class and mark of the verdict.
+    pub(crate) fn verdict_marks(&self) -> (&'static str, &'static str) {
+        match self.verdict {
+            Verdict::Holds(_) => ("holds", "✓"),
+            Verdict::Fails(_) => ("fails", "✗"),
+            Verdict::Untested(_) => ("untested", "–"),
+        }
     }
 }
 
@@ -158,12 +165,12 @@ impl MethodView {
     pub(crate) fn new(table: &ThrustTable, shown: &TextTable, colour: String, reported: Method) -> Self {
         Self {
             name: table.method.name(),
-            title: method_title(table.method),
+            title: table.title(),
             colour,
             is_papers: matches!(table.method, Method::MaximumTrace | Method::Gaussian),
             is_reported: table.method == reported,
             table: PageTable::new("", shown),
-            plain_mean: table.plain_mean_total_n_s2.map(Number::of_estimate),
+            plain_mean: table.plain_mean_total_n_s2.map(Number::bare),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! How well the square law holds, which law the evidence prefers, and the uncertainty budget.
 
-use crate::number::{DASH, PowerOfTen, significant, uncertainty, with_uncertainty};
+use crate::number::{DASH, PowerOfTen, significant, spread, with_uncertainty};
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
 use hovertone_thrust::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget};
@@ -12,24 +13,20 @@ const NEGLIGIBLE_SHARE: f64 = 1e-6;
 const P_VALUE_SHOWN_MIN: f64 = 1e-4;
 
 /// Laws and budget of the table of one method; empty without a fit.
-pub fn adequacy_text(table: &ThrustTable) -> String {
+pub fn adequacy_text(table: &ThrustTable, width: Option<usize>) -> String {
     let (Some(fit), Some(budget)) = (&table.fit, &table.budget) else { return String::new() };
     let constant_n_s2 = fit.thrust_constant_n_s2.value;
-    let unit = PowerOfTen::of([constant_n_s2]);
-    let signed = with_uncertainty(unit.scale(constant_n_s2), Some(unit.scale(budget.expanded_uncertainty_n_s2)));
     format!(
-        "\n{}\n{}{}\nC_f, whole vehicle = ({signed}) {}, k = 2 ({:.2} %)\n",
-        laws_text(fit),
-        budget_table(budget, constant_n_s2),
+        "\n{}\n{}{}",
+        laws_text(fit, width),
+        table_text(&budget_table(budget, constant_n_s2), width),
         cross_check(table.bootstrap, constant_n_s2),
-        unit.unit(CONSTANT_UNIT),
-        100.0 * budget.expanded_share,
     )
 }
 
 /// How well the square law holds, and the laws beside it with their probabilities.
-pub fn laws_text(fit: &SquareLawFit) -> String {
-    laws_table(fit).render() + &agreement_text(fit)
+pub fn laws_text(fit: &SquareLawFit, width: Option<usize>) -> String {
+    table_text(&laws_table(fit), width) + &agreement_text(fit) + &preferred_text(fit)
 }
 
 /// The square law and the laws beside it, with their probabilities.
@@ -40,7 +37,7 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
         with_uncertainty(unit.scale(constant.value), std)
     };
     let mut text = TextTable::new(vec![
-        Column::words("law"),
+        Column::words("law; ± is k = 2, of the fit alone"),
         Column::numbers("C_f", &unit.unit(CONSTANT_UNIT)),
         Column::numbers("F₀", "N"),
         Column::numbers("exponent", ""),
@@ -68,6 +65,31 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
         row(ForceLaw::Power, [DASH.to_owned(), "0".to_owned(), exponent]);
     }
     text
+}
+
+/// The preferred law with all its numbers, ready for use, where it is not the square law; else empty. The forces are those of the fit: of
+/// all rotors that share a force.
+pub fn preferred_text(fit: &SquareLawFit) -> String {
+    match (fit.preferred, fit.with_intercept, fit.power_law) {
+        (ForceLaw::SquareWithIntercept, Some(law), _) => {
+            let constant = law.thrust_constant_n_s2;
+            let unit = PowerOfTen::of([constant.value]);
+            let std = constant.std_uncertainty.map(|std| unit.scale(std));
+            format!(
+                "preferred law: F = F₀ + C ω², F₀ = ({}) N, C = ({}) {}, ω in rad/s\n",
+                with_uncertainty(law.intercept_n.value, law.intercept_n.std_uncertainty),
+                with_uncertainty(unit.scale(constant.value), std),
+                unit.unit(CONSTANT_UNIT),
+            )
+        }
+        (ForceLaw::Power, _, Some(law)) => format!(
+            "preferred law: F = F_ref (ω/ω_ref)^p, F_ref = {} N, ω_ref = {} rad/s, p = {}\n",
+            significant(law.reference_force_n, 5),
+            significant(law.reference_rad_s, 5),
+            with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
+        ),
+        _ => String::new(),
+    }
 }
 
 /// How well the square law holds, on one line; empty where there is nothing to compare.
@@ -100,7 +122,7 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
     let mut text = TextTable::new(vec![
         Column::words("uncertainty budget"),
         Column::numbers("value", ""),
-        Column::numbers("u", ""),
+        Column::numbers("u (k = 1)", ""),
         Column::words("unit"),
         Column::numbers("c u / C_f", "%"),
         Column::numbers("share", "%"),
@@ -109,7 +131,7 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
         text.push(vec![
             line.input.title().to_owned(),
             if line.value == 0.0 { "0".to_owned() } else { significant(line.value, 5) },
-            uncertainty(Some(line.std_uncertainty)),
+            spread(Some(line.std_uncertainty)),
             line.unit.to_owned(),
             significant(100.0 * line.contribution_n_s2 / constant_n_s2, 2),
             format!("{:.1}", 100.0 * line.share),
@@ -130,7 +152,7 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "trials drawn anew {} times (seed {}): {} %, to be compared with both lines of the speed together\n",
+            "bootstrap over trials, {} resamples (seed {}): u = {} %, to be compared with the two contributions of the speed together\n",
             drawn.draws,
             drawn.seed,
             significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2)

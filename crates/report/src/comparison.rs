@@ -1,8 +1,8 @@
 //! A simulated experiment compared with the numbers of the paper and with the truth of its sound.
 
-use crate::number::{DASH, PowerOfTen, rounded};
+use crate::number::{DASH, PowerOfTen, signed};
 use crate::text_table::{Column, TextTable};
-use crate::thrust::{CONSTANT_UNIT, constant_cell, grams, method_title, speed_cells};
+use crate::thrust::{CONSTANT_UNIT, constant_cell, grams, speed_cells};
 use hovertone_thrust::{LoadThrust, ThrustTable};
 use hovertone_vehicle::Estimate;
 use std::iter::zip;
@@ -82,7 +82,7 @@ pub fn comparison_with_paper(table: &ThrustTable, printed: &[PrintedRow]) -> Tex
 pub fn comparison_with_truth(tables: &[ThrustTable], truths: &[LoadTruth]) -> TextTable {
     let mut columns = vec![Column::words("C_f, vehicle"), Column::numbers("truth", &PAPER_UNIT.unit(CONSTANT_UNIT))];
     for table in tables {
-        columns.push(Column::numbers(method_title(table.method), &PAPER_UNIT.unit(CONSTANT_UNIT)));
+        columns.push(Column::numbers(table.title(), &PAPER_UNIT.unit(CONSTANT_UNIT)));
         columns.push(Column::numbers("error", "%"));
     }
     let mut text = TextTable::new(columns);
@@ -100,9 +100,7 @@ pub fn comparison_with_truth(tables: &[ThrustTable], truths: &[LoadTruth]) -> Te
 }
 
 fn error_percent(constant: Estimate, truth: f64) -> String {
-    let percent = 100.0 * (constant.value / truth - 1.0);
-    let sign = if percent < 0.0 { "−" } else { "+" };
-    format!("{sign}{}", rounded(percent.abs(), Some(0.1)))
+    signed(100.0 * (constant.value / truth - 1.0), 2)
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 use crate::number::{DASH, rounded};
 use crate::recording::SpeedRecord;
 use crate::speed::name_of_rotor;
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_analysis::ShaftLine;
 
 /// The lines of all rotors, each relative to its own blade pass; `None` where no recording has them.
-pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
+pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<String> {
     let mut table = TextTable::new(vec![
         Column::words("lines against the blade pass"),
         Column::numbers("once per turn", "dB"),
@@ -18,14 +19,14 @@ pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
     let wanted = || records.iter().filter(|record| record.wants_condition && record.speed().is_some());
     wanted().next()?;
     for record in wanted() {
-        let why_none = if record.rotors().is_empty() { "no rotors are told apart" } else { "" };
+        let why_none = if record.rotors().is_empty() { "no rotors are separated" } else { "" };
         table.push_words(record.file.clone(), why_none.to_owned());
         for (index, rotor) in record.rotors().iter().enumerate() {
             let name = name_of_rotor(record, index);
             let Some(condition) = &rotor.condition else {
                 table.push_words(
                     name,
-                    "blades not known, or their pass not heard apart from another rotor's".to_owned(),
+                    "the blades are not known, or their pass is not separated from another rotor's".to_owned(),
                 );
                 continue;
             };
@@ -40,7 +41,7 @@ pub fn condition_table(records: &[SpeedRecord]) -> Option<String> {
             ]);
         }
     }
-    Some(table.render())
+    Some(table_text(&table, width))
 }
 
 /// The level of a line, or the level of the noise for an inaudible line.

@@ -2,8 +2,9 @@
 
 use crate::adequacy::laws_text;
 use crate::notice::Notice;
-use crate::number::{PowerOfTen, significant, with_uncertainty};
-use crate::thrust::CONSTANT_UNIT;
+use crate::number::{PowerOfTen, significant};
+use crate::printable::printable;
+use crate::quote::{counted, quoted};
 use crate::version::VERSION;
 use hovertone_thrust::{SquareLawFit, ThrustCoefficients};
 use hovertone_vehicle::Estimate;
@@ -51,29 +52,40 @@ struct Versioned<'a> {
     version: &'static str,
 }
 
-/// One line of JSON, without a line feed.
+#[derive(Serialize)]
+struct Groups<'a> {
+    groups: Vec<Versioned<'a>>,
+    version: &'static str,
+}
+
+/// One JSON document, ending with a line feed: the fit of the only group, or all fits under `groups`.
 ///
 /// # Errors
 /// None is known, since all types can be serialised.
-pub fn fitted_table_json(table: &FittedTable) -> Result<String, serde_json::Error> {
-    serde_json::to_string(&Versioned { table, version: VERSION })
+pub fn fitted_tables_json(tables: &[FittedTable]) -> Result<String, serde_json::Error> {
+    let versioned = |table| Versioned { table, version: VERSION };
+    let text = match tables {
+        [only] => serde_json::to_string(&versioned(only))?,
+        several => {
+            serde_json::to_string(&Groups { groups: several.iter().map(versioned).collect(), version: VERSION })?
+        }
+    };
+    Ok(text + "\n")
 }
 
 /// The result and the laws beside it.
-pub fn fitted_table_text(table: &FittedTable) -> String {
+pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
-    let unit = PowerOfTen::of([constant.value]);
-    let group = if table.group.is_empty() { String::new() } else { format!(": {}", table.group) };
-    let std = constant.std_uncertainty.map(|std| unit.scale(std));
+    let group = if table.group.is_empty() { String::new() } else { format!(": {}", printable(&table.group)) };
+    let meaning = constant.std_uncertainty.map_or("± is not known", |_| "k = 2");
     let mut text = format!(
-        "{}{group}\n{} rows, {} against {}\n\n{}\nC_f, one rotor = ({}) {}\n",
-        table.file,
-        table.row_count,
-        table.force_column,
-        table.speed_column,
-        laws_text(&table.fit),
-        with_uncertainty(unit.scale(constant.value), std),
-        unit.unit(CONSTANT_UNIT),
+        "{}{group}\n{}, {} against {}\n\n{}\nC_f, one rotor = {} ({meaning})\n",
+        printable(&table.file),
+        counted(table.row_count, "table row"),
+        printable(&table.force_column),
+        printable(&table.speed_column),
+        laws_text(&table.fit, width),
+        quoted(constant),
     );
     if let Some(both) = table.thrust_coefficients {
         text += &format!(

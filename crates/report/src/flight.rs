@@ -1,6 +1,8 @@
 //! Summary of a simulated flight.
 
 use crate::number::significant;
+use crate::quote::counted;
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_vehicle::RotorSpeed;
 
@@ -39,14 +41,13 @@ pub struct SimulatedRotor {
 }
 
 /// A headline, a row for each rotor, and the constant.
-pub fn simulated_flight_table(flight: &SimulatedFlight) -> String {
-    let microphones = if flight.microphone_count == 1 { "microphone" } else { "microphones" };
+pub fn simulated_flight_table(flight: &SimulatedFlight, width: Option<usize>) -> String {
     let mut text = format!(
-        "{}, {} g: {:.1} s of flight, {} {microphones}, seed {}\n{}\n",
+        "{}, {} g: {:.1} s of flight, {}, seed {}\n{}\n",
         flight.vehicle,
         significant(1000.0 * flight.mass_kg, 4),
         flight.duration_s,
-        flight.microphone_count,
+        counted(flight.microphone_count, "microphone"),
         flight.seed,
         match flight.hover_s {
             Some(hover_s) => format!("Means over {hover_s:.1} s of hover"),
@@ -71,7 +72,7 @@ pub fn simulated_flight_table(flight: &SimulatedFlight) -> String {
             format!("{:.4e}", rotor.thrust_constant_n_s2),
         ]);
     }
-    text += &table.render();
+    text += &table_text(&table, width);
     if let Some(total) = flight.thrust_constant_total_n_s2 {
         text += &format!("C_f by hover balance, whole vehicle: {total:.4e} N s² (m g / mean Σω², times the rotors)\n");
     }
@@ -100,13 +101,13 @@ mod tests {
             rotors: vec![rotor; 4],
             thrust_constant_total_n_s2: Some(2.831e-5),
         };
-        let text = simulated_flight_table(&flight);
+        let text = simulated_flight_table(&flight, None);
         for words in
             ["413.0 g", "1 microphone,", "seed 3", "8.0 s of hover", "3610.00", "0.73", "7.0775e-6", "2.8310e-5"]
         {
             assert!(text.contains(words), "{words}:\n{text}");
         }
         (flight.hover_s, flight.thrust_constant_total_n_s2) = (None, None);
-        assert!(simulated_flight_table(&flight).contains("no hover"));
+        assert!(simulated_flight_table(&flight, None).contains("no hover"));
     }
 }

@@ -1,7 +1,7 @@
 //! How much flying a wanted uncertainty needs.
 
 use crate::number::significant;
-use hovertone_thrust::{FlightPlan, PlanWish};
+use hovertone_thrust::{BudgetInput, FlightPlan, PlanWish};
 
 /// The plan as text, with the range of loads that would show an intercept.
 pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
@@ -18,9 +18,15 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         ),
         None => "no range of loads shows an intercept with so few trials".to_owned(),
     };
+    let separated = match plan.largest {
+        BudgetInput::LoudestRotor => {
+            "\nassumed: one tone is used for all rotors; --rotors-separated plans for separated rotors (docs/budget.md)"
+        }
+        _ => "",
+    };
     format!(
         "{} loads (add {}), {} trials of each, {:.0} s of hover in each trial: {:.1} minutes of hover\n\
-         expected: C_f to {:.2} % (k = 2), most of it from the {}\n{intercept}\n",
+         expected: C_f to {:.2} % (k = 2), most of it from: {}{separated}\n{intercept}\n",
         plan.load_count,
         added.join(", "),
         plan.trials_per_load,

@@ -1,10 +1,12 @@
 //! Results as tables, CSV and JSON. Pure functions from results to text; the caller decides where the text goes.
 //!
 //! ```text
-//! number       digits that follow the uncertainty          text_table    aligned columns
+//! number       digits that follow the uncertainty          text_table    tables for people
 //! notice       a warning with its hint                     cuts          the cuts of a recording on one line
 //! recording    the record of one recording                 speed         its table row, its JSON, its track
 //! thrust       tables like those of the paper              results       results.json and its schema
+//! quote        the constant and the verdict to quote       table_lines   a table, folded to the terminal
+//! printable    names without control characters
 //! comparison   a simulation beside paper and truth         vehicles      the presets and their sources
 //! adequacy     agreement, laws, uncertainty budget         samples       samples and loads as data tables
 //! fitted_table the fit of a thrust stand's table           flight_plan   flying for a wanted uncertainty
@@ -26,10 +28,13 @@ mod flight_plan;
 mod models;
 mod notice;
 mod number;
+mod printable;
+mod quote;
 mod recording;
 mod results;
 mod samples;
 mod speed;
+mod table_lines;
 mod text_table;
 mod thrust;
 mod tones;
@@ -38,23 +43,26 @@ mod vehicles;
 mod version;
 mod weighed;
 
-pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text};
+pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text, preferred_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
 pub use condition::condition_table;
 pub use cuts::cuts_in_words;
 pub use data_table::{DataColumn, DataTable, Values};
-pub use fitted_table::{FittedTable, fitted_table_json, fitted_table_text};
+pub use fitted_table::{FittedTable, fitted_table_text, fitted_tables_json};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use notice::Notice;
-pub use number::{ScaledNumber, scaled_number, with_uncertainty};
+pub use number::{ScaledNumber, fixed, scaled_number, signed, with_uncertainty};
+pub use printable::{printable, wrapped};
+pub use quote::{Verdict, counted, quoted_constants, rotors_heard_text};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{ExperimentFacts, Identification, InputRecord, RESULTS_SCHEMA, results_json};
 pub use samples::{loads_data, samples_data};
 pub use speed::{speed_json, speed_table, track_csv};
-pub use text_table::{Column, Row, TextTable, wrapped};
-pub use thrust::{method_title, methods_table, thrust_summary, thrust_table};
+pub use table_lines::table_text;
+pub use text_table::{Column, Row, TextTable};
+pub use thrust::{LOADS_FOOTNOTE, methods_table, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use vehicles::{vehicles_json, vehicles_text};

@@ -1,6 +1,8 @@
 //! Models of simulators compared with the measured constant.
 
-use crate::number::{DASH, PowerOfTen, significant};
+use crate::number::{DASH, PowerOfTen, signed, significant};
+use crate::printable::printable;
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::thrust::{CONSTANT_UNIT, grams};
 use crate::version::VERSION;
@@ -66,7 +68,7 @@ pub fn models_json(models: &[ComparedModel], heard: &IdentifiedRotor) -> Result<
 }
 
 /// A row for the measured constant and one for each model. The speed is the one at which the model would carry the measured vehicle.
-pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor) -> String {
+pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Option<usize>) -> String {
     let rows: Vec<Compared<'_>> = models.iter().map(|model| compared(model, heard)).collect();
     let constants = rows.iter().map(|row| row.thrust_constant_at_hover_n_s2);
     let unit = PowerOfTen::of(constants.chain([heard.thrust_constant_n_s2]));
@@ -97,11 +99,11 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor) -> String 
             rpm(row.hover_speed_rad_s),
         ]);
     }
-    let mut words = text.render();
+    let mut words = table_text(&text, width);
     if let Some(expanded) = heard.expanded_uncertainty_n_s2 {
         let percent = 100.0 * expanded / heard.thrust_constant_n_s2;
         words +=
-            &format!("what was heard is sure to {percent:.2} % (k = 2); speeds are for the vehicle that was heard\n");
+            &format!("± of the heard constant: {percent:.2} % (k = 2); speeds are for the vehicle that was heard\n");
     }
     words
 }
@@ -116,12 +118,12 @@ pub fn vehicle_model_text(model: &VehicleModel, heard: &ThrustTable) -> String {
         _ => String::new(),
     };
     format!(
-        "\n{} ({}): C_f of one rotor {} {} at {:.0} rpm, {:+.2} % off what was heard{verdict}\n",
-        model.file,
+        "{} ({}): C_f of one rotor {} {} at {:.0} rpm, {} % off what was heard{verdict}\n",
+        printable(&model.file),
         model.format,
         significant(unit.scale(against.thrust_constant_per_rotor_n_s2), 5),
         unit.unit(CONSTANT_UNIT),
         RotorSpeed::from_rad_s(against.speed_rad_s).rpm(),
-        100.0 * (against.over_heard - 1.0),
+        signed(100.0 * (against.over_heard - 1.0), 2),
     )
 }

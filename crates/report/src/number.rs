@@ -1,4 +1,7 @@
-//! Numbers for people, with as many digits as their uncertainty allows. Only this file decides about digits.
+//! Numbers for people, with as many digits as their uncertainty allows. Only this file decides about digits, and about what ± means: the
+//! expanded uncertainty, k = 2, everywhere.
+
+use hovertone_thrust::COVERAGE_FACTOR;
 
 /// Digits of a value with unknown uncertainty.
 const DIGITS_WITHOUT_UNCERTAINTY: usize = 6;
@@ -17,32 +20,56 @@ fn decimals(std_uncertainty: Option<f64>) -> Option<usize> {
     Some((1 - exponent(std_uncertainty, 2)).clamp(0, DECIMALS_MAX) as usize)
 }
 
+/// A value with decimals. The minus sign is as wide as a plus sign, and zero has none.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let digits = format!("{:.decimals$}", value.abs());
+    let is_zero = digits.bytes().all(|digit| matches!(digit, b'0' | b'.'));
+    if value < 0.0 && !is_zero { format!("−{digits}") } else { digits }
+}
+
+/// The same with a plus sign, for a difference.
+pub fn signed(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    if text.starts_with('−') { text } else { format!("+{text}") }
+}
+
 /// A value with a given number of digits, for values whose uncertainty is shown elsewhere.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     let decimals = (digits as i32 - 1 - exponent(value, digits)).clamp(0, DECIMALS_MAX) as usize;
-    format!("{value:.decimals$}")
+    fixed(value, decimals)
 }
 
-/// A value, rounded to the second digit of its standard uncertainty.
-pub(crate) fn rounded(value: f64, std_uncertainty: Option<f64>) -> String {
-    match decimals(std_uncertainty) {
-        Some(decimals) => format!("{value:.decimals$}"),
+/// k times a standard uncertainty.
+pub(crate) fn expanded(std_uncertainty: Option<f64>) -> Option<f64> {
+    std_uncertainty.map(|std| COVERAGE_FACTOR * std)
+}
+
+/// A value, rounded to the second digit of an uncertainty.
+pub(crate) fn rounded(value: f64, uncertainty: Option<f64>) -> String {
+    match decimals(uncertainty) {
+        Some(decimals) => fixed(value, decimals),
         None => significant(value, DIGITS_WITHOUT_UNCERTAINTY),
     }
 }
 
-/// An uncertainty with two digits; a dash where it is unknown.
-pub(crate) fn uncertainty(std_uncertainty: Option<f64>) -> String {
-    match (std_uncertainty, decimals(std_uncertainty)) {
-        (Some(std_uncertainty), Some(decimals)) => format!("{std_uncertainty:.decimals$}"),
+/// A spread or a standard uncertainty with two digits; a dash where it is unknown.
+pub(crate) fn spread(std: Option<f64>) -> String {
+    match (std, decimals(std)) {
+        (Some(std), Some(decimals)) => format!("{std:.decimals$}"),
         _ => DASH.to_owned(),
     }
 }
 
-/// "2.8315 ± 0.0035": a value, rounded to the second digit of its uncertainty.
+/// The number after a ±: the expanded uncertainty, k = 2, with two digits; a dash where it is unknown.
+pub(crate) fn plus_minus(std_uncertainty: Option<f64>) -> String {
+    spread(expanded(std_uncertainty))
+}
+
+/// "2.8315 ± 0.0035": a value and its expanded uncertainty, k = 2, from its standard uncertainty.
 pub fn with_uncertainty(value: f64, std_uncertainty: Option<f64>) -> String {
-    match decimals(std_uncertainty) {
-        Some(_) => format!("{} ± {}", rounded(value, std_uncertainty), uncertainty(std_uncertainty)),
+    let expanded = expanded(std_uncertainty);
+    match decimals(expanded) {
+        Some(_) => format!("{} ± {}", rounded(value, expanded), spread(expanded)),
         None => rounded(value, None),
     }
 }
@@ -63,10 +90,10 @@ impl ScaledNumber {
     }
 }
 
-/// A value and its uncertainty, standard or expanded, with one digit before the point.
-pub fn scaled_number(value: f64, uncertainty: Option<f64>) -> ScaledNumber {
+/// A value and its expanded uncertainty (k = 2, from the standard uncertainty), with one digit before the point.
+pub fn scaled_number(value: f64, std_uncertainty: Option<f64>) -> ScaledNumber {
     let unit = PowerOfTen::of([value]);
-    let digits = with_uncertainty(unit.scale(value), uncertainty.map(|uncertainty| unit.scale(uncertainty)));
+    let digits = with_uncertainty(unit.scale(value), std_uncertainty.map(|std| unit.scale(std)));
     ScaledNumber { digits, exponent: unit.0 }
 }
 
@@ -107,10 +134,10 @@ mod tests {
     #[test]
     fn digits_follow_the_uncertainty() {
         for (value, std_uncertainty, expected) in [
-            (720.213_45, Some(0.0321), "720.213 ± 0.032"),
-            (720.213_45, Some(3.21), "720.2 ± 3.2"),
-            (21_606.4, Some(321.0), "21606 ± 321"),
-            (720.0, Some(0.0996), "720.00 ± 0.10"),
+            (720.213_45, Some(0.0321), "720.213 ± 0.064"),
+            (720.213_45, Some(3.21), "720.2 ± 6.4"),
+            (21_606.4, Some(321.0), "21606 ± 642"),
+            (720.0, Some(0.0498), "720.00 ± 0.10"),
             (720.213_45, Some(0.0), "720.213"),
             (720.213_45, None, "720.213"),
             (2.831_534, None, "2.83153"),
@@ -118,7 +145,18 @@ mod tests {
             assert_eq!(with_uncertainty(value, std_uncertainty), expected);
         }
         assert_eq!((significant(0.078, 4), significant(0.109_57, 4)), ("0.07800".to_owned(), "0.1096".to_owned()));
-        assert_eq!((uncertainty(None), uncertainty(Some(0.0996))), (DASH.to_owned(), "0.10".to_owned()));
+        assert_eq!((spread(None), spread(Some(0.0996))), (DASH.to_owned(), "0.10".to_owned()));
+        assert_eq!(plus_minus(Some(0.0498)), "0.10");
+    }
+
+    #[test]
+    fn zero_has_no_minus_and_there_is_one_minus_sign() {
+        assert_eq!((fixed(-0.001, 2), fixed(-1.5, 1), fixed(-0.0, 0)), ("0.00".into(), "−1.5".into(), "0".into()));
+        assert_eq!(
+            (signed(-0.001, 2), signed(-0.5, 2), signed(0.25, 2)),
+            ("+0.00".into(), "−0.50".into(), "+0.25".into())
+        );
+        assert_eq!(significant(-0.25, 3), "−0.250");
     }
 
     #[test]

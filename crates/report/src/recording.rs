@@ -2,8 +2,8 @@
 
 use crate::notice::Notice;
 use hovertone_analysis::{
-    Method, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, Span, SpeedAnalysis, SpeedEstimate,
-    ToneFamily,
+    Method, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span, SpeedAnalysis,
+    SpeedEstimate, ToneFamily,
 };
 use hovertone_vehicle::Order;
 use serde::Serialize;
@@ -110,6 +110,11 @@ impl SpeedRecord {
     /// The separated rotors, fastest first.
     pub fn rotors(&self) -> &[RotorEstimate] {
         self.tone().filter(|_| !self.is_ambiguous()).map_or(&[], |tone| &tone.rotors)
+    }
+
+    /// How the rotors are heard by the configured method; `None` without a speed.
+    pub fn rotors_heard(&self) -> Option<RotorsHeard> {
+        self.tone().filter(|_| !self.is_ambiguous())?.rotors_heard(self.method)
     }
 
     /// The label of one of [`rotors`](Self::rotors), where it is known.

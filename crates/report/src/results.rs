@@ -3,10 +3,10 @@
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::version::VERSION;
-use hovertone_analysis::{Hover, Method};
+use hovertone_analysis::{Hover, Method, RotorsHeard, RotorsHeardCounts};
 use hovertone_thrust::{
-    Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap, UncertaintyBudget,
-    VehicleModel,
+    COVERAGE_FACTOR, Drift, ModelAgainstHeard, SquareLawFit, ThrustCoefficients, ThrustTable, TrialBootstrap,
+    UncertaintyBudget, VehicleModel,
 };
 use hovertone_vehicle::{Estimate, Order, RotorSpeed};
 use serde::{Serialize, Serializer};
@@ -63,7 +63,7 @@ impl Identification<'_> {
 }
 
 /// Version of the layout of `results.json`. It increases when a field is renamed, removed or changes its meaning.
-const SCHEMA_VERSION: u32 = 1;
+const SCHEMA_VERSION: u32 = 2;
 
 /// The fields of `results.json` with their units, as a JSON Schema (draft 2020-12).
 pub const RESULTS_SCHEMA: &str = include_str!("results.schema.json");
@@ -73,7 +73,12 @@ struct Results<'a> {
     schema_version: u32,
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    coverage_factor: f64,
+    expanded_uncertainty_total_n_s2: Option<f64>,
+    expanded_uncertainty_per_rotor_n_s2: Option<f64>,
+    measured_std_total_n_s2: Option<f64>,
     method: Method,
+    rotors_heard: Option<RotorsHeardCounts>,
     plain_mean_total_n_s2: Option<Estimate>,
     thrust_coefficients: Option<ThrustCoefficients>,
     uncertainty_budget: Option<&'a UncertaintyBudget>,
@@ -94,8 +99,11 @@ struct Results<'a> {
 struct MethodResults<'a> {
     thrust_constant_total_n_s2: Option<Estimate>,
     thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    measured_std_total_n_s2: Option<f64>,
     plain_mean_total_n_s2: Option<Estimate>,
     expanded_uncertainty_total_n_s2: Option<f64>,
+    expanded_uncertainty_per_rotor_n_s2: Option<f64>,
+    rotors_heard: RotorsHeardCounts,
     loads: Vec<Load<'a>>,
 }
 
@@ -125,6 +133,7 @@ struct Input<'a> {
     file: &'a str,
     status: &'static str,
     reason: Option<String>,
+    rotors_heard: Option<RotorsHeard>,
     hover: Option<&'a Hover>,
     window_s: Option<f64>,
     warnings: &'a [Notice],
@@ -138,13 +147,21 @@ struct Settings<'a> {
     experiment: &'a Value,
 }
 
+/// The ± of a constant: k times its standard uncertainty.
+fn expanded(constant: Option<Estimate>) -> Option<f64> {
+    constant?.std_uncertainty.map(|std| COVERAGE_FACTOR * std)
+}
+
 fn by_method<S: Serializer>(tables: &&[ThrustTable], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_map(tables.iter().map(|table| {
         let results = MethodResults {
             thrust_constant_total_n_s2: table.thrust_constant_total_n_s2,
             thrust_constant_per_rotor_n_s2: table.thrust_constant_per_rotor_n_s2,
             plain_mean_total_n_s2: table.plain_mean_total_n_s2,
-            expanded_uncertainty_total_n_s2: table.budget.as_ref().map(|budget| budget.expanded_uncertainty_n_s2),
+            measured_std_total_n_s2: table.measured_std_total_n_s2,
+            expanded_uncertainty_total_n_s2: expanded(table.thrust_constant_total_n_s2),
+            expanded_uncertainty_per_rotor_n_s2: expanded(table.thrust_constant_per_rotor_n_s2),
+            rotors_heard: table.rotors_heard,
             loads: loads_of(table),
         };
         (table.method.name(), results)
@@ -183,11 +200,18 @@ fn loads_of(table: &ThrustTable) -> Vec<Load<'_>> {
 pub fn results_json(identification: &Identification<'_>) -> Result<String, serde_json::Error> {
     let Identification { experiment, method, tables, .. } = *identification;
     let reported = identification.reported();
+    let total = reported.and_then(|table| table.thrust_constant_total_n_s2);
+    let per_rotor = reported.and_then(|table| table.thrust_constant_per_rotor_n_s2);
     let results = Results {
         schema_version: SCHEMA_VERSION,
-        thrust_constant_total_n_s2: reported.and_then(|table| table.thrust_constant_total_n_s2),
-        thrust_constant_per_rotor_n_s2: reported.and_then(|table| table.thrust_constant_per_rotor_n_s2),
+        thrust_constant_total_n_s2: total,
+        thrust_constant_per_rotor_n_s2: per_rotor,
+        coverage_factor: COVERAGE_FACTOR,
+        expanded_uncertainty_total_n_s2: expanded(total),
+        expanded_uncertainty_per_rotor_n_s2: expanded(per_rotor),
+        measured_std_total_n_s2: reported.and_then(|table| table.measured_std_total_n_s2),
         method,
+        rotors_heard: reported.map(|table| table.rotors_heard),
         plain_mean_total_n_s2: reported.and_then(|table| table.plain_mean_total_n_s2),
         thrust_coefficients: reported.and_then(|table| table.coefficients),
         uncertainty_budget: reported.and_then(|table| table.budget.as_ref()),
@@ -216,6 +240,7 @@ fn input_of(input: &InputRecord) -> Input<'_> {
         file: &record.file,
         status: record.status(),
         reason: record.reason(),
+        rotors_heard: record.rotors_heard(),
         hover: record.analysis().map(|analysis| &analysis.hover),
         window_s: record.tone().map(|tone| tone.window_s),
         warnings: &record.notices,

@@ -2,14 +2,16 @@
 
 use crate::csv_text::text_of;
 use crate::notice::Notice;
-use crate::number::{DASH, rounded, significant, uncertainty};
+use crate::number::{DASH, expanded, plus_minus, rounded, significant, spread};
+use crate::printable::{printable, shared_folder};
 use crate::recording::{RecordingFacts, SpeedRecord};
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::tones::{ReadingLine, percent};
 use crate::version::VERSION;
 use hovertone_analysis::{
-    Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, ShaftLine, Span, SpeedEstimate,
-    TrackPoint, UncertaintyTerm,
+    Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, RotorsHeard, ShaftLine, Span,
+    SpeedEstimate, TrackPoint, UncertaintyTerm,
 };
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde::Serialize;
@@ -18,13 +20,16 @@ use serde_json::Value;
 /// Digits of the speeds of several readings, of which at most one is right.
 const DIGITS_OF_READINGS: usize = 4;
 
-/// The speeds of all recordings, one row each.
-pub fn speed_table(records: &[SpeedRecord]) -> String {
+/// The speeds of all recordings, one row each. The folder that all files share stands below the table.
+pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
+    let files: Vec<&str> = records.iter().map(|record| record.file.as_str()).collect();
+    let folder = shared_folder(&files);
+    let name = |record: &SpeedRecord| record.file.strip_prefix(folder).unwrap_or(&record.file).to_owned();
     let mut table = TextTable::new(vec![
         Column::words("file"),
         Column::numbers("tone", "Hz"),
         Column::numbers("speed", "rev/s"),
-        Column::numbers("±", "rev/s"),
+        Column::numbers("± (k = 2)", "rev/s"),
         Column::numbers("spread", "rev/s"),
         Column::numbers("speed", "rpm"),
         Column::numbers("speed", "rad/s"),
@@ -33,20 +38,21 @@ pub fn speed_table(records: &[SpeedRecord]) -> String {
     for record in records {
         match record.speed() {
             Some(speed) => {
-                table.push(cells_of_speed(record.file.clone(), speed, cell_of_span(record)));
+                table.push(cells_of_speed(name(record), speed, cell_of_span(record)));
                 for (index, rotor) in record.rotors().iter().enumerate() {
                     table.push(cells_of_speed(name_of_rotor(record, index), &rotor.speed, String::new()));
                 }
             }
-            None if record.has_failed() => table.push_words(record.file.clone(), "could not be heard".to_owned()),
+            None if record.has_failed() => table.push_words(name(record), "could not be heard".to_owned()),
             None if record.is_ambiguous() => {
-                table.push_words(record.file.clone(), "a rotor tone that can mean:".to_owned());
+                table.push_words(name(record), "a rotor tone that can mean:".to_owned());
                 record.alternatives().iter().for_each(|reading| table.push(cells_of_reading(record, reading)));
             }
-            None => table.push_words(record.file.clone(), "no rotor tone".to_owned()),
+            None => table.push_words(name(record), "no rotor tone".to_owned()),
         }
     }
-    table.render()
+    let below = if folder.is_empty() { String::new() } else { format!("files in {}\n", printable(folder)) };
+    table_text(&table, width) + &below
 }
 
 /// The label of a rotor, or its number in the order of the speeds.
@@ -59,15 +65,15 @@ pub(crate) fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
 
 fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<String> {
     let (speed, std_rev_s) = (estimate.speed, estimate.combined_std_uncertainty_rev_s());
-    let std = std_rev_s.map(RotorSpeed::from_rev_s);
+    let expanded = expanded(std_rev_s).map(RotorSpeed::from_rev_s);
     vec![
         name,
-        rounded(speed.tone_hz(estimate.order), std.map(|std| std.tone_hz(estimate.order))),
-        rounded(speed.rev_s(), std_rev_s),
-        uncertainty(std_rev_s),
-        uncertainty(estimate.spread_rev_s),
-        rounded(speed.rpm(), std.map(RotorSpeed::rpm)),
-        rounded(speed.rad_s(), std.map(RotorSpeed::rad_s)),
+        rounded(speed.tone_hz(estimate.order), expanded.map(|expanded| expanded.tone_hz(estimate.order))),
+        rounded(speed.rev_s(), expanded.map(RotorSpeed::rev_s)),
+        plus_minus(std_rev_s),
+        spread(estimate.spread_rev_s),
+        rounded(speed.rpm(), expanded.map(RotorSpeed::rpm)),
+        rounded(speed.rad_s(), expanded.map(RotorSpeed::rad_s)),
         used,
     ]
 }
@@ -96,6 +102,7 @@ struct SpeedLine<'a> {
     file: &'a str,
     status: &'static str,
     method: Method,
+    rotors_heard: Option<RotorsHeard>,
     order: Option<Order>,
     tone_hz: Option<f64>,
     speed_rev_s: Option<f64>,
@@ -217,6 +224,7 @@ pub fn speed_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         file: &record.file,
         status: record.status(),
         method: estimate.map_or(record.method, |estimate| estimate.method),
+        rotors_heard: record.rotors_heard(),
         order: (record.found.is_none() || estimate.is_some()).then_some(record.order),
         tone_hz: record.tone_hz(),
         speed_rev_s: speed.map(RotorSpeed::rev_s),

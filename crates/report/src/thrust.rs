@@ -1,6 +1,7 @@
 //! Tables of the thrust constant like those of the paper, with correct units and uncertainties.
 
-use crate::number::{DASH, PowerOfTen, rounded, significant, uncertainty, with_uncertainty};
+use crate::number::{DASH, PowerOfTen, rounded, significant, spread, with_uncertainty};
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_analysis::Method;
 use hovertone_thrust::{LoadThrust, ThrustTable};
@@ -9,16 +10,9 @@ use hovertone_vehicle::{Estimate, RotorSpeed};
 /// Unit of every thrust constant: newton per (rad/s)².
 pub(crate) const CONSTANT_UNIT: &str = "N s²";
 
-/// Name of a method for people.
-pub fn method_title(method: Method) -> &'static str {
-    match method {
-        Method::Separated => "Rotors told apart",
-        Method::Harmonic => "Harmonic likelihood",
-        Method::MaximumTrace => "Maximum trace",
-        Method::Gaussian => "Gaussian approximation",
-        _ => method.name(),
-    }
-}
+/// The meaning of ± in a table of loads.
+pub const LOADS_FOOTNOTE: &str =
+    "± of a load is k = 2 of its own weighing and speeds; the ± of the answer adds effects that all loads share.";
 
 /// The table of one method: a row for each load, like tables 1 and 2 of the paper.
 pub fn thrust_table(table: &ThrustTable) -> TextTable {
@@ -64,10 +58,10 @@ pub fn thrust_table(table: &ThrustTable) -> TextTable {
 /// Speed in rpm, its spread, and the speed in rad/s.
 pub(crate) fn speed_cells(load: &LoadThrust) -> [String; 3] {
     let std = load.std_uncertainty_rad_s.map(RotorSpeed::from_rad_s);
-    let spread = load.spread_rad_s.map(RotorSpeed::from_rad_s);
+    let std_of_speed = load.spread_rad_s.map(RotorSpeed::from_rad_s);
     [
         load.speed.map_or(DASH.to_owned(), |speed| rounded(speed.rpm(), std.map(RotorSpeed::rpm))),
-        uncertainty(spread.map(RotorSpeed::rpm)),
+        spread(std_of_speed.map(RotorSpeed::rpm)),
         load.speed.map_or(DASH.to_owned(), |speed| rounded(speed.rad_s(), std.map(RotorSpeed::rad_s))),
     ]
 }
@@ -77,7 +71,7 @@ pub(crate) fn grams(mass_kg: f64) -> String {
     format!("{:.1}", 1e3 * mass_kg)
 }
 
-/// A thrust constant in a power of ten.
+/// A thrust constant in a power of ten, with its ±.
 pub(crate) fn constant_cell(constant_n_s2: Option<Estimate>, unit: PowerOfTen) -> String {
     constant_n_s2.map_or(DASH.to_owned(), |constant| {
         with_uncertainty(unit.scale(constant.value), constant.std_uncertainty.map(|std| unit.scale(std)))
@@ -104,7 +98,7 @@ fn units_of(table: &ThrustTable) -> (PowerOfTen, PowerOfTen) {
 }
 
 /// The constant of the whole vehicle and of one rotor by every method, with a mark on the reported one, and the plain mean over the loads
-/// as in the paper.
+/// as in the paper, without a ± as there.
 pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     let values = |constant: &dyn Fn(&ThrustTable) -> Option<Estimate>| -> PowerOfTen {
         PowerOfTen::of(tables.iter().filter_map(|table| Some(constant(table)?.value)))
@@ -112,7 +106,7 @@ pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     let total_unit = values(&|table| table.thrust_constant_total_n_s2);
     let rotor_unit = values(&|table| table.thrust_constant_per_rotor_n_s2);
     let mut text = TextTable::new(vec![
-        Column::words("thrust constant C_f = F/ω²"),
+        Column::words("C_f = F/ω², ± is k = 2"),
         Column::numbers("whole vehicle", &total_unit.unit(CONSTANT_UNIT)),
         Column::numbers("one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
         Column::numbers("plain mean", &total_unit.unit(CONSTANT_UNIT)),
@@ -120,17 +114,17 @@ pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
     for table in tables {
         let mark = if table.method == reported { " (reported)" } else { "" };
         text.push(vec![
-            format!("{}{mark}", method_title(table.method)),
+            format!("{}{mark}", table.title()),
             constant_cell(table.thrust_constant_total_n_s2, total_unit),
             constant_cell(table.thrust_constant_per_rotor_n_s2, rotor_unit),
-            constant_cell(table.plain_mean_total_n_s2, total_unit),
+            table.plain_mean_total_n_s2.map_or(DASH.to_owned(), |mean| significant(total_unit.scale(mean.value), 5)),
         ]);
     }
     text
 }
 
 /// The result: the table of the methods, and C_T in both conventions where air and diameter are known.
-pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
+pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<usize>) -> String {
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {
         format!(
@@ -140,5 +134,5 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method) -> String {
             significant(both.density_kg_m3, 4),
         )
     });
-    methods_table(tables, reported).render() + &coefficients
+    table_text(&methods_table(tables, reported), width) + &coefficients
 }

@@ -2,7 +2,9 @@
 
 use crate::notice::Notice;
 use crate::number::{DASH, significant};
+use crate::printable::printable;
 use crate::recording::{Found, RecordingFacts, SpeedRecord};
+use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
 use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
@@ -59,8 +61,8 @@ impl<'a> From<&'a Reading> for ReadingLine<'a> {
 }
 
 /// The families of one recording as a block of text: the rotor's with a table of its readings, the others on two lines each.
-pub fn tones_text(record: &SpeedRecord) -> String {
-    let mut text = format!("{}\n", record.file);
+pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
+    let mut text = format!("{}\n", printable(&record.file));
     if record.has_failed() {
         return text + "could not be heard\n";
     }
@@ -76,7 +78,7 @@ pub fn tones_text(record: &SpeedRecord) -> String {
         text += "\nno family of lines stands out\n";
     }
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
-        text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(&family.readings));
+        text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(&family.readings, width));
     }
     let others = found.families.iter().enumerate().filter(|(index, _)| rotor != Some(*index));
     for (_, family) in others {
@@ -133,7 +135,7 @@ pub(crate) fn percent(plausibility: f64) -> String {
     }
 }
 
-fn readings_table(readings: &[Reading]) -> String {
+fn readings_table(readings: &[Reading], width: Option<usize>) -> String {
     let has_mach = readings.iter().any(|reading| reading.tip_mach.is_some());
     let has_coefficient = readings.iter().any(|reading| reading.thrust_coefficient.is_some());
     let mut columns = vec![
@@ -163,7 +165,10 @@ fn readings_table(readings: &[Reading]) -> String {
         cells.extend([percent(reading.plausibility), reading.why.clone()]);
         table.push(cells);
     }
-    table.render().lines().map(|line| format!("{INDENT}{line}\n")).collect()
+    table_text(&table, width.map(|width| width.saturating_sub(INDENT.len())))
+        .lines()
+        .map(|line| format!("{INDENT}{line}\n"))
+        .collect()
 }
 
 fn readings_in_a_line(readings: &[Reading]) -> String {

@@ -1,6 +1,6 @@
 //! The vehicle presets, every number with its source.
 
-use crate::text_table::{width_of, wrapped};
+use crate::printable::{width_of, wrapped};
 use hovertone_vehicle::{Sourced, Vehicle};
 use std::fmt::Write;
 

@@ -21,11 +21,12 @@ pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error>
     Ok(serde_json::to_string_pretty(&Weighed { weighed, version: VERSION })? + "\n")
 }
 
-/// Mass and payload in grams, with their standard uncertainties.
+/// Mass and payload in grams, with their expanded uncertainties.
 pub fn weighed_text(weighed: &WeighedHover) -> String {
     let grams = |mass_kg: Estimate| {
         let mass = mass_kg.scaled(1e3);
-        with_uncertainty(mass.value, mass.std_uncertainty) + " g"
+        let meaning = mass.std_uncertainty.map_or("", |_| " (k = 2)");
+        format!("{} g{meaning}", with_uncertainty(mass.value, mass.std_uncertainty))
     };
     let mut text = format!(
         "hovers at {} rpm ({} {})\nmass: {}\n",

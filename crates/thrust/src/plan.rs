@@ -28,7 +28,7 @@ const SPEED_RAD_S: f64 = 400.0;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PlanWish {
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share.
-    pub expanded_share: f64,
+    pub wanted_share: f64,
     /// Mass of the vehicle.
     pub vehicle_mass_kg: f64,
     /// Largest added mass.
@@ -100,7 +100,7 @@ pub enum PlanError {
 /// Numbers out of range, or an uncertainty that no number of flights reaches.
 pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
     for (name, value) in [
-        ("expanded_share", wish.expanded_share),
+        ("wanted_share", wish.wanted_share),
         ("vehicle_mass_kg", wish.vehicle_mass_kg),
         ("added_mass_kg_max", wish.added_mass_kg_max),
         ("gravity_m_s2", wish.gravity_m_s2),
@@ -116,7 +116,7 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
             return Err(PlanError::OutOfRange { name, value, must_be: "0 or more" });
         }
     }
-    for (name, value) in [("expanded_share", wish.expanded_share), ("speed_spread_share", wish.speed_spread_share)] {
+    for (name, value) in [("wanted_share", wish.wanted_share), ("speed_spread_share", wish.speed_spread_share)] {
         if value > SHARE_MAX {
             return Err(PlanError::OutOfRange { name, value, must_be: "a share of at most 0.5: 2 % are 0.02" });
         }
@@ -137,14 +137,14 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         }
     }
     let cost_s = |plan: &FlightPlan| plan.hover_s + OVERHEAD_S * (plan.load_count * plan.trials_per_load) as f64;
-    let good = plans.iter().filter(|plan| plan.expanded_share <= wish.expanded_share);
+    let good = plans.iter().filter(|plan| plan.expanded_share <= wish.wanted_share);
     match good.min_by(|a, b| cost_s(a).total_cmp(&cost_s(b))) {
         Some(plan) => Ok(*plan),
         None => {
             let best = plans.iter().min_by(|a, b| a.expanded_share.total_cmp(&b.expanded_share));
             let nothing = PlanError::OutOfRange {
-                name: "expanded_share",
-                value: wish.expanded_share,
+                name: "wanted_share",
+                value: wish.wanted_share,
                 must_be: "within what floats hold",
             };
             Err(best.map_or(nothing, |best| PlanError::OutOfReach {
@@ -183,6 +183,7 @@ fn expected(wish: &PlanWish, load_count: usize, trials_per_load: usize, trial_s:
                     spread_rev_s: None,
                     frame_count: 1,
                 }],
+                rotors_heard: None,
             };
             LoadSpeeds {
                 name: load.to_string(),
@@ -218,9 +219,9 @@ fn expected(wish: &PlanWish, load_count: usize, trials_per_load: usize, trial_s:
 mod tests {
     use super::*;
 
-    fn wish(expanded_share: f64) -> PlanWish {
+    fn wish(wanted_share: f64) -> PlanWish {
         PlanWish {
-            expanded_share,
+            wanted_share,
             vehicle_mass_kg: 0.413,
             added_mass_kg_max: 0.1,
             mass_std_kg: 0.0005,

@@ -1,7 +1,7 @@
 //! Speeds of loads, trials and samples, the input of the fit.
 
 use crate::force::Force;
-use hovertone_analysis::{Method, Outcome, Span, SpeedAnalysis, SpeedEstimate};
+use hovertone_analysis::{Method, Outcome, RotorsHeard, Span, SpeedAnalysis, SpeedEstimate};
 use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
 
@@ -34,6 +34,8 @@ pub struct TrialSpeeds {
     pub hover: Option<SampleSpeed>,
     /// Its samples.
     pub samples: Vec<SampleSpeed>,
+    /// How the rotors are heard, where it is known.
+    pub rotors_heard: Option<RotorsHeard>,
 }
 
 impl TrialSpeeds {
@@ -60,6 +62,7 @@ impl TrialSpeeds {
                 .iter()
                 .filter_map(|sample| Some(speed_in(sample.span, sample.speed(method)?)))
                 .collect(),
+            rotors_heard: tone.rotors_heard(method),
         })
     }
 

@@ -7,7 +7,7 @@ use crate::drift::Drift;
 use crate::speeds::SampleSpeed;
 use crate::square_law::SquareLawFit;
 use crate::warning::ThrustWarning;
-use hovertone_analysis::Method;
+use hovertone_analysis::{Method, RotorsHeardCounts};
 use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::Serialize;
 
@@ -16,14 +16,18 @@ use serde::Serialize;
 pub struct ThrustTable {
     /// Method of the speeds.
     pub method: Method,
+    /// How the rotors are heard in the trials.
+    pub rotors_heard: RotorsHeardCounts,
     /// Number of rotors of the vehicle.
     pub rotor_count: u32,
     /// One row for each load.
     pub loads: Vec<LoadThrust>,
-    /// Constant of the whole vehicle by the fit, with the uncertainty of weighing and speeds; absent without any speed.
+    /// Constant of the whole vehicle by the fit, with the combined uncertainty of the budget; absent without any speed.
     pub thrust_constant_total_n_s2: Option<Estimate>,
     /// Constant of one rotor: the total divided by the number of rotors.
     pub thrust_constant_per_rotor_n_s2: Option<Estimate>,
+    /// Standard uncertainty of the constant of the whole vehicle from weighing and speeds alone, without the assumed limits of the budget.
+    pub measured_std_total_n_s2: Option<f64>,
     /// Constant of the whole vehicle as in the paper: the plain mean over the loads.
     pub plain_mean_total_n_s2: Option<Estimate>,
     /// The fit: agreement of the square law, the laws beside it, each load against the others.
@@ -38,6 +42,24 @@ pub struct ThrustTable {
     pub drifts: Vec<Drift>,
     /// Warnings about the result.
     pub warnings: Vec<ThrustWarning>,
+}
+
+impl ThrustTable {
+    /// Name of the method for people. Rotors that are heard as a group are called that.
+    pub fn title(&self) -> &'static str {
+        match self.method {
+            Method::Separated => match (self.rotors_heard.separated > 0, self.rotors_heard.group > 0) {
+                (true, false) => "Rotors separated",
+                (false, true) => "Rotors as a group",
+                (true, true) => "Rotors separated or as a group",
+                (false, false) => "One tone for all rotors",
+            },
+            Method::Harmonic => "Harmonic likelihood",
+            Method::MaximumTrace => "Maximum trace",
+            Method::Gaussian => "Gaussian approximation",
+            _ => self.method.name(),
+        }
+    }
 }
 
 /// One row of the table.

@@ -1,5 +1,6 @@
 //! Warnings about a thrust constant, each with a hint. They are values; nothing here prints.
 
+use crate::budget::COVERAGE_FACTOR;
 use crate::drift::{Drift, DriftKind};
 use crate::square_law::{ForceLaw, LoadRange};
 use serde::Serialize;
@@ -135,11 +136,9 @@ impl ThrustWarning {
             }
             Self::UncertaintiesIncomplete { .. } => "state one in every row, or in none",
             Self::MassNotWeighed { .. } => {
-                "weigh it ready to fly and write vehicle.mass_kg: 1 % of mass is 1 % of C_f, and the ± does not know of it"
+                "weigh the vehicle ready to fly and write vehicle.mass_kg: 1 % of mass is 1 % of C_f, and the ± does not contain it"
             }
-            Self::LoudestRotor => {
-                "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; the ± of the tables does not show it, the budget counts it"
-            }
+            Self::LoudestRotor => "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; its ± contains that",
         }
     }
 }
@@ -151,7 +150,7 @@ impl fmt::Display for ThrustWarning {
                 write!(f, "load \"{name}\" does not fit the others")?;
                 match (mass_that_fits_kg, mass_that_fits_std_kg) {
                     (Some(mass_kg), Some(std_kg)) => {
-                        write!(f, "; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * std_kg)?;
+                        write!(f, "; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)?;
                     }
                     (Some(mass_kg), None) => write!(f, "; {:.1} g would", 1e3 * mass_kg)?,
                     (None, _) => {}
@@ -179,9 +178,9 @@ impl fmt::Display for ThrustWarning {
             Self::NarrowLoadRange(range) => {
                 write!(
                     f,
-                    "the largest force is only {:.2} times the smallest, which leaves an intercept open to ±{:.1} % of the force",
+                    "the largest force is only {:.2} times the smallest, which leaves an intercept open to ±{:.1} % of the force (k = 2)",
                     range.force_ratio,
-                    100.0 * range.intercept_std_share
+                    100.0 * COVERAGE_FACTOR * range.intercept_std_share
                 )?;
                 match range.force_ratio_needed {
                     Some(ratio) => write!(f, "; {ratio:.1} times would do"),
@@ -213,7 +212,7 @@ impl fmt::Display for ThrustWarning {
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the vehicle's mass, {:.1} g, is that of a preset or a model: nobody weighed this one", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("one speed stands for all rotors: that of the loudest, or their mean by loudness"),
+            Self::LoudestRotor => f.write_str("one tone is used for all rotors: that of the loudest, or a mean by loudness"),
         }
     }
 }

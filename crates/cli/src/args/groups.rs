@@ -37,7 +37,7 @@ pub(crate) struct KnownArguments {
     /// Mass as flown: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
     #[arg(long, value_name = "KG", allow_negative_numbers = true)]
     pub(crate) mass_kg: Option<f64>,
-    /// Rotors that carry it: with two or more, each is told apart [default: one, or four where others are heard beside it]
+    /// Rotors that carry it: with two or more, they are separated [default: one, or four where others are heard beside it]
     #[arg(long, value_name = "N")]
     pub(crate) rotors: Option<u32>,
 }
@@ -45,7 +45,7 @@ pub(crate) struct KnownArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
-    /// Only the mean speed: several rotors are not told apart, which takes less time and gives a wider ±
+    /// Only the mean speed: several rotors are not separated, which takes less time and gives a wider ±
     #[arg(long, conflicts_with = "method")]
     pub(crate) mean_only: bool,
     /// How the speed is read from the sound [default: separated for several rotors, else harmonic]

@@ -48,7 +48,8 @@ Examples:
 
 /// Thrust constant from recordings of hovers with known masses, or of bench runs
 ///
-/// Prints tables like the paper's, by the harmonic likelihood and by both of its methods, and the constant of the whole vehicle and of one rotor.
+/// Prints warnings, the constant of one rotor and of the whole vehicle with its ±, the verdict on the loads, and where the page is.
+/// With -v also tables like the paper's, by the harmonic likelihood and by both of its methods.
 #[derive(Args, Debug)]
 #[command(after_help = IDENTIFY_EXAMPLES)]
 pub(crate) struct IdentifyArguments {
@@ -60,9 +61,12 @@ pub(crate) struct IdentifyArguments {
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// Print results.json instead of the tables
+    /// Print results.json instead
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
+    /// Print the tables too
+    #[arg(short, long, help_heading = "Output", conflicts_with = "json")]
+    pub(crate) verbose: bool,
     /// Folder that the names of the recordings start from [default: the folder of the experiment file]
     #[arg(long, value_name = "DIR", help_heading = "Reading files")]
     pub(crate) data_root: Option<PathBuf>,
@@ -95,7 +99,7 @@ pub(crate) struct FitArguments {
     /// Tables: CSV files with a header
     #[arg(required_unless_present = "plan", value_name = "TABLE.csv")]
     pub(crate) tables: Vec<PathBuf>,
-    /// Print one JSON object per line and group
+    /// Print one JSON document: the fit, or `groups` with the fit of each
     #[arg(long)]
     pub(crate) json: bool,
     /// Rotors that share the thrust of a row, or carry its mass [default: 1; 4 with --plan]
@@ -164,9 +168,9 @@ pub(crate) struct PlanArguments {
     /// How long the speed remembers itself
     #[arg(long, value_name = "S", default_value_t = 0.3, allow_negative_numbers = true)]
     pub(crate) correlation_s: f64,
-    /// The rotors are told apart: no single ridge follows the loudest
+    /// The rotors are separated, or heard as a group: not one tone is used for all (docs/budget.md)
     #[arg(long)]
-    pub(crate) rotors_told_apart: bool,
+    pub(crate) rotors_separated: bool,
 }
 
 const WEIGH_EXAMPLES: &str = "\
@@ -187,6 +191,8 @@ pub(crate) struct WeighArguments {
     /// results.json of `hovertone identify`, for constant, mass, gravity and tone
     #[arg(long, value_name = "RESULTS.json", required_unless_present = "constant_n_s2")]
     pub(crate) constant: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) of: GroupArguments,
     /// Thrust constant of the whole vehicle, N/(rad/s)²
     #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
     pub(crate) constant_n_s2: Option<f64>,
@@ -223,16 +229,26 @@ Examples:
   hovertone export out/results.json --to airsim --diameter-m 0.2 --air-density-kg-m3 1.17
   hovertone export out/results.json --to rotorpy --torque-constant-n-m-s2 2.1e-7";
 
+/// One of several groups.
+#[derive(Args, Debug)]
+pub(crate) struct GroupArguments {
+    /// The group of the results of `hovertone fit --json`, where they have several
+    #[arg(long, value_name = "NAME")]
+    pub(crate) group: Option<String>,
+}
+
 /// Lines to paste into a simulator's model
 #[derive(Args, Debug)]
 #[command(after_help = EXPORT_EXAMPLES)]
 pub(crate) struct ExportArguments {
-    /// results.json of `hovertone identify`, or what `hovertone fit --json` printed for one table
+    /// results.json of `hovertone identify`, or the output of `hovertone fit --json`
     #[arg(value_name = "RESULTS.json")]
     pub(crate) results: PathBuf,
     /// Which program it is for
     #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
     pub(crate) to: SimulatorFormat,
+    #[command(flatten)]
+    pub(crate) of: GroupArguments,
     /// Write there instead of printing
     #[arg(short, long, value_name = "FILE", help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
@@ -269,6 +285,8 @@ pub(crate) struct CompareArguments {
     /// Models of simulators
     #[arg(required = true, value_name = "MODEL")]
     pub(crate) models: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) of: GroupArguments,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -5,15 +5,16 @@ mod render;
 
 use crate::args::DemoArguments;
 use crate::failure::{Ending, Failure};
-use crate::identify::{ExperimentSource, identify, jobs_of};
+use crate::identify::{ExperimentSource, identify, jobs_of, page_line};
 use crate::recording::Hearing;
-use crate::report_folder::Extras;
+use crate::report_folder::{Extras, PAGE};
 use crate::terminal::Terminal;
 use crate::typed::typed_command;
 use hovertone::speed::Method;
 use hovertone::thrust::ThrustTable;
 use hovertone_report::{
-    PrintedRow, TextTable, TitledTable, comparison_with_paper, comparison_with_truth, method_title,
+    LOADS_FOOTNOTE, PrintedRow, TextTable, TitledTable, comparison_with_paper, comparison_with_truth, counted,
+    table_text,
 };
 use hovertone_sim::paper::{LOADS, PaperLoad};
 
@@ -35,30 +36,28 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
         .map(|table| (table.method, comparison_with_paper(table, &printed_rows(table))))
         .collect();
     let against_truth = comparison_with_truth(identified.tables(), &render::truth_of_loads(&truths));
+    let width = terminal.fold_width();
     let mut text = format!(
-        "The paper's experiment in simulated flight: {} loads, {} recordings, seed {}\n",
-        LOADS.len(),
-        truths.len(),
-        arguments.seed
+        "The paper's experiment in simulated flight: {}, {}, seed {}; {}\n",
+        counted(LOADS.len(), "load"),
+        counted(truths.len(), "recording"),
+        arguments.seed,
+        identified.warnings_counted(),
     );
     for (table, (_, compared)) in identified.tables().iter().zip(&compared) {
-        text += &format!("\n{}\n{compared}", title_beside_paper(table));
+        text += &format!("\n{}\n{}", title_beside_paper(table), table_text(compared, width));
     }
-    text += &format!("\n{TRUTH_TITLE}\n{against_truth}");
-    terminal.data(&(text + "\n" + &identified.summary() + FOOTNOTE))?;
-    terminal.flush()?;
+    text += &format!("{LOADS_FOOTNOTE}\n\n{TRUTH_TITLE}\n{}", table_text(&against_truth, width));
     identified.say_notes(terminal);
+    terminal.data(&(text + "\n" + &identified.summary(width) + FOOTNOTE + "\n" + &identified.quote()))?;
+    terminal.flush()?;
     let extras = Extras {
         compared: &compared,
         more_tables: &[TitledTable::new(TRUTH_TITLE, against_truth)],
         command: &typed_command(),
     };
     identified.write(folder, &extras)?;
-    terminal.say(&format!(
-        "written: report.html, results.json, tables and figures; experiment.toml, {} recordings, truth.csv, truth_tracks.csv\n  {}",
-        truths.len(),
-        folder.path().display()
-    ));
+    terminal.data(&page_line(&folder.place(PAGE)))?;
     Ok(identified.ending())
 }
 
@@ -76,7 +75,7 @@ fn title_beside_paper(table: &ThrustTable) -> String {
         Method::Gaussian => ", beside the paper's table 2",
         _ => "",
     };
-    format!("{}{number}", method_title(table.method))
+    format!("{}{number}", table.title())
 }
 
 fn printed_rows(table: &ThrustTable) -> Vec<PrintedRow> {

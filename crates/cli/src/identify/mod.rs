@@ -14,18 +14,20 @@ use crate::output_folder::OutputFolder;
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, records_of};
-use crate::report_folder::{Extras, RESULTS, write_report};
-use crate::terminal::Terminal;
+use crate::report_folder::{Extras, PAGE, RESULTS, write_report};
+use crate::terminal::{Terminal, warning_count};
 use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
 use hovertone::speed::{Method, SpeedEstimate};
-use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
+use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, TrialSpeeds, thrust_from_loads};
 use hovertone_report::{
-    ExperimentFacts, Identification, InputRecord, Notice, adequacy_text, method_title, results_json, thrust_summary,
-    thrust_table, vehicle_model_text,
+    ExperimentFacts, Identification, InputRecord, LOADS_FOOTNOTE, Notice, SpeedRecord, Verdict, adequacy_text, counted,
+    printable, quoted_constants, results_json, rotors_heard_text, table_text, thrust_summary, thrust_table,
+    vehicle_model_text,
 };
+use hovertone_vehicle::check_tips;
 use serde_json::Value;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// An experiment with the records of its recordings and the fits of its loads.
 pub(crate) struct Identified {
@@ -40,7 +42,7 @@ pub(crate) struct Identified {
     hearing: Hearing,
 }
 
-/// Identifies the experiment and prints its tables.
+/// Identifies the experiment and prints warnings, the tables where they are wanted, and the lines to quote.
 pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let source = ExperimentSource::read(&arguments.experiment)?;
     let hearing = hearing_of(&arguments.hearing, arguments.json || arguments.output.is_some());
@@ -51,25 +53,35 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     let prepare = |folder: &PathBuf| OutputFolder::prepare(folder, outputs, &RESULTS);
     let folder = arguments.output.as_ref().map(prepare).transpose()?;
     let identified = identify(source, recordings, hearing, method, !arguments.hearing.no_progress)?;
+    identified.say_notes(terminal);
     if arguments.json {
         terminal.data(&results_json(&identified.identification()).map_err(Failure::internal)?)?;
     } else {
-        terminal.data(&identified.in_words())?;
+        terminal.data(&identified.headline())?;
+        if arguments.verbose {
+            terminal.data(&identified.tables_in_words(terminal.fold_width()))?;
+        }
+        terminal.data(&identified.model_in_words())?;
+        terminal.data(&identified.quote())?;
     }
     terminal.flush()?;
-    identified.say_notes(terminal);
-    match &folder {
+    let page = match &folder {
         Some(folder) => {
             let extras = Extras { command: &typed_command(), ..Extras::default() };
-            let written = identified.write(folder, &extras)?;
-            terminal.say(&format!("written: {}", written.join(", ")));
+            identified.write(folder, &extras)?;
+            page_line(&folder.place(PAGE))
         }
-        None if !arguments.json => {
-            terminal.say("nothing was written; -o DIR writes report.html, results.json, tables and figures there");
-        }
-        None => {}
+        None => "page: none; -o DIR writes it, with results.json, tables and figures\n".to_owned(),
+    };
+    if !arguments.json {
+        terminal.data(&page)?;
     }
     Ok(identified.ending())
+}
+
+/// The last line to quote: where the page is.
+pub(crate) fn page_line(page: &Path) -> String {
+    format!("page: {}\n", printable(&page.display().to_string()))
 }
 
 fn hearing_of(arguments: &HearingArguments, wants_hash: bool) -> Hearing {
@@ -92,6 +104,7 @@ pub(crate) fn identify(
     let inputs: Vec<InputRecord> =
         loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
     let experiment = &source.experiment;
+    check_tips_of(&source, &inputs)?;
     let has_rotors = inputs.iter().filter_map(|input| input.record.tone()?.speed(Method::Separated)).any(is_separated);
     let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
     let unresolved_std_share = unresolved_std_share(experiment, &inputs);
@@ -109,6 +122,20 @@ pub(crate) fn identify(
         .collect();
     let settings = serde_json::to_value(experiment).map_err(Failure::internal)?;
     Ok(Identified { source, method, inputs, tables, settings, jobs, hearing })
+}
+
+/// Refuses the diameter of the experiment where the blade tips of a heard rotor would be faster than any multirotor's.
+fn check_tips_of(source: &ExperimentSource, inputs: &[InputRecord]) -> Result<(), Failure> {
+    let Some(diameter_m) = source.experiment.propeller_diameter_m else { return Ok(()) };
+    for record in inputs.iter().map(|input| &input.record) {
+        let tips = record.speed().map(|estimate| check_tips(diameter_m, estimate.speed));
+        tips.transpose().map_err(|tips| Failure::Usage {
+            what: format!("{}: {tips}", record.file),
+            hint: tips.hint(),
+            path: Some(source.path.clone()),
+        })?;
+    }
+    Ok(())
 }
 
 /// Standard deviation of the difference between the mean of all rotors and the mean of the separated rotors, as a share. It is the mean
@@ -180,42 +207,83 @@ impl Identified {
     }
 
     /// The result below the tables.
-    pub(crate) fn summary(&self) -> String {
+    pub(crate) fn summary(&self, width: Option<usize>) -> String {
         let identification = self.identification();
         let reported = identification.reported();
-        let model = reported.zip(self.source.experiment.model.as_ref());
-        thrust_summary(&self.tables, self.method)
-            + &reported.map_or(String::new(), adequacy_text)
-            + &model.map_or(String::new(), |(table, model)| vehicle_model_text(model, table))
+        thrust_summary(&self.tables, self.method, width)
+            + &reported.map_or(String::new(), |table| adequacy_text(table, width))
     }
 
-    fn in_words(&self) -> String {
+    /// The simulator's model that the experiment names, beside the result; empty without one.
+    fn model_in_words(&self) -> String {
+        let identification = self.identification();
+        let model = identification.reported().zip(self.source.experiment.model.as_ref());
+        model.map_or(String::new(), |(table, model)| vehicle_model_text(model, table))
+    }
+
+    /// What was heard, and the number of warnings.
+    fn headline(&self) -> String {
         let experiment = &self.source.experiment;
         let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
-        let mut text = format!(
-            "{}: {} rotors, tone of order {}\n{} loads, {} recordings, {heard} of them with a rotor tone\n",
+        format!(
+            "{}: {}, tone of order {}; {}, {}, {heard} of them with a rotor tone; {}\n",
             experiment.vehicle_name,
-            experiment.rotor_count,
+            counted(experiment.rotor_count as usize, "rotor"),
             experiment.config.tone.order,
-            experiment.loads.len(),
-            self.inputs.len(),
-        );
-        for table in &self.tables {
-            text += &format!("\n{}\n{}", method_title(table.method), thrust_table(table));
-        }
-        text + "\n" + &self.summary()
+            counted(experiment.loads.len(), "load"),
+            counted(self.inputs.len(), "recording"),
+            self.warnings_counted(),
+        )
     }
 
-    /// Prints cuts and warnings.
+    /// "2 warnings".
+    pub(crate) fn warnings_counted(&self) -> String {
+        counted(self.warnings().len() + warning_count(&self.records()), "warning")
+    }
+
+    /// The tables of all methods, the laws and the budget.
+    fn tables_in_words(&self, width: Option<usize>) -> String {
+        let mut text = String::new();
+        for table in &self.tables {
+            text += &format!("\n{}\n{}", table.title(), table_text(&thrust_table(table), width));
+        }
+        format!("{text}{LOADS_FOOTNOTE}\n\n{}\n", self.summary(width))
+    }
+
+    /// The lines to quote: the constants with their ±, and the verdict.
+    pub(crate) fn quote(&self) -> String {
+        let reported = self.tables.iter().find(|table| table.method == self.method);
+        let constants = reported.and_then(quoted_constants);
+        match reported.zip(constants) {
+            Some((table, constants)) => {
+                let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!("; {heard}"));
+                format!("{constants}\nverdict: {}{heard}\n", Verdict::of(table).words())
+            }
+            None => "C_f: none, since no recording has a rotor tone\nverdict: nothing is identified\n".to_owned(),
+        }
+    }
+
+    fn records(&self) -> Vec<&SpeedRecord> {
+        self.inputs.iter().map(|input| &input.record).collect()
+    }
+
+    /// The warnings about the constant.
+    fn warnings(&self) -> &[ThrustWarning] {
+        let table = self.tables.iter().find(|table| table.method == self.method);
+        table.map_or(&[], |table| &table.warnings)
+    }
+
+    /// Prints warnings and cuts: first those of the constant, then those of the recordings.
     pub(crate) fn say_notes(&self, terminal: &mut Terminal) {
-        terminal.notes(&self.inputs.iter().map(|input| &input.record).collect::<Vec<_>>());
-        for warning in self.identification().reported().map_or(&[][..], |table| &table.warnings) {
+        terminal.heading(&self.warnings_counted());
+        for warning in self.warnings() {
             terminal.warning(&Notice::from(warning), "");
         }
+        terminal.notes(&self.records());
     }
 
-    /// Writes the report with all its files; returns their names.
-    pub(crate) fn write(&self, folder: &OutputFolder, extras: &Extras<'_>) -> Result<Vec<String>, Failure> {
+    /// Writes the report with all its files.
+    pub(crate) fn write(&self, folder: &OutputFolder, extras: &Extras<'_>) -> Result<(), Failure> {
         write_report(&self.identification(), &self.jobs, self.hearing, extras, folder)
     }
 }

@@ -45,6 +45,7 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
                     config: load.config(&source.experiment),
                     discovery: None,
                     requests: Requests::default(),
+                    sha256: None,
                 };
                 let is_known = |known: &LoadJob| known.load == load.name && known.job.path == job.path;
                 if !jobs.iter().any(is_known) {
@@ -57,7 +58,7 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
         return Err(missing_failure(&missing, source, root, data_root.is_some()));
     }
     let hint = "take one of them out of the experiment file, or out of the folder";
-    refuse_copies(&jobs.iter().map(|LoadJob { job, .. }| job).collect::<Vec<_>>(), hint, Some(&source.path))?;
+    refuse_copies(jobs.iter_mut().map(|LoadJob { job, .. }| job), hint, Some(&source.path))?;
     Ok(jobs)
 }
 

@@ -18,7 +18,7 @@ fn hover_speed(mass_kg: f64) -> RotorSpeed {
 }
 
 /// Two loads with two recordings each, and the experiment file.
-fn write_experiment(folder: &Path) -> String {
+pub(crate) fn write_experiment(folder: &Path) -> String {
     let mut text = format!(
         "[vehicle]\npreset = \"ardrone\"\nmass_kg = {VEHICLE_KG}\ngravity_m_s2 = {GRAVITY_M_S2}\n[tone]\norder = 69\n\
          [samples]\nlength_s = 2.0\n"
@@ -54,9 +54,9 @@ fn the_constant_of_a_hover_is_found_by_both_methods() {
     let folder = tempfile::tempdir().unwrap();
     let experiment = write_experiment(folder.path());
     let out = folder.path().join("out");
-    let run = hovertone(&["identify", &experiment, "-o", text(&out)]).ends_with(0);
+    let run = hovertone(&["identify", &experiment, "-v", "-o", text(&out)]).ends_with(0);
     for words in [
-        "Rotors told apart",
+        "Rotors as a group",
         "Harmonic likelihood",
         "Maximum trace",
         "Gaussian approximation",
@@ -70,9 +70,14 @@ fn the_constant_of_a_hover_is_found_by_both_methods() {
         assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
     }
     // all four turn at one speed: a group that has a mean
-    assert!(run.stderr.contains("0 of 4 rotors are told apart") && run.stderr.contains("hint:"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("the 4 rotors could not be separated and are heard as a group")
+            && run.stderr.contains("hint:"),
+        "{}",
+        run.stderr
+    );
     let by_ridge = hovertone(&["identify", &experiment, "--method", "maximum_trace"]).ends_with(0);
-    assert!(by_ridge.stderr.contains("one speed stands for all rotors"), "{}", by_ridge.stderr);
+    assert!(by_ridge.stderr.contains("one tone is used for all rotors"), "{}", by_ridge.stderr);
     let results = results_in(&out);
     let tolerance = tolerance_share(&results, hover_speed(VEHICLE_KG), 69.0);
     for method in ["harmonic", "maximum_trace", "gaussian"] {
@@ -170,7 +175,8 @@ fn recordings_that_are_not_there_are_named() {
         for word in words {
             assert!(run.stderr.contains(word), "{word}:\n{}", run.stderr);
         }
-        assert!(run.stderr.trim_end().ends_with("experiment.toml"), "the path stands last:\n{}", run.stderr);
+        let begin = format!("error: {}: ", path.display());
+        assert!(run.stderr.starts_with(&begin), "the path stands first:\n{}", run.stderr);
     };
     says(hovertone(&["identify", text(&path)]), &["big/*.mov of load \"big\"", "--data-root", "notes at the top"]);
     let elsewhere = tempfile::tempdir().unwrap();

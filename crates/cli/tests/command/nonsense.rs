@@ -52,7 +52,7 @@ fn a_percentage_is_no_share() {
     let plan = ["fit", "--plan", "--mass-kg", "0.413"];
     refused_with(
         &[&plan[..], &["--wanted-share", "2"]].concat(),
-        &["expanded_share = 2", "2 % are 0.02", "--wanted-share 0.02"],
+        &["wanted_share = 2", "2 % are 0.02", "--wanted-share 0.02"],
     );
     refused_with(
         &[&plan[..], &["--speed-spread-share", "1.23"]].concat(),
@@ -152,6 +152,22 @@ fn tips_faster_than_mach_0_6_are_refused_also_with_blades() {
         ["spectrogram", "--blades", "2", "--rotors", "1", text(&wav), "-o", text(&png), "--diameter-m", "4.5"];
     refused_with(&picture, &["Mach 0.6"]);
     assert!(!png.exists());
+    let experiment = folder.path().join("experiment.toml");
+    let toml = |diameter_m: f64| {
+        format!(
+            "[vehicle]\nrotors = 4\nblades = 2\npropeller_diameter_m = {diameter_m}\n\
+             [[load]]\nname = \"bench\"\nthrust_n = 0.1\nrotors_running = 1\nrecordings = [\"hover.wav\"]\n"
+        )
+    };
+    fs::write(&experiment, toml(0.045)).unwrap();
+    hovertone(&["identify", text(&experiment)]).ends_with(0);
+    fs::write(&experiment, toml(4.5)).unwrap();
+    refused_with(&["identify", text(&experiment)], &["hover.wav", "diameter_m = 4.5", "300", "Mach 0.6", "in metres"]);
+    let table = folder.path().join("stand.csv");
+    fs::write(&table, "rpm,thrust_n\n3000,0.701\n4000,1.249\n5000,1.952\n").unwrap();
+    hovertone(&["fit", text(&table), "--diameter-m", "0.254"]).ends_with(0);
+    refused_with(&["fit", text(&table), "--diameter-m", "25.4"], &["allowed 0.01 to 10"]);
+    refused_with(&["fit", text(&table), "--diameter-m", "2.54"], &["line 2", "diameter_m = 2.54", "Mach", "in metres"]);
 }
 
 #[test]

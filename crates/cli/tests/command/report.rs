@@ -76,9 +76,8 @@ fn the_page_shows_the_results_asks_for_nothing_and_complains_of_nothing() {
 fn numbers_are_those_of_the_results(browser: &mut Browser, results: &Value) {
     let constants = [
         ("total", "/thrust_constant_total_n_s2/value", "/uncertainty_budget/expanded_uncertainty_n_s2"),
-        ("total_with_std", "/thrust_constant_total_n_s2/value", "/thrust_constant_total_n_s2/std_uncertainty"),
-        ("per_rotor", "/thrust_constant_per_rotor_n_s2/value", "/thrust_constant_per_rotor_n_s2/std_uncertainty"),
-        ("plain_mean", "/plain_mean_total_n_s2/value", "/plain_mean_total_n_s2/std_uncertainty"),
+        ("total", "/thrust_constant_total_n_s2/value", "/expanded_uncertainty_total_n_s2"),
+        ("per_rotor", "/thrust_constant_per_rotor_n_s2/value", "/expanded_uncertainty_per_rotor_n_s2"),
     ];
     for (id, value, uncertainty) in constants {
         let (value, uncertainty) = (results.pointer(value).unwrap(), results.pointer(uncertainty).unwrap());
@@ -93,6 +92,9 @@ fn numbers_are_those_of_the_results(browser: &mut Browser, results: &Value) {
         let off = (shown_number(&shown, &power) - value.as_f64().unwrap()).abs();
         assert!(off <= uncertainty.as_f64().unwrap() / 18.0, "{id}: {shown}");
     }
+    let mean = "document.getElementById('plain_mean')";
+    let exact: f64 = browser.text(&format!("{mean}.value")).parse().unwrap();
+    assert_eq!(exact, results["plain_mean_total_n_s2"]["value"].as_f64().unwrap());
     for method in ["maximum_trace", "gaussian", "harmonic", "separated"] {
         let rows = browser.value(&format!(
             "[...document.querySelectorAll('#table-{method} tbody tr')].map(row => [...row.children].map(cell => cell.textContent))"

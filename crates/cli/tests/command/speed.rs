@@ -117,7 +117,7 @@ fn a_missing_file_ends_with_1_and_the_others_are_done_in_order() {
     let names: Vec<_> = lines.iter().map(|line| line["file"].as_str().unwrap()).collect();
     assert_eq!(names, files);
     // the path stands last, on a line of its own
-    assert!(run.stderr.contains(&format!("\n  {}\n", missing.display())), "{}", run.stderr);
+    assert!(run.stderr.contains(&format!("error: {}: ", missing.display())), "{}", run.stderr);
     assert!(run.stderr.contains("no file matches") && run.stderr.contains("this is a folder"), "{}", run.stderr);
 }
 

@@ -66,7 +66,7 @@ impl BudgetInput {
             Self::SpeedStatistics => "speed: scatter of trials",
             Self::SpeedEstimator => "speed: estimator",
             Self::RecorderClock => "clock of the recorder",
-            Self::LoudestRotor => "loudest rotor for the mean",
+            Self::LoudestRotor => "rotors not separated",
             Self::VerticalAcceleration => "vertical acceleration",
             Self::Drift => "drift of the hovers",
             Self::Tilt => "tilt",

@@ -43,6 +43,7 @@ pub(crate) fn load(name: &str, force: Force, trials_rad_s: &[f64]) -> LoadSpeeds
         hover_s: 10.0,
         hover: None,
         samples: vec![sample(*rad_s, 1e-5)],
+        rotors_heard: None,
     };
     LoadSpeeds {
         name: name.to_owned(),
@@ -133,7 +134,7 @@ fn five_hundred_campaigns_are_covered_as_stated() {
     let separated = ThrustSettings { follows_loudest: false, ..ridge.clone() };
     for (name, settings, added_kg, trials, trial_std) in [
         ("the paper's campaign, one ridge", &ridge, &[0.0, 0.031, 0.049][..], 5, 0.0025),
-        ("the paper's campaign, rotors told apart", &separated, &[0.0, 0.031, 0.049], 5, 0.0025),
+        ("the paper's campaign, rotors separated", &separated, &[0.0, 0.031, 0.049], 5, 0.0025),
         ("much scatter, few trials", &separated, &[0.0, 0.031, 0.049], 3, 0.01),
         ("five loads over a wide range", &separated, &[0.0, 0.1, 0.2, 0.3, 0.4], 4, 0.005),
     ] {
@@ -177,7 +178,7 @@ fn coverage_would_show_wrong_uncertainties() {
 fn a_planned_campaign_reaches_the_wanted_uncertainty() {
     for (wanted, gust_s) in [(0.008, 0.3), (0.005, 0.3), (0.01, 1.0)] {
         let wish = PlanWish {
-            expanded_share: wanted,
+            wanted_share: wanted,
             vehicle_mass_kg: VEHICLE_KG,
             added_mass_kg_max: 0.1,
             mass_std_kg: MASS_STD_KG,

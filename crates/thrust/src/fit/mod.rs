@@ -32,8 +32,8 @@ const MISFITS_BY_NAME: usize = 3;
 /// The result is the constant of the square law through all loads, with the uncertainties of forces and speeds (York et al. 2004).
 /// Speeds are means over trials; their uncertainty is the scatter of the trials about the means of their loads, pooled over the
 /// loads. The error of the weighing of the vehicle is common to all loads and does not average out. Where loads disagree, their
-/// scatter enlarges the uncertainty. The stated standard uncertainty covers weighing and speeds; the budget adds the assumed limits
-/// of other effects, of which the largest is that a single ridge follows the loudest rotor.
+/// scatter enlarges the uncertainty. The stated standard uncertainty is the combined one of the budget: weighing, speeds, and the assumed
+/// limits of other effects, of which the largest is that a single ridge follows the loudest rotor.
 ///
 /// The averages of the paper's tables stand beside it: for each load from the mean speed of all its samples (C = F / ω̄², not the
 /// mean over the constants of the samples), for all loads the plain mean. The squared mean in place of the mean square makes C too
@@ -71,11 +71,13 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
     }
     ThrustTable {
         method,
+        rotors_heard: loads.iter().flat_map(|load| &load.trials).filter_map(|trial| trial.rotors_heard).collect(),
         rotor_count,
         bootstrap: fit.as_ref().and_then(|fit| trial_bootstrap(&campaign, fit)),
         loads: rows,
         thrust_constant_total_n_s2: total,
         thrust_constant_per_rotor_n_s2: per_rotor,
+        measured_std_total_n_s2: budget.as_ref().map(UncertaintyBudget::measured_std_n_s2).filter(|std| *std > 0.0),
         plain_mean_total_n_s2: plain,
         coefficients,
         fit,
@@ -94,7 +96,7 @@ fn implausible_merits(rows: &[LoadThrust]) -> Vec<ThrustWarning> {
 }
 
 fn answer(fit: &SquareLawFit, budget: &UncertaintyBudget, trials: usize) -> Estimate {
-    let std = budget.measured_std_n_s2();
+    let std = budget.combined_std_uncertainty_n_s2;
     Estimate {
         value: fit.thrust_constant_n_s2.value,
         std_uncertainty: (std > 0.0).then_some(std),

@@ -36,7 +36,7 @@ fn an_outlier_of_three_hundred_per_cent_is_named_and_left_out() {
 fn loads_that_show_nothing_of_the_law_say_so() {
     let one = fitted(&exact_hovers(&[0.0], 3));
     assert!(one.warnings.contains(&ThrustWarning::SingleLoad) && one.loads[0].fits.is_none());
-    assert!(one.thrust_constant_total_n_s2.unwrap().std_uncertainty.is_some());
+    assert!(one.measured_std_total_n_s2.is_some());
     let equal = fitted(&exact_hovers(&[0.0, 0.0, 0.0], 3));
     assert!(equal.warnings.contains(&ThrustWarning::EqualLoads { count: 3 }), "{:?}", equal.warnings);
     let mut mixed = exact_hovers(&[0.0, 0.05], 3);
@@ -111,7 +111,7 @@ fn loads_without_any_uncertainty_have_that_of_their_scatter() {
     let total = table.thrust_constant_total_n_s2.unwrap();
     // four constants 0.4 % off either way: their mean is known to about 0.4 %·√(4/3)/√4
     let expected = 0.004 * (4.0f64 / 3.0).sqrt() / 2.0;
-    assert!((total.std_uncertainty.unwrap() / total.value / expected - 1.0).abs() < 0.1, "{total:?}");
+    assert!((table.measured_std_total_n_s2.unwrap() / total.value / expected - 1.0).abs() < 0.1, "{total:?}");
     assert!(table.budget.unwrap().lines.iter().any(|line| line.input == BudgetInput::LoadScatter));
 }
 
@@ -147,7 +147,7 @@ fn halves_that_are_off_by_a_factor_are_not_averaged_in_silence() {
     )));
     assert!(table.loads.iter().all(|row| row.fits == Some(false)), "of two that disagree both are named");
     let total = table.thrust_constant_total_n_s2.unwrap();
-    assert!(total.std_uncertainty.unwrap() > 0.2 * total.value, "{total:?}");
+    assert!(table.measured_std_total_n_s2.unwrap() > 0.2 * total.value, "{total:?}");
     let mut halves = exact_hovers(&[0.0, 0.05], 2);
     for load in &mut halves {
         let speed = &mut load.trials[1].samples[0].speed;

@@ -32,6 +32,7 @@ fn load(name: &str, mass_g: f64, rpm: f64, std_rpm: f64) -> LoadSpeeds {
             spread_rev_s: None,
             frame_count: 1,
         }],
+        rotors_heard: None,
     });
     LoadSpeeds {
         name: name.to_owned(),
@@ -87,6 +88,11 @@ fn a_rotor_has_a_quarter_of_the_whole_vehicles_constant() {
     assert!((total.value - 2.8314e-5).abs() < 1e-9, "{total:?}");
     assert!((rotor.value - total.value / 4.0).abs() < 1e-18);
     assert!(rotor.std_uncertainty.unwrap() > 0.0);
+    // one number, one ±: that of the budget
+    let budget = table.budget.as_ref().unwrap();
+    assert!((4.0 * rotor.std_uncertainty.unwrap() / budget.combined_std_uncertainty_n_s2 - 1.0).abs() < 1e-12);
+    assert_eq!(total.std_uncertainty, Some(budget.combined_std_uncertainty_n_s2));
+    assert!(table.measured_std_total_n_s2.unwrap() < budget.combined_std_uncertainty_n_s2);
 }
 
 #[test]
@@ -182,7 +188,7 @@ fn coverage_and_false_alarms(trials_per_load: usize) -> (f64, f64) {
             .collect();
         let table = thrust_from_loads(&loads, Method::MaximumTrace, &ThrustSettings::for_rotors(4));
         let total = table.thrust_constant_total_n_s2.unwrap();
-        within += u32::from((total.value - truth_n_s2).abs() <= 2.0 * total.std_uncertainty.unwrap());
+        within += u32::from((total.value - truth_n_s2).abs() <= 2.0 * table.measured_std_total_n_s2.unwrap());
         alarms += table.loads.iter().filter(|load| load.fits == Some(false)).count();
     }
     (f64::from(within) / runs as f64, alarms as f64 / (3 * runs) as f64)

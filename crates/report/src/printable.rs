@@ -1,0 +1,83 @@
+//! Names as a terminal shows them: without control characters, and with the width of wide letters.
+
+use unicode_width::UnicodeWidthStr;
+
+/// Text in which nothing moves the cursor, breaks a line, colours the screen or turns the direction of writing: such characters are shown
+/// as their escapes, as in `\n` and `\u{1b}`.
+pub fn printable(text: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if letter.is_control() || is_invisible(letter) {
+            shown.extend(letter.escape_default());
+        } else {
+            shown.push(letter);
+        }
+    }
+    shown
+}
+
+/// Marks of direction, zero-width characters and separators of lines.
+fn is_invisible(letter: char) -> bool {
+    matches!(letter, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}')
+}
+
+/// Columns that a text takes in a terminal. Letters of East Asia and most pictures take two.
+pub(crate) fn width_of(text: &str) -> usize {
+    text.width()
+}
+
+/// Text in lines of at most `width` columns; a longer word has a line of its own.
+pub fn wrapped(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width_of(line) + 1 + width_of(word) <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// The folder that all names share, with its last separator; empty where they share none, or for a single name.
+pub(crate) fn shared_folder<'a>(names: &[&'a str]) -> &'a str {
+    let [first, others @ ..] = names else { return "" };
+    if others.is_empty() {
+        return "";
+    }
+    let is_shared = |folder: &&str| others.iter().all(|name| name.starts_with(*folder));
+    let ends = first.rmatch_indices(std::path::is_separator).map(|(index, separator)| index + separator.len());
+    ends.filter_map(|end| first.get(..end)).find(is_shared).unwrap_or("")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_moves_the_cursor_is_escaped_and_letters_stay() {
+        assert_eq!(printable("a\u{1b}[31mb\nc\u{202e}d"), "a\\u{1b}[31mb\\nc\\u{202e}d");
+        assert_eq!(printable("ωé漢 .wav"), "ωé漢 .wav");
+    }
+
+    #[test]
+    fn wide_letters_take_two_columns() {
+        assert_eq!((width_of("漢字.wav"), width_of("abc"), width_of("e\u{301}")), (8, 3, 1));
+    }
+
+    #[test]
+    fn words_are_wrapped_and_none_is_lost() {
+        assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrapped("unbreakable a", 3), ["unbreakable", "a"]);
+        assert!(wrapped(" ", 10).is_empty());
+    }
+
+    #[test]
+    fn names_lose_the_folder_that_all_share() {
+        assert_eq!(shared_folder(&["/a/b/x.wav", "/a/b/c/y.wav"]), "/a/b/");
+        assert_eq!(shared_folder(&["data/x.wav", "database/y.wav"]), "");
+        assert_eq!((shared_folder(&["/a/x.wav"]), shared_folder(&[])), ("", ""));
+    }
+}

@@ -1,0 +1,93 @@
+//! What a person quotes of an identified experiment: the constant with its ±, and the verdict on the loads.
+
+use crate::number::{PowerOfTen, with_uncertainty};
+use crate::thrust::CONSTANT_UNIT;
+use hovertone_analysis::RotorsHeardCounts;
+use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
+use hovertone_vehicle::Estimate;
+
+/// Whether the loads agree with each other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every load agrees with the others.
+    Holds(String),
+    /// Some loads do not.
+    Fails(String),
+    /// There is nothing to compare.
+    Untested(String),
+}
+
+impl Verdict {
+    /// The verdict on the loads of a table.
+    pub fn of(table: &ThrustTable) -> Self {
+        let misfits: Vec<&str> =
+            table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
+        let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
+            format!(" (χ² = {:.2}, p = {:.2})", agreement.chi_square, agreement.p_value)
+        });
+        if !table.loads.iter().any(|load| load.fits.is_some()) {
+            return Self::Untested("not tested: there is no second load to compare with".to_owned());
+        }
+        match misfits.as_slice() {
+            [] => Self::Holds(format!("every load agrees with the others{agreement}")),
+            [one] => Self::Fails(format!("this load does not fit the others: {one}{agreement}")),
+            several => Self::Fails(format!("these loads do not fit the others: {}{agreement}", several.join(", "))),
+        }
+    }
+
+    /// The verdict in words.
+    pub fn words(&self) -> &str {
+        match self {
+            Self::Holds(words) | Self::Fails(words) | Self::Untested(words) => words,
+        }
+    }
+}
+
+/// "C_f = (7.09 ± 0.03) 1e-6 N s² for one rotor, (2.836 ± 0.012) 1e-5 N s² for the whole vehicle; ± is k = 2 (0.42 %)"; `None` without a
+/// constant.
+pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
+    let (total, per_rotor) = (table.thrust_constant_total_n_s2?, table.thrust_constant_per_rotor_n_s2?);
+    let vehicle = match table.rotor_count {
+        1 => String::new(),
+        _ => format!(", {} for the whole vehicle", quoted(total)),
+    };
+    let share = total.std_uncertainty.map(|std| 100.0 * COVERAGE_FACTOR * std / total.value);
+    let meaning = share
+        .map_or("; ± is not known".to_owned(), |percent| format!("; ± is k = {COVERAGE_FACTOR} ({percent:.2} %)"));
+    Some(format!("C_f = {} for one rotor{vehicle}{meaning}", quoted(per_rotor)))
+}
+
+/// "(7.09 ± 0.03) 1e-6 N s²".
+pub(crate) fn quoted(constant: Estimate) -> String {
+    let unit = PowerOfTen::of([constant.value]);
+    let digits = with_uncertainty(unit.scale(constant.value), constant.std_uncertainty.map(|std| unit.scale(std)));
+    format!("({digits}) {}", unit.unit(CONSTANT_UNIT))
+}
+
+/// "rotors separated in 9 recordings, heard as a group in 6"; `None` where one tone is used for all.
+pub fn rotors_heard_text(counts: RotorsHeardCounts) -> Option<String> {
+    let parts = [
+        (counts.separated, "separated"),
+        (counts.group, "heard as a group"),
+        (counts.one_tone, "followed by one tone for all"),
+    ];
+    if counts.separated + counts.group == 0 {
+        return None;
+    }
+    let parts: Vec<String> = parts
+        .into_iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, how)| format!("{how} in {count} recording{}", plural_s(count)))
+        .collect();
+    Some(format!("rotors {}", parts.join(", ")))
+}
+
+/// The ending of a noun after a number.
+pub(crate) fn plural_s(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+/// "1 load", "3 loads".
+pub fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", plural_s(count))
+}
