@@ -1,4 +1,4 @@
-//! What CI does and a person types: `cargo xtask ci`, `tidy`, `validate`.
+//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `validate`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
@@ -6,6 +6,7 @@ mod ci;
 mod tidy;
 mod tree;
 mod validate;
+mod words;
 
 use ci::Extent;
 use std::path::{Path, PathBuf};
@@ -13,11 +14,12 @@ use std::process::ExitCode;
 
 const HELP: &str = "cargo xtask <task>
 
-  ci           tidy, format, clippy, tests, documentation; without the exams
+  ci           tidy, words, format, clippy, tests, documentation; without the exams
   ci --all     the same, with the exams, which are tests marked #[ignore = \"exam: …\"]: continuous integration runs this
   tidy         rules of the house that no compiler knows: each fault with file, line and what to do
   tidy --list  the number of faults of each rule, and in which files
-  validate     what is exported, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
+  words        no string, help text, page or document has an expression that docs/glossary.md forbids
+  validate     exported files, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
 
 Exams and benchmarks: cargo run --release -p hovertone-bench
 ";
@@ -30,6 +32,7 @@ fn main() -> ExitCode {
         ["ci", "--all"] => ci::run(&root(), Extent::All),
         ["tidy"] => tidy::run(&root()),
         ["tidy", "--list"] => tidy::list(&root()),
+        ["words"] => words::run(&root()),
         ["validate"] => validate::run(&root()),
         _ => Err(HELP.to_owned()),
     };

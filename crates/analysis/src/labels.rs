@@ -175,7 +175,9 @@ impl NotTold {
         match self {
             Self::OtherCount { .. } => "say how many rotors turn with --rotors, and give the log of the same flight",
             Self::TooManyRotors { .. } => "they keep their numbers by speed",
-            Self::TooFewTracks { .. } => "a nearer microphone and higher harmonics tell more rotors apart",
+            Self::TooFewTracks { .. } => {
+                "place the microphone nearer and keep the high frequencies: then more rotors can be separated"
+            }
             Self::TooManyOffsets { .. } => "narrow them with --log-offset-s LOW:HIGH",
             Self::NoOverlap => {
                 "give the log of the same flight, and limits with --log-offset-s LOW:HIGH that hold its offset"
@@ -194,7 +196,7 @@ impl NotTold {
             Self::RotorsTooClose { .. } => "give a log of the flight with --log",
             Self::SpinUpTooLong { .. } => "cut the recording to the start of the motors and the hover, with --from",
             Self::SeveralFit { .. } => {
-                "a longer hover, or one with small rolls and pitches in it, tells rotors apart that move alike"
+                "record a longer hover with small rolls and pitches: then rotors with equal motions differ"
             }
             Self::OtherChannels { .. } => {
                 "give the position of each channel's microphone, in the order of the channels"
@@ -220,7 +222,7 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors have too many assignments; up to {} can be told", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "{tracks} rotors are separated, and {needed} are needed")
+                write!(f, "too few rotors are separated: {tracks}, needed: {needed}")
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(f, "the log could be anywhere from {low_s:.0} to {high_s:.0} s off the recording")
@@ -230,7 +232,7 @@ impl fmt::Display for NotTold {
                 write!(f, "nothing in the log moves with the rotors' speeds (probability {probability:.2})")
             }
             Self::OffsetAtLimit { offset_s } => {
-                write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of what was tried")
+                write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of the tried offsets")
             }
             Self::StartedTogether { apart_s } => {
                 write!(f, "two rotors begin within {:.1} s of each other", apart_s.max(0.1))
@@ -249,10 +251,10 @@ impl fmt::Display for NotTold {
             }
             Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors several labels fit the log"),
             Self::OtherChannels { channels, microphones } => {
-                write!(f, "the recording has {channels} channels, and {microphones} microphones have a position")
+                write!(f, "channels of the recording: {channels}, microphones with a position: {microphones}")
             }
             Self::OtherPlaces { tracks, places } => {
-                write!(f, "{tracks} rotors are separated, and {places} have a place")
+                write!(f, "separated rotors: {tracks}, rotors with a place: {places}")
             }
             Self::NothingHeard { microphone } => {
                 write!(f, "microphone {microphone} hears no line of the rotors for long enough")

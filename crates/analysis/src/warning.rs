@@ -134,14 +134,14 @@ impl fmt::Display for Warning {
                 )
             }
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
-            Self::FewFrames { frame_count } => write!(f, "a sample rests on {frame_count} frames only"),
+            Self::FewFrames { frame_count } => write!(f, "a sample has few frames: {frame_count}"),
             Self::RotorsNotApart { resolved: 0, of, has_mean: true } => {
                 write!(f, "the {of} rotors could not be separated and are heard as a group")
             }
             Self::RotorsNotApart { resolved: 0, of, .. } => {
                 write!(f, "the {of} rotors could not be separated: one tone is used for all of them")
             }
-            Self::RotorsNotApart { resolved, of, .. } => write!(f, "{resolved} of {of} rotors are separated"),
+            Self::RotorsNotApart { resolved, of, .. } => write!(f, "separated rotors: {resolved} of {of}"),
             Self::SeveralLines { spread_share } => {
                 write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
             }

@@ -237,7 +237,7 @@ fn plan_campaign(
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match error {
             PlanError::OutOfReach { .. } => {
-                "wish for less (--wanted-share), or remove what is in the way (--latitude-deg, --mass-std-kg, --rotors-separated)"
+                "ask for a larger --wanted-share, or make a contribution smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
             }
             PlanError::OutOfRange { name: "wanted_share", .. } => "for 2 % say --wanted-share 0.02",
             _ => "see `hovertone fit --help`",

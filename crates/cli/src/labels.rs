@@ -45,7 +45,7 @@ pub(crate) fn resolve(
         return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
     }
     if rotors < 2 {
-        let what = format!("{told} rotors apart, and only one is heard");
+        let what = format!("{told} names of several rotors, and only one is heard");
         return Err(Failure::usage(what, "say how many turn, as in --rotors 4"));
     }
     let Some(path) = &arguments.log else {

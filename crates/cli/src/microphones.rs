@@ -61,7 +61,7 @@ pub(crate) fn resolve(
     let Some(path) = &arguments.microphones else { return Ok(None) };
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
     if rotors < 2 {
-        let what = "microphones tell rotors apart, and only one is heard";
+        let what = "microphones give names to several rotors, and only one is heard";
         return Err(refused(what.to_owned(), "say how many turn, as in --rotors 4"));
     }
     let file: MicrophonesFile = TomlFile::read(path, "file of microphones", "recording", SEE_EXAMPLE)?.parse()?;
@@ -120,7 +120,7 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
         return Ok(());
     }
     Err(Failure::Usage {
-        what: format!("the recording has {channels} channel(s), and {microphones} microphones have a position"),
+        what: format!("channels of the recording: {channels}, microphones with a position: {microphones}"),
         hint: "give one [[microphone]] for each channel, in their order; --audio-track N chooses another track"
             .to_owned(),
         path: Some(job.path.clone()),

@@ -40,7 +40,7 @@ impl OutputFolder {
         if !is_empty && !outputs.may_replace() && !is_own {
             return Err(Failure::Usage {
                 what: format!(
-                    "this folder is not empty, and what is in it is not an earlier {}: nothing was written",
+                    "this folder is not empty, and its content is not an earlier {}: nothing was written",
                     kind.name
                 ),
                 hint: "choose a new folder with -o DIR, or say --force to write there: files of the same names are \

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use anstream::AutoStream;
-use hovertone_report::{Notice, SpeedRecord, cuts_in_words, printable, wrapped};
+use hovertone_report::{Notice, SpeedRecord, cuts_in_words, notice_of_all, notices_of_all, printable, wrapped};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
 
 const RED: &str = "\x1b[1;31m";
@@ -149,35 +149,9 @@ impl Terminal {
             }
         }
         for notice in of_all {
-            let text = format!("{} (in all {} recordings)", notice.text, records.len());
-            self.warning(&Notice::new(text, notice.hint.as_str()), "");
+            self.warning(&notice_of_all(notice, records), "");
         }
     }
-}
-
-/// The notices that hold for all of three or more recordings.
-fn notices_of_all<'a>(records: &[&'a SpeedRecord]) -> Vec<&'a Notice> {
-    match records {
-        [first, _, _, ..] => {
-            let is_of_all = |notice: &&Notice| records.iter().all(|record| record.notices.contains(notice));
-            first.notices.iter().filter(is_of_all).collect()
-        }
-        _ => Vec::new(),
-    }
-}
-
-/// Number of warnings about recordings that [`Terminal::notes`] prints. A recording without a speed counts as one.
-pub(crate) fn warning_count(records: &[&SpeedRecord]) -> usize {
-    let of_all = notices_of_all(records);
-    let of_one = |record: &&SpeedRecord| {
-        let own = if record.has_failed() {
-            0
-        } else {
-            record.notices.iter().filter(|notice| !of_all.contains(notice)).count()
-        };
-        own + usize::from(record.speed().is_none())
-    };
-    of_all.len() + records.iter().map(of_one).sum::<usize>()
 }
 
 fn width_of(stream: &impl IsTerminal) -> Option<usize> {

@@ -78,7 +78,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     let samples: usize = trials.iter().filter_map(Trial::tone).map(|tone| tone.samples.len()).sum();
     let description = format!(
         "The database of the experiment, as figure 5 of the paper: {} trials, of which {used} are used, with {samples} samples in them. Each bar is a \
-         recording; what is no hover is grey and says why.",
+         recording; parts without hover are grey, with the reason.",
         trials.len()
     );
     Ok(Some(canvas.finish("Figure 5: the database", description)))

@@ -212,13 +212,21 @@ impl<'a> Drawing<'a> {
         canvas.layer("key", |sheet| {
             let mut at = Point::new(200, LETTER - 4);
             for table in self.tables.iter().filter(|table| table.fit.is_some()) {
-                at.x = sheet.key(at, colour_of_method(table.method), table.title())?;
+                at.x = sheet.key(at, colour_of_method(table.method), &key_words(table))?;
             }
             if self.fit.with_intercept.is_some() {
                 sheet.text("dashed: with an intercept", at, Anchor::Left, MUTED)?;
             }
             Ok(())
         })
+    }
+}
+
+/// Short name of a method for the key.
+fn key_words(table: &ThrustTable) -> String {
+    match table.method {
+        Method::Separated => table.title().to_lowercase(),
+        method => method.name().replace('_', " "),
     }
 }
 

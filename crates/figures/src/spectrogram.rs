@@ -47,7 +47,7 @@ pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>,
         rotors::draw(&mut canvas, trial, place(heights[2]))?;
     }
     let words = match (trial.tone(), trial.reason) {
-        (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; dimmed: what is no hover. Below: the band of the \
+        (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; dimmed: parts without hover. Below: the band of the \
                          tone, with the ridge over it."
             .to_owned(),
         (None, Some(reason)) => format!("No speed: {reason}."),

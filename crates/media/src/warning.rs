@@ -113,7 +113,7 @@ impl fmt::Display for MediaWarning {
                 write!(f, "{count} damaged pieces of sound were replaced by {silence_s:.3} s of silence")
             }
             Self::NonFiniteSamples { count } => {
-                write!(f, "{count} samples were NaN or infinite and were replaced by zero")
+                write!(f, "NaN or infinite audio samples: {count}; they were replaced by zero")
             }
             Self::SeveralAudioTracks { chosen, count, silent } => {
                 write!(f, "of {count} audio tracks, number {chosen} was taken")?;

@@ -45,8 +45,6 @@ struct Page<'a> {
     agreement: String,
     preferred: String,
     loads_footnote: &'static str,
-    /// "2 warnings" about single recordings.
-    recording_warnings: String,
     budget: Option<PageTable>,
     more_tables: Vec<PageTable>,
     trials: Vec<TrialView<'a>>,
@@ -67,6 +65,11 @@ impl Page<'_> {
     /// Number of recordings without cuts.
     fn used_whole(&self) -> usize {
         self.trials.iter().filter(|trial| trial.reason.is_none() && trial.cuts.is_none()).count()
+    }
+
+    /// "15 recordings": the same in words.
+    fn used_whole_counted(&self) -> String {
+        counted(self.used_whole(), "recording")
     }
 
     /// The tables of one method.
@@ -107,7 +110,7 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         level_colours: serde_json::to_string(&level_colours().to_vec())?,
         version: VERSION,
         words: Words::new(identification),
-        answer: reported.and_then(Answer::new),
+        answer: reported.and_then(|table| Answer::new(table, identification.inputs)),
         methods: identification
             .tables
             .iter()
@@ -122,10 +125,6 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         agreement: reported.and_then(|table| table.fit.as_ref()).map(agreement_text).unwrap_or_default(),
         preferred: reported.and_then(|table| table.fit.as_ref()).map(preferred_text).unwrap_or_default(),
         loads_footnote: LOADS_FOOTNOTE,
-        recording_warnings: counted(
-            identification.inputs.iter().map(|input| input.record.notices.len()).sum(),
-            "warning",
-        ),
         budget: reported.and_then(|table| {
             let (budget, fit) = (table.budget.as_ref()?, table.fit.as_ref()?);
             Some(PageTable::new("", &budget_table(budget, fit.thrust_constant_n_s2.value)))

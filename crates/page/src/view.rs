@@ -4,8 +4,8 @@ use crate::input::TrialReport;
 use crate::sound::wav_uri;
 use hovertone_analysis::Method;
 use hovertone_report::{
-    Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, TextTable, Verdict, counted, cuts_in_words,
-    rotors_heard_text, scaled_number, with_uncertainty,
+    Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, SpeedRecord, TextTable, Verdict, counted,
+    cuts_in_words, notice_of_all, notices_of_all, rotors_heard_text, scaled_number, warning_count, with_uncertainty,
 };
 use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
 use hovertone_vehicle::Estimate;
@@ -116,16 +116,20 @@ pub(crate) struct Answer {
     pub(crate) warnings: Vec<Notice>,
     /// "2 warnings".
     pub(crate) warning_count: String,
+    /// Whether some of them stand only at their recordings.
+    pub(crate) has_others: bool,
 }
 
 impl Answer {
-    pub(crate) fn new(table: &ThrustTable) -> Option<Self> {
+    pub(crate) fn new(table: &ThrustTable, inputs: &[InputRecord]) -> Option<Self> {
         let constant = table.thrust_constant_total_n_s2?;
-        let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!(": {heard}"));
+        let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
         let share = constant.std_uncertainty.map(|std| COVERAGE_FACTOR * std / constant.value);
-        let warnings: Vec<Notice> = table.warnings.iter().map(Notice::from).collect();
+        let of_all = notices_of_all(&records).into_iter().map(|notice| notice_of_all(notice, &records));
+        let warnings: Vec<Notice> = table.warnings.iter().map(Notice::from).chain(of_all).collect();
+        let count = table.warnings.len() + warning_count(&records);
         Some(Self {
-            method: format!("{}{heard}", table.title()),
+            method: rotors_heard_text(table.rotors_heard).unwrap_or_else(|| table.title().to_owned()),
             total: Number::new(constant),
             coverage: share.map(|_| COVERAGE_FACTOR),
             expanded_percent: share.map(|share| format!("{:.2}", 100.0 * share)),
@@ -135,7 +139,8 @@ impl Answer {
                 .coefficients
                 .map(|both| format!("{:.4} = T/(ρ n² D⁴), or {:.5} = T/(ρ A (ωR)²)", both.propeller, both.rotorcraft)),
             verdict: Verdict::of(table),
-            warning_count: counted(warnings.len(), "warning"),
+            warning_count: counted(count, "warning"),
+            has_others: count > warnings.len(),
             warnings,
         })
     }

@@ -6,7 +6,7 @@
 //! recording    the record of one recording                 speed         its table row, its JSON, its track
 //! thrust       tables like those of the paper              results       results.json and its schema
 //! quote        the constant and the verdict to quote       table_lines   a table, folded to the terminal
-//! printable    names without control characters
+//! printable    names without control characters             weakness      warnings of recordings, counted
 //! comparison   a simulation beside paper and truth         vehicles      the presets and their sources
 //! adequacy     agreement, laws, uncertainty budget         samples       samples and loads as data tables
 //! fitted_table the fit of a thrust stand's table           flight_plan   flying for a wanted uncertainty
@@ -41,6 +41,7 @@ mod tones;
 mod typeset;
 mod vehicles;
 mod version;
+mod weakness;
 mod weighed;
 
 pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text, preferred_text};
@@ -67,4 +68,5 @@ pub use tones::{tones_json, tones_text};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use vehicles::{vehicles_json, vehicles_text};
 pub use version::VERSION;
+pub use weakness::{notice_of_all, notices_of_all, warning_count};
 pub use weighed::{weighed_json, weighed_text};

@@ -113,12 +113,14 @@ pub fn vehicle_model_text(model: &VehicleModel, heard: &ThrustTable) -> String {
     let Some(against) = model.against(heard) else { return String::new() };
     let unit = PowerOfTen::of([against.thrust_constant_per_rotor_n_s2]);
     let verdict = match (against.agrees, against.expanded_share) {
-        (Some(true), Some(share)) => format!("; within what was heard, ±{:.2} % (k = 2)", 100.0 * share),
-        (Some(false), Some(share)) => format!("; NOT within what was heard, ±{:.2} % (k = 2)", 100.0 * share),
+        (Some(true), Some(share)) => format!("; within the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share),
+        (Some(false), Some(share)) => {
+            format!("; NOT within the ± of the heard constant, ±{:.2} % (k = 2)", 100.0 * share)
+        }
         _ => String::new(),
     };
     format!(
-        "{} ({}): C_f of one rotor {} {} at {:.0} rpm, {} % off what was heard{verdict}\n",
+        "{} ({}): C_f of one rotor {} {} at {:.0} rpm, {} % from the heard constant{verdict}\n",
         printable(&model.file),
         model.format,
         significant(unit.scale(against.thrust_constant_per_rotor_n_s2), 5),

@@ -119,14 +119,14 @@ impl ThrustWarning {
                 "the square law is assumed, not tested; `hovertone fit --plan` says what loads and trials would do"
             }
             Self::OtherLawPreferred { .. } => {
-                "C_f is that of the square law all the same, as simulators have it; use it near the speeds it was measured at"
+                "C_f belongs to the square law, which simulators use: use it near the measured speeds"
             }
             Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
                 "at a given speed neither time nor voltage changes thrust: zero the stand between runs, let it warm up, and take \
-                 rows in random order"
+                 rows in a random sequence"
             }
             Self::ConstantDrifts(_) => {
-                "keep height and place, fly loads in random order, each with a battery equally full"
+                "keep height and place, fly the loads in a random sequence, each with an equally full battery"
             }
             Self::ImplausibleThrustCoefficient { .. } => {
                 "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
@@ -198,7 +198,8 @@ impl fmt::Display for ThrustWarning {
                     DriftKind::PerVolt => "with each volt of the supply",
                 };
                 let percent = 100.0 * drift.constant_share;
-                write!(f, "the constant drifts by {percent:+.3} % {step} (p = {:.4})", drift.p_value)
+                let percent = format!("{percent:+.3}").replace('-', "−");
+                write!(f, "the constant drifts by {percent} % {step} (p = {:.4})", drift.p_value)
             }
             Self::ImplausibleThrustCoefficient { propeller } => {
                 write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside of what propellers have")

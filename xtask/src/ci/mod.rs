@@ -5,6 +5,7 @@ mod test_log;
 
 use crate::tidy;
 use crate::tree::Tree;
+use crate::words;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::Command;
@@ -27,6 +28,7 @@ pub(crate) fn run(root: &Path, extent: Extent) -> Result<(), String> {
     let mut steps = Steps::default();
     let mut log = TestLog::shown();
     steps.run("tidy", || tidy::run(root))?;
+    steps.run("words", || words::run(root))?;
     steps.run("format", || cargo(root, &["fmt", "--all", "--check"], &[]))?;
     let clippy = ["clippy", "--workspace", "--all-targets", "--locked", "--", "--deny", "warnings"];
     steps.run("clippy", || cargo(root, &clippy, &[]))?;

@@ -110,7 +110,7 @@ fn add_head(document: &mut Document, root: &Path, words: &[&str]) {
     document.paragraph(&format!(
         "All but the sections that say otherwise were {}; not edited by hand. Recommended settings throughout: nothing is told but \
          what the flags named here say. Every sound is drawn from fixed seeds, whatever the number of cores, so that another \
-         run repeats all numbers but those of the long file (and the other programs', as long as their versions stay). Errors of the speed count double in the thrust constant.",
+         run repeats all numbers but the numbers of the long file (and the other programs', as long as their versions stay). Errors of the speed count double in the thrust constant.",
         made_by(root, "accuracy", words),
     ));
 }

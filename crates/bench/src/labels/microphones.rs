@@ -293,7 +293,7 @@ every 0.04 s with a white error of 0.03 %.
 - right / wrong: share of flights in which all four rotors are labelled rightly, and in which some label is not so. The rest is \"not told\", in part or in all.
 - levels alone, delays alone: the same with nothing but that.
 - said to stand elsewhere: every microphone is said to stand as far from the middle in a random direction; all is wrong that is told but by chance.
-- whole way: of flights in which the separation tells four rotors apart, of {heard}: those in which all are labelled rightly, and some wrongly.
+- whole way: of flights in which four rotors are separated, of {heard}: those in which all are labelled rightly, and some wrongly.
 
 | microphones | place | position_std_m | right / wrong | levels alone | delays alone | said to stand elsewhere | whole way |
 |---|---|---|---|---|---|---|---|

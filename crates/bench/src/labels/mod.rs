@@ -229,7 +229,7 @@ fn by_logs(option: Counts<'_>) -> Result<String, String> {
     for thrust_std_share in [FAR_APART_SHARE, NEAR_SHARE] {
         let (count, apart) = by_sound(heard, thrust_std_share)?;
         let words = format!(
-            "- rotors whose speeds scatter by {:.1} %: of {} flights of {DURATION_S} s {apart} have four rotors told apart; all rotors \
+            "- rotors whose speeds scatter by {:.1} %: of {} flights of {DURATION_S} s {apart} have four separated rotors; all rotors \
              are labelled rightly in {}, some wrongly in {}.\n",
             50.0 * thrust_std_share,
             count.flights,
@@ -263,7 +263,7 @@ the true speeds every 0.04 s with a white error, in the order of speed; the log'
 itself. Body rates at 20 Hz with 0.02 rad/s of noise; speeds at 3 Hz in steps of 0.5 rad/s; commands at 10 Hz in steps of a
 thousandth of the battery's voltage, which know nothing of the motors' wander.
 
-- right: all four rotors labelled, and rightly (in brackets: what was aimed at). wrong: a label that is not so. The rest is \"not told\",
+- right: all four rotors labelled, and rightly (in brackets: the aim). wrong: a label that is not so. The rest is \"not told\",
   in part or in all.
 - offset: flights in which it is within three of its standard uncertainties, of those in which it is told.
 

@@ -46,7 +46,7 @@ const HEAD: &str = "
 rotors that turn so far apart: their constants differ, in an order that changes from flight to flight. All rotors speed up and slow
 down together, 5 % in a second (rms).
 
-- apart: flights with four rotors told apart, of those in which a tone was heard. group: flights in which too few were, and their mean is
+- apart: flights with four separated rotors, of those in which a tone was heard. group: flights in which too few were, and their mean is
   given. The rest: three of four, or one ridge that stands for all.
 - C_f: error of one flight's constant by hover balance, rms over flights, and the worst, by the mean square of the rotors and by the paper's
   maximum trace. within U: flights within twice the standard uncertainty of the budget of their speed.

@@ -117,13 +117,13 @@ levels that differ by 3 dB, lines that swell by 10 %, a common wander of 0.3 % a
 3 dB per octave, 42 dB Hz at the gear mesh. In the room: echoes as strong as the sound (T60 0.4 s), and lines that lose their phase
 within 0.2 s.
 
-- answered: clips with four rotors told apart, of all.
+- answered: clips with four separated rotors, of all.
 - set: share of frames (every 0.05 s) in which all four are within 0.4 of the spacing, or 0.05 rev/s.
 - identity: share of rotors and frames that are right under one labelling for the whole clip.
 - median: of the error of one rotor in one frame. mean square: rms over clips of the error of ⟨ω²⟩, which is what carries the
   weight. worst: the largest of these. within 2 u: share of rotors and frames within twice the stated uncertainty of a point.
 - times real time: each clip on one core, two at once.
-- in brackets: what was aimed at.
+- in brackets: the aim.
 
 | sound | answered | set | identity | median, % | mean square, % | worst, % | within 2 u | times real time |
 |---|---|---|---|---|---|---|---|---|
@@ -161,7 +161,7 @@ fn row_of(cell: &Cell, clips: &[Clip]) -> String {
 
 fn words_of(clip: &Clip) -> String {
     match &clip.score {
-        None => format!("seed {}: not all told apart", clip.seed),
+        None => format!("seed {}: not all separated", clip.seed),
         Some(score) => format!(
             "seed {}: set {:.3}, identity {:.3}, mean square {:+.4} %",
             clip.seed,

@@ -29,7 +29,7 @@ pub(crate) struct ToneArguments {
 }
 
 #[derive(Args, Debug)]
-#[command(next_help_heading = "What is known of the vehicle")]
+#[command(next_help_heading = "Known facts about the vehicle")]
 pub(crate) struct KnownArguments {
     /// Diameter of a propeller: tips faster than Mach 0.6 are ruled out
     #[arg(long, value_name = "M", allow_negative_numbers = true)]

@@ -10,7 +10,7 @@ pub(crate) struct LabelArguments {
     /// A log of the same flight, CSV or PX4's ULog: speeds, commands or PWM of each motor, or the body's rates
     #[arg(long, value_name = "FILE")]
     pub(crate) log: Option<PathBuf>,
-    /// What is to be added to the log's times to have the recording's, in seconds; found by itself where not given
+    /// Seconds to add to the log's times to get the recording's; found by itself where not given
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     /// How the axes of a CSV's body rates point (a ULog's are frd)

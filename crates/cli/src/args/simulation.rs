@@ -66,7 +66,7 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = SIMULATE_EXAMPLES)]
 pub(crate) struct SimulateArguments {
-    /// What is flown and what hears it
+    /// The flight and the microphones
     #[arg(value_name = "SCENARIO.toml")]
     pub(crate) scenario: PathBuf,
     /// Where to write: a folder that is empty, new, or of an earlier simulation

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
 Axes are in Hz and, where the order of the tone is known, in turns of the shaft per second. The bands of the tone and
-its harmonics are marked, what is no hover is dimmed, the ridge or the tracks of the rotors lie over it.
+its harmonics are marked, parts without hover are dimmed, the ridge or the tracks of the rotors lie over it.
 
 Examples:
   hovertone spectrogram hover.mp4 -o hover.png

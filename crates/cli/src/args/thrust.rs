@@ -53,7 +53,7 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = IDENTIFY_EXAMPLES)]
 pub(crate) struct IdentifyArguments {
-    /// What was flown, with which masses, and where the recordings are
+    /// The experiment: vehicle, masses, and the places of the recordings
     #[arg(value_name = "EXPERIMENT.toml")]
     pub(crate) experiment: PathBuf,
     /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of earlier results
@@ -199,7 +199,7 @@ pub(crate) struct WeighArguments {
     /// Its standard uncertainty
     #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
     pub(crate) constant_std_n_s2: Option<f64>,
-    /// Rotors that carry it [default: those of the results, or of --vehicle]
+    /// Rotors that carry it [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
     pub(crate) rotors: Option<u32>,
     /// Mass of the vehicle without payload [default: that of the results]
@@ -275,7 +275,7 @@ TOML (crazyflow), and its own exports.
 Examples:
   hovertone compare out/results.json iris.sdf hummingbird.xacro";
 
-/// A simulator's models against what was heard: constant, unit, and the speed at which each would hover
+/// A simulator's models against the heard constant: constant, unit, and the speed at which each would hover
 #[derive(Args, Debug)]
 #[command(after_help = COMPARE_EXAMPLES)]
 pub(crate) struct CompareArguments {

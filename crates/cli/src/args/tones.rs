@@ -27,7 +27,7 @@ pub(crate) struct TonesArguments {
     #[command(flatten)]
     pub(crate) known: KnownArguments,
     /// A known vehicle, for what it rules out (see `hovertone vehicles`)
-    #[arg(long, value_name = "ID", help_heading = "What is known of the vehicle")]
+    #[arg(long, value_name = "ID", help_heading = "Known facts about the vehicle")]
     pub(crate) vehicle: Option<String>,
     /// Listen from here
     #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]

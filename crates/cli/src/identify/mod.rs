@@ -15,7 +15,7 @@ use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, records_of};
 use crate::report_folder::{Extras, PAGE, RESULTS, write_report};
-use crate::terminal::{Terminal, warning_count};
+use crate::terminal::Terminal;
 use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
 use hovertone::speed::{Method, SpeedEstimate};
@@ -23,7 +23,7 @@ use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, 
 use hovertone_report::{
     ExperimentFacts, Identification, InputRecord, LOADS_FOOTNOTE, Notice, SpeedRecord, Verdict, adequacy_text, counted,
     printable, quoted_constants, results_json, rotors_heard_text, table_text, thrust_summary, thrust_table,
-    vehicle_model_text,
+    vehicle_model_text, warning_count,
 };
 use hovertone_vehicle::check_tips;
 use serde_json::Value;

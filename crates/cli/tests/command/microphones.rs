@@ -55,7 +55,7 @@ fn rotors_are_named_by_the_channels_of_a_recording() {
     fs::write(&file, &STANDS[..STANDS.rfind("[[").unwrap()]).unwrap();
     let refused =
         hovertone(&["speed", "--vehicle", "ardrone", "--microphones", text(&file), text(&sound)]).ends_with(2);
-    for words in ["3 channel(s)", "2 microphones", "hint:", "sound.wav"] {
+    for words in ["channels of the recording: 3", "microphones with a position: 2", "hint:", "sound.wav"] {
         assert!(refused.stderr.contains(words) && refused.stdout.is_empty(), "{words}:\n{}", refused.stderr);
     }
 }
