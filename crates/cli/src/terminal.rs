@@ -95,7 +95,9 @@ impl Terminal {
     pub(crate) fn failure(&mut self, failure: &Failure) {
         let (Failure::Usage { what, hint, path } | Failure::Failed { what, hint, path }) = failure else { return };
         let place = path.as_ref().map_or(String::new(), |path| format!("{}: ", printable(&path.display().to_string())));
-        self.with_hint("", ERROR, &format!("{place}{what}"), hint);
+        // a part of a file may be shown below its error, on lines of its own
+        let what: Vec<String> = what.split('\n').map(printable).collect();
+        self.with_hint("", ERROR, &format!("{place}{}", what.join("\n")), hint);
     }
 
     /// A file that could not be analysed. The reason contains the advice.
@@ -110,7 +112,7 @@ impl Terminal {
 
     /// A warning with its hint.
     pub(crate) fn warning(&mut self, notice: &Notice, indent: &str) {
-        self.with_hint(indent, WARNING, &notice.text, &notice.hint);
+        self.with_hint(indent, WARNING, &printable(&notice.text), &notice.hint);
     }
 
     /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several

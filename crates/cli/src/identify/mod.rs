@@ -227,7 +227,7 @@ impl Identified {
         let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
         format!(
             "{}: {}, tone of order {}; {}, {}, {heard} of them with a rotor tone; {}\n",
-            experiment.vehicle_name,
+            printable(&experiment.vehicle_name),
             counted(experiment.rotor_count as usize, "rotor"),
             experiment.config.tone.order,
             counted(experiment.loads.len(), "load"),
@@ -257,7 +257,7 @@ impl Identified {
         match reported.zip(constants) {
             Some((table, constants)) => {
                 let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!("; {heard}"));
-                format!("{constants}\nverdict: {}{heard}\n", Verdict::of(table).words())
+                format!("{constants}\nverdict: {}{heard}\n", printable(Verdict::of(table).words()))
             }
             None => "C_f: none, since no recording has a rotor tone\nverdict: nothing is identified\n".to_owned(),
         }

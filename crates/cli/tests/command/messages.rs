@@ -95,3 +95,16 @@ fn names_cannot_move_the_cursor_and_lose_the_folder_that_they_share() {
     let alone = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&paths[2])]).ends_with(0).stdout;
     assert!(alone.contains(text(&paths[2])), "a single name stays as it was typed:\n{alone}");
 }
+
+#[test]
+fn names_of_loads_cannot_move_the_cursor() {
+    let folder = tempfile::tempdir().unwrap();
+    let experiment = write_experiment(folder.path());
+    let hostile = fs::read_to_string(&experiment).unwrap().replace("\"l1\"", "\"l\\u001b[2J1\"");
+    fs::write(&experiment, hostile.replace("added_mass_kg = 0.05", "added_mass_kg = 0.15")).unwrap();
+    let run = hovertone(&["identify", &experiment, "-v"]).ends_with(0);
+    assert!(!run.stdout.contains('\u{1b}') && !run.stderr.contains('\u{1b}'), "{}{}", run.stdout, run.stderr);
+    assert!(run.stderr.contains("load \"l\\u{1b}[2J1\" does not fit"), "{}", run.stderr);
+    let verdict = run.stdout.lines().find(|line| line.starts_with("verdict: ")).unwrap();
+    assert!(verdict.contains("not fit") && verdict.contains("l\\u{1b}[2J1"), "{verdict}");
+}
