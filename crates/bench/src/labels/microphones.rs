@@ -285,7 +285,7 @@ fn words_of(count: &Count) -> String {
 
 const HEAD: &str = "
 Made by `cargo run --release -p hovertone-bench -- labels` (`--only microphones`). Each row: {flights} simulated flights of 5 s of an AR.Drone (arms of 0.18 m), in the open, or in a
-room of 8 x 6 x 3 m with echoes (T60 0.4 s); neighbours in speed 1 to 2 % apart, each rotor wandering for itself by 0.2 %; lines of 65 dB at
+room of 8 x 6 x 3 m with echoes (T60 0.4 s); neighbours in speed 1 to 2 % apart, each rotor wandering independently by 0.2 %; lines of 65 dB at
 1 m, noise of 60 dB. Each coordinate of each microphone is off by the standard deviation that is given; with microphones on stands the vehicle drifts by 0.2
 to 1.2 m besides, as simulated pilots let it, and its heading is off by 3°. Those on the vehicle are a hand beyond the rotors. Tracks are the true speeds
 every 0.04 s with a white error of 0.03 %.

@@ -95,7 +95,7 @@ impl Count {
     }
 }
 
-/// A random hover whose motors wander, each for itself.
+/// A random hover whose motors wander independently.
 fn hover(seed: u64, kind: &Kind) -> ScenarioFile {
     let motor_wander = MotorWanderSection { gain_std_share: kind.wander_share, ..MotorWanderSection::default() };
     let motor_wander = (kind.wander_share > 0.0).then_some(motor_wander);
@@ -258,7 +258,7 @@ fn by_starts(option: Counts<'_>) -> Result<String, String> {
 
 const HEAD: &str = "
 Made by `cargo run --release -p hovertone-bench -- labels`. Each row: {flights} simulated hovers of four kinds of drone (`ScenarioFile::random_hover`), in
-which each motor's gain wanders for itself (0.4 s), so that speeds wander by two thirds of that; rotors up to 1 % apart. Tracks are
+which each motor's gain wanders independently (0.4 s), so that speeds wander by two thirds of that; rotors up to 1 % apart. Tracks are
 the true speeds every 0.04 s with a white error, in the order of speed; the log's clock is off by up to 100 s, which is found by
 itself. Body rates at 20 Hz with 0.02 rad/s of noise; speeds at 3 Hz in steps of 0.5 rad/s; commands at 10 Hz in steps of a
 thousandth of the battery's voltage, which know nothing of the motors' wander.

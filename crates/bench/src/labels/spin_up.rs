@@ -42,7 +42,7 @@ impl Start {
         (Self::InOrder, "one after the other"),
         (
             Self::NearHover,
-            "to within 2.5 % of its speed in the hover, each for itself, and then there at once (within 0.05 to 0.4 s)",
+            "to within 2.5 % of its speed in the hover, independently, and then there at once (within 0.05 to 0.4 s)",
         ),
         (Self::Shifted, "2 to 5 % below the hover, and then there at once"),
         (Self::FarFromHover, "12 % below the hover, and then there at once"),

@@ -1,4 +1,4 @@
-//! Four rotors that wander together and each for itself, with all their lines. Made by `hovertone_sim::prescribed`, which
+//! Four rotors that wander together and independently, with all their lines. Made by `hovertone_sim::prescribed`, which
 //! shares no code with the core.
 
 use hovertone_sim::Truth;

@@ -4,7 +4,7 @@ use super::groups::ReplaceArguments;
 use clap::Args;
 use std::path::PathBuf;
 
-/// The paper's experiment in simulated flight: three loads, five trials each, identified like anybody's recordings
+/// The paper's experiment in simulated flight: three loads, five trials each, identified as other recordings are
 ///
 /// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the
 /// truth about every rotor; identifies the files;

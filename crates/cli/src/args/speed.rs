@@ -22,7 +22,7 @@ Examples:
 /// Rotor speed of recordings: mean, uncertainty and spread
 ///
 /// Any video or audio file will do. Silence, handling noise, take-off and landing are cut away by themselves, and what
-/// was cut is said on stderr; --from and --to overrule that.
+/// was cut is said on stderr; --from and --to override that.
 #[derive(Args, Debug)]
 #[command(after_help = SPEED_EXAMPLES)]
 pub(crate) struct SpeedArguments {

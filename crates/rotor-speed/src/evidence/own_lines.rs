@@ -1,4 +1,4 @@
-//! Evidence of the lines that a rotor has for itself, beside other rotors.
+//! Evidence of the lines that a rotor alone has, beside other rotors.
 
 use super::excess::{self, Excess};
 use super::level_model::{LevelModel, OrderLevel};

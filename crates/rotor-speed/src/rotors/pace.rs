@@ -11,7 +11,7 @@ const COMMON_FRAMES_BOBBING: usize = 1;
 /// How the speeds of a vehicle's rotors change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Pace {
-    /// By less than 1.5 % in a second (rms), or each for itself.
+    /// By less than 1.5 % in a second (rms), or each independently.
     #[default]
     Steady,
     /// All together, by some percent in some tenths of a second.
