@@ -81,7 +81,9 @@ impl Warning {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
-            Self::HarmonicLeftOut { .. } => "nothing to do when the others agree; --harmonics 1 follows the tone alone",
+            Self::HarmonicLeftOut { .. } => {
+                "ignore this if the other harmonics agree; --harmonics 1 follows the tone alone"
+            }
             Self::BandCutByCodec { .. } => {
                 "record without compression, or at a higher bit rate, to use the harmonics above"
             }
@@ -101,7 +103,7 @@ impl Warning {
                  keep the high frequencies"
             }
             Self::SeveralLines { .. } => {
-                "the rotors turn at different speeds and the loudest wins; a narrower --band follows one line"
+                "the rotors turn at different speeds, and the result follows the loudest; a narrower --band follows one line"
             }
         }
     }
@@ -113,7 +115,7 @@ impl fmt::Display for Warning {
             Self::RidgeOnBandEdge { harmonic, frames_share } => {
                 write!(
                     f,
-                    "harmonic {harmonic} sits on the edge of its band in {:.0} % of the frames",
+                    "harmonic {harmonic} is at the edge of its band in {:.0} % of the frames",
                     100.0 * frames_share
                 )
             }

@@ -157,7 +157,7 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
             .map(|spin_up| labels_from_spin_up(spin_up, record.rotors().len(), names, &LabelsConfig::default())),
     };
     if let Some(reason) = labels.as_ref().and_then(|labels| labels.not_told.as_ref()) {
-        let text = format!("which rotor is which is not told in full: {reason}");
+        let text = format!("not all rotors could be named: {reason}");
         record.notices.push(Notice::new(text, reason.hint()));
     }
     record.labels = labels;

@@ -164,7 +164,7 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
     }
     let labels = labels_from_microphones(&channel_lines, &plan.array, &plan.config);
     if let Some(reason) = &labels.not_told {
-        let text = format!("which rotor is which is not told in full: {reason}");
+        let text = format!("not all rotors could be named: {reason}");
         record.notices.push(Notice::new(text, reason.hint()));
     }
     record.labels = Some(labels);

@@ -155,10 +155,8 @@ fn wrong_kind(path: &Path) -> Option<String> {
 /// The notice which reading of the tone was used, where the arguments did not name the order.
 fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     let reading = record.found_reading().filter(|_| record.speed().is_some())?;
-    let text = format!(
-        "the tone was found by itself and read as order {}, {}: {}",
-        reading.order, reading.meaning, reading.why
-    );
+    let text =
+        format!("no tone was given; hovertone found order {}, {}: {}", reading.order, reading.meaning, reading.why);
     Some(Notice::new(text, "check the blades and say --blades N; `hovertone tones` shows the other readings"))
 }
 

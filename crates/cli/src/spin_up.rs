@@ -41,7 +41,7 @@ pub(crate) fn names_of(
     sorted.sort_unstable();
     if sorted != (1..=all.len()).collect::<Vec<usize>>() || all.len() != rotors as usize {
         return Err(refused(format!(
-            "--spin-up names {} of {rotors} rotors, and each must be there once",
+            "--spin-up must name each of the {rotors} rotors exactly once; it names {}",
             typed.join(", ")
         )));
     }

@@ -207,7 +207,7 @@ fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -
         return Ok(tone);
     }
     let heard = results.and_then(|rotor| rotor.tone).ok_or_else(|| {
-        Failure::usage("nothing says which tone is the rotor's", "say --vehicle, --blades, --gear or --order")
+        Failure::usage("the tone of the rotor is not known", "give --vehicle, --blades, --gear or --order")
     })?;
     let order = Order::new(heard.order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
     Ok(ToneConfig {

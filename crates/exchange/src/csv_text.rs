@@ -10,7 +10,7 @@ pub enum CsvError {
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
     /// A row with more or fewer cells than the header.
-    #[error("line {line}: the number of cells is {cells}, and the header has {columns}")]
+    #[error("line {line}: the row has {cells} {}, but the header has {columns}", if *cells == 1 { "cell" } else { "cells" })]
     RaggedRow {
         /// Line, counted from 1.
         line: u64,

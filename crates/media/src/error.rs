@@ -26,7 +26,7 @@ pub enum MediaError {
 
     /// No known signature.
     #[error(
-        "the file is no recording that hovertone knows: its content matches no audio or video format \
+        "this is not an audio or video file that hovertone can read: its content matches no audio or video format \
          (it begins {first_bytes}); give a video or audio file"
     )]
     UnknownFormat {
@@ -42,7 +42,7 @@ pub enum MediaError {
     },
 
     /// The requested track does not exist.
-    #[error("audio track {asked} does not exist: the file has {count}, counted from 1; choose one of these")]
+    #[error("audio track {asked} does not exist: the file has {count}, numbered from 1")]
     NoSuchTrack {
         /// Number of the track, counted from 1.
         asked: usize,
@@ -51,7 +51,7 @@ pub enum MediaError {
     },
 
     /// The requested channel does not exist.
-    #[error("channel {asked} does not exist: the audio track has {count}, counted from 1; choose one of these")]
+    #[error("channel {asked} does not exist: the audio track has {count}, numbered from 1")]
     NoSuchChannel {
         /// Number of the channel, counted from 1.
         asked: usize,

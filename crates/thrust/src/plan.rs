@@ -72,7 +72,7 @@ pub struct FlightPlan {
 #[non_exhaustive]
 pub enum PlanError {
     /// A mass or a share out of range.
-    #[error("{name} = {value} means nothing here, it must be {must_be}")]
+    #[error("{name} = {value} cannot be used; it must be {must_be}")]
     OutOfRange {
         /// Name of the number.
         name: &'static str,

@@ -19,7 +19,7 @@ const ALIKE_SHARE_MAX: f64 = 0.015;
 #[non_exhaustive]
 pub enum WeighError {
     /// The vehicle alone is heavier than what hovers.
-    #[error("the hover carries {:.0} g, and the vehicle alone is said to weigh {:.0} g", 1e3 * .hover_kg, 1e3 * .vehicle_kg)]
+    #[error("the hover carries {:.0} g, but the vehicle alone weighs {:.0} g", 1e3 * .hover_kg, 1e3 * .vehicle_kg)]
     LighterThanVehicle {
         /// Mass by the sound.
         hover_kg: f64,

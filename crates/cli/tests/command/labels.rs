@@ -138,7 +138,7 @@ fn an_order_of_starts_names_every_rotor_once() {
         assert!(run.stdout.is_empty(), "{}", run.stderr);
         words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}:\n{}", run.stderr));
     };
-    refused(&["--spin-up", "front-left,rear-left,rear-right"], &["each must be there once", "front-right"]);
+    refused(&["--spin-up", "front-left,rear-left,rear-right"], &["exactly once", "front-right"]);
     refused(&["--spin-up", "front-left,rear-left,rear-right,nose"], &["\"nose\"", "hint:", "front-left,rear-left"]);
     refused(&["--spin-up", "1,2,3,4", "--log", "a.csv"], &["cannot be used with"]);
     refused(&["b.wav", "--spin-up", "1,2,3,4"], &["2 recordings", "the same flight"]);

@@ -21,7 +21,7 @@ fn a_mass_in_grams_is_a_slip_that_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let wav = hover(folder.path(), 0.413);
     let weigh = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--gear", "8:69", "--rotors", "4", "--mass-kg"];
-    refused_with(&[&weigh[..], &["413"]].concat(), &["carries 41", "said to weigh 413000 g", "--mass-kg 0.413"]);
+    refused_with(&[&weigh[..], &["413"]].concat(), &["carries 41", "alone weighs 413000 g", "--mass-kg 0.413"]);
     refused_with(&[&weigh[..], &["0.01"]].concat(), &["more than ten times the vehicle's 10 g", "check the mass"]);
     refused_with(&[&weigh[..], &["-0.413"]].concat(), &["mass_kg = -0.413", "above 0"]);
     hovertone(&[&weigh[..], &["0.413"]].concat()).ends_with(0);
@@ -187,9 +187,9 @@ fn rows_have_the_cells_of_the_header() {
         vec!["fit".to_owned(), text(&table).to_owned()]
     };
     for (row, words) in [
-        ("3500", "line 3: the number of cells is 1, and the header has 2"),
-        ("3500,1.36,7", "line 3: the number of cells is 3, and the header has 2"),
-        ("3500,1,36", "line 3: the number of cells is 3"),
+        ("3500", "line 3: the row has 1 cell, but the header has 2"),
+        ("3500,1.36,7", "line 3: the row has 3 cells, but the header has 2"),
+        ("3500,1,36", "line 3: the row has 3 cells"),
     ] {
         let arguments = fit(row);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();

@@ -35,7 +35,7 @@ fn a_geared_rotor_is_found_by_its_mesh() {
     assert_eq!((&line["status"], number(line, "order")), (&Value::from("ok"), 69.0));
     assert!((number(line, "speed_rev_s") - 57.3).abs() < 0.01, "{}", line["speed_rev_s"]);
     assert_eq!(line["found"]["meaning"], "blade_pass_and_mesh");
-    assert!(run.stderr.contains("found by itself"), "{}", run.stderr);
+    assert!(run.stderr.contains("no tone was given"), "{}", run.stderr);
     let tones = hovertone(&["tones", text(&path)]).ends_with(0).stdout;
     assert!(tones.contains("2 blades, gear 8:69") && tones.contains("motor"), "{tones}");
 }

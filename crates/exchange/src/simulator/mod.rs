@@ -142,7 +142,7 @@ impl SimulatorModel {
 pub enum ModelError {
     /// Text of no known program.
     #[error(
-        "no thrust constant of a known simulator stands in it (looked for motorConstant, motor_constant, kf, k_eta, thrust_map, C_T, rpm2thrust)"
+        "the file has no thrust constant of a known simulator (looked for motorConstant, motor_constant, kf, k_eta, thrust_map, C_T, rpm2thrust)"
     )]
     Unknown,
     /// An invalid file.

@@ -84,7 +84,7 @@ impl<'a> HarmonicWeights<'a> {
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
-                    format!("only {:.0} % of its frames hold a tone", 100.0 * ridge.point_share())
+                    format!("its tone is in only {:.0} % of the frames", 100.0 * ridge.point_share())
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     format!("its speed differs by {:.1} % from the others'", 100.0 * (speed / reference - 1.0))
