@@ -74,7 +74,7 @@ fn forces_and_places_must_be_possible() {
     refuses(&["export", "a.json", "--to", "unreal"], &["gazebo", "rotorpy"]);
     refuses(&["weigh", "a.wav"], &["--constant"]);
     refuses(&["weigh", "a.wav", "--constant-n-s2", "0", "--blades", "2"], &["constant_n_s2 = 0", "above 0"]);
-    refuses(&["weigh", "a.wav", "--constant-n-s2", "2.8e-5"], &["which tone", "--vehicle"]);
+    refuses(&["weigh", "a.wav", "--constant-n-s2", "2.8e-5"], &["the tone of the rotor is not known", "--vehicle"]);
 }
 
 #[test]
