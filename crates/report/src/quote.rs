@@ -77,17 +77,13 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts) -> Option<String> {
     let parts: Vec<String> = parts
         .into_iter()
         .filter(|(count, _)| *count > 0)
-        .map(|(count, how)| format!("{how} in {count} recording{}", plural_s(count)))
+        .map(|(count, how)| format!("{how} in {}", counted(count, "recording")))
         .collect();
     Some(format!("rotors {}", parts.join(", ")))
 }
 
-/// The ending of a noun after a number.
-pub(crate) fn plural_s(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
-}
-
 /// "1 load", "3 loads".
 pub fn counted(count: usize, noun: &str) -> String {
-    format!("{count} {noun}{}", plural_s(count))
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{ending}")
 }

@@ -1,7 +1,6 @@
 //! Simulate → WAV → identify: C_f comes back. `hovertone-bench roundtrip` does a hundred of longer sound.
 
-use crate::testkit::{hovertone, text};
-use hovertone_sim::scenario::ScenarioFile;
+use crate::testkit::{flown_hover, hovertone, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -21,12 +20,7 @@ const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Error, standard uncertainty by weighing and speeds, and expanded uncertainty of the budget, as shares of the truth, by method.
 fn trip(folder: &Path, seed: u64) -> Vec<(f64, f64, f64)> {
-    fs::create_dir_all(folder).unwrap();
-    let file = ScenarioFile::random_hover(seed, DURATION_S, SPREAD_SHARE);
-    fs::write(folder.join("scenario.toml"), toml::to_string(&file).unwrap()).unwrap();
-    let flown = folder.join("flown");
-    hovertone(&["simulate", text(&folder.join("scenario.toml")), "-o", text(&flown)]).ends_with(0);
-    let truth: Value = serde_json::from_str(&fs::read_to_string(flown.join("truth.json")).unwrap()).unwrap();
+    let (file, truth) = flown_hover(folder, seed, DURATION_S, SPREAD_SHARE);
     let experiment = format!(
         "[vehicle]\npreset = \"{}\"\nmass_kg = {}\nmass_std_kg = 0.0\ngravity_m_s2 = {}\n\
          [[load]]\nname = \"hover\"\nrecordings = [\"flown/sound.wav\"]\n",

@@ -1,7 +1,6 @@
 //! Saying more of the vehicle never makes the speed worse: simulated hovers with known speeds, heard by their blades alone, and with more.
 
-use crate::testkit::{hovertone, text};
-use hovertone_sim::scenario::ScenarioFile;
+use crate::testkit::{flown_hover, hovertone, text};
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
 use std::fs;
@@ -40,12 +39,7 @@ impl Heard {
 
 /// A recording heard by its blades alone, and with more.
 fn heard_in_all_ways(folder: &Path, seed: u64) -> Vec<Heard> {
-    fs::create_dir_all(folder).unwrap();
-    let file = ScenarioFile::random_hover(seed, DURATION_S, SPREAD_SHARE);
-    fs::write(folder.join("scenario.toml"), toml::to_string(&file).unwrap()).unwrap();
-    let flown = folder.join("flown");
-    hovertone(&["simulate", text(&folder.join("scenario.toml")), "-o", text(&flown)]).ends_with(0);
-    let truth: Value = serde_json::from_str(&fs::read_to_string(flown.join("truth.json")).unwrap()).unwrap();
+    let (file, truth) = flown_hover(folder, seed, DURATION_S, SPREAD_SHARE);
     let speeds_rad_s: Vec<f64> =
         truth["hover"]["mean_speed_rad_s"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
     let true_speed = RotorSpeed::from_rad_s(speeds_rad_s.iter().sum::<f64>() / speeds_rad_s.len() as f64);
@@ -65,7 +59,7 @@ fn heard_in_all_ways(folder: &Path, seed: u64) -> Vec<Heard> {
             vec!["--blades", &blades, "--rotors", &rotors, "--diameter-m", diameter_m],
         ));
     }
-    let sound = flown.join("sound.wav");
+    let sound = folder.join("flown/sound.wav");
     let of_way = |(what, flags): (&'static str, Vec<&str>)| {
         let run = hovertone(&[&["speed", "--json", text(&sound)], flags.as_slice()].concat());
         let line = run.json_lines().remove(0);

@@ -1,8 +1,10 @@
 //! Running the command, sound for it to hear, and where the real recordings are.
 
 use hovertone_sim::prescribed::{HoverSettings, HoverSound, Noise, Recording, RotorSound, Sampling, seeded};
+use hovertone_sim::scenario::ScenarioFile;
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -52,6 +54,18 @@ pub(crate) fn steady_hover(preset: &str, speed: RotorSpeed, duration_s: f64) -> 
     let settings = HoverSettings::for_vehicle(find_preset(preset).unwrap(), speed);
     let rotors = vec![RotorSound::steady(speed); settings.rotors.len()];
     HoverSettings { duration_s, rotors, ..settings }
+}
+
+/// Flies a random hover into `folder/flown`; returns its scenario and its truth.
+pub(crate) fn flown_hover(folder: &Path, seed: u64, duration_s: f64, spread_share: f64) -> (ScenarioFile, Value) {
+    fs::create_dir_all(folder).unwrap();
+    let file = ScenarioFile::random_hover(seed, duration_s, spread_share);
+    let scenario = folder.join("scenario.toml");
+    fs::write(&scenario, toml::to_string(&file).unwrap()).unwrap();
+    let flown = folder.join("flown");
+    hovertone(&["simulate", text(&scenario), "-o", text(&flown)]).ends_with(0);
+    let truth = serde_json::from_str(&fs::read_to_string(flown.join("truth.json")).unwrap()).unwrap();
+    (file, truth)
 }
 
 /// Renders a sound into a 16-bit WAV file.
