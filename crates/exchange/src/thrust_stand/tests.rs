@@ -99,6 +99,8 @@ fn a_row_may_end_after_the_last_column_that_is_used() {
     for (row, cells) in [("3500", 1), ("3500,1,36,,7", 5)] {
         let error = table_from_csv(&format!("rpm,thrust_n,App message\n3000,1.0,\n{row}\n")).unwrap_err();
         let TableError::Csv(error @ CsvError::RaggedRow { line: 3, .. }) = error else { panic!("{error}") };
-        assert!(error.to_string().contains(&format!("is {cells}, and the header has 3")), "{error}");
+        let noun = if cells == 1 { "cell" } else { "cells" };
+        let words = format!("the row has {cells} {noun}, but the header has 3");
+        assert!(error.to_string().contains(&words), "{error}");
     }
 }
