@@ -11,6 +11,9 @@
 //! frequency of the channel.
 //!
 //! The side lobes of the window suppress a line outside the band by more than 70 dB.
+//!
+//! A gain that changes with frequency makes the noise of a channel white, where the noise of the sound falls or rises within the band. The gain is 1
+//! at f_o.
 
 use crate::spectrogram::{Window, smooth_at_least};
 use hovertone_fft::{ComplexPlanner, TransformNumber};
@@ -44,6 +47,8 @@ pub struct ChannelBand {
     pub band_hz_low: f64,
     /// Upper edge of the band, Hz.
     pub band_hz_high: f64,
+    /// Fall of the noise from the lower edge of the band to the upper one, dB. The channel makes up for it.
+    pub noise_fall_db: f64,
 }
 
 /// One channel of the bank.
@@ -60,6 +65,8 @@ pub struct Channel {
     pub hop_samples: usize,
     first_bin: i64,
     centre_bin: i64,
+    /// Gain of each bin.
+    gains: Vec<f32>,
     inverse: Arc<dyn Fft<f32>>,
     frame: Vec<Complex<f32>>,
     tail: Vec<Complex<f32>>,
@@ -182,14 +189,21 @@ impl Channel {
         let centre_bin = (middle_hz / bin_hz).round() as i64;
         let half_bins = ((band.band_hz_high - middle_hz) / bin_hz).ceil() as usize + GUARD_BINS;
         let width = smooth_at_least((2 * half_bins).max(WIDTH_BINS_MIN), 2 * TICKS_PER_HOP);
+        let first_bin = centre_bin - width as i64 / 2;
+        let gain = |bin: i64| {
+            let hz = (bin as f64 * bin_hz).clamp(band.band_hz_low, band.band_hz_high);
+            let share = (hz - centre_bin as f64 * bin_hz) / (band.band_hz_high - band.band_hz_low);
+            10f64.powf(band.noise_fall_db / 10.0 * share / 2.0) as f32
+        };
         Self {
             order: band.order,
             is_first: band.is_first,
             centre_hz: centre_bin as f64 * bin_hz,
             rate_hz: width as f64 * bin_hz,
             hop_samples: width / 2,
-            first_bin: centre_bin - width as i64 / 2,
+            first_bin,
             centre_bin,
+            gains: (first_bin..).take(width).map(gain).collect(),
             inverse: planner.inverse(width),
             frame: vec![Complex::default(); width],
             tail: vec![Complex::default(); width / 2],
@@ -210,10 +224,10 @@ impl Channel {
         let sign = if (self.centre_bin * frame_index).rem_euclid(2) == 1 { -1.0 } else { 1.0 };
         let scale = sign * 2.0 / frame_samples as f32;
         let (rising, negative) = self.frame.split_at_mut(width / 2);
-        for (into, bin) in negative.iter_mut().chain(rising).zip(self.first_bin..) {
+        for ((into, gain), bin) in negative.iter_mut().chain(rising).zip(&self.gains).zip(self.first_bin..) {
             // bin 0 holds the offset of the converter
             *into = match usize::try_from(bin) {
-                Ok(bin) if bin > 0 => spectrum.get(bin).copied().unwrap_or_default() * scale,
+                Ok(bin) if bin > 0 => spectrum.get(bin).copied().unwrap_or_default() * (scale * gain),
                 _ => Complex::default(),
             };
         }
@@ -246,7 +260,8 @@ mod tests {
                 (amplitude * (TAU * hz * t + phase).cos() + 10.0 * amplitude * (TAU * 3000.0 * t).cos()) as f32
             })
             .collect();
-        let band = ChannelBand { order: 69.0, is_first: true, band_hz_low: 3820.0, band_hz_high: 4480.0 };
+        let band =
+            ChannelBand { order: 69.0, is_first: true, band_hz_low: 3820.0, band_hz_high: 4480.0, noise_fall_db: 0.0 };
         let mut bank = ChannelBank::new(rate, &[band]);
         for block in [7, 1000, 65536] {
             let mut series = vec![Vec::new()];
@@ -265,6 +280,44 @@ mod tests {
                 }
             }
             assert!(worst < 1e-3, "blocks of {block}: {worst}");
+        }
+    }
+
+    #[test]
+    fn a_channel_makes_up_for_noise_that_falls() {
+        let (rate, low_hz, high_hz, fall_db) = (48000.0, 3000.0, 5000.0, 20.0);
+        let band = ChannelBand {
+            order: 1.0,
+            is_first: true,
+            band_hz_low: low_hz,
+            band_hz_high: high_hz,
+            noise_fall_db: fall_db,
+        };
+        // three lines that fall as the noise does
+        let lines = [0.1, 0.5, 0.9].map(|share: f64| {
+            let hz = low_hz + share * (high_hz - low_hz);
+            (hz, 10f64.powf(fall_db * (0.5 - share) / 20.0))
+        });
+        let samples: Vec<f32> = (0..96000)
+            .map(|n| {
+                let t = f64::from(n) / rate;
+                lines.iter().map(|(hz, amplitude)| amplitude * (TAU * hz * t).cos()).sum::<f64>() as f32
+            })
+            .collect();
+        let mut bank = ChannelBank::new(rate, &[band]);
+        let mut series = vec![Vec::new()];
+        bank.restart();
+        bank.push(&samples, &mut series);
+        bank.finish(&mut series);
+        let channel = &bank.channels[0];
+        for (hz, _) in lines {
+            let turned = |(n, z): (usize, &Complex<f32>)| {
+                let turn = TAU * (hz - channel.centre_hz) * n as f64 / channel.rate_hz;
+                Complex::new(f64::from(z.re), f64::from(z.im)) * Complex::from_polar(1.0, -turn)
+            };
+            let amplitude =
+                series[0].iter().enumerate().map(turned).sum::<Complex<f64>>().norm() / (2.0 * channel.rate_hz);
+            assert!((amplitude - 1.0).abs() < 0.03, "{hz}: {amplitude}");
         }
     }
 }

@@ -51,6 +51,7 @@ fn draw(seed: u64, lines: &[TestLine], snr_db: f64, length_s: f64) -> Draw {
             is_first: order == lines[0].order,
             band_hz_low: 0.92 * order * reference,
             band_hz_high: 1.08 * order * reference,
+            noise_fall_db: 0.0,
         })
         .collect();
     let mut tracer = HarmonicTracer::new(RATE_HZ, &bands);

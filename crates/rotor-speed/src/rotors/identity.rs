@@ -6,14 +6,15 @@
 
 use super::pace::Pace;
 
-/// A rotor's speed is where its last speed and slopes put it, to within this; further, where its line is not apart from
-/// another rotor's.
-const STEP_STD_REV_S: f64 = 0.05;
-const STEP_STD_REV_S_CLOSE: f64 = 0.15;
-/// Beyond this a step costs less than its square: rotors do jump in a gust, but a wide jump is never as good as a narrow one.
-const STEP_COST: f64 = 8.0;
-/// Slopes beyond this are not believed.
-const SLOPE_REV_S2_MAX: f64 = 6.0;
+/// Standard deviation of the speed of a rotor from the one that its last speed and slopes predict, as a share of the speed. *Decision.*
+const STEP_STD_SHARE: f64 = 0.0008;
+/// The same, where its lines are not apart from those of another rotor. *Decision.*
+const STEP_STD_SHARE_CLOSE: f64 = 0.0025;
+/// Cost of a step up to which it is its square, in nats. A wider one costs less than its square, because rotors jump in a gust; but it costs more
+/// than levels can, because the levels of a rotor rise and fall with its direction and the room. *Decision.*
+const STEP_COST: f64 = 1000.0;
+/// Largest slope that is believed, as a share of the speed in a second. *Decision.*
+const SLOPE_SHARE_S_MAX: f64 = 0.1;
 /// How well the level of a line is known, in nepers, what one line may cost, and what its word counts beside the speeds': neighbouring
 /// frames hear nearly the same sound.
 const LEVEL_STD: f64 = 0.35;
@@ -180,7 +181,8 @@ fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64, pace: P
     let shared_step = shared(|frame| frame.speed_rev_s, now) - shared(|frame| frame.speed_rev_s, before);
     let slope = |frame: &TrackFrame, all: &[&TrackFrame]| {
         let own = frame.slope_rev_s2 - shared(|frame| frame.slope_rev_s2, all);
-        own.clamp(-SLOPE_REV_S2_MAX, SLOPE_REV_S2_MAX)
+        let slope_rev_s2_max = SLOPE_SHARE_S_MAX * frame.speed_rev_s;
+        own.clamp(-slope_rev_s2_max, slope_rev_s2_max)
     };
     before
         .iter()
@@ -189,8 +191,10 @@ fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64, pace: P
                 .map(|to| {
                     let own_step = frame_s * (slope(from, before) + slope(to, now)) / 2.0;
                     let expected = from.speed_rev_s + shared_step + own_step;
-                    let std = if from.is_close() || to.is_close() { STEP_STD_REV_S_CLOSE } else { STEP_STD_REV_S };
-                    STEP_COST * (((to.speed_rev_s - expected) / std).powi(2) / STEP_COST).ln_1p()
+                    let is_close = from.is_close() || to.is_close();
+                    let std_share = if is_close { STEP_STD_SHARE_CLOSE } else { STEP_STD_SHARE };
+                    let deviation = (to.speed_rev_s / expected - 1.0) / std_share;
+                    STEP_COST * (deviation.powi(2) / STEP_COST).ln_1p()
                 })
                 .collect()
         })
@@ -262,6 +266,19 @@ mod tests {
         let next = identity.labelled(&turned, 0.04, Pace::Steady);
         let of_before = |rotor: usize| tracks[labelled[29][rotor]][29].speed_rev_s;
         assert!((0..3).all(|rotor| turned[next[0][rotor]][0].speed_rev_s == of_before(rotor)));
+    }
+
+    #[test]
+    fn levels_do_not_move_a_rotor_that_crosses_no_other() {
+        // two rotors 5 % apart; their levels change places, as where the vehicle turns
+        let loud = |rotor: usize, index: usize| if (rotor == 0) == (index < 100) { 1.0 } else { -1.0 };
+        let tracks: Vec<Vec<TrackFrame>> = [60.0, 63.0]
+            .into_iter()
+            .enumerate()
+            .map(|(rotor, speed_rev_s)| (0..200).map(|index| frame(speed_rev_s, loud(rotor, index))).collect())
+            .collect();
+        let labelled = Identity::default().labelled(&tracks, 0.04, Pace::Steady);
+        assert!(labelled.iter().all(|labelling| labelling == &labelled[0]));
     }
 
     #[test]

@@ -95,6 +95,7 @@ pub fn lines_between_speeds(
             is_first: order == tone.order.lines_per_turn() || blades == Some(order),
             band_hz_low: order * low_rev_s,
             band_hz_high: order * high_rev_s,
+            noise_fall_db: 0.0,
         })
         .collect()
 }
@@ -117,6 +118,7 @@ pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64, speed_rev_s: 
             is_first,
             band_hz_low: order * speed_rev_s * (1.0 - STEADY_SHARE),
             band_hz_high: order * speed_rev_s * (1.0 + STEADY_SHARE),
+            noise_fall_db: 0.0,
         })
         .collect()
 }
