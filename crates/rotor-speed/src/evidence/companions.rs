@@ -15,7 +15,7 @@ const DISTANCE_MIN: f64 = 0.01;
 const STEP: f64 = 1e-3;
 
 /// The evidence in nats for another rotor of the vehicle: that of the path in long frames with the most votes from blade passes which stand
-/// apart from all lines of the heard rotor. `None` without frames.
+/// apart from all lines of the heard rotor. `None` where there is none.
 ///
 /// - `speeds_rev_s`: speed of the heard rotor in each short frame.
 ///
@@ -50,7 +50,7 @@ pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &Ow
             path.iter().zip(&heard_rev_s).map(|(&point, heard_rev_s)| ratios[point] * heard_rev_s).collect();
         own_lines_nats(long, &speeds_rev_s, &[&heard_rev_s], loudest_db, propeller)
     });
-    found.into_iter().max_by(f64::total_cmp)
+    found.into_iter().flatten().max_by(f64::total_cmp)
 }
 
 #[cfg(test)]

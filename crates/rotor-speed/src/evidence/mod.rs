@@ -35,7 +35,7 @@ mod second_look;
 mod settings;
 mod votes;
 
-pub(crate) use excess::{ExcessBuilder, Looks};
+pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
 pub use settings::{EvidenceConfig, LevelPrior};

@@ -24,8 +24,8 @@ pub(crate) fn loudness_db(excess: &Excess, speeds_rev_s: &[f64], blades: u32) ->
     levels.max_by(f64::total_cmp)
 }
 
-/// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: 0 where it has none, and
-/// negative where they are missing. At three quarters of a rotor's speed, for instance, every second line of a blade pass is at a shaft line of that
+/// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: negative
+/// where they are missing, and `None` where there is no such line. At three quarters of a rotor's speed, for instance, every second line of a blade pass is at a shaft line of that
 /// rotor.
 ///
 /// - `speeds_rev_s`: speed of the rotor in each frame.
@@ -37,7 +37,7 @@ pub(crate) fn own_lines_nats(
     others_rev_s: &[&[f64]],
     loudest_db: f64,
     propeller: &OwnPropeller<'_>,
-) -> f64 {
+) -> Option<f64> {
     let OwnPropeller { blades, prior } = *propeller;
     let own_level = |harmonic: u32| {
         let order = harmonic * blades;
@@ -56,9 +56,9 @@ pub(crate) fn own_lines_nats(
         is_often_apart.then_some(OrderLevel { order, level_db })
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
-    let Some(noise) = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty()) else { return 0.0 };
+    let noise = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty())?;
     let prior = LevelPrior { blade_pass_db: loudest_db, blade_pass_std_db: prior.rotors_std_db, ..*prior };
-    LevelModel::new(noise, blades, &prior).evidence_nats(&levels)
+    Some(LevelModel::new(noise, blades, &prior).evidence_nats(&levels))
 }
 
 /// The propeller of the rotors, with the levels of real ones.
@@ -82,7 +82,7 @@ mod tests {
         Excess { bin_hz, frames: (0..40).map(frame).collect() }
     }
 
-    fn nats(excess: &Excess, speed_rev_s: f64, others_rev_s: &[f64]) -> f64 {
+    fn nats(excess: &Excess, speed_rev_s: f64, others_rev_s: &[f64]) -> Option<f64> {
         let constant = |speed_rev_s: f64| vec![speed_rev_s; excess.frames.len()];
         let others: Vec<Vec<f64>> = others_rev_s.iter().copied().map(constant).collect();
         let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
@@ -95,16 +95,16 @@ mod tests {
         // the blade pass of 300 rev/s, which has lines 8, 16 … of 225 rev/s
         let alone: Vec<f64> = (1..=8).map(|harmonic| 600.0 * f64::from(harmonic)).collect();
         let excess = lines_at(&alone);
-        assert!(nats(&excess, 225.0, &[300.0]) < -3.0);
-        assert!(nats(&excess, 300.0, &[]) > 3.0);
+        assert!(nats(&excess, 225.0, &[300.0]).unwrap() < -3.0);
+        assert!(nats(&excess, 300.0, &[]).unwrap() > 3.0);
         let both: Vec<f64> = alone.into_iter().chain((1..=8).map(|harmonic| 450.0 * f64::from(harmonic))).collect();
         let excess = lines_at(&both);
-        assert!(nats(&excess, 225.0, &[300.0]) > 3.0);
-        assert!(nats(&excess, 300.0, &[225.0]) > 3.0);
+        assert!(nats(&excess, 225.0, &[300.0]).unwrap() > 3.0);
+        assert!(nats(&excess, 300.0, &[225.0]).unwrap() > 3.0);
     }
 
     #[test]
     fn rotors_whose_lines_frames_do_not_resolve_stay() {
-        assert_eq!(nats(&lines_at(&[600.0, 1200.0]), 300.0, &[300.5]), 0.0);
+        assert_eq!(nats(&lines_at(&[600.0, 1200.0]), 300.0, &[300.5]), None);
     }
 }

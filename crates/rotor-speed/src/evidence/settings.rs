@@ -11,9 +11,9 @@ pub struct EvidenceConfig {
     pub votes_nats_min: f64,
     /// Smallest evidence of the levels for a rotor in each look, against levels of nothing, in nats: odds of 99 to 1.
     pub levels_nats_min: f64,
-    /// Largest evidence against a separated rotor of those of its lines that no other rotor has, in nats. Rotors that do not turn had 3.6 and
-    /// more, those that turn none.
-    pub refuting_nats_max: f64,
+    /// Smallest evidence of both looks for a separated rotor by its own lines, in nats: odds of 20 to 1. Rotors that turn had 4.5 and more, others up to
+    /// 2.9.
+    pub own_lines_nats_min: f64,
     /// Smallest evidence for another rotor of the vehicle, in nats: its path is the best of many, and the tail rotor of a helicopter beside its
     /// main rotor had 16.
     pub companion_nats_min: f64,
@@ -33,7 +33,7 @@ impl Default for EvidenceConfig {
         Self {
             votes_nats_min: 1.0,
             levels_nats_min: 4.6,
-            refuting_nats_max: 3.0,
+            own_lines_nats_min: 3.0,
             companion_nats_min: 18.4,
             jumps_nats_max: 7.8,
             levels_deceive: 0.01,
@@ -47,7 +47,7 @@ impl EvidenceConfig {
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("votes_nats_min", self.votes_nats_min, 0.0, 100.0)?;
         check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;
-        check_range("refuting_nats_max", self.refuting_nats_max, 0.0, 100.0)?;
+        check_range("own_lines_nats_min", self.own_lines_nats_min, 0.0, 100.0)?;
         check_range("companion_nats_min", self.companion_nats_min, 0.0, 1000.0)?;
         check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
         check_range("levels_deceive", self.levels_deceive, 0.0, 1.0)?;

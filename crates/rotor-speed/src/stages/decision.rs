@@ -1,7 +1,7 @@
 //! Stage 5: lines → decision whether they belong to a rotor, whether its speed is right or a multiple, and which rotors there are. It
 //! makes one more pass where a weak tone is steady, and two more where several rotors are separated.
 
-use super::rotors::{rotors_from_hover, without_refuted};
+use super::rotors::{rotors_from_hover, without_unheard};
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum};
@@ -48,7 +48,7 @@ pub(crate) fn decision_from_lines(
         RotorTracks::default()
     };
     let rotors =
-        without_refuted(rotors, surveyed, hover, config).unless_doubtful_beside(&lines.harmonic, config.tone.order);
+        without_unheard(rotors, surveyed, hover, config).unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(config);
     Ok(Decision { lines, rotors, alternatives })
 }

@@ -3,7 +3,7 @@
 use super::Surveyed;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{OwnPropeller, loudness_db, own_lines_nats};
+use crate::evidence::{Excess, OwnPropeller, loudness_db, own_lines_nats};
 use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
 use crate::tone::{blades_of_tone, lines_between_speeds, lines_worth_hearing};
 use hovertone_analysis::Hover;
@@ -34,38 +34,55 @@ pub(crate) fn rotors_from_hover(
     Ok(tracer.finish())
 }
 
-/// The tracks without those that the evidence refutes: the lines which such a rotor shares with no other one are missing. The most doubtful one
-/// goes first, because its lines may hide those of others.
-pub(super) fn without_refuted(
+/// The tracks without those whose own lines are not heard: the lines that a rotor shares with no other one, in short and long frames together. Long
+/// frames resolve rotors that are close. A rotor that has no such line stays, because nothing can be said of it. The most doubtful one goes
+/// first: its lines may hide those of others.
+pub(super) fn without_unheard(
     mut tracks: RotorTracks,
     surveyed: &Surveyed,
     hover: &Hover,
     config: &Config,
 ) -> RotorTracks {
-    let Some((excess, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return tracks };
-    if tracks.rotors.is_empty() {
-        return tracks;
-    }
-    let excess = excess.short.within(&hover.spans_s());
-    let times_s: Vec<f64> = excess.frames.iter().map(|frame| frame.centre_s).collect();
-    let mut speeds_rev_s: Vec<Option<Vec<f64>>> =
-        tracks.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
+    let Some((looks, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return tracks };
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let loudness = speeds_rev_s.iter().flatten().filter_map(|speeds_rev_s| loudness_db(&excess, speeds_rev_s, blades));
-    let loudest_db = loudness.fold(f64::MIN, f64::max);
+    let mut seen = [&looks.short, &looks.long].map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));
     loop {
         let own_nats = |rotor: usize| {
-            let others = speeds_rev_s.iter().enumerate().filter(|(other, _)| *other != rotor);
-            let others: Vec<&[f64]> = others.filter_map(|(_, speeds_rev_s)| speeds_rev_s.as_deref()).collect();
-            Some(own_lines_nats(&excess, speeds_rev_s[rotor].as_deref()?, &others, loudest_db, &propeller))
+            let nats = seen.iter().filter_map(|seen| seen.own_nats(rotor, &propeller));
+            nats.reduce(|short, long| short + long)
         };
-        let all = (0..speeds_rev_s.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?)));
+        let all = (0..tracks.rotors.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?)));
         match all.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some((rotor, nats)) if nats < -config.evidence.refuting_nats_max => {
+            Some((rotor, nats)) if nats < config.evidence.own_lines_nats_min => {
                 tracks.rotors[rotor].track.blocks.clear();
-                speeds_rev_s[rotor] = None;
+                seen.iter_mut().for_each(|seen| seen.speeds_rev_s[rotor] = None);
             }
             _ => return tracks,
         }
+    }
+}
+
+/// Frames of one length along the tracks of all rotors.
+struct SeenRotors {
+    excess: Excess,
+    /// Speed of each rotor in each frame; `None` without a track.
+    speeds_rev_s: Vec<Option<Vec<f64>>>,
+}
+
+impl SeenRotors {
+    fn new(excess: Excess, tracks: &RotorTracks) -> Self {
+        let times_s: Vec<f64> = excess.frames.iter().map(|frame| frame.centre_s).collect();
+        let speeds_rev_s = tracks.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
+        Self { excess, speeds_rev_s }
+    }
+
+    /// The evidence in nats of the lines that a rotor shares with no other one. `None` where there is none.
+    fn own_nats(&self, rotor: usize, propeller: &OwnPropeller<'_>) -> Option<f64> {
+        let Self { excess, speeds_rev_s } = self;
+        let loudness = speeds_rev_s.iter().flatten().filter_map(|speeds| loudness_db(excess, speeds, propeller.blades));
+        let loudest_db = loudness.max_by(f64::total_cmp)?;
+        let others = speeds_rev_s.iter().enumerate().filter(|(other, _)| *other != rotor);
+        let others: Vec<&[f64]> = others.filter_map(|(_, speeds)| speeds.as_deref()).collect();
+        own_lines_nats(excess, speeds_rev_s[rotor].as_deref()?, &others, loudest_db, propeller)
     }
 }
