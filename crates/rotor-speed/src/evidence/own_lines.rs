@@ -24,9 +24,9 @@ pub(crate) fn loudness_db(excess: &Excess, speeds_rev_s: &[f64], blades: u32) ->
     levels.max_by(f64::total_cmp)
 }
 
-/// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: negative
-/// where they are missing, and `None` where there is no such line. At three quarters of a rotor's speed, for instance, every second line of a blade pass is at a shaft line of that
-/// rotor.
+/// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: negative where they are
+/// missing, and `None` where there is no such line. At three quarters of a rotor's speed, for instance, every second line of a blade pass is at a
+/// shaft line of that rotor.
 ///
 /// - `speeds_rev_s`: speed of the rotor in each frame.
 /// - `others_rev_s`: speeds of each other rotor in each frame.

@@ -11,8 +11,8 @@ pub struct EvidenceConfig {
     pub votes_nats_min: f64,
     /// Smallest evidence of the levels for a rotor in each look, against levels of nothing, in nats: odds of 99 to 1.
     pub levels_nats_min: f64,
-    /// Smallest evidence of both looks for a separated rotor by its own lines, in nats: odds of 20 to 1. Rotors that turn had 4.5 and more, others up to
-    /// 2.9.
+    /// Smallest evidence of both looks for a separated rotor by its own lines, in nats: odds of 20 to 1. Rotors that turn had 4.5 and more, others
+    /// up to 2.9.
     pub own_lines_nats_min: f64,
     /// Smallest evidence for another rotor of the vehicle, in nats: its path is the best of many, and the tail rotor of a helicopter beside its
     /// main rotor had 16.
