@@ -17,6 +17,7 @@ mod speed_analysis;
 mod tone_family;
 mod uncertainty;
 mod warning;
+mod weighed_speed;
 
 pub use condition::{RotorCondition, ShaftLine};
 pub use hover::{Cut, CutReason, Hover};
@@ -31,3 +32,4 @@ pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
 pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use uncertainty::{UncertaintySource, UncertaintyTerm};
 pub use warning::Warning;
+pub use weighed_speed::WeighedSpeed;

@@ -1,6 +1,8 @@
 //! The result for one recording.
 
-use crate::{Band, Hover, Method, NoTone, Reading, Ridge, RotorEstimate, Span, SpeedEstimate, TrackPoint, Warning};
+use crate::{
+    Band, Hover, Method, NoTone, Reading, Ridge, RotorEstimate, Span, SpeedEstimate, TrackPoint, Warning, WeighedSpeed,
+};
 use serde::Serialize;
 
 /// The result for one recording.
@@ -50,6 +52,9 @@ pub struct RotorTone {
     /// The speeds that remain possible, most probable first; empty where one is decided.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub alternatives: Vec<Reading>,
+    /// The speeds that were weighed against each other, most plausible first: the chosen one and its runner-up, where another speed
+    /// explains lines at all.
+    pub weighed: Vec<WeighedSpeed>,
 }
 
 impl RotorTone {

@@ -2,7 +2,7 @@
 
 use crate::input::{Report, TrialReport};
 use crate::seal::policy;
-use crate::sound::{SoundClip, rate_and_count};
+use crate::sound::{SoundClip, sound_share};
 use crate::view::{Answer, InputView, MethodView, PageTable, TrialView, Words};
 use askama::Template;
 use hovertone_analysis::Method;
@@ -14,8 +14,8 @@ use hovertone_report::{
 
 const STYLE: &str = include_str!("../templates/report.css");
 const SCRIPT: &str = include_str!("../templates/report.js");
-/// Most bytes of all sound as text in the page. With the pictures of 15 trials the page stays below 10 MB.
-const SOUND_BYTES_MAX: f64 = 5e6;
+/// Most bytes of all sound as text in the page. With the pictures of 15 trials the page stays below 4 MB.
+const SOUND_BYTES_MAX: f64 = 1.5e6;
 
 /// Reason for a missing page.
 #[derive(Debug, thiserror::Error)]
@@ -49,8 +49,7 @@ struct Page<'a> {
     more_tables: Vec<PageTable>,
     trials: Vec<TrialView<'a>>,
     inputs: Vec<InputView<'a>>,
-    sound_rate_hz: Option<u32>,
-    mute_count: usize,
+    sound: Option<SoundShare>,
     settings: String,
     command: &'a str,
     report: &'a Report<'a>,

@@ -5,12 +5,17 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use hovertone_analysis::Span;
 use hovertone_signal::{SignalSource, SourceError};
+use opus_pure::{Application, MAX_PACKET_BYTES, OggOpusWriter, OpusEncoder, OpusHead};
 use rubato::audioadapter::Adapter;
 use rubato::{Async, FixedAsync, Resampler, SincInterpolationParameters, WindowFunction};
 
-/// Sample rates that every browser plays, highest first.
-const RATES_HZ: [u32; 6] = [48_000, 24_000, 16_000, 12_000, 8000, 6000];
-const BYTES_PER_SAMPLE: usize = 2;
+/// Bits per second of the sound in the page, best first. With 32 kbit/s a hover sounds as recorded; below 24 kbit/s the codec would
+/// drop everything above 8 kHz.
+const BITS_PER_S: [i32; 2] = [32_000, 24_000];
+/// Sample rate of the codec.
+const CODEC_RATE_HZ: u32 = 48_000;
+/// Audio samples of one packet, 20 ms.
+const PACKET_SAMPLES: usize = CODEC_RATE_HZ as usize / 50;
 /// Bytes of base64 text per byte of sound.
 const TEXT_PER_BYTE: f64 = 4.0 / 3.0;
 /// Most seconds of a recording: a minute is enough to recognise a hover.
@@ -55,69 +60,101 @@ pub fn clip_from_source(source: &mut dyn SignalSource, span: Span) -> Result<Sou
     Ok(SoundClip { from_s: start_s + first as f64 / sample_rate_hz, sample_rate_hz, samples })
 }
 
-/// The highest rate at which all clips together have at most `bytes_max` bytes as text in a page, and the number of clips with sound.
-/// Where even the lowest rate is too much, the number of first clips that fit.
-pub(crate) fn rate_and_count(clips: &[&SoundClip], bytes_max: f64) -> (u32, usize) {
-    let bytes = |clips: &[&SoundClip], rate_hz: u32| {
-        let seconds: f64 = clips.iter().map(|clip| clip.samples.len() as f64 / clip.sample_rate_hz).sum();
-        seconds * f64::from(rate_hz) * BYTES_PER_SAMPLE as f64 * TEXT_PER_BYTE
-    };
-    if let Some(rate_hz) = RATES_HZ.into_iter().find(|&rate_hz| bytes(clips, rate_hz) <= bytes_max) {
-        return (rate_hz, clips.len());
-    }
-    let lowest_hz = RATES_HZ[RATES_HZ.len() - 1];
-    let fitting = (0..=clips.len()).take_while(|&count| bytes(&clips[..count], lowest_hz) <= bytes_max).last();
-    (lowest_hz, fitting.unwrap_or(0))
+/// How the sound of all recordings shares the page.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct SoundShare {
+    /// Bits per second of the codec.
+    pub(crate) bits_per_s: i32,
+    /// Most seconds of each recording; absent where every clip is whole.
+    pub(crate) seconds_max: Option<f64>,
 }
 
-/// The clip as a 16-bit WAV at a rate, as a data URI. A clip with a lower rate keeps it. `None` for a silent clip.
-pub(crate) fn wav_uri(clip: &SoundClip, rate_hz: u32) -> Option<String> {
-    let own_hz = clip.sample_rate_hz.round() as u32;
-    let (samples, rate_hz) =
-        if rate_hz < own_hz { (resampled(clip, rate_hz)?, rate_hz) } else { (clip.samples.clone(), own_hz) };
+/// The best sound of which all clips together have at most `bytes_max` bytes as text in a page. Where even the lowest bit rate is too
+/// much, all clips are cut to the same length.
+pub(crate) fn sound_share(clips: &[&SoundClip], bytes_max: f64) -> SoundShare {
+    let bytes = |seconds: f64, bits_per_s: i32| seconds * f64::from(bits_per_s) / 8.0 * TEXT_PER_BYTE;
+    let lengths_s: Vec<f64> = clips.iter().map(|clip| clip.length_s()).collect();
+    let total_s = lengths_s.iter().sum();
+    if let Some(bits_per_s) = BITS_PER_S.into_iter().find(|&bits_per_s| bytes(total_s, bits_per_s) <= bytes_max) {
+        return SoundShare { bits_per_s, seconds_max: None };
+    }
+    let bits_per_s = BITS_PER_S[BITS_PER_S.len() - 1];
+    let allowed_s = bytes_max / bytes(1.0, bits_per_s);
+    // shorter clips leave their time to the longer ones
+    let mut sorted_s = lengths_s;
+    sorted_s.sort_by(f64::total_cmp);
+    let mut left_s = allowed_s;
+    for (index, &length_s) in sorted_s.iter().enumerate() {
+        let each_s = left_s / (sorted_s.len() - index) as f64;
+        if length_s > each_s {
+            return SoundShare { bits_per_s, seconds_max: Some(each_s) };
+        }
+        left_s -= length_s;
+    }
+    SoundShare { bits_per_s, seconds_max: None }
+}
+
+impl SoundClip {
+    fn length_s(&self) -> f64 {
+        self.samples.len() as f64 / self.sample_rate_hz
+    }
+}
+
+/// The clip as Opus in Ogg, as a data URI. `None` for a silent clip.
+pub(crate) fn opus_uri(clip: &SoundClip, share: SoundShare) -> Option<String> {
+    let count = share.seconds_max.map_or(usize::MAX, |seconds| (seconds * clip.sample_rate_hz) as usize);
+    let samples = clip.samples.get(..count.min(clip.samples.len()))?;
+    let mut samples = resampled(samples, clip.sample_rate_hz)?;
     let peak = samples.iter().fold(0.0, |peak: f32, sample| peak.max(sample.abs()));
     if peak <= 0.0 || !peak.is_finite() {
         return None;
     }
     let gain = (PEAK_SHARE / peak).min(GAIN_MAX);
-    let mut wav = header(samples.len(), rate_hz);
-    for sample in samples {
-        let scaled = (sample * gain).clamp(-1.0, 1.0) * f32::from(i16::MAX);
-        wav.extend_from_slice(&(scaled.round() as i16).to_le_bytes());
-    }
-    Some(format!("data:audio/wav;base64,{}", STANDARD.encode(wav)))
+    samples.iter_mut().for_each(|sample| *sample *= gain);
+    let ogg = ogg_opus(&samples, share.bits_per_s).ok()?;
+    Some(format!("data:audio/ogg;base64,{}", STANDARD.encode(ogg)))
 }
 
-/// Band-limited resampling to the new rate; `None` where the clip is too short.
-fn resampled(clip: &SoundClip, rate_hz: u32) -> Option<Vec<f32>> {
-    let ratio = f64::from(rate_hz) / clip.sample_rate_hz.round();
-    let filter_samples = (FILTER_SAMPLES as f64 / ratio) as usize;
+/// Mono samples at [`CODEC_RATE_HZ`] as an Ogg Opus file of the same length (RFC 7845).
+fn ogg_opus(samples: &[f32], bits_per_s: i32) -> opus_pure::Result<Vec<u8>> {
+    let mut encoder = OpusEncoder::new(CODEC_RATE_HZ as i32, 1, Application::Audio)?;
+    encoder.bitrate_bps = bits_per_s;
+    let head = OpusHead::for_encoder(&encoder, CODEC_RATE_HZ);
+    let pre_skip = usize::from(head.pre_skip);
+    // the last samples leave the encoder only after its delay; the length of the last packet tells a player where the sound ends
+    let end = (pre_skip + samples.len()) as u64;
+    let packet_count = (samples.len() + pre_skip).div_ceil(PACKET_SAMPLES);
+    let mut ogg = Vec::new();
+    let mut writer = OggOpusWriter::new(&mut ogg, head)?;
+    let mut packet = vec![0; MAX_PACKET_BYTES];
+    for index in 0..packet_count {
+        let part = samples.get(index * PACKET_SAMPLES..).unwrap_or_default();
+        let mut block = part[..part.len().min(PACKET_SAMPLES)].to_vec();
+        block.resize(PACKET_SAMPLES, 0.0);
+        let length = encoder.encode(&block, PACKET_SAMPLES, &mut packet)?;
+        if index + 1 == packet_count {
+            let rest = end.saturating_sub(writer.granule() as u64);
+            writer.write_packet_with_duration(&packet[..length], rest as u32)?;
+        } else {
+            writer.write_packet(&packet[..length])?;
+        }
+    }
+    writer.finish()?;
+    Ok(ogg)
+}
+
+/// Band-limited resampling to the rate of the codec; `None` where the clip is too short.
+fn resampled(samples: &[f32], rate_hz: f64) -> Option<Vec<f32>> {
+    let ratio = f64::from(CODEC_RATE_HZ) / rate_hz.round();
+    if ratio == 1.0 {
+        return Some(samples.to_vec());
+    }
+    let filter_samples = (FILTER_SAMPLES as f64 / ratio.min(1.0)) as usize;
     let filter = SincInterpolationParameters::new(filter_samples, WindowFunction::BlackmanHarris2);
     let mut resampler = Async::<f32>::new_sinc(ratio, 1.0, &filter, CHUNK_FRAMES, 1, FixedAsync::Input).ok()?;
-    let input = InterleavedSlice::new(&clip.samples, 1, clip.samples.len()).ok()?;
-    let output = resampler.process_all(&input, clip.samples.len(), None).ok()?;
+    let input = InterleavedSlice::new(samples, 1, samples.len()).ok()?;
+    let output = resampler.process_all(&input, samples.len(), None).ok()?;
     (0..output.frames()).map(|frame| output.read_sample(0, frame)).collect()
-}
-
-/// The header of a mono PCM file, 44 bytes.
-fn header(sample_count: usize, rate_hz: u32) -> Vec<u8> {
-    let bytes = (sample_count * BYTES_PER_SAMPLE) as u32;
-    let mut header = Vec::with_capacity(44 + bytes as usize);
-    header.extend_from_slice(b"RIFF");
-    header.extend_from_slice(&(36 + bytes).to_le_bytes());
-    header.extend_from_slice(b"WAVEfmt ");
-    header.extend_from_slice(&16u32.to_le_bytes());
-    for field in [1u16, 1] {
-        header.extend_from_slice(&field.to_le_bytes());
-    }
-    header.extend_from_slice(&rate_hz.to_le_bytes());
-    header.extend_from_slice(&(rate_hz * BYTES_PER_SAMPLE as u32).to_le_bytes());
-    for field in [BYTES_PER_SAMPLE as u16, 8 * BYTES_PER_SAMPLE as u16] {
-        header.extend_from_slice(&field.to_le_bytes());
-    }
-    header.extend_from_slice(b"data");
-    header.extend_from_slice(&bytes.to_le_bytes());
-    header
 }
 
 #[cfg(test)]
@@ -126,55 +163,67 @@ mod tests {
     use hovertone_signal::Signal;
     use std::f64::consts::TAU;
 
+    const WHOLE: SoundShare = SoundShare { bits_per_s: 32_000, seconds_max: None };
+
     fn clip(seconds: f64, rate_hz: f64, tone_hz: f64) -> SoundClip {
         let samples =
             (0..(seconds * rate_hz) as usize).map(|n| (0.1 * (TAU * tone_hz * n as f64 / rate_hz).sin()) as f32);
         SoundClip { from_s: 0.0, sample_rate_hz: rate_hz, samples: samples.collect() }
     }
 
-    fn decoded(uri: &str) -> (u32, Vec<i16>) {
-        let bytes = STANDARD.decode(uri.strip_prefix("data:audio/wav;base64,").unwrap()).unwrap();
-        assert_eq!((&bytes[..4], &bytes[8..16], &bytes[36..40]), (&b"RIFF"[..], &b"WAVEfmt "[..], &b"data"[..]));
-        let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
-        assert_eq!(number(4) as usize + 8, bytes.len());
-        assert_eq!(number(40) as usize + 44, bytes.len());
-        let samples = bytes[44..].chunks(2).map(|pair| i16::from_le_bytes(pair.try_into().unwrap()));
-        (number(24), samples.collect())
+    /// What a player hears, and the bytes of the file.
+    fn decoded(uri: &str) -> (Vec<f32>, usize) {
+        let bytes = STANDARD.decode(uri.strip_prefix("data:audio/ogg;base64,").unwrap()).unwrap();
+        let mut reader = opus_pure::OggOpusReader::new(bytes.as_slice()).unwrap();
+        let pre_skip = usize::from(reader.head().pre_skip);
+        let mut decoder = reader.head().decoder(CODEC_RATE_HZ as i32).unwrap();
+        let (mut samples, mut end) = (Vec::new(), 0);
+        while let Some(packet) = reader.read_packet().unwrap() {
+            let mut block = vec![0.0; 2 * PACKET_SAMPLES];
+            let count = decoder.decode(&packet.data, block.len(), &mut block).unwrap();
+            samples.extend_from_slice(&block[..count]);
+            end = packet.page_granule as usize;
+        }
+        (samples[pre_skip..end.min(samples.len())].to_vec(), bytes.len())
     }
 
     #[test]
-    fn a_tone_keeps_its_pitch_and_time_at_a_lower_rate() {
-        let (rate_hz, samples) = decoded(&wav_uri(&clip(2.0, 48_000.0, 1000.0), 12_000).unwrap());
-        assert_eq!(rate_hz, 12_000);
-        assert!(samples.len().abs_diff(24_000) <= 12, "{}", samples.len());
-        let crossings = samples.windows(2).filter(|pair| pair[0] < 0 && pair[1] >= 0).count();
-        assert!(crossings.abs_diff(2000) <= 2, "{crossings}");
-        // away from the ends, where the resampler rings
-        let peak = samples[1000..20_000].iter().map(|sample| sample.unsigned_abs()).max().unwrap();
-        assert!((f64::from(peak) / f64::from(i16::MAX) - f64::from(PEAK_SHARE)).abs() < 0.05, "{peak}");
+    fn a_tone_keeps_its_pitch_its_time_and_a_known_loudness() {
+        for rate_hz in [48_000.0, 44_100.0, 8000.0] {
+            let (samples, bytes) = decoded(&opus_uri(&clip(2.0, rate_hz, 1000.0), WHOLE).unwrap());
+            assert!(samples.len().abs_diff(96_000) <= 48, "{rate_hz}: {}", samples.len());
+            let crossings = samples.windows(2).filter(|pair| pair[0] < 0.0 && pair[1] >= 0.0).count();
+            assert!(crossings.abs_diff(2000) <= 4, "{rate_hz}: {crossings}");
+            // away from the ends, where resampler and codec ring
+            let peak = samples[5000..90_000].iter().fold(0.0f32, |peak, sample| peak.max(sample.abs()));
+            assert!((peak - PEAK_SHARE).abs() < 0.1, "{rate_hz}: {peak}");
+            assert!(bytes < 12_000, "{rate_hz}: {bytes} bytes");
+        }
     }
 
     #[test]
-    fn what_a_rate_cannot_hold_is_silent_and_silence_is_no_sound() {
-        assert_eq!(decoded(&wav_uri(&clip(1.0, 8000.0, 440.0), 12_000).unwrap()).0, 8000);
-        assert_eq!(wav_uri(&clip(1.0, 8000.0, 0.0), 12_000), None);
-        assert_eq!(wav_uri(&clip(0.0, 8000.0, 440.0), 12_000), None);
-        // a faint click is not amplified without limit, which would only amplify noise
-        let faint = SoundClip { samples: vec![1e-4; 100], ..clip(0.0, 8000.0, 0.0) };
-        let loudest = decoded(&wav_uri(&faint, 8000).unwrap()).1.into_iter().max().unwrap();
-        assert!((f32::from(loudest) / f32::from(i16::MAX) - 1e-4 * GAIN_MAX).abs() < 1e-3, "{loudest}");
+    fn silence_is_no_sound_and_noise_is_not_amplified_without_limit() {
+        assert_eq!(opus_uri(&clip(1.0, 8000.0, 0.0), WHOLE), None);
+        assert_eq!(opus_uri(&clip(0.0, 48_000.0, 440.0), WHOLE), None);
+        let faint = SoundClip { samples: vec![1e-4; 4800], ..clip(0.0, 48_000.0, 0.0) };
+        let (samples, _) = decoded(&opus_uri(&faint, WHOLE).unwrap());
+        let loudest = samples.iter().fold(0.0f32, |peak, sample| peak.max(sample.abs()));
+        assert!(loudest < 2.0 * 1e-4 * GAIN_MAX, "{loudest}");
     }
 
     #[test]
     fn many_clips_share_the_page() {
-        let ten_s = clip(10.0, 48_000.0, 440.0);
-        let (rate_hz, count) = rate_and_count(&[&ten_s; 15], 5e6);
-        assert_eq!((rate_hz, count), (12_000, 15));
-        // 6 kHz, 16 bits and base64 are 160 kB for ten seconds
-        assert_eq!(rate_and_count(&[&ten_s; 100], 5e6), (6000, 31));
-        assert_eq!(rate_and_count(&[], 5e6).1, 0);
-        let total: usize = (0..15).map(|_| wav_uri(&ten_s, rate_hz).unwrap().len()).sum();
-        assert!(total < 5_000_000, "{total}");
+        let ten_s = clip(10.0, 8000.0, 440.0);
+        assert_eq!(sound_share(&[&ten_s; 15], 1.5e6), WHOLE);
+        assert_eq!(sound_share(&[], 1.5e6), WHOLE);
+        let many = sound_share(&[&ten_s; 60], 1.5e6);
+        // 24 kbit/s and base64 are 4000 bytes for a second
+        assert_eq!(many, SoundShare { bits_per_s: 24_000, seconds_max: Some(1.5e6 / 4000.0 / 60.0) });
+        // a short clip leaves its time to the long ones
+        let short = clip(1.0, 8000.0, 440.0);
+        assert_eq!(sound_share(&[&short, &ten_s, &ten_s], 4e4).seconds_max, Some(4.5));
+        let (samples, _) = decoded(&opus_uri(&ten_s, SoundShare { seconds_max: Some(0.5), ..many }).unwrap());
+        assert!(samples.len().abs_diff(24_000) <= 48, "{}", samples.len());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use crate::detection::or_mains_hum;
 use crate::error::Error;
 use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, blades_of_tone, search_range_rev_s};
-use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SpeedAnalysis};
+use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SpeedAnalysis, WeighedSpeed};
 use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
@@ -65,6 +65,32 @@ impl Candidates {
             possible => {
                 possible.iter().map(|hypothesis| reading_of(hypothesis, config.tone.order, &config.known)).collect()
             }
+        }
+    }
+
+    /// This speed and its runner-up: by the beliefs where they decide, else by the comb.
+    pub(crate) fn weighed(&self, speed_rev_s: f64) -> Vec<WeighedSpeed> {
+        match &self.beliefs {
+            Some(beliefs) => beliefs
+                .hypotheses
+                .iter()
+                .take(2)
+                .map(|hypothesis| WeighedSpeed {
+                    speed: RotorSpeed::from_rev_s(hypothesis.hover_rev_s),
+                    plausibility: Some(hypothesis.belief),
+                    lines_db: None,
+                })
+                .collect(),
+            None => self
+                .map
+                .best_two(speed_rev_s)
+                .into_iter()
+                .map(|(speed_rev_s, lines_db)| WeighedSpeed {
+                    speed: RotorSpeed::from_rev_s(speed_rev_s),
+                    plausibility: None,
+                    lines_db: Some(lines_db),
+                })
+                .collect(),
         }
     }
 }

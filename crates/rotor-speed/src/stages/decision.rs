@@ -10,7 +10,7 @@ use crate::harmonic::HarmonicTracer;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
 use crate::tone::{families_agree, foreign_series, lines_and_between};
-use hovertone_analysis::{Hover, Method, NoTone, Reading};
+use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
 
@@ -21,6 +21,8 @@ pub(crate) struct Decision {
     pub(crate) rotors: RotorTracks,
     /// The speeds that remain possible; empty where one is decided.
     pub(crate) alternatives: Vec<Reading>,
+    /// The chosen speed and its runner-up.
+    pub(crate) weighed: Vec<WeighedSpeed>,
 }
 
 /// Decides whether the lines belong to a rotor, and separates the rotors where the settings ask for it.
@@ -50,7 +52,7 @@ pub(crate) fn decision_from_lines(
     let rotors =
         without_unheard(rotors, surveyed, hover, config).unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(config);
-    Ok(Decision { lines, rotors, alternatives })
+    Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed(speed_rev_s) })
 }
 
 /// The reason why the lines do not belong to a rotor at this speed. `None` where they do.

@@ -17,7 +17,7 @@ pub(crate) fn speeds_from_decision(
     decision: Decision,
     config: &Config,
 ) -> Result<SpeedAnalysis, Stop> {
-    let Decision { lines, rotors: rotor_tracks, alternatives } = decision;
+    let Decision { lines, rotors: rotor_tracks, alternatives, weighed } = decision;
     let mut warnings = lines.warnings.clone();
     let order = config.tone.order;
     let weights = HarmonicWeights::from_ridges(&lines.ridges, &config.ridge, &mut warnings);
@@ -47,8 +47,8 @@ pub(crate) fn speeds_from_decision(
         None => lines.harmonic.points_in(None, order),
     };
     let Lines { bands, ridges, .. } = lines;
-    let outcome = Outcome::Ok(RotorTone { bands, window_s, speeds, track, rotors, samples, ridges, alternatives });
-    Ok(SpeedAnalysis { heard, hover, outcome, warnings })
+    let tone = RotorTone { bands, window_s, speeds, track, rotors, samples, ridges, alternatives, weighed };
+    Ok(SpeedAnalysis { heard, hover, outcome: Outcome::Ok(tone), warnings })
 }
 
 /// One hover as each method analyses it.

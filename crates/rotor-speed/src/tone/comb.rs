@@ -27,6 +27,9 @@ const BETWEEN_DB_MIN: f64 = 6.0;
 /// How many lines of a series are looked at for that.
 const ALTERNATION_HARMONICS: u32 = 9;
 
+/// Speeds this near belong to rotors of one vehicle, and are no runner-up of each other.
+const SAME_VEHICLE_SHARE: f64 = 0.25;
+
 /// Speeds of a row whose comb reaches this share of the best one's stand out of it.
 const OUTSTANDING_SHARE: f64 = 0.5;
 /// The line of a gear mesh that stands this far over the floor is heard; this much is much stronger or weaker.
@@ -165,6 +168,23 @@ impl CombMap {
         Some(self.without_alternation(self.refined_rev_s(self.speeds_rev_s[best])))
     }
 
+    /// A speed and the best of those that belong to no rotor of the same vehicle, each with its mean score over the rows in dB.
+    pub(crate) fn best_two(&self, speed_rev_s: f64) -> Vec<(f64, f64)> {
+        let reach = (POOL_HALF_WIDTH_SHARE / GRID_STEP_SHARE).round() as usize;
+        let rows = self.scores_db.len().max(1) as f64;
+        let mean_db = |i: usize| -> f64 {
+            let window = i.saturating_sub(reach)..(i + reach + 1).min(self.speeds_rev_s.len());
+            self.scores_db.iter().map(|row| row[window.clone()].iter().copied().fold(0.0, f64::max)).sum::<f64>() / rows
+        };
+        let is_near = |other: f64, share: f64| (other / speed_rev_s).ln().abs() < share;
+        let best = |is_wanted: &dyn Fn(f64) -> bool| {
+            let wanted = (0..self.speeds_rev_s.len()).filter(|&i| is_wanted(self.speeds_rev_s[i]));
+            wanted.map(|i| (self.speeds_rev_s[i], mean_db(i))).max_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let own = best(&|other| is_near(other, POOL_HALF_WIDTH_SHARE)).map(|(_, score_db)| (speed_rev_s, score_db));
+        own.into_iter().chain(best(&|other| !is_near(other, SAME_VEHICLE_SHARE))).collect()
+    }
+
     /// A speed that pooling has found to within its reach: the mean of what the rows around it say, each as its score.
     fn refined_rev_s(&self, speed_rev_s: f64) -> f64 {
         let (sum, weights) = (0..self.scores_db.len())
@@ -286,6 +306,10 @@ mod tests {
     }
 
     fn leading_of_lines(lines: &[(f64, f64)], tone: &ToneConfig, speed_rev_s: f64) -> f64 {
+        map_of_lines(lines, tone, speed_rev_s).leading_speed_rev_s().unwrap()
+    }
+
+    fn map_of_lines(lines: &[(f64, f64)], tone: &ToneConfig, speed_rev_s: f64) -> CombMap {
         let rate = 44100.0;
         let mut noise = 1u64;
         let samples: Vec<f32> = (0..3 * 44100)
@@ -298,7 +322,7 @@ mod tests {
             .collect();
         let mut builder = SurveyBuilder::new(SurveySettings::default(), rate, 0.0);
         builder.push(&samples);
-        CombMap::from_survey(&builder.finish(3.0), tone, (15.0, 280.0)).leading_speed_rev_s().unwrap()
+        CombMap::from_survey(&builder.finish(3.0), tone, (15.0, 280.0))
     }
 
     #[test]
@@ -324,6 +348,16 @@ mod tests {
         tone.blades = Some(2);
         let heard = leading_of_lines(&with_mesh, &tone, 60.17);
         assert!((heard / 60.17 - 1.0).abs() < 0.01, "{heard}");
+    }
+
+    #[test]
+    fn the_runner_up_of_a_blade_pass_is_its_octave_and_has_fewer_lines() {
+        let map =
+            map_of_lines(&[(2.0, 1.0), (4.0, 1.0), (6.0, 1.0)], &ToneConfig::of_order(Order::new(2.0).unwrap()), 80.0);
+        let weighed = map.best_two(map.leading_speed_rev_s().unwrap());
+        let &[(speed_rev_s, own_db), (other_rev_s, other_db)] = weighed.as_slice() else { panic!("{weighed:?}") };
+        assert!((speed_rev_s / 80.0 - 1.0).abs() < 0.01 && own_db > 1.2 * other_db, "{weighed:?}");
+        assert!([0.5, 2.0, 3.0].iter().any(|ratio| (other_rev_s / 80.0 / ratio - 1.0).abs() < 0.03), "{weighed:?}");
     }
 
     #[test]
