@@ -2,13 +2,15 @@
 
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
-use crate::colour::{INK, MUTED, OVER_PICTURE, SERIES};
+use crate::colour::{INK, MUTED, SERIES};
 use crate::figure::{Figure, FigureError};
 use crate::geometry::{Extent, Point};
 use hovertone_thrust::{BudgetLine, ThrustTable};
 
 const ROW: i32 = 52;
 const LEFT: i32 = 500;
+/// Length of the axis over the longest bar: its words stand beside it.
+const AXIS_OVER_LONGEST: f64 = 1.55;
 /// Contributions below this share of the largest have no visible bar and are left out.
 const SHARE_MIN: f64 = 0.002;
 
@@ -26,9 +28,12 @@ pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError>
     }
     let bottom = 40 + (lines.len() as i32 + 1) * ROW + 20;
     let panel = Panel {
-        place: Place { left: LEFT, top: 30, right: WIDTH - 200, bottom },
-        x: Axis::new("contribution to the standard uncertainty of C_f (%)", Extent::new(0.0, 1.1 * combined))
-            .with_ticks(8),
+        place: Place { left: LEFT, top: 30, right: WIDTH - 60, bottom },
+        x: Axis::new(
+            "contribution to the standard uncertainty of C_f (%)",
+            Extent::new(0.0, AXIS_OVER_LONGEST * combined),
+        )
+        .with_ticks(8),
         y: Axis::new("", Extent::new(0.0, 1.0)).with_ticks(0),
         right: None,
         title: String::new(),
@@ -42,7 +47,7 @@ pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError>
     canvas.layer("bars", |sheet| {
         for (index, (title, percent, share)) in rows.enumerate() {
             let top = 40 + index as i32 * ROW;
-            let length = percent / (1.1 * combined) * f64::from(panel.place.right - LEFT);
+            let length = percent / (AXIS_OVER_LONGEST * combined) * f64::from(panel.place.right - LEFT);
             let colour = if share.is_some() { SERIES[0] } else { INK };
             let place =
                 Place { left: LEFT, top: top + 8, right: LEFT + length.round().max(1.0) as i32, bottom: top + ROW - 8 };
@@ -52,13 +57,7 @@ pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError>
                 Some(share) => format!("{percent:.3} % ({:.1} % of the variance)", 100.0 * share),
                 None => format!("{percent:.3} %"),
             };
-            // the number of a long bar stands inside it
-            let at = if length > 0.62 * f64::from(panel.place.right - LEFT) {
-                sheet.text(&words, Point::new(place.right - 14, top + ROW / 2), Anchor::Right, OVER_PICTURE)
-            } else {
-                sheet.text(&words, Point::new(place.right + 14, top + ROW / 2), Anchor::Left, MUTED)
-            };
-            at?;
+            sheet.text(&words, Point::new(place.right + 14, top + ROW / 2), Anchor::Left, MUTED)?;
         }
         Ok(())
     })?;

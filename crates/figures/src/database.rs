@@ -36,7 +36,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         title: String::new(),
     };
     let mut canvas = Canvas::new("figure-5-database", bottom + 110);
-    canvas.panel(&panel)?;
+    canvas.panel_of_rows(&panel)?;
     let at = |time_s: f64| {
         let share = range_s.share_of(time_s);
         LEFT + (share.clamp(0.0, 1.0) * f64::from(panel.place.right - LEFT)).round() as i32

@@ -1,7 +1,7 @@
 //! Weight against squared speed with the fitted square law, its interval, and the residuals.
 
 use crate::axis::{Axis, range_with_margin};
-use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, WIDTH};
+use crate::canvas::{Anchor, Canvas, Datum, LETTER, Label, Panel, Place, WIDTH};
 use crate::colour::{INK, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError, shortened};
 use crate::geometry::{Extent, Point};
@@ -20,8 +20,15 @@ const RESIDUALS: Place = Place { left: 200, top: 850, right: WIDTH - 60, bottom:
 /// Residuals are shown in millinewtons.
 const MILLI: f64 = 1e3;
 
+/// Half of the room that the name of a load needs, in letters and in height.
+const NAME_ROOM: (i32, i32) = (LETTER * 11 / 20, 44);
+/// Dashes of the law with an intercept, and its width.
+const INTERCEPT_WIDTH: u32 = 4;
+
 /// A load as a point: squared speed in [`SQUARE_UNIT`], force of all rotors, and their expanded uncertainties.
 struct LoadPoint<'a> {
+    /// Its number among the loads of the table.
+    index: usize,
     load: &'a LoadThrust,
     square: f64,
     force_n: f64,
@@ -37,10 +44,12 @@ fn points(table: &ThrustTable) -> Vec<LoadPoint<'_>> {
     table
         .loads
         .iter()
-        .filter_map(|load| {
+        .enumerate()
+        .filter_map(|(index, load)| {
             let (speed_rad_s, constant) = point(load)?;
             let square = speed_rad_s.powi(2);
             Some(LoadPoint {
+                index,
                 load,
                 square: square / SQUARE_UNIT,
                 // in a bench run fewer rotors run: the force that all rotors would have
@@ -77,8 +86,8 @@ pub(crate) fn figure(tables: &[ThrustTable], reported: Method) -> Result<Option<
     drawing.residuals(&mut canvas)?;
     drawing.key(&mut canvas)?;
     let description = "Force against squared shaft speed of every load, with the fitted square law F = C ω² of each method and the expanded \
-                       uncertainty (k = 2) of the reported one, shaded. Below: how far each load is off the reported law; vertical bars are its own \
-                       expanded uncertainty.";
+                       uncertainty (k = 2) of the reported one, shaded; dashed: the law with an intercept. Below: how far each load is off the \
+                       reported law; vertical bars are its own expanded uncertainty.";
     Ok(Some(canvas.finish("Weight against squared speed: the fit and its residuals", description)))
 }
 
@@ -119,14 +128,35 @@ impl<'a> Drawing<'a> {
         canvas.panel(&panel)?;
         let colour = colour_of_method(self.reported);
         canvas.plot(&panel, "interval", |plot| plot.area(&self.interval(false), colour, 0.18))?;
-        if let Some(other) = self.fit.with_intercept {
-            canvas.plot(&panel, "with-intercept", |plot| {
-                let constant = other.thrust_constant_n_s2.value * SQUARE_UNIT;
-                let at = |x: f64| Point::new(x, other.intercept_n.value + constant * x);
-                plot.dashed(at(self.range_x.low), at(self.range_x.high), MUTED, 2)
-            })?;
+        reported_last(self.tables, self.reported).try_for_each(|table| self.method(canvas, &panel, table))?;
+        self.with_intercept(canvas, &panel, |x, force_n| Point::new(x, force_n))?;
+        for table in self.tables {
+            self.data(canvas, &panel, table, |point| Point::new(point.square, point.force_n));
         }
-        reported_last(self.tables, self.reported).try_for_each(|table| self.method(canvas, &panel, table))
+        Ok(())
+    }
+
+    /// The law with an intercept over the others, which it often hides.
+    fn with_intercept(
+        &self,
+        canvas: &mut Canvas,
+        panel: &Panel,
+        place: impl Fn(f64, f64) -> Point,
+    ) -> Result<(), FigureError> {
+        let Some(other) = self.fit.with_intercept else { return Ok(()) };
+        let constant = other.thrust_constant_n_s2.value * SQUARE_UNIT;
+        let at = |x: f64| place(x, other.intercept_n.value + constant * x);
+        canvas.plot(panel, "with-intercept", |plot| {
+            plot.dashed(at(self.range_x.low), at(self.range_x.high), INK, INTERCEPT_WIDTH)
+        })
+    }
+
+    /// The points of one method for a pointer: their keys name method and load.
+    fn data(&self, canvas: &mut Canvas, panel: &Panel, table: &ThrustTable, place: impl Fn(&LoadPoint<'_>) -> Point) {
+        let name = table.method.name();
+        let datum = |point: LoadPoint<'_>| Datum { at: place(&point), key: format!("{name}-{}", point.index) };
+        let data: Vec<Datum> = points(table).into_iter().map(datum).collect();
+        canvas.data(panel, &format!("method-{name}"), &data);
     }
 
     /// The law and the loads of one method.
@@ -154,16 +184,43 @@ impl<'a> Drawing<'a> {
 
     /// The names of the loads beside their points.
     fn names(&self, canvas: &mut Canvas) -> Result<(), FigureError> {
-        canvas.layer("names", |sheet| {
-            for point in points(self.table) {
-                let x = on_sheet(self.range_x.share_of(point.square), LAW.left, LAW.right);
-                let y = on_sheet(self.range_y.share_of(point.force_n), LAW.bottom, LAW.top);
-                let mark = if point.load.fits == Some(false) { " (does not fit)" } else { "" };
-                let words = format!("{}{mark}", shortened(&point.load.name, 30));
-                sheet.text(&words, Point::new(x - 24, y - 26), Anchor::Right, INK)?;
-            }
-            Ok(())
-        })
+        let mut taken: Vec<Place> = Vec::new();
+        for point in points(self.table) {
+            let x = on_sheet(self.range_x.share_of(point.square), LAW.left, LAW.right);
+            let y = on_sheet(self.range_y.share_of(point.force_n), LAW.bottom, LAW.top);
+            let mark = if point.load.fits == Some(false) { " (does not fit)" } else { "" };
+            let words = format!("{}{mark}", shortened(&point.load.name, 30));
+            let width = words.chars().count() as i32 * NAME_ROOM.0;
+            // above its point at the left; below it at the right where the axis is near or another name is there
+            let left = Place {
+                left: x - 24 - width,
+                right: x - 24,
+                top: y - 26 - NAME_ROOM.1 / 2,
+                bottom: y - 26 + NAME_ROOM.1 / 2,
+            };
+            let right = Place {
+                left: x + 24,
+                right: x + 24 + width,
+                top: y + 30 - NAME_ROOM.1 / 2,
+                bottom: y + 30 + NAME_ROOM.1 / 2,
+            };
+            let is_free = |place: &Place| {
+                let is_inside = place.left > LAW.left
+                    && place.right < LAW.right
+                    && place.top > LAW.top
+                    && place.bottom < LAW.bottom;
+                is_inside && !taken.iter().any(|other| other.meets(place))
+            };
+            let sides =
+                [(left, Anchor::Right, Point::new(x - 24, y - 26)), (right, Anchor::Left, Point::new(x + 24, y + 30))];
+            let Some((place, anchor, on_sheet)) = sides.into_iter().find(|(place, ..)| is_free(place)) else {
+                continue;
+            };
+            taken.push(place);
+            let (x, y) = (point.square, Some(point.force_n));
+            canvas.label("name", &Label { text: &words, x, y, on_sheet, anchor, colour: INK })?;
+        }
+        Ok(())
     }
 
     /// The plot of the differences between the loads and the reported law.
@@ -190,11 +247,14 @@ impl<'a> Drawing<'a> {
         canvas.plot(&panel, "zero", |plot| {
             plot.line(&[Point::new(self.range_x.low, 0.0), Point::new(self.range_x.high, 0.0)], INK.stroke_width(1))
         })?;
-        // methods stand side by side, so that their bars do not cover each other
+        let law_n = |x: f64| self.constant * x;
+        self.with_intercept(canvas, &panel, |x, force_n| Point::new(x, MILLI * (force_n - law_n(x))))?;
+        // the reported method stands at its speed; the others beside it, so that their bars do not cover each other
         let step = 0.006 * self.range_x.width();
-        for (index, table) in self.tables.iter().enumerate() {
+        for (index, table) in reported_first(self.tables, self.reported).enumerate() {
             let colour = colour_of_method(table.method);
-            let aside = (index as f64 - (self.tables.len() as f64 - 1.0) / 2.0) * step;
+            let side = if index % 2 == 0 { -1.0 } else { 1.0 };
+            let aside = side * index.div_ceil(2) as f64 * step;
             canvas.plot(&panel, &format!("residuals method-{}", table.method.name()), |plot| {
                 for point in points(table) {
                     let x = point.square + aside;
@@ -203,22 +263,27 @@ impl<'a> Drawing<'a> {
                 }
                 Ok(())
             })?;
+            self.data(canvas, &panel, table, |point| Point::new(point.square + aside, residual(point)));
         }
         Ok(())
     }
 
-    /// The meaning of the colours.
+    /// The meaning of the lines: the reported law, the law with an intercept, then the other methods, each in a layer of its method.
     fn key(&self, canvas: &mut Canvas) -> Result<(), FigureError> {
-        canvas.layer("key", |sheet| {
-            let mut at = Point::new(200, LETTER - 4);
-            for table in self.tables.iter().filter(|table| table.fit.is_some()) {
+        let mut at = Point::new(LAW.left, LETTER - 4);
+        for table in reported_first(self.tables, self.reported).filter(|table| table.fit.is_some()) {
+            canvas.layer(&format!("key method-{}", table.method.name()), |sheet| {
                 at.x = sheet.key(at, colour_of_method(table.method), &key_words(table))?;
+                Ok(())
+            })?;
+            if table.method == self.reported && self.fit.with_intercept.is_some() {
+                canvas.layer("key with-intercept", |sheet| {
+                    at.x = sheet.dashed_key(at, INK, "with an intercept")?;
+                    Ok(())
+                })?;
             }
-            if self.fit.with_intercept.is_some() {
-                sheet.text("dashed: with an intercept", at, Anchor::Left, MUTED)?;
-            }
-            Ok(())
-        })
+        }
+        Ok(())
     }
 }
 
@@ -233,6 +298,12 @@ fn key_words(table: &ThrustTable) -> String {
 /// Force of a law whose constant is larger by a share.
 fn law(constant: f64, share: f64, x: f64) -> f64 {
     constant * (1.0 + share) * x
+}
+
+/// The tables with the reported one at the start.
+fn reported_first(tables: &[ThrustTable], reported: Method) -> impl Iterator<Item = &ThrustTable> {
+    let is_reported = move |table: &&ThrustTable| table.method == reported;
+    tables.iter().filter(is_reported).chain(tables.iter().filter(move |table| !is_reported(table)))
 }
 
 /// The tables with the reported one at the end, so that it is drawn over the others.

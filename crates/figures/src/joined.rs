@@ -1,6 +1,6 @@
 //! The trials of a load in sequence on one time axis, as in figure 6 of the paper.
 
-use crate::canvas::{Anchor, Panel, Sheet};
+use crate::canvas::{Anchor, Canvas, Label, Panel};
 use crate::colour::{INK, MUTED};
 use crate::figure::{FigureError, shortened};
 use crate::geometry::{Extent, Point};
@@ -59,13 +59,13 @@ pub(crate) fn end_s(joined: &[Joined<'_>]) -> f64 {
 
 /// Text above a panel: the name of its load, and the numbers of the trials where they fit.
 pub(crate) fn joined_words(
-    sheet: &Sheet<'_, '_>,
+    canvas: &mut Canvas,
     panel: &Panel,
     load: &str,
     joined: &[Joined<'_>],
 ) -> Result<(), FigureError> {
     let (left, top) = (panel.place.left, panel.place.top);
-    sheet.text(&shortened(load, 80), Point::new(left, top - 60), Anchor::Left, INK)?;
+    canvas.layer("load", |sheet| sheet.text(&shortened(load, 80), Point::new(left, top - 60), Anchor::Left, INK))?;
     let unit_per_s = f64::from(panel.place.right - left) / end_s(joined);
     for one in joined {
         let words = match one.shown.length_s() * unit_per_s {
@@ -73,8 +73,10 @@ pub(crate) fn joined_words(
             width if width >= WIDTH_OF_NUMBER => one.number.to_string(),
             _ => continue,
         };
-        let middle = f64::from(left) + (one.shown.middle_s() + one.shift_s) * unit_per_s;
-        sheet.text(&words, Point::new(middle as i32, top - 24), Anchor::Middle, MUTED)?;
+        let middle_s = one.shown.middle_s() + one.shift_s;
+        let on_sheet = Point::new(panel.x_unit(middle_s), top - 24);
+        let label = Label { text: &words, x: middle_s, y: None, on_sheet, anchor: Anchor::Middle, colour: MUTED };
+        canvas.label("trial-number", &label)?;
     }
     Ok(())
 }

@@ -51,7 +51,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
                 plot.line(&[Point::new(at_s, 0.0), Point::new(at_s, hz_max / 1e3)], OVER_PICTURE.stroke_width(3))
             })
         })?;
-        canvas.layer("trial-numbers", |sheet| joined_words(sheet, &panel, load, joined))?;
+        joined_words(&mut canvas, &panel, load, joined)?;
     }
     let description = "Level of the sound over time and frequency, one picture for each load, its trials joined as in figure 6 of the \
                        paper. The bright lines are the tone of the rotors and its harmonics; heavier loads have them higher.";

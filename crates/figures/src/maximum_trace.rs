@@ -59,7 +59,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
                 plot.dashed(Point::new(from_s, mean_hz), Point::new(to_s, mean_hz), MUTED, 3)
             })?;
         }
-        canvas.layer("trial-numbers", |sheet| joined_words(sheet, &panel, load, joined))?;
+        joined_words(&mut canvas, &panel, load, joined)?;
     }
     let description = "Frequency of the fundamental in every frame by the Maximum Trace method, one plot for each load, trials joined; \
                        dashed: the mean of each trial (eq 7). Where nothing stands out of the noise there is a gap.";

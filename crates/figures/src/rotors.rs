@@ -15,8 +15,10 @@ use plotters::style::{Color, RGBColor};
 /// Margin around the tracks, as a share of their range.
 const MARGIN_SHARE: f64 = 0.35;
 const ROWS_MAX: usize = 400;
-/// Width of the key of one rotor.
+/// Width of the key of one rotor, and with more rotors than have room for the word.
 const KEY: i32 = 225;
+const SHORT_KEY: i32 = 118;
+const LONG_KEYS_MAX: usize = 5;
 
 /// The separated rotors of a trial; `None` where they are not separated, or without a picture of a harmonic.
 ///
@@ -49,7 +51,8 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Greys);
     canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(2048, ROWS_MAX))?;
     for (index, rotor) in tone.rotors.iter().enumerate() {
-        canvas.plot(&panel, &format!("rotor rotor-{}", index + 1), |plot| {
+        let name = format!("rotor {}", index + 1);
+        canvas.curve(&panel, &format!("rotor rotor-{}", index + 1), &name, |plot| {
             for line in track_lines(&rotor.track) {
                 let line: Vec<Point> = line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
                 plot.line(&line, OVER_PICTURE.mix(0.8).stroke_width(7))?;
@@ -59,9 +62,11 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
         })?;
     }
     canvas.layer("key", |sheet| {
-        let mut at = Point::new(place.right - tone.rotors.len() as i32 * KEY, place.top - LETTER + 4);
-        for index in 0..tone.rotors.len() {
-            at.x = sheet.key(at, colour_of_rotor(index), &format!("rotor {}", index + 1))?;
+        let count = tone.rotors.len();
+        let (width, word) = if count > LONG_KEYS_MAX { (SHORT_KEY, "") } else { (KEY, "rotor ") };
+        let mut at = Point::new(place.right - count as i32 * width, place.top - LETTER + 4);
+        for index in 0..count {
+            at.x = sheet.key(at, colour_of_rotor(index), &format!("{word}{}", index + 1))?;
         }
         Ok(())
     })?;
@@ -73,7 +78,7 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
     )))
 }
 
-fn colour_of_rotor(index: usize) -> RGBColor {
+pub(crate) fn colour_of_rotor(index: usize) -> RGBColor {
     SERIES.get(index % (SERIES.len() + 1)).copied().unwrap_or(INK)
 }
 

@@ -1,25 +1,31 @@
-//! The spectrogram of one recording with bands and cuts, and the ridge or the rotors over it.
+//! The spectrogram of one recording with bands and cuts, and the tracks of all rotors over it.
 
 use crate::axis::Axis;
-use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
+use crate::canvas::{Anchor, Canvas, LETTER, Label, Panel, Place, WIDTH};
 use crate::colour::{BAND, ColourMap, INK, MUTED, OVER_PICTURE, PAPER};
 use crate::figure::{Figure, FigureError, shortened};
 use crate::geometry::{Extent, Point};
 use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
 use crate::rotors;
+use crate::rotors::colour_of_rotor;
 use crate::spectrum::harmonic_name;
 use crate::trial::{Trial, ridge_lines, track_lines};
-use hovertone_analysis::Method;
-use plotters::style::Color;
+use hovertone_analysis::{Band, CutReason, Method, RotorTone, RotorsHeard};
+use plotters::style::{Color, RGBColor};
 
 const ROWS_MAX: usize = 330;
-const COLUMNS_MAX: usize = 2048;
+const COLUMNS_MAX: usize = 1024;
 const TOP: i32 = 130;
 const PITCH: i32 = 190;
+/// Heights of the two panels.
+const HEIGHTS: [i32; 2] = [560, 460];
+/// How much of the picture a cut hides: its reason is read over it.
+const CUT_OPACITY: f64 = 0.78;
 
-/// The spectrogram of a recording: all frequencies in Hz and as shaft speeds, the band around the tone with the ridge over it, and the
-/// separated rotors. `None` where the recording is too short for a picture.
+/// The spectrogram of a recording: all frequencies in Hz and as shaft speeds with the tracks of the rotors and the reasons of the cuts, and
+/// below it a narrow band with the same tracks: the highest one where rotors are separated, else that of the tone. `None` where the
+/// recording is too short for a picture.
 ///
 /// # Errors
 /// Errors of the plotting library.
@@ -28,27 +34,22 @@ pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>,
     let first = trial.bands().first();
     let zoom = first.and_then(|band| Some((band, trial.around(band.harmonic)?)));
     let has_rotors = trial.tone().is_some_and(|tone| !tone.rotors.is_empty());
-    let heights = [560, if zoom.is_some() { 420 } else { 0 }, if has_rotors && zoom.is_some() { 420 } else { 0 }];
-    let count = heights.iter().filter(|&&height| height > 0).count() as i32;
-    let mut canvas = Canvas::new(name, TOP + heights.iter().sum::<i32>() + (count - 1) * PITCH + 120);
+    let heights = &HEIGHTS[..if zoom.is_some() { 2 } else { 1 }];
+    let mut canvas = Canvas::new(name, TOP + heights.iter().sum::<i32>() + (heights.len() as i32 - 1) * PITCH + 120);
     let levels_db = level_range_db([whole]);
     canvas.colour_bar(ColourMap::Viridis, levels_db)?;
-    let mut top = TOP;
-    let mut place = |height: i32| {
-        let place = Place { left: 180, top, right: WIDTH - 180, bottom: top + height };
-        top += height + PITCH;
-        place
-    };
-    draw_whole(&mut canvas, trial, whole, place(heights[0]), levels_db)?;
+    let place = |top: i32, height: i32| Place { left: 180, top, right: WIDTH - 180, bottom: top + height };
+    draw_whole(&mut canvas, trial, whole, place(TOP, HEIGHTS[0]), levels_db)?;
     if let Some((band, picture)) = zoom {
-        draw_zoom(&mut canvas, trial, band, picture, place(heights[1]))?;
-    }
-    if heights[2] > 0 {
-        rotors::draw(&mut canvas, trial, place(heights[2]))?;
+        let below = place(TOP + HEIGHTS[0] + PITCH, HEIGHTS[1]);
+        let is_drawn = has_rotors && rotors::draw(&mut canvas, trial, below)?.is_some();
+        if !is_drawn {
+            draw_zoom(&mut canvas, trial, band, picture, below)?;
+        }
     }
     let words = match (trial.tone(), trial.reason) {
-        (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; dimmed: parts without hover. Below: the band of the \
-                         tone, with the ridge over it."
+        (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; pale: parts that are not used, with the reason. \
+                         Below: a narrow band around one harmonic, with the tracks over it."
             .to_owned(),
         (None, Some(reason)) => format!("No speed: {reason}."),
         (None, None) => String::new(),
@@ -79,11 +80,7 @@ fn draw_whole(
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, all_hz, levels_db, ColourMap::Viridis);
     canvas.picture(&panel, range_s, &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
-    if let Some(hover) = trial.hover() {
-        canvas.plot(&panel, "cuts", |plot| {
-            hover.cuts.iter().try_for_each(|cut| plot.block(Extent::of_span(cut.span), all_hz, PAPER, 0.45))
-        })?;
-    }
+    draw_cuts(canvas, trial, &panel, all_hz)?;
     // bands are marked at both sides and by thin edges, where they do not hide the tone
     canvas.plot(&panel, "bands", |plot| {
         let flag_s = 0.012 * range_s.width();
@@ -98,20 +95,68 @@ fn draw_whole(
         Ok(())
     })?;
     if let Some(tone) = trial.tone() {
-        canvas.plot(&panel, "ridges", |plot| {
-            for ridge in &tone.ridges {
-                for line in ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace) {
-                    plot.line(&line, OVER_PICTURE.mix(0.7).stroke_width(1))?;
-                }
-            }
-            Ok(())
-        })?;
+        draw_tracks(canvas, trial, tone, &panel)?;
     } else if let Some(reason) = trial.reason {
         canvas.layer("reason", |sheet| {
             sheet.text(&shortened(reason, 110), Point::new(place.left, place.top - 66), Anchor::Left, MUTED)
         })?;
     }
     Ok(())
+}
+
+/// The parts that are not used, with the reason where there is room for it.
+fn draw_cuts(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, all_hz: Extent) -> Result<(), FigureError> {
+    let Some(hover) = trial.hover() else { return Ok(()) };
+    canvas.plot(panel, "cuts", |plot| {
+        hover.cuts.iter().try_for_each(|cut| plot.block(Extent::of_span(cut.span), all_hz, PAPER, CUT_OPACITY))
+    })?;
+    // the transition to another stretch needs no words
+    for cut in hover.cuts.iter().filter(|cut| cut.reason != CutReason::Edge) {
+        let words = cut.reason.to_string();
+        let room = panel.x_unit(cut.span.to_s) - panel.x_unit(cut.span.from_s);
+        if words.chars().count() as i32 * LETTER * 11 / 20 <= room {
+            let middle_s = cut.span.middle_s();
+            let on_sheet = Point::new(panel.x_unit(middle_s), panel.place.top + LETTER);
+            let label = Label { text: &words, x: middle_s, y: None, on_sheet, anchor: Anchor::Middle, colour: INK };
+            canvas.label("reason-of-cut", &label)?;
+        }
+    }
+    Ok(())
+}
+
+/// The tracks at the tone and its harmonics: of each rotor where they are separated, else the one that stands for all.
+fn draw_tracks(canvas: &mut Canvas, trial: &Trial<'_>, tone: &RotorTone, panel: &Panel) -> Result<(), FigureError> {
+    let mut at_all_bands = |class: &str, lines: &dyn Fn(&Band) -> Vec<Vec<Point>>, colour: RGBColor| {
+        canvas.plot(panel, class, |plot| {
+            let lines = trial.bands().iter().flat_map(lines);
+            lines.into_iter().try_for_each(|line| plot.line(&line, colour.mix(0.8).stroke_width(2)))
+        })
+    };
+    for (index, rotor) in tone.rotors.iter().enumerate() {
+        let class = format!("tracks rotor-{}", index + 1);
+        at_all_bands(&class, &|band| in_hz(track_lines(&rotor.track), band), colour_of_rotor(index))?;
+    }
+    if tone.rotors.is_empty() {
+        at_all_bands("tracks", &|band| common_lines(trial, tone, band), OVER_PICTURE)?;
+    }
+    Ok(())
+}
+
+/// The line that stands for all rotors: the ridge, if a method of the paper was requested, else the track of the speed.
+fn common_lines(trial: &Trial<'_>, tone: &RotorTone, band: &Band) -> Vec<Vec<Point>> {
+    if !trial.method.reads_ridges() && !tone.track.is_empty() {
+        return in_hz(track_lines(&tone.track), band);
+    }
+    let method = if trial.method == Method::Gaussian { Method::Gaussian } else { Method::MaximumTrace };
+    let ridge = tone.ridges.iter().find(|ridge| ridge.band.harmonic == band.harmonic);
+    ridge.map_or(Vec::new(), |ridge| ridge_lines(&ridge.frames, ridge.hop_s, method))
+}
+
+/// Shaft speeds as frequencies of a band.
+fn in_hz(lines: Vec<Vec<Point>>, band: &Band) -> Vec<Vec<Point>> {
+    let order = band.order.lines_per_turn();
+    let line = |line: Vec<Point>| line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
+    lines.into_iter().map(line).collect()
 }
 
 fn draw_zoom(
@@ -122,6 +167,11 @@ fn draw_zoom(
     place: Place,
 ) -> Result<(), FigureError> {
     let order = band.order.lines_per_turn();
+    let meaning = match trial.tone().and_then(|tone| tone.rotors_heard(trial.method)) {
+        _ if trial.method.reads_ridges() => "ridge",
+        Some(RotorsHeard::Group) => "common track of the rotors",
+        _ => "track",
+    };
     let range_s = trial.whole().map_or(picture.span, |whole| whole.span);
     let range_hz = Extent::new(picture.hz_low, picture.hz_high);
     let panel = Panel {
@@ -129,26 +179,19 @@ fn draw_zoom(
         x: Axis::new("time (s)", Extent::of_span(range_s)).with_ticks(11),
         y: Axis::new("frequency (Hz)", range_hz).with_ticks(6),
         right: Some(("shaft speed (rev/s)".to_owned(), order)),
-        title: format!("{}, with the ridge", harmonic_name(band.harmonic)),
+        title: trial.tone().map_or(String::new(), |_| format!("{}, with the {meaning}", harmonic_name(band.harmonic))),
     };
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Viridis);
     canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
     let Some(tone) = trial.tone() else { return Ok(()) };
-    // the ridge, if a method of the paper was requested, else the track of the speed
-    let lines = if trial.method.name() == Method::MaximumTrace.name() || tone.track.is_empty() {
-        let ridge = tone.ridges.iter().find(|ridge| ridge.band.harmonic == band.harmonic);
-        ridge.map_or(Vec::new(), |ridge| ridge_lines(&ridge.frames, ridge.hop_s, Method::MaximumTrace))
-    } else {
-        let in_hz = |line: Vec<Point>| line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
-        track_lines(&tone.track).into_iter().map(in_hz).collect()
-    };
+    let lines = common_lines(trial, tone, band);
     canvas.plot(&panel, "bands", |plot| {
         [band.band_hz_low, band.band_hz_high]
             .into_iter()
             .try_for_each(|hz| plot.dashed(Point::new(range_s.from_s, hz), Point::new(range_s.to_s, hz), BAND, 3))
     })?;
-    canvas.plot(&panel, "track", |plot| {
+    canvas.curve(&panel, "track", meaning, |plot| {
         lines.iter().try_for_each(|line| {
             plot.line(line, INK.mix(0.85).stroke_width(7))?;
             plot.line(line, OVER_PICTURE.stroke_width(3))

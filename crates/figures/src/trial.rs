@@ -4,8 +4,8 @@ use crate::geometry::Point;
 use crate::picture::{Picture, Pictures};
 use hovertone_analysis::{Band, Hover, Method, Outcome, RidgeFrame, RotorTone, Span, SpeedAnalysis, TrackPoint};
 
-/// Most points of a curve; more are invisible in print.
-const POINTS_MAX: usize = 1200;
+/// Most points of a curve: five per millimetre of a panel. More are invisible in print, and make pages large.
+const POINTS_MAX: usize = 720;
 /// Frames that are further apart than this number of steps have a gap between them.
 const GAP_STEPS: f64 = 1.6;
 

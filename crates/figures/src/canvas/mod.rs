@@ -7,12 +7,14 @@ use crate::geometry::{Extent, Point};
 use crate::raster::Raster;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::{
-    Cartesian2d, Circle, DrawingArea, IntoDrawingArea, PathElement, Polygon, Rectangle, SVGBackend, Text,
-};
-use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontTransform, IntoTextStyle, RGBColor, ShapeStyle};
+use plotters::prelude::{Cartesian2d, DrawingArea, IntoDrawingArea, SVGBackend};
 use std::fmt::Write as _;
+
+mod readable;
+mod sheet;
+
+pub(crate) use readable::{Datum, Label};
+pub(crate) use sheet::{Anchor, Plot, Sheet};
 
 /// Height of letters in units of the sheet: 8 points in print.
 pub(crate) const LETTER: i32 = 28;
@@ -42,18 +44,6 @@ pub(crate) struct Panel {
     pub(crate) right: Option<(String, f64)>,
     /// Text above the plot.
     pub(crate) title: String,
-}
-
-/// Side of a text that lies at its point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Anchor {
-    Left,
-    Middle,
-    Right,
-    /// Rotated to read upwards, with its middle at the point.
-    Upwards,
-    /// Rotated to read downwards, with its middle at the point.
-    Downwards,
 }
 
 /// A sheet with the layers drawn so far.
@@ -104,6 +94,15 @@ impl Canvas {
 
     /// The axes of a plot. Its layers follow.
     pub(crate) fn panel(&mut self, panel: &Panel) -> Result<(), FigureError> {
+        self.axes(panel, true)
+    }
+
+    /// A plot without an axis at the left: names of rows have that place.
+    pub(crate) fn panel_of_rows(&mut self, panel: &Panel) -> Result<(), FigureError> {
+        self.axes(panel, false)
+    }
+
+    fn axes(&mut self, panel: &Panel, has_left: bool) -> Result<(), FigureError> {
         let Panel { place, x, y, right, title } = panel;
         let (at_x, at_y) = (|value: f64| panel.x_unit(value), |value: f64| panel.y_unit(value));
         let ticks = self.drawn(|area| {
@@ -135,7 +134,7 @@ impl Canvas {
                 Point::new(place.left, place.bottom),
                 Point::new(place.right, place.bottom),
             ];
-            sheet.line(&corners, INK, LINE)?;
+            sheet.line(&corners[usize::from(!has_left)..], INK, LINE)?;
             sheet.text(&x.title, Point::new(place.middle_x(), place.bottom + 72), Anchor::Middle, INK)?;
             sheet.text(&y.title, Point::new(place.left - 128, place.middle_y()), Anchor::Upwards, INK)?;
             if let Some((right_title, _)) = right {
@@ -183,17 +182,25 @@ impl Canvas {
         class: &str,
         paint: impl FnOnce(&Plot<'_, '_>) -> Result<(), FigureError>,
     ) -> Result<(), FigureError> {
+        let drawn = self.plotted(panel, paint)?;
+        self.push_zoomable(class, "", &drawn);
+        Ok(())
+    }
+
+    fn plotted(
+        &self,
+        panel: &Panel,
+        paint: impl FnOnce(&Plot<'_, '_>) -> Result<(), FigureError>,
+    ) -> Result<String, FigureError> {
         let Place { left, top, right, bottom } = panel.place;
-        let drawn = self.drawn(|area| {
+        self.drawn(|area| {
             let coordinates = Cartesian2d::<RangedCoordf64, RangedCoordf64>::new(
                 panel.x.range(),
                 panel.y.range(),
                 (left..right, bottom..top),
             );
             paint(&Plot { area: &area.clone().apply_coord_spec(coordinates) })
-        })?;
-        self.push_zoomable(class, &drawn);
-        Ok(())
+        })
     }
 
     /// A spectrogram over the whole of a panel, or over a part of its x axis.
@@ -211,7 +218,7 @@ impl Canvas {
             raster.level_db_high,
             raster.data_uri()?
         );
-        self.push_zoomable("pictures", &image);
+        self.push_zoomable("pictures", "", &image);
         Ok(())
     }
 
@@ -233,8 +240,8 @@ impl Canvas {
     }
 
     /// A layer of the last panel, clipped at its edges. A viewer can enlarge its content.
-    fn push_zoomable(&mut self, class: &str, content: &str) {
-        let clip = format!(" data-panel=\"{1}\" clip-path=\"url(#{0}-clip-{1})\"", self.name, self.panels);
+    fn push_zoomable(&mut self, class: &str, attributes: &str, content: &str) {
+        let clip = format!(" data-panel=\"{1}\"{attributes} clip-path=\"url(#{0}-clip-{1})\"", self.name, self.panels);
         self.push_group(class, &clip, &format!("<g class=\"zoomable\">\n{content}</g>\n"));
     }
 
@@ -264,6 +271,11 @@ impl Place {
         i32::midpoint(self.left, self.right)
     }
 
+    /// Whether two places have a common part.
+    pub(crate) fn meets(&self, other: &Self) -> bool {
+        self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
     pub(crate) fn middle_y(&self) -> i32 {
         i32::midpoint(self.top, self.bottom)
     }
@@ -275,100 +287,12 @@ impl Panel {
         f64::from(self.place.left) + share * f64::from(self.place.right - self.place.left)
     }
 
-    fn x_unit(&self, value: f64) -> i32 {
+    pub(crate) fn x_unit(&self, value: f64) -> i32 {
         self.x_unit_exact(value).round() as i32
     }
 
-    fn y_unit(&self, value: f64) -> i32 {
+    pub(crate) fn y_unit(&self, value: f64) -> i32 {
         let share = (value - self.y.from) / (self.y.to - self.y.from);
         (f64::from(self.place.bottom) - share * f64::from(self.place.bottom - self.place.top)).round() as i32
-    }
-}
-
-/// The whole sheet in its own unit, with y downwards.
-pub(crate) struct Sheet<'a, 'b> {
-    area: &'a DrawingArea<SVGBackend<'b>, Shift>,
-}
-
-impl Sheet<'_, '_> {
-    pub(crate) fn line(&self, points: &[Point<i32>], colour: RGBColor, width: u32) -> Result<(), FigureError> {
-        let points: Vec<(i32, i32)> = points.iter().map(|point| point.pair()).collect();
-        self.area.draw(&PathElement::new(points, colour.stroke_width(width))).map_err(refused)
-    }
-
-    pub(crate) fn filled(&self, place: Place, colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
-        let corners = [(place.left, place.top), (place.right, place.bottom)];
-        self.area.draw(&Rectangle::new(corners, colour.mix(opacity).filled())).map_err(refused)
-    }
-
-    pub(crate) fn outlined(&self, place: Place, colour: RGBColor) -> Result<(), FigureError> {
-        let corners = [(place.left, place.top), (place.right, place.bottom)];
-        self.area.draw(&Rectangle::new(corners, colour.stroke_width(1))).map_err(refused)
-    }
-
-    pub(crate) fn text(&self, text: &str, at: Point<i32>, anchor: Anchor, colour: RGBColor) -> Result<(), FigureError> {
-        if text.is_empty() {
-            return Ok(());
-        }
-        let (side, turn) = match anchor {
-            Anchor::Left => (HPos::Left, FontTransform::None),
-            Anchor::Middle => (HPos::Center, FontTransform::None),
-            Anchor::Right => (HPos::Right, FontTransform::None),
-            Anchor::Upwards => (HPos::Center, FontTransform::Rotate270),
-            Anchor::Downwards => (HPos::Center, FontTransform::Rotate90),
-        };
-        let style = ("sans-serif", f64::from(LETTER) * PLOTTERS_SIZE)
-            .into_text_style(self.area)
-            .transform(turn)
-            .color(&colour)
-            .pos(Pos::new(side, VPos::Center));
-        self.area.draw(&Text::new(text.to_owned(), at.pair(), style)).map_err(refused)
-    }
-
-    /// An entry of the key: a line and its meaning. Returns the x of the next entry.
-    pub(crate) fn key(&self, at: Point<i32>, colour: RGBColor, text: &str) -> Result<i32, FigureError> {
-        self.line(&[at, Point { x: at.x + 50, ..at }], colour, 6)?;
-        self.text(text, Point { x: at.x + 62, ..at }, Anchor::Left, MUTED)?;
-        Ok(at.x + 62 + text.chars().count() as i32 * LETTER * 11 / 20 + 40)
-    }
-}
-
-/// One panel, in its own coordinates.
-pub(crate) struct Plot<'a, 'b> {
-    area: &'a DrawingArea<SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
-}
-
-impl Plot<'_, '_> {
-    pub(crate) fn line(&self, points: &[Point], style: impl Into<ShapeStyle>) -> Result<(), FigureError> {
-        if points.len() == 1 {
-            return self.dot(points[0], 3, style);
-        }
-        let points: Vec<(f64, f64)> = points.iter().map(|point| point.pair()).collect();
-        self.area.draw(&PathElement::new(points, style)).map_err(refused)
-    }
-
-    /// A dashed line; the dashes have equal lengths on the sheet.
-    pub(crate) fn dashed(&self, from: Point, to: Point, colour: RGBColor, width: u32) -> Result<(), FigureError> {
-        const DASHES: usize = 60;
-        let at = |share: f64| Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-        (0..DASHES).try_for_each(|dash| {
-            let start = dash as f64 / DASHES as f64;
-            self.line(&[at(start), at(start + 0.6 / DASHES as f64)], colour.stroke_width(width))
-        })
-    }
-
-    pub(crate) fn area(&self, outline: &[Point], colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
-        let outline: Vec<(f64, f64)> = outline.iter().map(|point| point.pair()).collect();
-        self.area.draw(&Polygon::new(outline, colour.mix(opacity))).map_err(refused)
-    }
-
-    pub(crate) fn block(&self, x: Extent, y: Extent, colour: RGBColor, opacity: f64) -> Result<(), FigureError> {
-        let corners = [(x.low, y.low), (x.high, y.high)];
-        self.area.draw(&Rectangle::new(corners, colour.mix(opacity).filled())).map_err(refused)
-    }
-
-    pub(crate) fn dot(&self, at: Point, radius: u32, style: impl Into<ShapeStyle>) -> Result<(), FigureError> {
-        let style = style.into();
-        self.area.draw(&Circle::new(at.pair(), radius, ShapeStyle { filled: true, ..style })).map_err(refused)
     }
 }
