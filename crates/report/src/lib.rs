@@ -14,6 +14,8 @@
 //! condition    shaft lines of the rotors                   flight        summary of a simulated flight
 //! typeset      tables for documents: Markdown, LaTeX       data_table    tables for programs: CSV, Parquet
 //! tones        tone families and their readings            csv_text      text of a CSV writer
+//! decision     why this shaft speed, and which was second  units         the constant in units of programs
+//! names        short names of recordings
 //! ```
 
 mod adequacy;
@@ -22,10 +24,12 @@ mod condition;
 mod csv_text;
 mod cuts;
 mod data_table;
+mod decision;
 mod fitted_table;
 mod flight;
 mod flight_plan;
 mod models;
+mod names;
 mod notice;
 mod number;
 mod printable;
@@ -39,6 +43,7 @@ mod text_table;
 mod thrust;
 mod tones;
 mod typeset;
+mod units;
 mod vehicles;
 mod version;
 mod weakness;
@@ -49,10 +54,12 @@ pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_wi
 pub use condition::condition_table;
 pub use cuts::cuts_in_words;
 pub use data_table::{DataColumn, DataTable, Values};
+pub use decision::{DecisionWords, decision_in_words};
 pub use fitted_table::{FittedTable, fitted_table_text, fitted_tables_json};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
+pub use names::short_names;
 pub use notice::Notice;
 pub use number::{ScaledNumber, fixed, scaled_number, signed, with_uncertainty};
 pub use printable::{printable, wrapped};
@@ -63,9 +70,10 @@ pub use samples::{loads_data, samples_data};
 pub use speed::{speed_json, speed_table, track_csv};
 pub use table_lines::table_text;
 pub use text_table::{Column, Row, TextTable};
-pub use thrust::{LOADS_FOOTNOTE, methods_table, thrust_summary, thrust_table};
+pub use thrust::{LOADS_FOOTNOTE, load_in_words, methods_table, thrust_summary, thrust_table};
 pub use tones::{tones_json, tones_text};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
+pub use units::{ConstantInUnit, constants_in_units};
 pub use vehicles::{vehicles_json, vehicles_text};
 pub use version::VERSION;
 pub use weakness::{notice_of_all, notices_of_all, warning_count};

@@ -1,8 +1,9 @@
 //! Tables of the thrust constant like those of the paper, with correct units and uncertainties.
 
-use crate::number::{DASH, PowerOfTen, rounded, significant, spread, with_uncertainty};
+use crate::number::{DASH, PowerOfTen, rounded, scaled_number, significant, spread, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
+use crate::units::superscript;
 use hovertone_analysis::Method;
 use hovertone_thrust::{LoadThrust, ThrustTable};
 use hovertone_vehicle::{Estimate, RotorSpeed};
@@ -53,6 +54,25 @@ pub fn thrust_table(table: &ThrustTable) -> TextTable {
         text.push(cells);
     }
     text
+}
+
+/// A load on lines of its own, for a viewer that points at it: name, mass, speed, constant of the whole vehicle, method.
+pub fn load_in_words(table: &ThrustTable, load: &LoadThrust) -> String {
+    let mut lines = vec![load.name.clone()];
+    lines.push(match load.mass_kg {
+        Some(mass_kg) => format!("mass {} g", grams(mass_kg)),
+        None => format!("thrust {} N", significant(load.force_n, 4)),
+    });
+    if load.speed.is_some() {
+        let [rpm, _, rad_s] = speed_cells(load);
+        lines.push(format!("speed {rpm} rpm = {rad_s} rad/s"));
+    }
+    if let Some(constant) = load.thrust_constant_total_n_s2 {
+        let scaled = scaled_number(constant.value, constant.std_uncertainty);
+        lines.push(format!("C_f ({}) · 10{} N s²", scaled.digits, superscript(scaled.exponent)));
+    }
+    lines.push(table.title().to_owned());
+    lines.join("\n")
 }
 
 /// Speed in rpm, its spread, and the speed in rad/s.
