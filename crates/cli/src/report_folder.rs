@@ -5,10 +5,11 @@ use crate::failure::Failure;
 use crate::output_folder::{FolderKind, OutputFolder};
 use crate::recording::{Hearing, Job};
 use hovertone::speed::Method;
+use hovertone_exchange::{SimulatorFormat, export_text, identified_from_results};
 use hovertone_figures::{
     DOTS_PER_INCH, ExperimentFigures, Figure, Trial, figure_png, figures_of_experiment, recording_figure,
 };
-use hovertone_page::{Report, SOUND_S_MAX, TrialReport, experiment_tables, report_html};
+use hovertone_page::{Report, SOUND_S_MAX, SimulatorLines, TrialReport, experiment_tables, names_of, report_html};
 use hovertone_report::{
     Identification, RESULTS_SCHEMA, SpeedRecord, TextTable, TitledTable, loads_data, results_json, samples_data,
     tables_latex, tables_markdown,
@@ -60,7 +61,8 @@ pub(crate) fn write_report(
     // the file that marks the folder comes first, so that a later run may write here even after an interrupt
     folder.write(MARKED, RESULTS_SCHEMA)?;
     // write the measured results before the drawing, which takes long
-    folder.write("results.json", results_json(identification).map_err(Failure::internal)?)?;
+    let results = results_json(identification).map_err(Failure::internal)?;
+    folder.write("results.json", &results)?;
     for table in [samples_data(identification.tables), loads_data(identification.tables)] {
         folder.write(&format!("{}.csv", table.name), table.csv().map_err(Failure::internal)?)?;
         #[cfg(feature = "parquet")]
@@ -74,12 +76,16 @@ pub(crate) fn write_report(
     let records: Vec<&SpeedRecord> = identification.inputs.iter().map(|input| &input.record).collect();
     let drawings = draw_all(jobs, &records, hearing, SOUND_S_MAX);
     let reasons: Vec<Option<String>> = records.iter().map(|record| record.reason()).collect();
+    let names = names_of(identification.inputs);
     let trials: Vec<Trial<'_>> = identification
         .inputs
         .iter()
-        .zip(&reasons)
-        .zip(&drawings)
-        .map(|((input, reason), drawing)| trial_of(&input.load, &input.record, reason.as_deref(), drawing.as_ref()))
+        .zip(&names)
+        .zip(reasons.iter().zip(&drawings))
+        .map(|((input, name), (reason, drawing))| Trial {
+            recording: name,
+            ..trial_of(&input.load, &input.record, reason.as_deref(), drawing.as_ref())
+        })
         .collect();
     let drawn = ExperimentFigures { trials: &trials, tables: identification.tables, method: identification.method };
     let figures = figures_of_experiment(&drawn).map_err(Failure::internal)?;
@@ -105,10 +111,20 @@ pub(crate) fn write_report(
         trials: &of_page,
         compared: extras.compared,
         more_tables: extras.more_tables,
+        simulators: &simulators_of(&results),
         command: extras.command,
     };
     let page = report_html(&report).map_err(Failure::internal)?;
     folder.write(PAGE, page)
+}
+
+/// The lines for every simulator that takes what the results have; none without a constant.
+fn simulators_of(results: &str) -> Vec<SimulatorLines> {
+    let Ok(rotor) = identified_from_results(results, None) else { return Vec::new() };
+    let lines = |format: SimulatorFormat| {
+        Some(SimulatorLines { name: format.name().to_owned(), text: export_text(&rotor, format).ok()? })
+    };
+    SimulatorFormat::ALL.into_iter().filter_map(lines).collect()
 }
 
 /// Writes a figure as SVG and as PNG.

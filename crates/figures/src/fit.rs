@@ -20,9 +20,9 @@ const RESIDUALS: Place = Place { left: 200, top: 850, right: WIDTH - 60, bottom:
 /// Residuals are shown in millinewtons.
 const MILLI: f64 = 1e3;
 
-/// Half of the room that the name of a load needs, in letters and in height.
-const NAME_ROOM: (i32, i32) = (LETTER * 11 / 20, 44);
-/// Dashes of the law with an intercept, and its width.
+/// Room that the name of a load needs: width of a letter, and height.
+const NAME_ROOM: (i32, i32) = (LETTER * 5 / 8, 44);
+/// Width of the law with an intercept.
 const INTERCEPT_WIDTH: u32 = 4;
 
 /// A load as a point: squared speed in [`SQUARE_UNIT`], force of all rotors, and their expanded uncertainties.

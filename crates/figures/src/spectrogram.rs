@@ -10,11 +10,11 @@ use crate::raster::{Raster, level_range_db};
 use crate::rotors;
 use crate::rotors::colour_of_rotor;
 use crate::spectrum::harmonic_name;
-use crate::trial::{Trial, ridge_lines, track_lines};
+use crate::trial::{Trial, coarser, ridge_lines, track_lines};
 use hovertone_analysis::{Band, CutReason, Method, RotorTone, RotorsHeard};
 use plotters::style::{Color, RGBColor};
 
-const ROWS_MAX: usize = 330;
+const ROWS_MAX: usize = 280;
 const COLUMNS_MAX: usize = 1024;
 const TOP: i32 = 130;
 const PITCH: i32 = 190;
@@ -128,7 +128,7 @@ fn draw_cuts(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, all_hz: Exte
 fn draw_tracks(canvas: &mut Canvas, trial: &Trial<'_>, tone: &RotorTone, panel: &Panel) -> Result<(), FigureError> {
     let mut at_all_bands = |class: &str, lines: &dyn Fn(&Band) -> Vec<Vec<Point>>, colour: RGBColor| {
         canvas.plot(panel, class, |plot| {
-            let lines = trial.bands().iter().flat_map(lines);
+            let lines = trial.bands().iter().flat_map(|band| coarser(lines(band)));
             lines.into_iter().try_for_each(|line| plot.line(&line, colour.mix(0.8).stroke_width(2)))
         })
     };

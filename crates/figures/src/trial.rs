@@ -6,6 +6,8 @@ use hovertone_analysis::{Band, Hover, Method, Outcome, RidgeFrame, RotorTone, Sp
 
 /// Most points of a curve: five per millimetre of a panel. More are invisible in print, and make pages large.
 const POINTS_MAX: usize = 720;
+/// Most points of a curve over all frequencies, where its wander is as high as its line is wide.
+const COARSE_POINTS_MAX: usize = 200;
 /// Frames that are further apart than this number of steps have a gap between them.
 const GAP_STEPS: f64 = 1.6;
 
@@ -59,6 +61,14 @@ impl<'a> Trial<'a> {
         let band = self.bands().first()?;
         Some(band.order.lines_per_turn() / f64::from(band.harmonic))
     }
+}
+
+/// The same lines with fewer points, for a panel in which they are nearly straight.
+pub(crate) fn coarser(lines: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
+    let count: usize = lines.iter().map(Vec::len).sum();
+    let group = (2 * count).div_ceil(COARSE_POINTS_MAX).max(1);
+    let coarse = |line: Vec<Point>| if group <= 2 { line } else { line.chunks(group).flat_map(extremes).collect() };
+    lines.into_iter().map(coarse).collect()
 }
 
 /// A ridge as lines between its gaps: frequency by a method over time.

@@ -18,8 +18,19 @@ pub struct Report<'a> {
     pub compared: &'a [(Method, TextTable)],
     /// Additional tables, such as a comparison with a known truth.
     pub more_tables: &'a [TitledTable],
+    /// Lines to paste into models of simulators.
+    pub simulators: &'a [SimulatorLines],
     /// The command that repeats the run.
     pub command: &'a str,
+}
+
+/// Lines to paste into the model of a simulator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SimulatorLines {
+    /// Name of the simulator: letters, digits and hyphens.
+    pub name: String,
+    /// The lines.
+    pub text: String,
 }
 
 /// Figure and sound of a recording.

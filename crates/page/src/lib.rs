@@ -2,18 +2,22 @@
 //!
 //! ```text
 //! input      input of the page                            report    the page
-//! view       the input as words and cells of templates/report.html
+//! view       the results as words and cells of templates      recordings   the same for the recordings
+//! warnings   all warnings, linked to their places
 //! sound      a recording, small enough for the page       seal      content security policy: the page loads nothing
 //! ```
 //!
-//! `templates/report.css` and `templates/report.js` are copied into the page unchanged.
+//! `templates/style` and `templates/script` are copied into the page unchanged.
 
 mod input;
+mod recordings;
 mod report;
 mod seal;
 mod sound;
 mod view;
+mod warnings;
 
-pub use input::{Report, TrialReport};
+pub use input::{Report, SimulatorLines, TrialReport};
+pub use recordings::names_of;
 pub use report::{PageError, experiment_tables, report_html};
 pub use sound::{SOUND_S_MAX, SoundClip, clip_from_source};

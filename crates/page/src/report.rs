@@ -1,19 +1,41 @@
 //! The page, from its input and the template.
 
 use crate::input::{Report, TrialReport};
+use crate::recordings::{InputView, TrialView, names_of};
 use crate::seal::policy;
-use crate::sound::{SoundClip, sound_share};
-use crate::view::{Answer, InputView, MethodView, PageTable, TrialView, Words};
+use crate::sound::{SoundClip, SoundShare, sound_share};
+use crate::view::{Answer, MethodView, PageTable, Words};
+use crate::warnings::Warnings;
 use askama::Template;
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use hovertone_analysis::Method;
 use hovertone_figures::{Figure, level_colours, method_colour};
 use hovertone_report::{
-    Identification, LOADS_FOOTNOTE, TitledTable, VERSION, agreement_text, budget_table, counted, laws_table,
-    methods_table, preferred_text, thrust_table,
+    ConstantInUnit, Identification, LOADS_FOOTNOTE, Notice, SpeedRecord, TitledTable, VERSION, agreement_text,
+    budget_table, constants_in_units, laws_table, load_in_words, loads_data, methods_table, notices_of_all,
+    preferred_text, samples_data, thrust_table,
 };
+use serde_json::{Map, Value};
 
-const STYLE: &str = include_str!("../templates/report.css");
-const SCRIPT: &str = include_str!("../templates/report.js");
+const STYLE: &str = concat!(
+    include_str!("../templates/style/page.css"),
+    include_str!("../templates/style/answer.css"),
+    include_str!("../templates/style/figures.css"),
+    include_str!("../templates/style/tables.css"),
+    include_str!("../templates/style/print.css"),
+);
+const SCRIPT: &str = concat!(
+    "(() => {\n\"use strict\";\n",
+    include_str!("../templates/script/values.js"),
+    include_str!("../templates/script/picture.js"),
+    include_str!("../templates/script/panel.js"),
+    include_str!("../templates/script/pointing.js"),
+    include_str!("../templates/script/sound.js"),
+    include_str!("../templates/script/tables.js"),
+    include_str!("../templates/script/page.js"),
+    "})();\n",
+);
 /// Most bytes of all sound as text in the page. With the pictures of 15 trials the page stays below 4 MB.
 const SOUND_BYTES_MAX: f64 = 1.5e6;
 
@@ -27,6 +49,15 @@ pub enum PageError {
     /// The settings could not be serialised.
     #[error("the settings could not be written: {0}")]
     Settings(#[from] serde_json::Error),
+    /// A table could not be written as CSV.
+    #[error("a table could not be written: {0}")]
+    Table(String),
+}
+
+/// A file inside the page.
+struct PageFile {
+    name: String,
+    uri: String,
 }
 
 #[derive(Template)]
@@ -36,9 +67,12 @@ struct Page<'a> {
     style: &'static str,
     script: &'static str,
     level_colours: String,
+    load_words: String,
     version: &'static str,
     words: Words<'a>,
     answer: Option<Answer>,
+    warnings: Warnings,
+    constants: Vec<ConstantInUnit>,
     methods: Vec<MethodView>,
     method_constants: PageTable,
     laws: Option<PageTable>,
@@ -47,6 +81,7 @@ struct Page<'a> {
     loads_footnote: &'static str,
     budget: Option<PageTable>,
     more_tables: Vec<PageTable>,
+    files: Vec<PageFile>,
     trials: Vec<TrialView<'a>>,
     inputs: Vec<InputView<'a>>,
     sound: Option<SoundShare>,
@@ -61,24 +96,22 @@ impl Page<'_> {
         self.report.figures.iter().find(|figure| figure.name == name)
     }
 
-    /// Number of recordings without cuts.
-    fn used_whole(&self) -> usize {
-        self.trials.iter().filter(|trial| trial.reason.is_none() && trial.cuts.is_none()).count()
+    fn reported_method(&self) -> impl Iterator<Item = &MethodView> {
+        self.methods.iter().filter(|method| method.is_reported)
     }
 
-    /// "15 recordings": the same in words.
-    fn used_whole_counted(&self) -> String {
-        counted(self.used_whole(), "recording")
+    /// A method of the paper.
+    fn papers_method(&self, name: &str) -> impl Iterator<Item = &MethodView> {
+        self.methods.iter().filter(move |method| method.name == name)
     }
 
-    /// The tables of one method.
-    fn method(&self, name: &str) -> Option<&MethodView> {
-        self.methods.iter().find(|method| method.name == name)
+    /// The methods that are neither reported nor of the paper.
+    fn other_methods(&self) -> impl Iterator<Item = &MethodView> {
+        self.methods.iter().filter(|method| !method.is_papers && !method.is_reported)
     }
 
-    /// The methods that are not from the paper.
-    fn our_methods(&self) -> impl Iterator<Item = &MethodView> {
-        self.methods.iter().filter(|method| !method.is_papers)
+    fn has_other_methods(&self) -> bool {
+        self.other_methods().next().is_some()
     }
 }
 
@@ -88,56 +121,96 @@ impl Page<'_> {
 /// None is known, since the template is compiled in and all types can be serialised.
 pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
     let identification = report.identification;
-    let reported = identification.reported();
-    let clips: Vec<&SoundClip> = report.trials.iter().filter_map(|trial| trial.sound).collect();
-    let (rate_hz, count) = rate_and_count(&clips, SOUND_BYTES_MAX);
-    let mut sounding = 0;
-    let trials: Vec<TrialView<'_>> = identification
-        .inputs
-        .iter()
-        .zip(report.trials)
-        .map(|(input, trial)| {
-            sounding += usize::from(trial.sound.is_some());
-            let sound = trial.sound.filter(|_| sounding <= count);
-            TrialView::new(input, &TrialReport { sound, ..*trial }, rate_hz)
-        })
-        .collect();
+    let (reported, inputs) = (identification.reported(), identification.inputs);
+    let fit = reported.and_then(|table| table.fit.as_ref());
+    let names = names_of(inputs);
+    let (trials, share) = trial_views(report, &names);
+    let has_sound = trials.iter().any(|trial| trial.sound.is_some());
     let page = Page {
         policy: policy(STYLE, SCRIPT),
         style: STYLE,
         script: SCRIPT,
         level_colours: serde_json::to_string(&level_colours().to_vec())?,
+        load_words: load_words(identification)?,
         version: VERSION,
         words: Words::new(identification),
-        answer: reported.and_then(|table| Answer::new(table, identification.inputs)),
-        methods: identification
-            .tables
-            .iter()
-            .map(|table| {
-                let compared = report.compared.iter().find(|(method, _)| *method == table.method);
-                let shown = compared.map_or_else(|| thrust_table(table), |(_, compared)| compared.clone());
-                MethodView::new(table, &shown, method_colour(table.method), identification.method)
-            })
-            .collect(),
-        method_constants: PageTable::new("", &methods_table(identification.tables, identification.method)),
-        laws: reported.and_then(|table| table.fit.as_ref()).map(|fit| PageTable::new("", &laws_table(fit))),
-        agreement: reported.and_then(|table| table.fit.as_ref()).map(agreement_text).unwrap_or_default(),
-        preferred: reported.and_then(|table| table.fit.as_ref()).map(preferred_text).unwrap_or_default(),
+        answer: reported.and_then(Answer::new),
+        warnings: Warnings::new(reported, inputs, &names),
+        constants: reported.map(constants_in_units).unwrap_or_default(),
+        methods: method_views(report),
+        method_constants: PageTable::new("methods", "", &methods_table(identification.tables, identification.method)),
+        laws: fit.map(|fit| PageTable::new("laws", "", &laws_table(fit))),
+        agreement: fit.map(agreement_text).unwrap_or_default(),
+        preferred: fit.map(preferred_text).unwrap_or_default(),
         loads_footnote: LOADS_FOOTNOTE,
         budget: reported.and_then(|table| {
             let (budget, fit) = (table.budget.as_ref()?, table.fit.as_ref()?);
-            Some(PageTable::new("", &budget_table(budget, fit.thrust_constant_n_s2.value)))
+            let table = budget_table(budget, fit.thrust_constant_n_s2.value);
+            Some(PageTable::new("budget", "", &table).with_sum())
         }),
-        more_tables: report.more_tables.iter().map(|titled| PageTable::new(&titled.title, &titled.table)).collect(),
-        mute_count: clips.len() - count,
-        sound_rate_hz: trials.iter().any(|trial| trial.sound.is_some()).then_some(rate_hz),
+        more_tables: (1..)
+            .zip(report.more_tables)
+            .map(|(number, titled)| PageTable::new(&format!("table-{number}"), &titled.title, &titled.table))
+            .collect(),
+        files: files_of(identification)?,
+        sound: has_sound.then_some(share),
         trials,
-        inputs: identification.inputs.iter().map(InputView::new).collect(),
+        inputs: inputs.iter().map(InputView::new).collect(),
         settings: serde_json::to_string_pretty(identification.experiment.settings)?,
         command: report.command,
         report,
     };
     Ok(page.render()?)
+}
+
+fn method_views(report: &Report<'_>) -> Vec<MethodView> {
+    let Identification { tables, method: reported, .. } = *report.identification;
+    tables
+        .iter()
+        .map(|table| {
+            let compared = report.compared.iter().find(|(method, _)| *method == table.method);
+            let shown = compared.map_or_else(|| thrust_table(table), |(_, compared)| compared.clone());
+            MethodView::new(table, &shown, method_colour(table.method), reported)
+        })
+        .collect()
+}
+
+/// The recordings, and how their sound shares the page.
+fn trial_views<'a>(report: &Report<'a>, names: &[String]) -> (Vec<TrialView<'a>>, SoundShare) {
+    let inputs = report.identification.inputs;
+    let clips: Vec<&SoundClip> = report.trials.iter().filter_map(|trial| trial.sound).collect();
+    let share = sound_share(&clips, SOUND_BYTES_MAX);
+    let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
+    let of_all: Vec<&Notice> = notices_of_all(&records);
+    let view = |((index, input), (name, trial)): (_, (&String, &TrialReport<'a>))| {
+        TrialView::new((index, input), name, trial, share, &of_all)
+    };
+    (inputs.iter().enumerate().zip(names.iter().zip(report.trials)).map(view).collect(), share)
+}
+
+/// The words of each load by each method, by the keys of the points in the figure of the fit.
+fn load_words(identification: &Identification<'_>) -> Result<String, PageError> {
+    let mut words = Map::new();
+    for table in identification.tables {
+        for (index, load) in table.loads.iter().enumerate() {
+            let key = format!("{}-{index}", table.method.name());
+            words.insert(key, Value::String(load_in_words(table, load)));
+        }
+    }
+    // inside of a script element no name may end it
+    Ok(serde_json::to_string(&words)?.replace('<', "\\u003c"))
+}
+
+/// The tables with all digits.
+fn files_of(identification: &Identification<'_>) -> Result<Vec<PageFile>, PageError> {
+    [loads_data(identification.tables), samples_data(identification.tables)]
+        .into_iter()
+        .map(|table| {
+            let csv = table.csv().map_err(|error| PageError::Table(error.to_string()))?;
+            let uri = format!("data:text/csv;base64,{}", STANDARD.encode(csv));
+            Ok(PageFile { name: format!("{}.csv", table.name), uri })
+        })
+        .collect()
 }
 
 /// The tables of the page for documents, beginning with the two of the paper.

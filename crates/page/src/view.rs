@@ -1,11 +1,8 @@
 //! The words, cells and numbers of the template, which escapes all of them.
 
-use crate::input::TrialReport;
-use crate::sound::wav_uri;
 use hovertone_analysis::Method;
 use hovertone_report::{
-    Identification, InputRecord, Notice, RecordingFacts, Row, ScaledNumber, SpeedRecord, TextTable, Verdict, counted,
-    cuts_in_words, notice_of_all, notices_of_all, rotors_heard_text, scaled_number, warning_count, with_uncertainty,
+    Identification, Row, ScaledNumber, TextTable, Verdict, counted, rotors_heard_text, scaled_number,
 };
 use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
 use hovertone_vehicle::Estimate;
@@ -25,6 +22,10 @@ impl Unit {
             None => Self { exponent: None, name: text.to_owned() },
         }
     }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.name.is_empty()
+    }
 }
 
 pub(crate) struct Head {
@@ -39,16 +40,24 @@ pub(crate) struct Cell {
     pub(crate) columns: usize,
 }
 
+/// Columns from which a table has smaller letters.
+const WIDE_COLUMNS: usize = 9;
+/// Rows from which a table may be parted in print.
+const LONG_ROWS: usize = 25;
+
 /// A table as in HTML.
 pub(crate) struct PageTable {
+    /// Name of its CSV file.
+    pub(crate) name: String,
     pub(crate) title: String,
     pub(crate) heads: Vec<Head>,
-    pub(crate) has_units: bool,
     pub(crate) rows: Vec<Vec<Cell>>,
+    /// Whether the last row is the sum of the others, and stays the last.
+    pub(crate) has_sum: bool,
 }
 
 impl PageTable {
-    pub(crate) fn new(title: &str, table: &TextTable) -> Self {
+    pub(crate) fn new(name: &str, title: &str, table: &TextTable) -> Self {
         let heads: Vec<Head> = table
             .columns()
             .iter()
@@ -70,7 +79,20 @@ impl PageTable {
             ],
         };
         let rows = table.rows().iter().map(cells).collect();
-        Self { title: title.to_owned(), has_units: table.has_units(), rows, heads }
+        Self { name: name.to_owned(), title: title.to_owned(), rows, heads, has_sum: false }
+    }
+
+    /// The same, with a sum as its last row.
+    pub(crate) fn with_sum(self) -> Self {
+        Self { has_sum: true, ..self }
+    }
+
+    pub(crate) fn is_wide(&self) -> bool {
+        self.heads.len() >= WIDE_COLUMNS
+    }
+
+    pub(crate) fn is_long(&self) -> bool {
+        self.rows.len() > LONG_ROWS
     }
 }
 
@@ -113,21 +135,12 @@ pub(crate) struct Answer {
     pub(crate) plain_mean: Option<Number>,
     pub(crate) coefficient: Option<String>,
     pub(crate) verdict: Verdict,
-    pub(crate) warnings: Vec<Notice>,
-    /// "2 warnings".
-    pub(crate) warning_count: String,
-    /// Whether some of them stand only at their recordings.
-    pub(crate) has_others: bool,
 }
 
 impl Answer {
-    pub(crate) fn new(table: &ThrustTable, inputs: &[InputRecord]) -> Option<Self> {
+    pub(crate) fn new(table: &ThrustTable) -> Option<Self> {
         let constant = table.thrust_constant_total_n_s2?;
-        let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
         let share = constant.std_uncertainty.map(|std| COVERAGE_FACTOR * std / constant.value);
-        let of_all = notices_of_all(&records).into_iter().map(|notice| notice_of_all(notice, &records));
-        let warnings: Vec<Notice> = table.warnings.iter().map(Notice::from).chain(of_all).collect();
-        let count = table.warnings.len() + warning_count(&records);
         Some(Self {
             method: rotors_heard_text(table.rotors_heard).unwrap_or_else(|| table.title().to_owned()),
             total: Number::new(constant),
@@ -139,9 +152,6 @@ impl Answer {
                 .coefficients
                 .map(|both| format!("{:.4} = T/(ρ n² D⁴), or {:.5} = T/(ρ A (ωR)²)", both.propeller, both.rotorcraft)),
             verdict: Verdict::of(table),
-            warning_count: counted(count, "warning"),
-            has_others: count > warnings.len(),
-            warnings,
         })
     }
 
@@ -174,7 +184,7 @@ impl MethodView {
             colour,
             is_papers: matches!(table.method, Method::MaximumTrace | Method::Gaussian),
             is_reported: table.method == reported,
-            table: PageTable::new("", shown),
+            table: PageTable::new(table.method.name(), "", shown),
             plain_mean: table.plain_mean_total_n_s2.map(Number::bare),
         }
     }
@@ -185,10 +195,13 @@ pub(crate) struct Words<'a> {
     pub(crate) vehicle: &'a str,
     pub(crate) experiment: &'a str,
     pub(crate) sha256: &'a str,
-    pub(crate) rotor_count: u32,
+    /// "4 rotors".
+    pub(crate) rotors: String,
     pub(crate) order: String,
-    pub(crate) load_count: usize,
-    pub(crate) recording_count: usize,
+    /// "3 loads".
+    pub(crate) loads: String,
+    /// "15 recordings".
+    pub(crate) recordings: String,
     pub(crate) heard_count: usize,
 }
 
@@ -199,66 +212,11 @@ impl<'a> Words<'a> {
             vehicle: experiment.vehicle_name,
             experiment: identification.file,
             sha256: identification.sha256,
-            rotor_count: experiment.rotor_count,
+            rotors: counted(experiment.rotor_count as usize, "rotor"),
             order: experiment.order.to_string(),
-            load_count: experiment.load_count,
-            recording_count: identification.inputs.len(),
+            loads: counted(experiment.load_count, "load"),
+            recordings: counted(identification.inputs.len(), "recording"),
             heard_count: identification.inputs.iter().filter(|input| input.record.speed().is_some()).count(),
         }
-    }
-}
-
-/// A playable sound.
-pub(crate) struct SoundView {
-    pub(crate) uri: String,
-    pub(crate) from_s: f64,
-}
-
-/// A recording with its picture and sound.
-pub(crate) struct TrialView<'a> {
-    pub(crate) load: &'a str,
-    pub(crate) file: &'a str,
-    pub(crate) speed: Option<String>,
-    pub(crate) reason: Option<String>,
-    pub(crate) cuts: Option<String>,
-    pub(crate) warnings: &'a [Notice],
-    pub(crate) svg: Option<&'a str>,
-    pub(crate) words: &'a str,
-    pub(crate) sound: Option<SoundView>,
-}
-
-impl<'a> TrialView<'a> {
-    pub(crate) fn new(input: &'a InputRecord, trial: &TrialReport<'a>, sound_rate_hz: u32) -> Self {
-        let record = &input.record;
-        let sound =
-            trial.sound.and_then(|clip| Some(SoundView { uri: wav_uri(clip, sound_rate_hz)?, from_s: clip.from_s }));
-        Self {
-            load: &input.load,
-            file: &record.file,
-            speed: record
-                .speed()
-                .map(|speed| with_uncertainty(speed.speed.rev_s(), speed.combined_std_uncertainty_rev_s())),
-            reason: record.reason(),
-            cuts: record.analysis().and_then(|analysis| cuts_in_words(&analysis.hover.cuts)),
-            warnings: &record.notices,
-            svg: trial.figure.map(|figure| figure.svg.as_str()),
-            words: trial.figure.map_or("", |figure| figure.description.as_str()),
-            sound,
-        }
-    }
-}
-
-/// Facts about the file of a recording.
-pub(crate) struct InputView<'a> {
-    pub(crate) load: &'a str,
-    pub(crate) file: &'a str,
-    pub(crate) status: &'static str,
-    pub(crate) facts: Option<&'a RecordingFacts>,
-}
-
-impl<'a> InputView<'a> {
-    pub(crate) fn new(input: &'a InputRecord) -> Self {
-        let record = &input.record;
-        Self { load: &input.load, file: &record.file, status: record.status(), facts: record.recording.as_ref() }
     }
 }

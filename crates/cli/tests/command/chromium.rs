@@ -1,5 +1,7 @@
 //! A headless Chromium, driven over its DevTools socket: opens a page, moves the mouse, reads what is there.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
 use std::net::TcpStream;
@@ -77,8 +79,7 @@ impl Browser {
             browser.call(&format!("{domain}.enable"), json!({}));
         }
         browser.call("Page.bringToFront", json!({}));
-        let screen = json!({ "width": 1100, "height": 900, "deviceScaleFactor": 1, "mobile": false });
-        browser.call("Emulation.setDeviceMetricsOverride", screen);
+        browser.screen(1200);
         Some(browser)
     }
 
@@ -91,6 +92,31 @@ impl Browser {
             let message = self.next_message();
             self.events.push(message);
         }
+    }
+
+    /// Sets the width of the screen, px.
+    pub(crate) fn screen(&mut self, width: u32) {
+        let screen = json!({ "width": width, "height": 900, "deviceScaleFactor": 1, "mobile": false });
+        self.call("Emulation.setDeviceMetricsOverride", screen);
+    }
+
+    /// Shows the page on a screen or on paper, light or dark.
+    pub(crate) fn medium(&mut self, medium: &str, scheme: &str) {
+        let features = json!([{ "name": "prefers-color-scheme", "value": scheme }]);
+        self.call("Emulation.setEmulatedMedia", json!({ "media": medium, "features": features }));
+    }
+
+    /// Allows pages to use the clipboard.
+    pub(crate) fn allow_clipboard(&mut self) {
+        let permissions = json!({ "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"] });
+        self.call("Browser.grantPermissions", permissions);
+    }
+
+    /// The page as PDF; what is no text in it is replaced.
+    pub(crate) fn pdf_text(&mut self) -> String {
+        let printed = self.call("Page.printToPDF", json!({ "preferCSSPageSize": true, "printBackground": true }));
+        let bytes = STANDARD.decode(printed["data"].as_str().unwrap_or_default()).unwrap();
+        String::from_utf8_lossy(&bytes).into_owned()
     }
 
     /// The value of an expression in the page; promises are waited for.

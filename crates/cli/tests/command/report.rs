@@ -1,50 +1,10 @@
 //! The folder that `identify` writes: the page as a browser shows it, beside the results that it is made of.
 
 use crate::chromium::Browser;
-use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};
-use hovertone_sim::HoverSettings;
-use hovertone_vehicle::RotorSpeed;
+use crate::page::fits_phone_screen_and_paper;
+use crate::report_fixture::{DURATION_S, HOSTILE_FILE, HOSTILE_LOAD, identified};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-
-const GRAVITY_M_S2: f64 = 9.80;
-const TRUTH_TOTAL_N_S2: f64 = 2.83e-5;
-const ADDED_KG: [f64; 2] = [0.0, 0.05];
-const DURATION_S: f64 = 4.0;
-/// Names that would be markup if they were not escaped. A slash parts folders: this one is in a folder of its own.
-const HOSTILE_FILE: &str = "<script>alert(1)</script>.wav";
-const HOSTILE_LOAD: &str = "<img src=x onerror=alert(1)>";
-
-/// Two loads, the first with a hostile name and a hostile recording, the second with a recording of noise; identified.
-fn identified(folder: &Path) -> Value {
-    let mut experiment = format!(
-        "[vehicle]\npreset = \"ardrone\"\nmass_kg = 0.413\ngravity_m_s2 = {GRAVITY_M_S2}\n[tone]\norder = 69\n[samples]\nlength_s = 2.0\n"
-    );
-    let files = [[HOSTILE_FILE, "a.wav"], ["b.wav", "noise.wav"]];
-    for (added_kg, files) in ADDED_KG.into_iter().zip(files) {
-        let name = if added_kg == 0.0 { HOSTILE_LOAD } else { "loaded" };
-        experiment += &format!(
-            "[[load]]\nname = \"{name}\"\nadded_mass_kg = {added_kg}\nrecordings = [\"{}\", \"{}\"]\n",
-            files[0], files[1]
-        );
-        for (seed, file) in (0..).zip(files) {
-            let path = folder.join(file);
-            fs::create_dir_all(path.parent().unwrap()).unwrap();
-            if file == "noise.wav" {
-                write_noise(&path, DURATION_S);
-                continue;
-            }
-            let speed = RotorSpeed::from_rad_s(((0.413 + added_kg) * GRAVITY_M_S2 / TRUTH_TOTAL_N_S2).sqrt());
-            let settings = steady_hover("ardrone", speed, DURATION_S);
-            write_hover(&path, HoverSettings { seed, ..settings });
-        }
-    }
-    fs::write(folder.join("experiment.toml"), experiment).unwrap();
-    let out = folder.join("out");
-    hovertone(&["identify", text(&folder.join("experiment.toml")), "-o", text(&out)]).ends_with(3);
-    serde_json::from_str(&fs::read_to_string(out.join("results.json")).unwrap()).unwrap()
-}
 
 /// "2.830 ± 0.011" and the power of ten behind it.
 fn shown_number(shown: &str, power: &str) -> f64 {
@@ -61,10 +21,12 @@ fn the_page_shows_the_results_asks_for_nothing_and_complains_of_nothing() {
 
     numbers_are_those_of_the_results(&mut browser, &results);
     hostile_names_are_text(&mut browser);
-    pointing_reads_values(&mut browser);
+    pointing_reads_values(&mut browser, &results);
     dragging_enlarges(&mut browser);
-    methods_can_be_hidden(&mut browser);
+    methods_are_shown_on_request(&mut browser, &results);
+    labels_follow_a_zoom(&mut browser);
     sound_follows_the_picture(&mut browser);
+    fits_phone_screen_and_paper(&mut browser, "details");
 
     let requests = browser.requests();
     let foreign: Vec<&String> = requests.iter().filter(|url| !url.starts_with("data:")).collect();
@@ -111,10 +73,17 @@ fn numbers_are_those_of_the_results(browser: &mut Browser, results: &Value) {
             assert!((rpm - value).abs() <= std * 9.55 / 18.0, "{method}: {row}");
         }
     }
-    let warnings = browser.value("[...document.querySelectorAll('#answer .warnings li')].length");
-    assert_eq!(warnings.as_u64(), results["warnings"].as_array().map(|warnings| warnings.len() as u64));
-    let rejected = browser.text("document.querySelector('#data tbody').textContent");
-    assert!(rejected.contains("noise.wav") && rejected.contains("rejected"), "{rejected}");
+    let counted = browser.text("document.querySelector('#answer .status').textContent");
+    let lines = browser.value("document.querySelectorAll('#answer .warnings li').length");
+    assert_eq!(counted, format!("⚠ {lines} warnings"));
+    let words = browser.text("document.querySelector('#answer .warnings').textContent");
+    let hints = browser.text("[...document.querySelectorAll('.notice')].map(notice => notice.textContent).join('')");
+    for warning in results["warnings"].as_array().unwrap() {
+        let (text, hint) = warning.as_str().unwrap().split_once(" (hint: ").unwrap();
+        assert!(words.contains(text) && hints.contains(hint.trim_end_matches(')')), "{warning}");
+    }
+    let rejected = browser.text("document.querySelector('table.recordings tbody tr:last-child').textContent");
+    assert!(rejected.contains("noise.wav") && rejected.contains("no speed"), "{rejected}");
     let hashes = browser.text("document.querySelector('#settings').textContent");
     for input in results["inputs"].as_array().unwrap() {
         assert!(hashes.contains(input["recording"]["sha256"].as_str().unwrap()));
@@ -127,8 +96,9 @@ fn hostile_names_are_text(browser: &mut Browser) {
     let words = browser.text("document.body.innerText");
     assert!(words.contains(HOSTILE_FILE) && words.contains(HOSTILE_LOAD), "{words}");
     let drawn = browser.text("document.querySelector('[data-figure=\"figure-5-database\"]').textContent");
-    assert!(drawn.contains(HOSTILE_LOAD) && drawn.contains(HOSTILE_FILE), "{drawn}");
-    assert_eq!(browser.value("document.querySelectorAll('script').length"), 2, "a script of somebody else's");
+    let hostile_name = HOSTILE_FILE.rsplit('/').next().unwrap();
+    assert!(drawn.contains(HOSTILE_LOAD) && drawn.contains(hostile_name), "{drawn}");
+    assert_eq!(browser.value("document.querySelectorAll('script').length"), 3, "a script of somebody else's");
     assert_eq!(browser.value("document.querySelectorAll('img, iframe, object, link:not([rel=icon])').length"), 0);
 }
 
@@ -144,15 +114,25 @@ fn place_in(browser: &mut Browser, figure: &str, across: f64, down: f64) -> (f64
     (at[0].as_f64().unwrap(), at[1].as_f64().unwrap())
 }
 
-fn pointing_reads_values(browser: &mut Browser) {
-    let middle = place_in(browser, "[data-figure=fit]", 0.5, 0.5);
-    browser.mouse("mouseMoved", middle);
-    let reading = browser.text("document.querySelector('.readout').textContent");
-    let home = browser.value("document.querySelector('[data-figure=fit]').panels[0].home");
-    let force: f64 = reading.split("force of all rotors ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    let (from, to) = (home["yFrom"].as_f64().unwrap(), home["yTo"].as_f64().unwrap());
-    // a pixel of the window, and the rounding of what is written
-    assert!((force - (from + to) / 2.0).abs() < 0.006 * (to - from), "{reading}, {home}");
+fn pointing_reads_values(browser: &mut Browser, results: &Value) {
+    // the nearest load, wherever the pointer is
+    for (across, load) in [(0.1, 0), (0.9, 1)] {
+        let at = place_in(browser, "[data-figure=fit]", across, 0.5);
+        browser.mouse("mouseMoved", at);
+        let reading = browser.text("document.querySelector('.readout').textContent");
+        let load = &results["loads"][load];
+        let value = |field: &str| load[field].as_f64().unwrap();
+        let mass = format!("mass {:.1} g", 1e3 * value("mass_kg"));
+        let speed = format!("speed {:.0}", value("speed_rpm").floor());
+        let lines: Vec<&str> = reading.lines().collect();
+        assert_eq!((lines[0], lines[1]), (load["name"].as_str().unwrap(), mass.as_str()));
+        assert!(lines[2].starts_with(&speed[..8]) && lines[2].contains(" rpm = "), "{reading}, {speed}");
+        let constant = format!("C_f ({:.2}", 1e5 * load["thrust_constant_total_n_s2"]["value"].as_f64().unwrap());
+        assert!(lines[3].starts_with(&constant[..7]) && lines[3].ends_with("N s²"), "{reading}, {constant}");
+    }
+    assert_eq!(browser.value("!!document.querySelector('[data-figure=fit] .ring:not(.hidden)')"), true);
+    browser.value("document.querySelector('#paper-fold').open = true");
+    browser.draw();
     let spectrogram = "[data-figure=figure-6-spectrograms]";
     let at = place_in(browser, spectrogram, 0.3, 0.4);
     browser.mouse("mouseMoved", at);
@@ -189,14 +169,59 @@ fn dragging_enlarges(browser: &mut Browser) {
     assert_eq!((&whole[0], &whole[1]), (&whole[2], &whole[3]));
 }
 
-fn methods_can_be_hidden(browser: &mut Browser) {
-    let shown = "[...document.querySelectorAll('[data-figure=fit] .method-gaussian')].filter(layer => getComputedStyle(layer).display !== 'none').length";
-    let before = browser.value(shown).as_u64().unwrap();
-    assert!(before >= 3, "{before} layers of the Gaussian method");
+fn methods_are_shown_on_request(browser: &mut Browser, results: &Value) {
+    let shown = |browser: &mut Browser, class: &str| {
+        let layers = format!("[...document.querySelectorAll('[data-figure=fit] .{class}')]");
+        browser.value(&format!("{layers}.filter(layer => getComputedStyle(layer).display !== 'none').length")).as_u64()
+    };
+    // law, points, residuals, key, and twice the points for a pointer
+    let reported = format!("method-{}", results["method"].as_str().unwrap());
+    assert_eq!((shown(browser, &reported), shown(browser, "method-gaussian")), (Some(6), Some(0)));
     browser.value("document.querySelector('[data-method=gaussian]').click()");
-    assert_eq!(browser.value(shown), 0);
+    assert_eq!(shown(browser, "method-gaussian"), Some(6));
     browser.value("document.querySelector('[data-method=gaussian]').click()");
-    assert_eq!(browser.value(shown), before);
+    assert_eq!(shown(browser, "method-gaussian"), Some(0));
+    // the law with an intercept lies over the others, and the key names it
+    let intercept = browser.value(
+        "(() => { const svg = document.querySelector('[data-figure=fit]'); const [line, key] = ['g.with-intercept[data-panel]', '.key.with-intercept text'].map(part => svg.querySelector(part));
+          const laws = [...svg.querySelectorAll('.law')]; return [line.querySelectorAll('[stroke-dasharray]').length, key.textContent.trim(), laws.every(law => law.compareDocumentPosition(line) & 4)]; })()",
+    );
+    assert_eq!(intercept, serde_json::json!([1, "with an intercept", true]));
+}
+
+/// Asserts that the name of a load stays beside its point, and goes with it out of view.
+fn labels_follow_a_zoom(browser: &mut Browser) {
+    let apart = |browser: &mut Browser| {
+        let apart = browser.value(
+            "(() => { const svg = document.querySelector('[data-figure=fit]'); const [panel] = svg.panels;
+              return panel.labels.map(label => { if (label.getClientRects().length === 0) return null; const box = label.getBoundingClientRect();
+                const point = new DOMPoint(panel.px(Number(label.dataset.x)), panel.py(Number(label.dataset.y))).matrixTransform(svg.getScreenCTM());
+                return [Math.round(box.right - point.x), Math.round(box.bottom - point.y)]; }); })()",
+        );
+        apart.as_array().unwrap().clone()
+    };
+    let before = apart(browser);
+    assert_eq!(before.len(), 2);
+    let dot = browser.value("(() => { const svg = document.querySelector('[data-figure=fit]'); const { left, right, top, bottom, data, ...panel } = svg.panels[0]; const at = [svg.panels[0].px(Number(data[0].dataset.x)), svg.panels[0].py(Number(data[0].dataset.y))]; return [(at[0] - left) / (right - left), (at[1] - top) / (bottom - top)]; })()");
+    let (x, y) = (dot[0].as_f64().unwrap(), dot[1].as_f64().unwrap());
+    let figure = "[data-figure=fit]";
+    let (from, to) = (place_in(browser, figure, x - 0.1, y - 0.1), place_in(browser, figure, x + 0.1, y + 0.1));
+    browser.drag(from, to);
+    let after = apart(browser);
+    assert!(after.contains(&Value::Null), "{after:?}");
+    let kept = after.iter().zip(&before).filter(|(after, before)| after == before).count();
+    assert_eq!(kept, 1, "{before:?}, {after:?}");
+    // a drag out of the figure, over its caption, selects no text
+    let caption = browser.value("(() => { const box = document.querySelector('#fit figcaption').getBoundingClientRect(); return [box.left + 200, box.bottom - 4]; })()");
+    let middle = place_in(browser, figure, 0.5, 0.9);
+    let below = (caption[0].as_f64().unwrap(), caption[1].as_f64().unwrap().min(890.0));
+    browser.drag(middle, below);
+    let key = place_in(browser, figure, 0.05, -0.06);
+    browser.drag(key, below);
+    assert_eq!(browser.text("getSelection().toString()"), "");
+    browser.value(&format!(
+        "document.querySelector('{figure}').dispatchEvent(new KeyboardEvent('keydown', {{ key: 'Escape' }}))"
+    ));
 }
 
 fn sound_follows_the_picture(browser: &mut Browser) {

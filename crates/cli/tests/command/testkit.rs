@@ -83,7 +83,8 @@ pub(crate) fn write_noise(path: &Path, duration_s: f64) {
     write_wav(path, &noise.samples_f32(), rate_hz);
 }
 
-fn write_wav(path: &Path, samples: &[f32], sample_rate: u32) {
+/// Writes samples into a 16-bit WAV file.
+pub(crate) fn write_wav(path: &Path, samples: &[f32], sample_rate: u32) {
     let spec =
         hound::WavSpec { channels: 1, sample_rate, bits_per_sample: 16, sample_format: hound::SampleFormat::Int };
     let mut writer = hound::WavWriter::create(path, spec).unwrap();

@@ -22,6 +22,10 @@ pub(crate) const LETTER: i32 = 28;
 pub(crate) const WIDTH: i32 = 1800;
 /// Font size of plotters over the height of its letters.
 const PLOTTERS_SIZE: f64 = 1.24;
+/// plotters has no dashes in SVG: a line of this opacity, which nothing else has, becomes one with dashes.
+const DASHED_OPACITY: f64 = 0.987;
+/// Lengths of a dash and of the gap behind it.
+const DASHES: &str = "stroke-dasharray=\"18 12\"";
 const TICK: i32 = 10;
 const LINE: u32 = 2;
 
@@ -262,7 +266,8 @@ impl Canvas {
             area.present().map_err(refused)?;
         }
         let inner = svg.split_once('\n').and_then(|(_, rest)| rest.rsplit_once("</svg>"));
-        inner.map(|(inner, _)| inner.to_owned()).ok_or_else(|| refused("the drawing is not what it used to be"))
+        let dashed = |inner: &str| inner.replace(&format!("opacity=\"{DASHED_OPACITY}\""), DASHES);
+        inner.map(|(inner, _)| dashed(inner)).ok_or_else(|| refused("the drawing is not what it used to be"))
     }
 }
 

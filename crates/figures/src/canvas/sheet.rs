@@ -1,6 +1,6 @@
 //! What draws: on the whole sheet in its unit, or on one panel in its coordinates.
 
-use super::{LETTER, PLOTTERS_SIZE, Place, refused};
+use super::{DASHED_OPACITY, LETTER, PLOTTERS_SIZE, Place, refused};
 use crate::colour::MUTED;
 use crate::figure::FigureError;
 use crate::geometry::{Extent, Point};
@@ -96,12 +96,7 @@ impl Plot<'_, '_> {
 
     /// A dashed line; the dashes have equal lengths on the sheet.
     pub(crate) fn dashed(&self, from: Point, to: Point, colour: RGBColor, width: u32) -> Result<(), FigureError> {
-        const DASHES: usize = 48;
-        let at = |share: f64| Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-        (0..DASHES).try_for_each(|dash| {
-            let start = dash as f64 / DASHES as f64;
-            self.line(&[at(start), at(start + 0.6 / DASHES as f64)], colour.stroke_width(width))
-        })
+        self.line(&[from, to], colour.mix(DASHED_OPACITY).stroke_width(width))
     }
 
     pub(crate) fn area(&self, outline: &[Point], colour: RGBColor, opacity: f64) -> Result<(), FigureError> {

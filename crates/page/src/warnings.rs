@@ -1,0 +1,103 @@
+//! All warnings of the page: one line each in the answer, linked to the place where the advice stands.
+
+use hovertone_report::{InputRecord, Notice, SpeedRecord, counted, notice_of_all, notices_of_all, warning_count};
+use hovertone_thrust::{ThrustTable, ThrustWarning};
+
+/// Most lines in the answer; the others are counted.
+const LINES_MAX: usize = 8;
+
+/// A line of the answer.
+pub(crate) struct WarningLine {
+    pub(crate) text: String,
+    /// The element with the whole warning.
+    pub(crate) target: String,
+}
+
+/// A warning with its advice, in the section that it concerns.
+pub(crate) struct PlacedNotice {
+    pub(crate) id: String,
+    section: &'static str,
+    pub(crate) text: String,
+    pub(crate) hint: String,
+}
+
+/// The warnings of an experiment.
+pub(crate) struct Warnings {
+    /// "2 warnings".
+    pub(crate) counted: String,
+    pub(crate) lines: Vec<WarningLine>,
+    /// Number of warnings without a line.
+    pub(crate) more: usize,
+    notices: Vec<PlacedNotice>,
+}
+
+impl Warnings {
+    /// The warnings about the constant, about all recordings, and about single recordings, whose names for people are `names`.
+    pub(crate) fn new(table: Option<&ThrustTable>, inputs: &[InputRecord], names: &[String]) -> Self {
+        let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
+        let of_constant = table.into_iter().flat_map(|table| &table.warnings);
+        let of_constant = of_constant.map(|warning| (section_of(warning), Notice::from(warning)));
+        let of_all = notices_of_all(&records);
+        let about_all = of_all.iter().map(|notice| ("recordings", notice_of_all(notice, &records)));
+        let notices: Vec<PlacedNotice> = (1..)
+            .zip(of_constant.chain(about_all))
+            .map(|(number, (section, notice))| PlacedNotice {
+                id: format!("warning-{number}"),
+                section,
+                text: notice.text,
+                hint: notice.hint,
+            })
+            .collect();
+        let mut lines: Vec<WarningLine> =
+            notices.iter().map(|notice| WarningLine { text: notice.text.clone(), target: notice.id.clone() }).collect();
+        for (index, (input, name)) in inputs.iter().zip(names).enumerate() {
+            lines.extend(lines_of(input, name, index, &of_all));
+        }
+        let count = table.map_or(0, |table| table.warnings.len()) + warning_count(&records);
+        lines.truncate(LINES_MAX);
+        Self { counted: counted(count, "warning"), more: count.saturating_sub(lines.len()), lines, notices }
+    }
+
+    /// The warnings of a section.
+    pub(crate) fn of<'a>(&'a self, section: &'a str) -> impl Iterator<Item = &'a PlacedNotice> {
+        self.notices.iter().filter(move |notice| notice.section == section)
+    }
+}
+
+/// The element of a recording.
+pub(crate) fn recording_id(index: usize) -> String {
+    format!("recording-{}", index + 1)
+}
+
+/// The warnings of one recording that do not hold for all; a recording that could not be read has only its reason.
+pub(crate) fn own_notices<'a>(record: &'a SpeedRecord, of_all: &[&Notice]) -> Vec<&'a Notice> {
+    record.notices.iter().filter(|notice| !of_all.contains(notice) && !record.has_failed()).collect()
+}
+
+/// The lines of one recording: its warnings, and a missing speed.
+fn lines_of(input: &InputRecord, name: &str, index: usize, of_all: &[&Notice]) -> Vec<WarningLine> {
+    let (record, id) = (&input.record, recording_id(index));
+    let words = |text: &str| format!("{} · {name}: {text}", input.load);
+    let mut lines: Vec<WarningLine> = (1..)
+        .zip(own_notices(record, of_all))
+        .map(|(number, notice)| WarningLine { text: words(&notice.text), target: format!("{id}-warning-{number}") })
+        .collect();
+    if let Some(reason) = record.reason() {
+        lines.push(WarningLine { text: words(&reason), target: id });
+    }
+    lines
+}
+
+/// The section of the page that a warning concerns.
+fn section_of(warning: &ThrustWarning) -> &'static str {
+    match warning {
+        ThrustWarning::ConstantDrifts(_)
+        | ThrustWarning::TrialLeftOut { .. }
+        | ThrustWarning::ImplausibleFigureOfMerit { .. } => "loads",
+        ThrustWarning::MassNotWeighed { .. }
+        | ThrustWarning::LoudestRotor
+        | ThrustWarning::UncertaintiesIncomplete { .. }
+        | ThrustWarning::TwoRows => "budget",
+        _ => "fit",
+    }
+}
