@@ -65,7 +65,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
             x: Axis::new("share per Hz", Extent::new(0.0, 1.08 * highest)).with_ticks(2),
             y: Axis::new("", range_hz).with_ticks(5),
             right: None,
-            title: format!("{mean_hz:.1} Hz, standard deviation {std_hz:.1} Hz"),
+            title: format!("{mean_hz:.1} Hz, STD {std_hz:.1} Hz"),
         };
         canvas.panel(&beside)?;
         canvas.plot(&beside, "distribution", |plot| {
@@ -82,7 +82,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     }
     let description = format!(
         "Traces of the fundamental and its harmonics in {}; beside each, how often its Gaussian centres took which frequency, and the Gaussian with \
-         their mean and standard deviation (eq 10, with the square that its print lacks).",
+         their mean and standard deviation STD (eq 10, with the square that its print lacks).",
         shortened(trial.recording, 80)
     );
     Ok(Some(canvas.finish("Figure 9: traces with the Gaussian beside them", description)))

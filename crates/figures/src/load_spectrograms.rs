@@ -13,6 +13,8 @@ use plotters::style::Color;
 const PANEL: i32 = 400;
 const PITCH: i32 = 600;
 const TOP: i32 = 140;
+/// Room for the axis below the last panel.
+const BELOW: i32 = 110;
 /// Most rows of a picture, 150 dpi in height.
 const ROWS_MAX: usize = 240;
 /// Most columns of all trials of a panel together.
@@ -27,7 +29,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     };
     let order = all().find_map(|joined| joined.trial.tone_order());
     let levels_db = level_range_db(all().filter_map(|joined| joined.trial.whole()));
-    let mut canvas = Canvas::new("figure-6-spectrograms", TOP + loads.len() as i32 * PITCH);
+    let mut canvas = Canvas::new("figure-6-spectrograms", TOP + (loads.len() as i32 - 1) * PITCH + PANEL + BELOW);
     canvas.colour_bar(ColourMap::Viridis, levels_db)?;
     for (index, (load, joined)) in loads.iter().enumerate() {
         let top = TOP + index as i32 * PITCH;

@@ -13,6 +13,8 @@ use plotters::style::Color;
 const PANEL: i32 = 330;
 const PITCH: i32 = 530;
 const TOP: i32 = 90;
+/// Room for the axis below the last panel.
+const BELOW: i32 = 110;
 
 /// `None` where no trial has a tone.
 pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError> {
@@ -25,7 +27,7 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
     };
     let Some(range_hz) = range_with_margin(points_hz(), 0.05) else { return Ok(None) };
     let colour = colour_of_method(Method::MaximumTrace);
-    let mut canvas = Canvas::new("figure-8-maximum-trace", TOP + loads.len() as i32 * PITCH);
+    let mut canvas = Canvas::new("figure-8-maximum-trace", TOP + (loads.len() as i32 - 1) * PITCH + PANEL + BELOW);
     for (index, (load, joined)) in loads.iter().enumerate() {
         let top = TOP + index as i32 * PITCH;
         let order = joined.iter().find_map(|one| Some(ridge(one)?.band.order.lines_per_turn()));

@@ -10,8 +10,8 @@ use crate::raster::{Raster, level_range_db};
 use crate::rotors;
 use crate::rotors::colour_of_rotor;
 use crate::spectrum::harmonic_name;
-use crate::trial::{Trial, coarser, ridge_lines, track_lines};
-use hovertone_analysis::{Band, CutReason, Method, RotorTone, RotorsHeard};
+use crate::trial::{Trial, coarser, hull, ridge_lines, track_lines};
+use hovertone_analysis::{Band, CutReason, Method, RotorTone, RotorsHeard, Span};
 use plotters::style::{Color, RGBColor};
 
 const ROWS_MAX: usize = 280;
@@ -22,6 +22,8 @@ const PITCH: i32 = 190;
 const HEIGHTS: [i32; 2] = [560, 460];
 /// How much of the picture a cut hides: its reason is read over it.
 const CUT_OPACITY: f64 = 0.78;
+/// Cuts with a smaller gap touch.
+const TOUCHING_S: f64 = 1e-6;
 
 /// The spectrogram of a recording: all frequencies in Hz and as shaft speeds with the tracks of the rotors and the reasons of the cuts, and
 /// below it a narrow band with the same tracks: the highest one where rotors are separated, else that of the tone. `None` where the
@@ -98,7 +100,7 @@ fn draw_whole(
         draw_tracks(canvas, trial, tone, &panel)?;
     } else if let Some(reason) = trial.reason {
         canvas.layer("reason", |sheet| {
-            sheet.text(&shortened(reason, 110), Point::new(place.left, place.top - 66), Anchor::Left, MUTED)
+            sheet.text(&shortened(reason, 88), Point::new(place.left, place.top - 66), Anchor::Left, MUTED)
         })?;
     }
     Ok(())
@@ -111,11 +113,15 @@ fn draw_cuts(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, all_hz: Exte
         hover.cuts.iter().try_for_each(|cut| plot.block(Extent::of_span(cut.span), all_hz, PAPER, CUT_OPACITY))
     })?;
     // the transition to another stretch needs no words
+    let edges = || hover.cuts.iter().filter(|cut| cut.reason == CutReason::Edge).map(|cut| cut.span);
     for cut in hover.cuts.iter().filter(|cut| cut.reason != CutReason::Edge) {
         let words = cut.reason.to_string();
-        let room = panel.x_unit(cut.span.to_s) - panel.x_unit(cut.span.from_s);
+        // the transitions to both sides are room for the words
+        let touching = |span: &Span| span.overlap(cut.span).length_s() > -TOUCHING_S;
+        let span = hull(edges().filter(touching).chain([cut.span])).unwrap_or(cut.span);
+        let room = panel.x_unit(span.to_s) - panel.x_unit(span.from_s);
         if words.chars().count() as i32 * LETTER * 11 / 20 <= room {
-            let middle_s = cut.span.middle_s();
+            let middle_s = span.middle_s();
             let on_sheet = Point::new(panel.x_unit(middle_s), panel.place.top + LETTER);
             let label = Label { text: &words, x: middle_s, y: None, on_sheet, anchor: Anchor::Middle, colour: INK };
             canvas.label("reason-of-cut", &label)?;
@@ -129,7 +135,7 @@ fn draw_tracks(canvas: &mut Canvas, trial: &Trial<'_>, tone: &RotorTone, panel: 
     let mut at_all_bands = |class: &str, lines: &dyn Fn(&Band) -> Vec<Vec<Point>>, colour: RGBColor| {
         canvas.plot(panel, class, |plot| {
             let lines = trial.bands().iter().flat_map(|band| coarser(lines(band)));
-            lines.into_iter().try_for_each(|line| plot.line(&line, colour.mix(0.8).stroke_width(2)))
+            lines.into_iter().try_for_each(|line| plot.line(&line, colour.mix(0.9).stroke_width(3)))
         })
     };
     for (index, rotor) in tone.rotors.iter().enumerate() {

@@ -4,8 +4,8 @@ use crate::input::TrialReport;
 use crate::sound::{SoundShare, opus_uri};
 use crate::warnings::{own_notices, recording_id};
 use hovertone_report::{
-    DecisionWords, InputRecord, Notice, RecordingFacts, counted, cuts_in_words, decision_in_words, short_names,
-    with_uncertainty,
+    DecisionWords, InputRecord, Notice, RecordingFacts, SpeedRecord, counted, cuts_in_words, decision_in_words,
+    short_names, with_uncertainty,
 };
 
 /// A playable sound.
@@ -57,7 +57,7 @@ impl<'a> TrialView<'a> {
                 .map(|speed| with_uncertainty(speed.speed.rev_s(), speed.combined_std_uncertainty_rev_s())),
             decision: decision_in_words(record).unwrap_or_default(),
             reason: record.reason(),
-            cuts: record.analysis().and_then(|analysis| cuts_in_words(&analysis.hover.cuts)),
+            cuts: cuts_of(record),
             used,
             warnings: own_notices(record, of_all),
             svg: trial.figure.map(|figure| figure.svg.as_str()),
@@ -82,6 +82,12 @@ impl<'a> TrialView<'a> {
     pub(crate) fn warnings_counted(&self) -> String {
         counted(self.warnings.len(), "warning")
     }
+}
+
+/// The parts that are not used; a recording without a rotor tone is not used at all.
+fn cuts_of(record: &SpeedRecord) -> Option<String> {
+    let cuts = cuts_in_words(&record.analysis()?.hover.cuts);
+    cuts.or_else(|| record.tone().is_none().then(|| "all of it".to_owned()))
 }
 
 /// Names of the recordings without folders; two of one load keep as much of their folders as tells them apart.

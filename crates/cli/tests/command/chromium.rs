@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
 use std::net::TcpStream;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
@@ -28,6 +28,14 @@ const SWITCHES: [&str; 12] = [
     "--remote-debugging-port=0",
 ];
 const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The program, if there is one on the PATH.
+pub(crate) fn chromium_path() -> Option<PathBuf> {
+    let folders = std::env::var_os("PATH")?;
+    let found =
+        |name: &&str| std::env::split_paths(&folders).map(|folder| folder.join(name)).find(|path| path.is_file());
+    NAMES.iter().find_map(found)
+}
 
 /// A browser with one open page.
 pub(crate) struct Browser {

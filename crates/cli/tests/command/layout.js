@@ -31,6 +31,11 @@
     const letter = Math.min(...texts.map((text) => Number(text.getAttribute("font-size")) * scale));
     if (!isPrint && letter < LETTER_PX_MIN) faults.push(`letters of ${letter} px in ${svg.dataset.figure}`);
     const boxOf = (text) => text.getBoundingClientRect();
+    const sheet = boxOf(svg);
+    for (const text of texts) {
+      const own = boxOf(text);
+      if (own.left < sheet.left - 1 || own.right > sheet.right + 1) faults.push(`${name(text)} is cut in ${svg.dataset.figure}`);
+    }
     const axes = all("g.panel .frame polyline", svg).map((line) => line.getBoundingClientRect()).filter((box) => box.height > 2);
     for (const text of texts.filter((text) => !text.closest(".ticks, .frame"))) {
       const own = boxOf(text);

@@ -9,6 +9,7 @@ mod demo;
 mod examples;
 mod identify;
 mod labels;
+mod lighthouse;
 mod messages;
 mod microphones;
 mod nonsense;
