@@ -129,7 +129,7 @@ impl<'a> Drawing<'a> {
         let colour = colour_of_method(self.reported);
         canvas.plot(&panel, "interval", |plot| plot.area(&self.interval(false), colour, 0.18))?;
         reported_last(self.tables, self.reported).try_for_each(|table| self.method(canvas, &panel, table))?;
-        self.with_intercept(canvas, &panel, |x, force_n| Point::new(x, force_n))?;
+        self.with_intercept(canvas, &panel, Point::new)?;
         for table in self.tables {
             self.data(canvas, &panel, table, |point| Point::new(point.square, point.force_n));
         }

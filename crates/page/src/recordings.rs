@@ -36,7 +36,8 @@ pub(crate) struct TrialView<'a> {
 impl<'a> TrialView<'a> {
     /// A recording; the warnings in `of_all` hold for every recording, and stand above them all.
     pub(crate) fn new(
-        (index, input): (usize, &'a InputRecord),
+        index: usize,
+        input: &'a InputRecord,
         name: &str,
         trial: &TrialReport<'a>,
         share: SoundShare,

@@ -183,7 +183,7 @@ fn trial_views<'a>(report: &Report<'a>, names: &[String]) -> (Vec<TrialView<'a>>
     let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
     let of_all: Vec<&Notice> = notices_of_all(&records);
     let view = |((index, input), (name, trial)): (_, (&String, &TrialReport<'a>))| {
-        TrialView::new((index, input), name, trial, share, &of_all)
+        TrialView::new(index, input, name, trial, share, &of_all)
     };
     (inputs.iter().enumerate().zip(names.iter().zip(report.trials)).map(view).collect(), share)
 }

@@ -59,7 +59,7 @@ pub(crate) fn fits_phone_screen_and_paper(browser: &mut Browser, opened: &str) {
     let boxes: Vec<&str> = pdf.split("/MediaBox [").skip(1).filter_map(|rest| rest.split(']').next()).collect();
     // 210 x 297 mm in points
     let is_a4 = |sides: &&str| sides.starts_with("0 0 594.") && sides.contains(" 841.") || sides.starts_with("0 0 595");
-    assert!(boxes.len() > 2 && boxes.iter().all(|sides| is_a4(&sides)), "{boxes:?}");
+    assert!(boxes.len() > 2 && boxes.iter().all(is_a4), "{boxes:?}");
 }
 
 fn sections_are_in_their_order(browser: &mut Browser) {
