@@ -29,10 +29,11 @@
 //! ```
 //!
 //! The modules follow the data: [`sound`] → [`speed`] (or [`tones`], where nobody knows the tone) → [`rotors`] → [`thrust`]. [`experiment`]
-//! settles a whole campaign; [`vehicle`] knows multirotors and quantities.
+//! settles a whole campaign; [`calibration`] checks the recorder; [`vehicle`] knows multirotors and quantities.
 //!
 //! Pure: no files, clock, threads, environment or printing. Everything is SI, and units stand in the names.
 
+pub mod calibration;
 pub mod experiment;
 
 /// Sound: a source of samples, and the passes over it.

@@ -21,6 +21,9 @@ use crate::warning::{MediaWarning, Warnings};
 /// Fewest samples of a block, except for the last one. Small packets are joined, and memory does not grow.
 const BLOCK_FRAMES_MIN: usize = 4096;
 
+/// *Numeric.*
+const MILLION: f64 = 1e6;
+
 /// Options for opening a file.
 #[derive(Clone, Debug, Default)]
 pub struct OpenOptions {
@@ -28,6 +31,8 @@ pub struct OpenOptions {
     pub audio_track: Option<usize>,
     /// Number of the channel, counted from 1. `None`: the mean of all.
     pub channel: Option<usize>,
+    /// Correction of the recorder's clock, in millionths: the samples count as taken at a rate that is higher by this share.
+    pub clock_correction_ppm: f64,
     /// The ffmpeg for formats that this crate cannot decode.
     pub ffmpeg: FfmpegUse,
 }
@@ -50,7 +55,7 @@ pub struct RecordingInfo {
     pub container: Container,
     /// Name of the codec for people.
     pub codec: String,
-    /// Samples per second, as recorded.
+    /// Samples per second: the rate in the file, with the correction of the recorder's clock.
     pub sample_rate_hz: f64,
     /// Channels of the track.
     pub channel_count: usize,
@@ -123,7 +128,7 @@ impl Recording {
             }
         };
         plan.warnings.iter().cloned().for_each(|warning| warnings.put(warning));
-        Self::start(path, plan, index, audio_track_count, options.channel, warnings)
+        Self::start(path, plan, index, audio_track_count, options, warnings)
     }
 
     fn start(
@@ -131,9 +136,10 @@ impl Recording {
         plan: Plan,
         index: usize,
         audio_track_count: usize,
-        channel: Option<usize>,
+        options: &OpenOptions,
         warnings: Warnings,
     ) -> Result<Self, MediaError> {
+        let channel = options.channel;
         let pass = Pass::start(path, &plan)?;
         let (sample_rate_hz, channel_count) = (pass.frames.sample_rate_hz(), pass.frames.channel_count());
         let container = plan.container;
@@ -153,7 +159,7 @@ impl Recording {
         let info = RecordingInfo {
             container,
             codec: plan.codec.clone(),
-            sample_rate_hz,
+            sample_rate_hz: sample_rate_hz * (1.0 + options.clock_correction_ppm / MILLION),
             channel_count,
             channel,
             audio_track: index + 1,
@@ -214,7 +220,8 @@ impl Recording {
     }
 
     fn note_incidents(&mut self) {
-        let rate = self.info.sample_rate_hz;
+        // lengths in headers are by the clock of the recorder
+        let rate = self.pass.frames.sample_rate_hz();
         let Pass { incidents, non_finite_samples, heard_frames, has_ended, .. } = &self.pass;
         if *non_finite_samples > 0 {
             self.warnings.put_larger(MediaWarning::NonFiniteSamples { count: *non_finite_samples });

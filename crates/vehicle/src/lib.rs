@@ -10,6 +10,7 @@ mod flight;
 mod frame;
 mod known_rotor;
 mod limits;
+mod own_vehicle;
 mod presets;
 mod speed;
 mod vehicle;
@@ -24,10 +25,11 @@ pub use flight::{
 pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;
 pub use limits::{
-    BLADES_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR, KNOWN_RANGE_MARGIN, MASS_FACTOR_MAX, MESH_SIDEBANDS,
-    PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT, are_masses_of_one_vehicle, check_range,
-    loudest_rotor_share,
+    BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR, KNOWN_RANGE_MARGIN,
+    MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT,
+    are_masses_of_one_vehicle, check_range, loudest_rotor_share,
 };
+pub use own_vehicle::{OwnVehicle, OwnVehicleError};
 pub use presets::{find_preset, presets};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};
 pub use vehicle::{ShaftSpeedRange, Sourced, Vehicle};

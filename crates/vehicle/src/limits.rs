@@ -38,6 +38,10 @@ pub const DRIFT_M_MAX: f64 = 0.5;
 /// Default half width of the error of a recorder's clock, in millionths. Phones and cameras keep within 50. *Physics.*
 pub const CLOCK_PPM: f64 = 50.0;
 
+/// Largest correction of a recorder's clock, in millionths. Crystals keep within 100; a camera that counts 1000 pictures for 1001 is off by
+/// 1000. A larger error is no error of a clock. *Physics.*
+pub const CLOCK_CORRECTION_PPM_MAX: f64 = 2000.0;
+
 /// Standard deviation of the difference between the speed of one rotor and the mean of all, as a share: σ √(1 − 1/N), for independent
 /// rotors with the relative standard deviation σ.
 pub fn loudest_rotor_share(rotor_spread_share: f64, rotor_count: u32) -> f64 {

@@ -24,7 +24,7 @@ pub struct ShaftSpeedRange {
 /// A multirotor. Numbers without a source are absent; none is a guess.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Vehicle {
-    /// Name in files and flags, in lower case letters and digits.
+    /// Name in files and flags: lower case letters and digits; in the name of a user's vehicle also `-` and `_`.
     pub id: &'static str,
     /// Name for people.
     pub name: &'static str,

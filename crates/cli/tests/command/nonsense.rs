@@ -162,7 +162,10 @@ fn tips_faster_than_mach_0_6_are_refused_also_with_blades() {
     fs::write(&experiment, toml(0.045)).unwrap();
     hovertone(&["identify", text(&experiment)]).ends_with(0);
     fs::write(&experiment, toml(4.5)).unwrap();
-    refused_with(&["identify", text(&experiment)], &["hover.wav", "diameter_m = 4.5", "300", "Mach 0.6", "in metres"]);
+    refused_with(
+        &["identify", text(&experiment)],
+        &["hover.wav", "diameter_m = 4.5", "rev/s", "Mach 0.6", "in metres"],
+    );
     let table = folder.path().join("stand.csv");
     fs::write(&table, "rpm,thrust_n\n3000,0.701\n4000,1.249\n5000,1.952\n").unwrap();
     hovertone(&["fit", text(&table), "--diameter-m", "0.254"]).ends_with(0);

@@ -29,12 +29,15 @@
 mod resolve;
 #[cfg(test)]
 mod tests;
+mod time;
+
+pub use time::time_s_from_text;
 
 use hovertone_rotor_speed::{
     Config, HoverConfig, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig,
 };
 use hovertone_thrust::{Air, Force, ThrustSettings, UncertaintyInputs, VehicleModel};
-use hovertone_vehicle::{ConfigError, Contradiction, Gear, Order, QuantityError};
+use hovertone_vehicle::{ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
 /// An experiment file as written. Unknown keys are refused.
@@ -63,6 +66,9 @@ pub struct ExperimentFile {
     /// Limits of the effects that no recording shows.
     #[serde(default)]
     pub uncertainty: UncertaintyInputs,
+    /// The device that made the recordings.
+    #[serde(default)]
+    pub recorder: RecorderSection,
     /// The loads.
     #[serde(default, rename = "load")]
     pub loads: Vec<LoadSection>,
@@ -141,6 +147,16 @@ pub struct ToneSection {
     pub band_half_width_share: Option<f64>,
 }
 
+/// The device that made the recordings. `hovertone calibrate` finds the correction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RecorderSection {
+    /// Half width of the error of its clock that remains, in millionths.
+    pub clock_ppm: Option<f64>,
+    /// Correction of its clock, in millionths: positive where it runs slow, so that it hears all tones too low.
+    pub clock_correction_ppm: Option<f64>,
+}
+
 /// One load.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -159,9 +175,11 @@ pub struct LoadSection {
     pub power_w: Option<f64>,
     /// Names or patterns of its recordings.
     pub recordings: Vec<String>,
-    /// Start of the used part, in every recording of this load.
+    /// Start of the used part, in every recording of this load: seconds, or a text such as `"1:02.5"`.
+    #[serde(default, deserialize_with = "time::optional")]
     pub from_s: Option<f64>,
     /// End of the used part.
+    #[serde(default, deserialize_with = "time::optional")]
     pub to_s: Option<f64>,
 }
 
@@ -184,6 +202,8 @@ pub struct Experiment {
     pub air: Option<Air>,
     /// Limits of the effects that no recording shows.
     pub uncertainty: UncertaintyInputs,
+    /// Correction of the recorder's clock, in millionths, for the program that opens the recordings.
+    pub clock_correction_ppm: f64,
     /// The loads.
     pub loads: Vec<ExperimentLoad>,
 }
@@ -220,14 +240,22 @@ impl Experiment {
 }
 
 impl ExperimentLoad {
-    /// The settings of the analysis for a recording of this load.
+    /// The settings of the analysis for a recording of this load. Its mass, with the diameter of the propellers, is a prior on the shaft
+    /// speed.
     pub fn config(&self, experiment: &Experiment) -> Config {
         let rotors = RotorsConfig { count: self.rotors_running, ..experiment.config.rotors };
+        let mass_kg = match self.force {
+            Force::Thrust { thrust_n, .. } => Some(thrust_n / GRAVITY_STANDARD_M_S2),
+            Force::Weight { .. } => self.force.mass_kg(),
+        };
+        let known = KnownRotor { rotor_count: Some(self.rotors_running), mass_kg, ..experiment.config.known };
+        // a mass or a diameter that no multirotor has tells nothing about the speed
+        let known = if known.check().is_ok() { known } else { experiment.config.known };
         let mut budget = experiment.config.budget;
         if matches!(self.force, Force::Thrust { .. }) {
             budget.drift_m_max = 0.0; // a bench does not move
         }
-        Config { span: self.span, rotors, budget, ..experiment.config.clone() }
+        Config { span: self.span, rotors, known, budget, ..experiment.config.clone() }
     }
 }
 

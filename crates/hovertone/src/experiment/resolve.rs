@@ -5,8 +5,8 @@ use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
 use hovertone_vehicle::{
-    GRAVITY_STANDARD_M_S2, Gear, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M, Vehicle, are_masses_of_one_vehicle,
-    find_preset,
+    CLOCK_CORRECTION_PPM_MAX, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M,
+    Vehicle, are_masses_of_one_vehicle, check_range, presets,
 };
 
 /// Smallest gravity, m/s². On the highest equatorial mountain it is 9.764. *Physics.*
@@ -57,12 +57,27 @@ impl ExperimentFile {
     /// # Errors
     /// An entry that is missing, out of range or in contradiction to another one.
     pub fn resolve(&self, model: Option<VehicleModel>) -> Result<Experiment, ExperimentError> {
+        self.resolve_among(presets(), model)
+    }
+
+    /// The same with other vehicles as presets: those of the user beside those of this project.
+    ///
+    /// # Errors
+    /// As of [`ExperimentFile::resolve`].
+    pub fn resolve_among(
+        &self,
+        vehicles: &[Vehicle],
+        model: Option<VehicleModel>,
+    ) -> Result<Experiment, ExperimentError> {
         if self.vehicle.model.is_some() != model.is_some() {
             return Err(missing("the vehicle's model", "give the file that vehicle.model names"));
         }
         model.as_ref().map_or(Ok(()), check_model)?;
         let preset = match &self.vehicle.preset {
-            Some(name) => Some(find_preset(name).ok_or_else(|| ExperimentError::UnknownPreset { name: name.clone() })?),
+            Some(name) => {
+                let named = vehicles.iter().find(|vehicle| vehicle.id == name);
+                Some(named.ok_or_else(|| ExperimentError::UnknownPreset { name: name.clone() })?)
+            }
             None => None,
         };
         let known = Known { preset, model: model.as_ref() };
@@ -73,32 +88,18 @@ impl ExperimentFile {
         let rotor_count =
             rotor_count.ok_or_else(|| missing("the number of rotors", "write vehicle.rotors, or a vehicle.preset"))?;
         positive("vehicle.rotors", f64::from(rotor_count))?;
-        let config = Config {
-            samples: self.samples,
-            spectrogram: self.spectrogram,
-            ridge: self.ridge,
-            hover: self.hover,
-            budget: BudgetConfig {
-                drift_m_max: self.uncertainty.drift_m_max,
-                rotor_spread_share: self.uncertainty.rotor_spread_share,
-                ..BudgetConfig::default()
-            },
-            method: Method::for_rotors(rotor_count),
-            all_methods: true,
-            ..Config::for_tone(self.resolve_tone(preset)?)
-        };
-        config.check()?;
+        let own_diameter_m = self.vehicle.propeller_diameter_m;
+        if let Some(value) = own_diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
+            let name = "vehicle.propeller_diameter_m".to_owned();
+            return Err(ExperimentError::OutOfRange { name, value, must_be: "allowed 0.01 to 10: it is in metres" });
+        }
+        let config = self.resolve_config(known, rotor_count)?;
         if self.loads.is_empty() {
             return Err(missing("the loads", "write at least one [[load]] with its recordings"));
         }
         self.check_names()?;
         let loads =
             self.loads.iter().map(|load| self.resolve_load(load, known, rotor_count)).collect::<Result<_, _>>()?;
-        let own_diameter_m = self.vehicle.propeller_diameter_m;
-        if let Some(value) = own_diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
-            let name = "vehicle.propeller_diameter_m".to_owned();
-            return Err(ExperimentError::OutOfRange { name, value, must_be: "allowed 0.01 to 10: it is in metres" });
-        }
         // the height of the place also gives the pressure, where the file has none
         let air = self.air.map(|air| Air { height_m: air.height_m.or(self.vehicle.height_m), ..air });
         if let Some(air) = air {
@@ -108,6 +109,8 @@ impl ExperimentFile {
             }
         }
         self.uncertainty.check()?;
+        let clock_correction_ppm = self.recorder.clock_correction_ppm.unwrap_or(0.0);
+        check_range("clock_correction_ppm", clock_correction_ppm, -CLOCK_CORRECTION_PPM_MAX, CLOCK_CORRECTION_PPM_MAX)?;
         Ok(Experiment {
             vehicle_name: preset.map_or("own vehicle", |preset| preset.name).to_owned(),
             rotor_count,
@@ -116,9 +119,41 @@ impl ExperimentFile {
             config,
             air,
             uncertainty: self.uncertainty,
+            clock_correction_ppm,
             loads,
             model,
         })
+    }
+
+    /// The settings of the analysis. The diameter of the propellers is part of the prior on the shaft speed.
+    fn resolve_config(&self, known: Known<'_>, rotor_count: u32) -> Result<Config, ExperimentError> {
+        let tone = self.resolve_tone(known.preset)?;
+        let of_preset = known.preset.map(KnownRotor::of_vehicle).unwrap_or_default();
+        let defaults = BudgetConfig::default();
+        let config = Config {
+            known: KnownRotor {
+                diameter_m: self.vehicle.propeller_diameter_m.or_else(|| known.propeller_diameter_m()),
+                mass_kg: None, // that of each load
+                rotor_count: Some(rotor_count),
+                blade_count: tone.blades,
+                ..of_preset
+            },
+            samples: self.samples,
+            spectrogram: self.spectrogram,
+            ridge: self.ridge,
+            hover: self.hover,
+            budget: BudgetConfig {
+                clock_ppm: self.recorder.clock_ppm.unwrap_or(defaults.clock_ppm),
+                drift_m_max: self.uncertainty.drift_m_max,
+                rotor_spread_share: self.uncertainty.rotor_spread_share,
+                ..defaults
+            },
+            method: Method::for_rotors(rotor_count),
+            all_methods: true,
+            ..Config::for_tone(tone)
+        };
+        config.check()?;
+        Ok(config)
     }
 
     fn resolve_tone(&self, preset: Option<&Vehicle>) -> Result<ToneConfig, ExperimentError> {

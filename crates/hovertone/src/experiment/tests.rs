@@ -74,6 +74,32 @@ fn a_bench_run_has_the_scales_uncertainty_unless_it_says_better() {
     assert!((thrust_std_n - 0.0005 * GRAVITY_STANDARD_M_S2).abs() < 1e-12);
 }
 
+/// With diameter and mass, the shaft speed has a prior: it settles the octave.
+#[test]
+fn diameter_and_mass_are_known_before_the_sound() {
+    let text = GOOD.replace("[tone]", "propeller_diameter_m = 0.2\n[tone]");
+    let experiment = resolve(&text).expect("a good file");
+    let known = |load: usize| experiment.loads[load].config(&experiment).known;
+    assert_eq!((known(0).diameter_m, known(0).mass_kg, known(0).rotor_count), (Some(0.2), Some(0.413), Some(4)));
+    assert!((known(1).mass_kg.expect("a mass") - 0.444).abs() < 1e-12);
+    assert!(known(1).hover_thrust_coefficient(60.0, 1.2).is_some());
+    let bench =
+        resolve(&text.replace("added_mass_kg = 0.031", "thrust_n = 0.980665\nrotors_running = 1")).expect("good");
+    let known = bench.loads[1].config(&bench).known;
+    assert!((known.mass_kg.expect("a mass") - 0.1).abs() < 1e-12 && known.rotor_count == Some(1));
+}
+
+#[test]
+fn times_and_the_recorders_clock_are_settings() {
+    let text = GOOD.replace("added_mass_kg = 0.031", "added_mass_kg = 0.031\nfrom_s = \"1:02.5\"\nto_s = 70")
+        + "\n[recorder]\nclock_ppm = 10.0\nclock_correction_ppm = -83.5\n";
+    let experiment = resolve(&text).expect("a good file");
+    assert_eq!((experiment.loads[1].span.from_s, experiment.loads[1].span.to_s), (Some(62.5), Some(70.0)));
+    assert_eq!((experiment.clock_correction_ppm, experiment.config.budget.clock_ppm), (-83.5, 10.0));
+    assert!(resolve(&text.replace("-83.5", "83500.0")).expect_err("no clock").contains("clock_correction_ppm"));
+    assert!(resolve(&text.replace("1:02.5", "1:62.5")).expect_err("no time").contains("1:62.5"));
+}
+
 #[test]
 fn what_means_nothing_is_refused_by_name() {
     for (from, to, said) in [

@@ -1,0 +1,144 @@
+//! The recorder's clock and the order of the tone, checked against one known speed.
+//!
+//! ```
+//! use hovertone::calibration::{KnownSpeed, Relation, check_against};
+//! use hovertone::vehicle::{Order, RotorSpeed};
+//!
+//! let known = KnownSpeed { speed: RotorSpeed::from_rpm(7200.0), std_share: 20e-6 };
+//! // heard 100 millionths too slow, and with twice the blades
+//! let heard = |rpm: f64| check_against(RotorSpeed::from_rpm(rpm), 10e-6, Order::new(2.0)?, known);
+//! let check = heard(7199.28)?;
+//! assert_eq!(check.relation, Relation::Agrees);
+//! assert!((check.correction_ppm - 100.0).abs() < 0.1);
+//! assert_eq!(heard(14_398.56)?.relation, Relation::OtherOrder(Order::new(4.0)?));
+//! # Ok::<(), hovertone::vehicle::QuantityError>(())
+//! ```
+
+use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Order, QuantityError, RotorSpeed};
+
+/// *Numeric.*
+const MILLION: f64 = 1e6;
+/// Standard uncertainties at which a heard and a known speed differ. *Decision.*
+const COVERAGE: f64 = 3.0;
+/// Largest order that is offered in place of a wrong one: the teeth of a large gear wheel. *Decision.*
+const ORDER_MAX: f64 = 200.0;
+
+/// A speed that another instrument measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KnownSpeed {
+    /// The speed.
+    pub speed: RotorSpeed,
+    /// Its relative standard uncertainty.
+    pub std_share: f64,
+}
+
+/// How a heard speed relates to the known one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Relation {
+    /// They agree, but for an error that a clock may have: the order is right.
+    Agrees,
+    /// They would agree if the tone had this order.
+    OtherOrder(Order),
+    /// No order and no clock explains the difference.
+    None,
+}
+
+/// A heard speed against a known one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpeedCheck {
+    /// How the two relate.
+    pub relation: Relation,
+    /// Heard over known speed, with the given order.
+    pub heard_over_known: f64,
+    /// Correction of the recorder's clock, in millionths, with the order that fits: positive where the clock runs slow, so that all tones
+    /// are heard too low.
+    pub correction_ppm: f64,
+    /// Its standard uncertainty, from the sound and from the known speed.
+    pub correction_std_ppm: f64,
+}
+
+impl SpeedCheck {
+    /// Whether the order is right, and the clock within its limit as far as the uncertainty (k = 2) shows.
+    pub fn passes(&self, clock_ppm: f64) -> bool {
+        self.relation == Relation::Agrees && self.correction_ppm.abs() <= clock_ppm + self.expanded_ppm()
+    }
+
+    /// Whether the correction is more than its uncertainty (k = 2).
+    pub fn is_significant(&self) -> bool {
+        self.correction_ppm.abs() > self.expanded_ppm()
+    }
+
+    /// Expanded uncertainty (k = 2) of the correction.
+    pub fn expanded_ppm(&self) -> f64 {
+        2.0 * self.correction_std_ppm
+    }
+}
+
+/// Compares a speed, heard by a tone of the given order, with a known one. `heard_std_share` is its relative standard uncertainty without
+/// the clock's part.
+///
+/// # Errors
+/// None is known, since the orders that are tried are allowed.
+pub fn check_against(
+    heard: RotorSpeed,
+    heard_std_share: f64,
+    order: Order,
+    known: KnownSpeed,
+) -> Result<SpeedCheck, QuantityError> {
+    let ratio = heard.rev_s() / known.speed.rev_s();
+    let correction_std_ppm = MILLION * heard_std_share.hypot(known.std_share);
+    let limit_ppm = CLOCK_CORRECTION_PPM_MAX + COVERAGE * correction_std_ppm;
+    let correction_ppm = |ratio: f64| MILLION * (1.0 / ratio - 1.0);
+    let fits = |ratio: f64| correction_ppm(ratio).abs() <= limit_ppm;
+    // the order of the tone, if the known speed is right
+    let lines = ratio * order.lines_per_turn();
+    let nearest = lines.round();
+    let (relation, ratio_of_clock) = if fits(ratio) {
+        (Relation::Agrees, ratio)
+    } else if (1.0..=ORDER_MAX).contains(&nearest) && fits(lines / nearest) {
+        (Relation::OtherOrder(Order::new(nearest)?), lines / nearest)
+    } else {
+        (Relation::None, ratio)
+    };
+    Ok(SpeedCheck {
+        relation,
+        heard_over_known: ratio,
+        correction_ppm: correction_ppm(ratio_of_clock),
+        correction_std_ppm,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(heard_rpm: f64, order: f64, std_share: f64) -> SpeedCheck {
+        let known = KnownSpeed { speed: RotorSpeed::from_rpm(6000.0), std_share };
+        check_against(RotorSpeed::from_rpm(heard_rpm), 0.0, Order::new(order).unwrap(), known).unwrap()
+    }
+
+    #[test]
+    fn a_clock_is_corrected_and_an_order_named() {
+        let slow = check(6000.0 / (1.0 + 83e-6), 2.0, 10e-6);
+        assert!(slow.relation == Relation::Agrees && (slow.correction_ppm - 83.0).abs() < 1e-6);
+        assert!(slow.is_significant() && !slow.passes(50.0) && slow.passes(70.0));
+        let of = |order: f64| Relation::OtherOrder(Order::new(order).unwrap());
+        assert_eq!(check(9000.0, 2.0, 1e-5).relation, of(3.0));
+        assert_eq!(check(3000.0, 2.0, 1e-5).relation, of(1.0));
+        assert_eq!(check(6000.0 * 68.0 / 69.0, 69.0, 1e-5).relation, of(68.0));
+        assert!((check(9000.9, 2.0, 1e-5).correction_ppm + 100.0).abs() < 0.1);
+    }
+
+    #[test]
+    fn a_speed_of_another_rotor_has_no_relation_and_never_passes() {
+        // 48 kHz played as 44.1 kHz, and twice the speed where one line per turn is heard
+        for (heard, order) in [(6000.0 * 44.1 / 48.0, 2.0), (6500.0, 2.0), (3000.0, 1.0)] {
+            let check = check(heard, order, 1e-5);
+            assert_eq!(check.relation, Relation::None, "{heard}");
+            assert!(!check.passes(1e6));
+        }
+        // a coarse tachometer shows no more than it can
+        let coarse = check(6003.0, 2.0, 1e-3);
+        assert!(coarse.passes(50.0) && !coarse.is_significant());
+    }
+}

@@ -1,0 +1,156 @@
+//! A vehicle that a user describes in a file, beside the presets.
+
+use crate::{Contradiction, Gear, KnownRotor, PROPELLER_DIAMETER_M, ShaftSpeedRange, Sourced, Vehicle};
+use serde::Deserialize;
+
+/// Most blades of a propeller that a file may state. *Physics.*
+const BLADES_ALLOWED: std::ops::RangeInclusive<u32> = 1..=20;
+/// Source of the numbers where the file names none.
+const SOURCE: &str = "your own vehicles.toml";
+
+/// A vehicle as written in a file. Unknown keys are refused.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OwnVehicle {
+    /// Name for people; where absent, the name in files and flags.
+    pub name: Option<String>,
+    /// Number of rotors.
+    pub rotors: u32,
+    /// Blades of each propeller.
+    pub blades: Option<u32>,
+    /// Gear between each motor and its rotor.
+    pub gear: Option<Gear>,
+    /// Tip-to-tip diameter of the propellers.
+    pub propeller_diameter_m: Option<f64>,
+    /// Take-off mass with battery.
+    pub mass_kg: Option<f64>,
+    /// Plausible shaft speeds in flight: slowest and fastest.
+    pub shaft_speed_rev_s: Option<(f64, f64)>,
+    /// Source of the numbers.
+    pub source: Option<String>,
+}
+
+/// Error in a vehicle of a user.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OwnVehicleError {
+    /// A name that no flag could hold.
+    #[error("the name \"{id}\" has other signs than small letters, digits, - and _")]
+    Name {
+        /// The name.
+        id: String,
+    },
+    /// A number out of range.
+    #[error("{name} = {value}, {must_be}")]
+    OutOfRange {
+        /// Name of the number.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Allowed values.
+        must_be: &'static str,
+    },
+    /// An entry that no vehicle has.
+    #[error(transparent)]
+    Vehicle(#[from] Contradiction),
+}
+
+impl OwnVehicle {
+    /// The vehicle with the given name in files and flags. Its texts are kept to the end of the program, as those of the presets are: call
+    /// this once for each file.
+    ///
+    /// # Errors
+    /// A name with signs that no flag holds, a number out of range, a gear whose pinion is larger than its wheel.
+    pub fn vehicle(&self, id: &str) -> Result<Vehicle, OwnVehicleError> {
+        let fits = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || "-_".contains(letter);
+        if id.is_empty() || id.starts_with('-') || !id.chars().all(fits) {
+            return Err(OwnVehicleError::Name { id: id.to_owned() });
+        }
+        self.check()?;
+        let source: &'static str = self.source.clone().map_or(SOURCE, |source| source.leak());
+        let shaft_speed =
+            self.shaft_speed_rev_s.map(|(low, high)| ShaftSpeedRange { rev_s_low: low, rev_s_high: high });
+        Ok(Vehicle {
+            id: id.to_owned().leak(),
+            name: self.name.clone().unwrap_or_else(|| id.to_owned()).leak(),
+            rotor_count: Sourced { value: self.rotors, source },
+            blade_count: self.blades.map(|value| Sourced { value, source }),
+            gear: self.gear.map(|value| Sourced { value, source }),
+            propeller_diameter_m: self.propeller_diameter_m.map(|value| Sourced { value, source }),
+            mass_kg: self.mass_kg.map(|value| Sourced { value, source }),
+            shaft_speed: shaft_speed.map(|value| Sourced { value, source }),
+        })
+    }
+
+    fn check(&self) -> Result<(), OwnVehicleError> {
+        self.gear.map_or(Ok(()), Gear::check)?;
+        let refuse = |name, value, must_be| Err(OwnVehicleError::OutOfRange { name, value, must_be });
+        let of_mass = KnownRotor { mass_kg: self.mass_kg, ..KnownRotor::default() };
+        let of_rotors = KnownRotor { rotor_count: Some(self.rotors), ..KnownRotor::default() };
+        if of_rotors.check().is_err() {
+            return refuse("rotors", f64::from(self.rotors), "allowed 1 to 64");
+        }
+        match (self.blades, self.propeller_diameter_m, self.mass_kg, self.shaft_speed_rev_s) {
+            (Some(blades), ..) if !BLADES_ALLOWED.contains(&blades) => {
+                refuse("blades", f64::from(blades), "allowed 1 to 20")
+            }
+            (_, Some(diameter_m), ..) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
+                refuse("propeller_diameter_m", diameter_m, "allowed 0.01 to 10: it is in metres")
+            }
+            (.., Some(mass_kg), _) if of_mass.check().is_err() => {
+                refuse("mass_kg", mass_kg, "allowed 0.001 to 10000: it is in kilograms")
+            }
+            (.., Some((low, high))) if !(low > 0.0 && low < high && high.is_finite()) => {
+                refuse("shaft_speed_rev_s", low, "must be above 0, and below the second number")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn own() -> OwnVehicle {
+        OwnVehicle {
+            name: None,
+            rotors: 6,
+            blades: Some(3),
+            gear: None,
+            propeller_diameter_m: Some(0.2),
+            mass_kg: Some(0.9),
+            shaft_speed_rev_s: Some((40.0, 200.0)),
+            source: None,
+        }
+    }
+
+    #[test]
+    fn an_own_vehicle_is_as_a_preset() {
+        let vehicle = own().vehicle("hexa-1").unwrap();
+        assert_eq!((vehicle.id, vehicle.name, vehicle.rotor_count.value), ("hexa-1", "hexa-1", 6));
+        assert_eq!(vehicle.tone_order().unwrap().lines_per_turn(), 3.0);
+        assert_eq!(vehicle.mass_kg.unwrap().source, SOURCE);
+        let named = OwnVehicle { name: Some("Hexa".to_owned()), source: Some("my scale".to_owned()), ..own() };
+        let vehicle = named.vehicle("hexa").unwrap();
+        assert_eq!((vehicle.name, vehicle.blade_count.unwrap().source), ("Hexa", "my scale"));
+    }
+
+    #[test]
+    fn what_no_vehicle_has_is_refused_by_name() {
+        for id in ["", "Hexa", "my drone", "-x", "a.b"] {
+            assert!(matches!(own().vehicle(id), Err(OwnVehicleError::Name { .. })), "{id}");
+        }
+        for (wrong, said) in [
+            (OwnVehicle { rotors: 0, ..own() }, "rotors"),
+            (OwnVehicle { blades: Some(0), ..own() }, "blades"),
+            (OwnVehicle { propeller_diameter_m: Some(254.0), ..own() }, "metres"),
+            (OwnVehicle { mass_kg: Some(f64::NAN), ..own() }, "mass_kg"),
+            (OwnVehicle { shaft_speed_rev_s: Some((200.0, 40.0)), ..own() }, "shaft_speed_rev_s"),
+            (OwnVehicle { gear: Some(Gear { pinion: 69, wheel: 8 }), ..own() }, "swapped"),
+        ] {
+            let message = wrong.vehicle("hexa").unwrap_err().to_string();
+            assert!(message.contains(said), "{message}");
+        }
+    }
+}
