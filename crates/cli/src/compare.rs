@@ -3,10 +3,10 @@
 use crate::args::CompareArguments;
 use crate::export::identified;
 use crate::failure::{Ending, Failure};
+use crate::inputs::read_text;
 use crate::terminal::Terminal;
 use hovertone_exchange::{SimulatorModel, model_from_text};
 use hovertone_report::{ComparedModel, models_json, models_text};
-use std::fs;
 use std::path::Path;
 
 /// Reads all models and prints them beside the results.
@@ -28,8 +28,7 @@ fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
 
 /// Reads the model of a simulator.
 pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
-    let text = fs::read_to_string(path)
-        .map_err(|error| Failure::failed(format!("the model cannot be read: {error}"), "check its name", path))?;
+    let text = read_text(path, "the model")?;
     let hint = "`hovertone compare --help` lists the files that it reads";
     model_from_text(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))
 }

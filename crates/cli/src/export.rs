@@ -1,28 +1,106 @@
-//! `hovertone export`: lines to paste into the model of a simulator.
+//! `hovertone export`: the model of a simulator with the constant, new or changed in place.
 
 use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
+use crate::inputs::{is_stdin, read_text};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
-use hovertone_exchange::{IdentifiedRotor, ResultsError, export_text, identified_from_results};
-use std::fs;
+use hovertone_exchange::{
+    ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
+    updated_model,
+};
+use hovertone_report::{Notice, printable};
 use std::path::Path;
+
+/// Masses that differ by less are of one vehicle.
+const MASS_SHARE: f64 = 0.02;
 
 /// Writes or prints the lines.
 pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let rotor = resolve(arguments)?;
-    let outputs = Outputs::beside([&arguments.results], arguments.replace.force);
-    let text = export_text(&rotor, arguments.to)
+    let Some(format) = arguments.to else {
+        return match &arguments.into {
+            Some(model) => change(model, &rotor, arguments, terminal),
+            None => Err(Failure::usage("neither --to nor --into is given", "see `hovertone export --help`")),
+        };
+    };
+    let text = export_text(&rotor, format)
         .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
     match &arguments.output {
         Some(path) => {
-            outputs.write(path, text)?;
+            Outputs::beside([&arguments.results], arguments.replace.force).write(path, text)?;
             terminal.say(&written(path));
         }
         None => terminal.data(&text)?,
     }
     Ok(Ending::Done)
+}
+
+/// Changes the numbers of a model: in place, which is what was asked for, or into another file. Prints the difference.
+fn change(
+    model: &Path,
+    rotor: &IdentifiedRotor,
+    arguments: &ExportArguments,
+    terminal: &mut Terminal,
+) -> Result<Ending, Failure> {
+    if is_stdin(model) && arguments.output.is_none() {
+        return Err(Failure::usage("stdin cannot be changed in place", "write to a file with -o FILE"));
+    }
+    let text = read_text(model, "the model")?;
+    let hint = match arguments.torque_constant_n_m_s2 {
+        Some(_) => {
+            "`hovertone compare --help` lists the files that it knows; without --torque-constant-n-m-s2 the torque stays"
+        }
+        None => "`hovertone compare --help` lists the files that it knows",
+    };
+    let failed = |error: ModelError| Failure::Usage {
+        what: format!("{error}: nothing was written"),
+        hint: hint.to_owned(),
+        path: Some(model.to_owned()),
+    };
+    let before = model_from_text(&text).map_err(failed)?;
+    let updated = updated_model(&text, rotor).map_err(failed)?;
+    let place = arguments.output.as_deref().unwrap_or(model);
+    if updated.changes.is_empty() && arguments.output.is_none() {
+        terminal
+            .say(&format!("nothing to change: {} has this constant already", printable(&model.display().to_string())));
+        return Ok(Ending::Done);
+    }
+    match &arguments.output {
+        Some(output) => {
+            Outputs::beside([&arguments.results, model], arguments.replace.force).write(output, &updated.text)?
+        }
+        None => Outputs::beside([&arguments.results], true).write(model, &updated.text)?,
+    }
+    terminal.data(&difference(model, place, &updated.changes))?;
+    terminal.flush()?;
+    terminal.say(&written(place));
+    if let Some((theirs_kg, heard_kg)) =
+        before.mass_kg.zip(rotor.mass_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
+    {
+        let text = format!(
+            "the model weighs {theirs_kg} kg and the heard vehicle {heard_kg} kg: it will hover at another speed"
+        );
+        terminal.warning(&Notice::new(text, "set the mass of the model, which was not changed"), "");
+    }
+    Ok(Ending::Done)
+}
+
+/// Whether two masses may be of one vehicle, with the rounding of a scale.
+fn are_alike(one_kg: f64, other_kg: f64) -> bool {
+    (one_kg / other_kg - 1.0).abs() < MASS_SHARE
+}
+
+/// The changed lines as a unified diff without lines around them.
+fn difference(before: &Path, after: &Path, changes: &[ChangedLine]) -> String {
+    let mut text =
+        format!("--- {}\n+++ {}\n", printable(&before.display().to_string()), printable(&after.display().to_string()));
+    for ChangedLine { line_number, before, after } in changes {
+        let plain = |line: &str| line.trim_end_matches('\r').to_owned();
+        text += &format!("@@ -{line_number} +{line_number} @@\n-{}\n+{}\n", plain(before), plain(after));
+    }
+    text
 }
 
 fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
@@ -50,8 +128,7 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
 
 /// Reads results.json, or one group of the results of a table.
 pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedRotor, Failure> {
-    let text = fs::read_to_string(path)
-        .map_err(|error| Failure::failed(format!("the results cannot be read: {error}"), "check the name", path))?;
+    let text = read_text(path, "the results")?;
     identified_from_results(&text, group).map_err(|error| match error {
         ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => {
             Failure::Usage { what: error.to_string(), hint: "say --group NAME".to_owned(), path: Some(path.to_owned()) }

@@ -3,6 +3,7 @@
 use crate::args::FitArguments;
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
+use crate::inputs::read_bytes;
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
 
@@ -15,7 +16,6 @@ use hovertone::thrust::{
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
 use hovertone_vehicle::{Estimate, RotorSpeed, check_tips};
-use std::fs;
 use std::path::Path;
 
 /// Most multirotors safely carry a quarter of their mass.
@@ -68,8 +68,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
 }
 
 fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> {
-    let bytes = fs::read(path)
-        .map_err(|error| Failure::failed(format!("the table cannot be read: {error}"), "check its name", path))?;
+    let bytes = read_bytes(path, "the table")?;
     let text = String::from_utf8_lossy(&bytes);
     let table = table_from_csv(&text).map_err(|error| table_failure(&error, path))?;
     let sha256 = sha256_of_bytes(&bytes);

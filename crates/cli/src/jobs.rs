@@ -1,7 +1,8 @@
 //! From the names of files to the recordings to hear, and from their records to the exit code.
 
-use crate::failure::Ending;
+use crate::failure::{Ending, Failure};
 use crate::files::files_of;
+use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::recording::{Job, Requests};
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
@@ -14,22 +15,21 @@ pub(crate) fn jobs_of(
     config: &Config,
     discovery: Option<Discovery>,
     requests: Requests,
-) -> Vec<Job> {
+) -> Result<Vec<Job>, Failure> {
     let mut jobs = Vec::new();
     for name in names {
+        let job =
+            |name: String, path: PathBuf| Job { name, path, config: config.clone(), discovery, requests, sha256: None };
+        if is_stdin(name) {
+            jobs.push(job(STDIN.to_owned(), recording_of_stdin()?));
+            continue;
+        }
         let files = files_of(name);
         // a pattern without files stays in the list, so that the output has its failure in the right place
         let files = if files.is_empty() { vec![name.clone()] } else { files };
-        jobs.extend(files.into_iter().map(|path| Job {
-            name: path.display().to_string(),
-            path,
-            config: config.clone(),
-            discovery,
-            requests,
-            sha256: None,
-        }));
+        jobs.extend(files.into_iter().map(|path| job(path.display().to_string(), path)));
     }
-    jobs
+    Ok(jobs)
 }
 
 /// The worst ending of the recordings.

@@ -2,6 +2,7 @@
 
 use crate::args::{BodyAxes, FrameLayout, LabelArguments};
 use crate::failure::Failure;
+use crate::inputs::read_bytes;
 use crate::recording::Heard;
 use crate::spin_up::names_of;
 use hovertone::rotors::{
@@ -11,7 +12,6 @@ use hovertone::speed::TrackPoint;
 use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes};
 use hovertone_report::Notice;
 use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
-use std::fs;
 use std::path::Path;
 
 /// The meaning of the arguments.
@@ -52,8 +52,7 @@ pub(crate) fn resolve(
         let typed = arguments.spin_up.as_deref().unwrap_or_default();
         return Ok(Some(LabelPlan::SpinUp(names_of(typed, vehicle, rotors)?)));
     };
-    let bytes = fs::read(path)
-        .map_err(|error| Failure::failed(format!("the log cannot be read: {error}"), "check its name", path))?;
+    let bytes = read_bytes(path, "the log")?;
     let mut logged = flight_log_from_bytes(&bytes).map_err(|error| Failure::Usage {
         what: error.to_string(),
         hint: error.hint().to_owned(),

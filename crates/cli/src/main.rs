@@ -4,15 +4,19 @@
 //! and to files, all messages for people to stderr.
 
 mod args;
+mod calibrate;
 mod compare;
 mod copies;
 mod demo;
+mod draft;
 mod drawing;
 mod export;
 mod failure;
 mod files;
 mod fit;
 mod identify;
+mod init;
+mod inputs;
 mod jobs;
 mod labels;
 mod microphones;
@@ -20,11 +24,14 @@ mod nearest;
 mod output_file;
 mod output_folder;
 mod outputs;
+mod own_vehicles;
 mod place;
 mod progress;
 mod recording;
+mod recording_files;
 mod report_folder;
 mod settings;
+mod shell;
 mod simulate;
 mod spectrogram;
 mod speed;
@@ -47,10 +54,12 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let mut terminal = Terminal::new();
     let ending = match &arguments.command {
+        Command::Init(arguments) => init::run(arguments, &mut terminal),
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
         Command::Tones(arguments) => tones::run(arguments, &mut terminal),
         Command::Spectrogram(arguments) => spectrogram::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),
+        Command::Calibrate(arguments) => calibrate::run(arguments, &mut terminal),
         Command::Fit(arguments) => fit::run(arguments, &mut terminal),
         Command::Weigh(arguments) => weigh::run(arguments, &mut terminal),
         Command::Export(arguments) => export::run(arguments, &mut terminal),
@@ -58,7 +67,10 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),
+        Command::Completions(arguments) => shell::run_completions(arguments, &mut terminal),
+        Command::Man(arguments) => shell::run_man(arguments, &mut terminal),
     };
+    inputs::forget_stdin();
     match ending.and_then(|ending| terminal.flush().map(|()| ending)) {
         Ok(ending) => ending.exit_code(),
         Err(Failure::StdoutClosed) => ExitCode::SUCCESS,

@@ -48,6 +48,7 @@ struct RotorSection {
 pub(crate) struct ArrayPlan {
     array: MicrophoneArray,
     config: MicrophonesConfig,
+    hearing: Hearing,
 }
 
 /// Reads the file, where the arguments name one, and compares the number of microphones with the channels of the recordings.
@@ -97,7 +98,7 @@ pub(crate) fn resolve(
     for job in jobs {
         check_channels(job, hearing, &array)?;
     }
-    Ok(Some(ArrayPlan { array, config }))
+    Ok(Some(ArrayPlan { array, config, hearing }))
 }
 
 /// The rotors of a vehicle with known frame.
@@ -113,7 +114,7 @@ fn places_of(vehicle: &Vehicle) -> Option<Vec<PlacedRotor>> {
 
 /// Refuses a recording whose number of channels is not the number of microphones. A recording that cannot be opened fails later.
 fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Result<(), Failure> {
-    let options = OpenOptions { audio_track: hearing.audio_track, ..OpenOptions::default() };
+    let options = OpenOptions { channel: None, ..hearing.open_options() };
     let Ok(recording) = Recording::open(&job.path, &options) else { return Ok(()) };
     let (channels, microphones) = (recording.info().channel_count, array.microphone_count());
     if channels == microphones {
@@ -145,7 +146,7 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
     let mut channel_lines: Vec<MicrophoneLines> = Vec::new();
     for channel in 1..=channels {
         let options =
-            OpenOptions { audio_track: Some(facts.audio_track), channel: Some(channel), ..OpenOptions::default() };
+            OpenOptions { audio_track: Some(facts.audio_track), channel: Some(channel), ..plan.hearing.open_options() };
         let mut on_progress = |progress: hovertone::sound::Progress| {
             share.set(((channel - 1) as f64 + (progress.time_s / end_s).clamp(0.0, 1.0)) / channels as f64);
         };

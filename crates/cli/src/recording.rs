@@ -1,5 +1,6 @@
 //! From recordings to records. No other file of the command line decodes sound.
 
+use crate::args::HearingArguments;
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
@@ -20,10 +21,34 @@ pub(crate) struct Hearing {
     pub(crate) audio_track: Option<usize>,
     /// Number of the channel, counted from 1; the mean of all channels where absent.
     pub(crate) channel: Option<usize>,
+    /// Correction of the recorder's clock, in millionths.
+    pub(crate) clock_correction_ppm: f64,
     /// Whether the output contains the hash of the file.
     pub(crate) wants_hash: bool,
     /// Whether the samples of the hover are used, and with them their warnings.
     pub(crate) wants_samples: bool,
+}
+
+impl Hearing {
+    /// What the arguments say, without hash and samples.
+    pub(crate) fn of(arguments: &HearingArguments) -> Self {
+        Self {
+            audio_track: arguments.audio_track,
+            channel: arguments.channel,
+            clock_correction_ppm: arguments.clock_correction_ppm.unwrap_or(0.0),
+            ..Self::default()
+        }
+    }
+
+    /// How every file is opened.
+    pub(crate) fn open_options(self) -> OpenOptions {
+        OpenOptions {
+            audio_track: self.audio_track,
+            channel: self.channel,
+            clock_correction_ppm: self.clock_correction_ppm,
+            ..OpenOptions::default()
+        }
+    }
 }
 
 /// One recording to analyse.
@@ -101,8 +126,7 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
     if let Some(reason) = wrong_kind(&job.path) {
         return Err(NotHeard::because(reason));
     }
-    let options = OpenOptions { audio_track: hearing.audio_track, channel: hearing.channel, ..OpenOptions::default() };
-    let mut recording = Recording::open(&job.path, &options).map_err(NotHeard::because)?;
+    let mut recording = Recording::open(&job.path, &hearing.open_options()).map_err(NotHeard::because)?;
     let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
     let sha256 = hearing.wants_hash.then(hashed).transpose().map_err(|error| {
         NotHeard::because(format!("the file could not be read to its end: {error}; check the disk"))

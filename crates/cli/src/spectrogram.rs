@@ -3,6 +3,7 @@
 use crate::args::SpectrogramArguments;
 use crate::drawing::{drawing_of, trial_of};
 use crate::failure::{Ending, Failure};
+use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::jobs::ending_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
@@ -22,23 +23,14 @@ enum Kind {
 pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let kind = kind_of(&arguments.output)?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
-    let job = Job {
-        name: arguments.file.display().to_string(),
-        path: arguments.file.clone(),
-        config,
-        discovery,
-        requests: Requests::default(),
-        sha256: None,
-    };
-    let hearing = Hearing {
-        audio_track: arguments.hearing.audio_track,
-        channel: arguments.hearing.channel,
-        wants_hash: false,
-        wants_samples: false,
-    };
+    let hearing = Hearing::of(&arguments.hearing);
     let outputs = Outputs::beside([&arguments.file], arguments.replace.force);
     outputs.check(&arguments.output)?;
-    let jobs = [job];
+    let (name, path) = match is_stdin(&arguments.file) {
+        true => (STDIN.to_owned(), recording_of_stdin()?),
+        false => (arguments.file.display().to_string(), arguments.file.clone()),
+    };
+    let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None }];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();

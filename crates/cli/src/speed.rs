@@ -59,13 +59,8 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     let requests = Requests { condition: arguments.analysis.condition, spin_up: arguments.labels.spin_up.is_some() };
-    let jobs = jobs_of(&arguments.files, &config, discovery, requests);
-    let hearing = Hearing {
-        audio_track: arguments.hearing.audio_track,
-        channel: arguments.hearing.channel,
-        wants_hash: arguments.json,
-        wants_samples: false,
-    };
+    let jobs = jobs_of(&arguments.files, &config, discovery, requests)?;
+    let hearing = Hearing { wants_hash: arguments.json, ..Hearing::of(&arguments.hearing) };
     let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let labels = crate::labels::resolve(&arguments.labels, vehicle, jobs.len(), config.rotors.count)?;
     let microphones = crate::microphones::resolve(&arguments.labels, vehicle, &jobs, hearing, config.rotors.count)?;

@@ -105,6 +105,11 @@ impl Terminal {
         self.with_hint("", ERROR, &format!("{}: {reason}", printable(file)), "");
     }
 
+    /// An error beside others, with its hint.
+    pub(crate) fn error(&mut self, notice: &Notice) {
+        self.with_hint("", ERROR, &printable(&notice.text), &notice.hint);
+    }
+
     /// A line above messages.
     pub(crate) fn heading(&mut self, words: &str) {
         self.say(&format!("{BOLD}{words}{RESET}"));

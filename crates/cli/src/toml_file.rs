@@ -1,9 +1,9 @@
 //! Reading a TOML file of the user, with messages for its errors.
 
 use crate::failure::Failure;
+use crate::inputs::read_bytes;
 use crate::nearest::nearest;
 use serde::de::DeserializeOwned;
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -35,13 +35,17 @@ impl<'a> TomlFile<'a> {
         mistaken_for: &str,
         see_example: &'static str,
     ) -> Result<Self, Failure> {
-        let bytes = fs::read(path)
-            .map_err(|error| Failure::failed(format!("the {kind} cannot be read: {error}"), "check its name", path))?;
+        let bytes = read_bytes(path, &format!("the {kind}"))?;
         let text = String::from_utf8(bytes).map_err(|error| {
             let what = format!("the {kind} is not text: {}", error.utf8_error());
             Failure::failed(what, format!("give the TOML file, not a {mistaken_for}"), path)
         })?;
         Ok(Self { path, kind, see_example, text })
+    }
+
+    /// A text that stands, or would stand, at a path.
+    pub(crate) fn of_text(path: &'a Path, kind: &'static str, see_example: &'static str, text: &str) -> Self {
+        Self { path, kind, see_example, text: text.to_owned() }
     }
 
     /// Parses the file. An unknown key is reported with the nearest known one.

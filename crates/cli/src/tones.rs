@@ -16,13 +16,8 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
     let mut config = Config::for_tone(tone);
     config.span = span_of(arguments.from, arguments.to)?;
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone tones --help`"))?;
-    let jobs = jobs_of(&arguments.files, &config, Some(discovery), Requests::default());
-    let hearing = Hearing {
-        audio_track: arguments.hearing.audio_track,
-        channel: arguments.hearing.channel,
-        wants_hash: arguments.json,
-        wants_samples: false,
-    };
+    let jobs = jobs_of(&arguments.files, &config, Some(discovery), Requests::default())?;
+    let hearing = Hearing { wants_hash: arguments.json, ..Hearing::of(&arguments.hearing) };
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();

@@ -9,7 +9,7 @@ pub(crate) fn typed_command() -> String {
 }
 
 /// A word, quoted if a shell would split or change it.
-fn quoted(word: &str) -> String {
+pub(crate) fn quoted(word: &str) -> String {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=:,+@%".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
         word.to_owned()

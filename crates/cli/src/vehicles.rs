@@ -1,32 +1,91 @@
-//! `hovertone vehicles`: the presets and the sources of their numbers.
+//! `hovertone vehicles`: the presets, the vehicles of the user, and the sources of their numbers.
 
 use crate::args::VehiclesArguments;
 use crate::failure::{Ending, Failure};
 use crate::nearest::nearest;
+use crate::outputs::Outputs;
+use crate::own_vehicles::{file_to_add, own_vehicles, place, vehicles_in};
 use crate::terminal::Terminal;
-use hovertone_report::{vehicles_json, vehicles_text};
+use hovertone_report::{printable, vehicles_json, vehicles_text};
 use hovertone_vehicle::{Vehicle, find_preset, presets};
+use std::fs;
+use std::path::Path;
 
-/// Prints all presets.
+/// Prints all vehicles, or adds those of a file to the user's own.
 pub(crate) fn run(arguments: &VehiclesArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let text = if arguments.json {
-        vehicles_json(presets()).map_err(Failure::internal)?
-    } else {
-        vehicles_text(presets(), terminal.width())
-    };
-    terminal.data(&text)?;
+    if let Some(file) = &arguments.add {
+        return add(file, terminal);
+    }
+    let own = own_vehicles()?;
+    if arguments.json {
+        terminal.data(&vehicles_json(&known_vehicles()?).map_err(Failure::internal)?)?;
+        return Ok(Ending::Done);
+    }
+    terminal.data(&vehicles_text(presets(), terminal.width()))?;
+    match place().filter(|_| !own.is_empty()) {
+        Some(place) => {
+            terminal.data(&format!("Your own, in {}:\n\n", printable(&place.display().to_string())))?;
+            terminal.data(&vehicles_text(own, terminal.width()))?;
+        }
+        None => terminal.data("Your own: none; `hovertone vehicles --help` shows how to add one\n")?,
+    }
     Ok(Ending::Done)
 }
 
-/// The preset of a name, or a failure with the nearest name as a hint.
-pub(crate) fn preset(id: &str) -> Result<&'static Vehicle, Failure> {
-    find_preset(id).ok_or_else(|| Failure::usage(format!("there is no vehicle preset \"{id}\""), preset_hint(id)))
+/// Adds the vehicles of a file to the user's own. The text is kept as it is, with its comments.
+fn add(path: &Path, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let Some(place) = place() else {
+        return Err(Failure::usage("there is no home folder to keep your vehicles in", "set HOME or XDG_CONFIG_HOME"));
+    };
+    let file = file_to_add(path)?;
+    let added = vehicles_in(&file)?;
+    if added.is_empty() {
+        let what = "this file has no vehicle".to_owned();
+        let hint = "`hovertone vehicles --help` shows one".to_owned();
+        return Err(Failure::Usage { what, hint, path: Some(path.to_owned()) });
+    }
+    if let Some(known) = added.iter().find_map(|new| own_vehicles().ok()?.iter().find(|known| known.id == new.id)) {
+        return Err(Failure::Usage {
+            what: format!("you have a vehicle \"{}\" already: nothing was written", known.id),
+            hint: format!("remove [{}] from that file first, or give the new one another name", known.id),
+            path: Some(place),
+        });
+    }
+    own_vehicles()?;
+    let before = match fs::read_to_string(&place) {
+        Ok(text) if text.trim().is_empty() => String::new(),
+        Ok(text) => text.trim_end().to_owned() + "\n\n",
+        Err(_) => "# Vehicles for `hovertone --vehicle NAME` and preset = \"NAME\".\n\n".to_owned(),
+    };
+    if let Some(folder) = place.parent() {
+        fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
+    }
+    // the old content is part of the new
+    Outputs::beside([path], true).write(&place, before + file.text.trim() + "\n")?;
+    let names: Vec<&str> = added.iter().map(|vehicle| vehicle.id).collect();
+    terminal.say(&format!("added to {}: {}", printable(&place.display().to_string()), names.join(", ")));
+    Ok(Ending::Done)
 }
 
-/// Hint for a name without a preset.
+/// The presets and the vehicles of the user.
+pub(crate) fn known_vehicles() -> Result<Vec<Vehicle>, Failure> {
+    Ok(presets().iter().chain(own_vehicles()?).cloned().collect())
+}
+
+/// The vehicle of a name, or a failure with the nearest name as a hint.
+pub(crate) fn preset(id: &str) -> Result<&'static Vehicle, Failure> {
+    if let Some(vehicle) = find_preset(id) {
+        return Ok(vehicle);
+    }
+    let own = own_vehicles()?.iter().find(|vehicle| vehicle.id == id);
+    own.ok_or_else(|| Failure::usage(format!("there is no vehicle \"{id}\""), preset_hint(id)))
+}
+
+/// Hint for a name without a vehicle.
 pub(crate) fn preset_hint(id: &str) -> String {
-    match nearest(id, presets().iter().map(|vehicle| vehicle.id)) {
+    let own = own_vehicles().unwrap_or_default();
+    match nearest(id, presets().iter().chain(own).map(|vehicle| vehicle.id)) {
         Some(name) => format!("did you mean \"{name}\"? `hovertone vehicles` lists all"),
-        None => "`hovertone vehicles` lists all".to_owned(),
+        None => "`hovertone vehicles` lists all; `hovertone vehicles --add FILE` adds your own".to_owned(),
     }
 }

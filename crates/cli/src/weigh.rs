@@ -10,12 +10,12 @@ use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::tone_of;
 use crate::terminal::Terminal;
-use crate::vehicles::preset;
+use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
 use hovertone_exchange::IdentifiedRotor;
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
-use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed, presets};
+use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
 
@@ -32,13 +32,9 @@ struct Plan {
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
-    let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default());
+    let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;
-    let hearing = Hearing {
-        audio_track: arguments.hearing.audio_track,
-        channel: arguments.hearing.channel,
-        ..Hearing::default()
-    };
+    let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
@@ -169,7 +165,8 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
 fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
     let Some(said) = arguments.tone.vehicle.as_deref().map(preset).transpose()? else { return Ok(()) };
     said.check_flown(arguments.rotors, arguments.mass_kg)?;
-    let measured = results.and_then(|rotor| presets().iter().find(|vehicle| vehicle.name == rotor.vehicle_name));
+    let all = known_vehicles()?;
+    let measured = results.and_then(|rotor| all.iter().find(|vehicle| vehicle.name == rotor.vehicle_name));
     match measured.filter(|measured| measured.id != said.id) {
         Some(measured) => {
             let what = format!(

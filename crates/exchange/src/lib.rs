@@ -18,6 +18,8 @@ pub use flight_log::{
     FlightLogError, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes, flight_log_from_csv,
 };
 pub use identified::{HeardTone, IdentifiedRotor, ResultsError, identified_from_results};
-pub use simulator::{ModelError, SimulatorFormat, SimulatorModel, export_text, model_from_text};
+pub use simulator::{
+    ChangedLine, ModelError, SimulatorFormat, SimulatorModel, UpdatedModel, export_text, model_from_text, updated_model,
+};
 pub use thrust_stand::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 pub use units::ConstantUnits;

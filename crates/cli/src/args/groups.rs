@@ -1,11 +1,14 @@
 //! Groups of arguments that several commands share, and the parsers of their values.
 
+use crate::files::home_expanded;
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
+use hovertone::experiment::time_s_from_text;
 use hovertone::speed::Method;
-use hovertone_vehicle::Gear;
+use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Gear};
+use std::path::PathBuf;
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Which tone")]
 pub(crate) struct ToneArguments {
     /// Blades of each propeller: the tone is the blade pass
@@ -18,7 +21,7 @@ pub(crate) struct ToneArguments {
     #[arg(long, value_name = "X", allow_negative_numbers = true)]
     pub(crate) order: Option<f64>,
     /// A known vehicle: its gear mesh or blade pass (see `hovertone vehicles`)
-    #[arg(long, value_name = "ID")]
+    #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: Option<String>,
     /// Where the tone itself lies, in Hz; found by itself where not given
     #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
@@ -28,7 +31,7 @@ pub(crate) struct ToneArguments {
     pub(crate) harmonics: Option<u32>,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Known facts about the vehicle")]
 pub(crate) struct KnownArguments {
     /// Diameter of a propeller: tips faster than Mach 0.6 are ruled out
@@ -42,7 +45,7 @@ pub(crate) struct KnownArguments {
     pub(crate) rotors: Option<u32>,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
     /// Only the mean speed: several rotors are not separated, which takes less time and gives a wider ±
@@ -63,11 +66,11 @@ pub(crate) struct AnalysisArguments {
     /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m; say 0 for a bench [default: 0.5]
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) drift_m_max: Option<f64>,
-    /// Use the recording from here, and cut nothing away
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) from: Option<f64>,
     /// Use the recording up to here, and cut nothing away
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) to: Option<f64>,
     /// Length of a frame of the paper's methods in seconds; the clearest of 0.0125 to 0.4 where not given
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
@@ -89,6 +92,9 @@ pub(crate) struct HearingArguments {
     /// Channel to hear, counted from 1 [default: the mean of all]
     #[arg(long, value_name = "N", value_parser = from_one)]
     pub(crate) channel: Option<usize>,
+    /// Correction of the recorder's clock in millionths, as `hovertone calibrate` prints it [default: 0]
+    #[arg(long, value_name = "PPM", allow_negative_numbers = true, value_parser = clock_correction)]
+    pub(crate) clock_correction_ppm: Option<f64>,
     /// Show no progress bar (there is none anyway when stderr is not a terminal)
     #[arg(long)]
     pub(crate) no_progress: bool,
@@ -106,6 +112,23 @@ pub(crate) fn method_parser() -> impl TypedValueParser<Value = Method> {
     PossibleValuesParser::new(Method::ALL.map(Method::name)).try_map(named)
 }
 
+/// A path whose leading `~` is the home folder, also behind a `=`.
+pub(crate) fn typed_path() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|path| home_expanded(&path))
+}
+
+/// Seconds, or minutes and seconds.
+pub(crate) fn time_s(text: &str) -> Result<f64, String> {
+    time_s_from_text(text)
+        .ok_or_else(|| "write seconds, such as 62.5, or minutes and seconds, such as 1:02.5".to_owned())
+}
+
+fn clock_correction(text: &str) -> Result<f64, String> {
+    let limit = CLOCK_CORRECTION_PPM_MAX;
+    let ppm = finite(text).filter(|ppm| ppm.abs() <= limit);
+    ppm.ok_or_else(|| format!("a number from -{limit} to {limit} is needed: no clock is further off"))
+}
+
 fn from_one(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(0) => Err("it is counted from 1".to_owned()),
@@ -115,7 +138,7 @@ fn from_one(text: &str) -> Result<usize, String> {
 }
 
 /// "8:69", or the wheel alone. A pinion that was not said makes no difference to the tone; it is taken as 1.
-fn gear(text: &str) -> Result<Gear, String> {
+pub(crate) fn gear(text: &str) -> Result<Gear, String> {
     let teeth = |text: &str| match text.trim().parse::<u32>() {
         Ok(teeth @ 1..=1000) => Ok(teeth),
         _ => Err("write the teeth as PINION:WHEEL, such as 8:69, or the wheel's alone".to_owned()),

@@ -1,6 +1,6 @@
 //! Arguments about the labels of the rotors.
 
-use super::groups::finite;
+use super::groups::{time_s, typed_path};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -8,9 +8,9 @@ use std::path::PathBuf;
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LabelArguments {
     /// A log of the same flight, CSV or PX4's ULog: speeds, commands or PWM of each motor, or the body's rates
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = typed_path())]
     pub(crate) log: Option<PathBuf>,
-    /// Seconds to add to the log's times to get the recording's; found by itself where not given
+    /// Seconds to add to the log's times to get the recording's, or LOW..HIGH in minutes and seconds; found by itself where not given
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     /// How the axes of a CSV's body rates point (a ULog's are frd)
@@ -23,7 +23,7 @@ pub(crate) struct LabelArguments {
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
     /// Where the microphone of each channel stands in the vehicle's frame: levels and delays tell which rotor is which
-    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"])]
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"], value_parser = typed_path())]
     pub(crate) microphones: Option<PathBuf>,
 }
 
@@ -43,8 +43,24 @@ pub(crate) enum FrameLayout {
     Plus,
 }
 
-/// "-5:5".
+/// "-5:5", or "-0:05..1:10".
 fn offsets(text: &str) -> Result<(f64, f64), String> {
-    let limits = text.split_once(':').and_then(|(low, high)| Some((finite(low)?, finite(high)?)));
-    limits.ok_or_else(|| "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5".to_owned())
+    let limit = |text: &str| time_s(text).ok().filter(|offset_s| offset_s.is_finite());
+    let halves = text.split_once("..").or_else(|| text.split_once(':'));
+    halves.and_then(|(low, high)| Some((limit(low)?, limit(high)?))).ok_or_else(|| {
+        "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5, or as -0:05..1:10".to_owned()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::offsets;
+
+    #[test]
+    fn offsets_are_seconds_or_minutes_and_seconds() {
+        assert_eq!(offsets("-5:5"), Ok((-5.0, 5.0)));
+        assert_eq!(offsets("-0:05..1:10.5"), Ok((-5.0, 70.5)));
+        assert_eq!(offsets("-5..5"), Ok((-5.0, 5.0)));
+        assert!(offsets("5").is_err() && offsets("a:b").is_err() && offsets("1:inf").is_err());
+    }
 }

@@ -1,7 +1,11 @@
 //! The command line as it was typed. The `resolve` function of each command finds its meaning.
 
+mod calibrate;
+mod draft;
 mod groups;
+mod init;
 mod labels;
+mod shell;
 mod simulation;
 mod spectrogram;
 mod speed;
@@ -9,8 +13,12 @@ mod thrust;
 mod tones;
 mod vehicles;
 
-pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments};
+pub(crate) use calibrate::CalibrateArguments;
+pub(crate) use draft::DraftArguments;
+pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments, gear};
+pub(crate) use init::InitArguments;
 pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
+pub(crate) use shell::{CompletionsArguments, ManArguments};
 pub(crate) use simulation::{DemoArguments, SimulateArguments};
 pub(crate) use spectrogram::SpectrogramArguments;
 pub(crate) use speed::SpeedArguments;
@@ -29,7 +37,9 @@ Examples:
   hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
   hovertone tones hover.mp4                   which tones it holds, and what each can mean
   hovertone spectrogram hover.mp4 -o x.png    the picture, with bands and ridge over it
+  hovertone init                              an experiment file, by a few questions
   hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
+  hovertone calibrate --true-hz 440 tone.wav  the recorder's clock, against a known tone
   hovertone fit stand.csv                     the same fit on a thrust stand's table
   hovertone fit --plan --mass-kg 0.413        how much flying a wanted uncertainty needs
   hovertone weigh loaded.mov --constant out/results.json   what it lifts, by its sound
@@ -60,10 +70,12 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    Init(Box<InitArguments>),
     Speed(Box<SpeedArguments>),
     Tones(Box<TonesArguments>),
     Spectrogram(Box<SpectrogramArguments>),
-    Identify(IdentifyArguments),
+    Identify(Box<IdentifyArguments>),
+    Calibrate(Box<CalibrateArguments>),
     Fit(Box<FitArguments>),
     Weigh(Box<WeighArguments>),
     Export(ExportArguments),
@@ -71,6 +83,8 @@ pub(crate) enum Command {
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),
+    Completions(CompletionsArguments),
+    Man(ManArguments),
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Arguments of the commands that simulate a flight: demo and simulate.
 
-use super::groups::ReplaceArguments;
+use super::groups::{ReplaceArguments, typed_path};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 #[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
 pub(crate) struct DemoArguments {
     /// Where to write: a folder that is empty, new, or of an earlier demo
-    #[arg(short, long, value_name = "DIR", default_value = "demo")]
+    #[arg(short, long, value_name = "DIR", default_value = "demo", value_parser = typed_path())]
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
@@ -67,10 +67,10 @@ Examples:
 #[command(after_help = SIMULATE_EXAMPLES)]
 pub(crate) struct SimulateArguments {
     /// The flight and the microphones
-    #[arg(value_name = "SCENARIO.toml")]
+    #[arg(value_name = "SCENARIO.toml", value_parser = typed_path())]
     pub(crate) scenario: PathBuf,
     /// Where to write: a folder that is empty, new, or of an earlier simulation
-    #[arg(short, long, value_name = "DIR", default_value = "simulation")]
+    #[arg(short, long, value_name = "DIR", default_value = "simulation", value_parser = typed_path())]
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,

@@ -1,6 +1,6 @@
 //! Arguments of `spectrogram`.
 
-use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments};
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, typed_path};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -17,11 +17,11 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SpectrogramArguments {
-    /// Recording: a video or audio file
-    #[arg(value_name = "FILE")]
+    /// Recording: a video or audio file; - is stdin
+    #[arg(value_name = "FILE", value_parser = typed_path())]
     pub(crate) file: PathBuf,
     /// Where to write: x.png or x.svg
-    #[arg(short, long, value_name = "PICTURE", help_heading = "Output")]
+    #[arg(short, long, value_name = "PICTURE", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,

@@ -1,6 +1,6 @@
 //! Arguments of `speed`.
 
-use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments};
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, typed_path};
 use super::labels::LabelArguments;
 use clap::Args;
 use std::path::PathBuf;
@@ -26,8 +26,8 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = SPEED_EXAMPLES)]
 pub(crate) struct SpeedArguments {
-    /// Recordings: video or audio files
-    #[arg(required = true, value_name = "FILE")]
+    /// Recordings: video or audio files; - is stdin
+    #[arg(required = true, value_name = "FILE", value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
@@ -43,7 +43,7 @@ pub(crate) struct SpeedArguments {
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
     /// Write the speed of every frame as CSV; with several recordings the first column is the file
-    #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
+    #[arg(long, value_name = "FILE.csv", help_heading = "Output", value_parser = typed_path())]
     pub(crate) track: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,

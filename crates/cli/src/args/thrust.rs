@@ -1,6 +1,7 @@
 //! Arguments of the commands about forces: identify, fit, weigh, export, compare.
 
-use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser};
+use super::draft::{DraftArguments, MASS_HELP};
+use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
@@ -43,7 +44,9 @@ An experiment file:
 
 Examples:
   hovertone identify experiment.toml
+  hovertone identify experiment.toml --check
   hovertone identify experiment.toml -o results
+  hovertone identify --vehicle ardrone --mass 0.413=demo/no_hull/*.wav
   hovertone identify examples/crazyflie-bench.toml --data-root DIR";
 
 /// Thrust constant from recordings of hovers with known masses, or of bench runs
@@ -51,13 +54,18 @@ Examples:
 /// Prints warnings, the constant of one rotor and of the whole vehicle with its ±, the verdict on the loads, and where the page is.
 /// With -v also tables like the paper's, by the harmonic likelihood and by both of its methods.
 #[derive(Args, Debug)]
-#[command(after_help = IDENTIFY_EXAMPLES)]
+#[command(after_help = format!("{MASS_HELP}\n\n{IDENTIFY_EXAMPLES}"))]
 pub(crate) struct IdentifyArguments {
-    /// The experiment: vehicle, masses, and the places of the recordings
-    #[arg(value_name = "EXPERIMENT.toml")]
-    pub(crate) experiment: PathBuf,
+    /// The experiment: vehicle, masses, and the places of the recordings; `hovertone init` writes one, --mass is instead of it
+    #[arg(value_name = "EXPERIMENT.toml", value_parser = typed_path(), required_unless_present = "mass", conflicts_with_all = DraftArguments::NAMES)]
+    pub(crate) experiment: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) draft: DraftArguments,
+    /// Only name the work, the files that were found, and the missing ones: nothing is analysed
+    #[arg(long, conflicts_with_all = ["json", "verbose"])]
+    pub(crate) check: bool,
     /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of earlier results
-    #[arg(short, long, value_name = "DIR", help_heading = "Output")]
+    #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
@@ -68,7 +76,7 @@ pub(crate) struct IdentifyArguments {
     #[arg(short, long, help_heading = "Output", conflicts_with = "json")]
     pub(crate) verbose: bool,
     /// Folder that the names of the recordings start from [default: the folder of the experiment file]
-    #[arg(long, value_name = "DIR", help_heading = "Reading files")]
+    #[arg(long, value_name = "DIR", help_heading = "Reading files", value_parser = typed_path())]
     pub(crate) data_root: Option<PathBuf>,
     /// The method whose constant is reported; all are computed [default: separated where several rotors are heard beside each other, else harmonic]
     #[arg(long, value_parser = method_parser())]
@@ -96,8 +104,8 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = FIT_EXAMPLES)]
 pub(crate) struct FitArguments {
-    /// Tables: CSV files with a header
-    #[arg(required_unless_present = "plan", value_name = "TABLE.csv")]
+    /// Tables: CSV files with a header; - is stdin
+    #[arg(required_unless_present = "plan", value_name = "TABLE.csv", value_parser = typed_path())]
     pub(crate) tables: Vec<PathBuf>,
     /// Print one JSON document: the fit, or `groups` with the fit of each
     #[arg(long)]
@@ -185,11 +193,11 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = WEIGH_EXAMPLES)]
 pub(crate) struct WeighArguments {
-    /// Recordings of hovers with the same payload
-    #[arg(required = true, value_name = "FILE")]
+    /// Recordings of hovers with the same payload; - is stdin
+    #[arg(required = true, value_name = "FILE", value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
     /// results.json of `hovertone identify`, for constant, mass, gravity and tone
-    #[arg(long, value_name = "RESULTS.json", required_unless_present = "constant_n_s2")]
+    #[arg(long, value_name = "RESULTS.json", required_unless_present = "constant_n_s2", value_parser = typed_path())]
     pub(crate) constant: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) of: GroupArguments,
@@ -223,8 +231,12 @@ const EXPORT_EXAMPLES: &str = "\
 Every export has the constant in the program's own unit, and in all others in a comment: N/(rad/s)^2, N/(rev/s)^2,
 N/rpm^2, g/rpm^2. What sound does not tell (torque, time constants) is marked missing, never made up.
 
+--into changes the numbers of a model that you have, and nothing else in it: the thrust constant of all rotors, and
+the torque constant with --torque-constant-n-m-s2. It knows the format by the content.
+
 Examples:
   hovertone export out/results.json --to gazebo
+  hovertone export out/results.json --into iris.sdf
   hovertone export out/results.json --to gym-pybullet-drones -o kf.urdf
   hovertone export out/results.json --to airsim --diameter-m 0.2 --air-density-kg-m3 1.17
   hovertone export out/results.json --to rotorpy --torque-constant-n-m-s2 2.1e-7";
@@ -237,20 +249,23 @@ pub(crate) struct GroupArguments {
     pub(crate) group: Option<String>,
 }
 
-/// Lines to paste into a simulator's model
+/// A simulator's model with the constant: a new file, or your own with the number changed
 #[derive(Args, Debug)]
 #[command(after_help = EXPORT_EXAMPLES)]
 pub(crate) struct ExportArguments {
     /// results.json of `hovertone identify`, or the output of `hovertone fit --json`
-    #[arg(value_name = "RESULTS.json")]
+    #[arg(value_name = "RESULTS.json", value_parser = typed_path())]
     pub(crate) results: PathBuf,
     /// Which program it is for
-    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
-    pub(crate) to: SimulatorFormat,
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser(), required_unless_present = "into", conflicts_with = "into")]
+    pub(crate) to: Option<SimulatorFormat>,
+    /// Change the constant in this model of a simulator, in place or with -o elsewhere, and print the difference
+    #[arg(long, value_name = "MODEL", value_parser = typed_path())]
+    pub(crate) into: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) of: GroupArguments,
-    /// Write there instead of printing
-    #[arg(short, long, value_name = "FILE", help_heading = "Output")]
+    /// Write there, instead of printing or of changing the model in place
+    #[arg(short, long, value_name = "FILE", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
@@ -280,10 +295,10 @@ Examples:
 #[command(after_help = COMPARE_EXAMPLES)]
 pub(crate) struct CompareArguments {
     /// results.json of `hovertone identify`
-    #[arg(value_name = "RESULTS.json")]
+    #[arg(value_name = "RESULTS.json", value_parser = typed_path())]
     pub(crate) results: PathBuf,
     /// Models of simulators
-    #[arg(required = true, value_name = "MODEL")]
+    #[arg(required = true, value_name = "MODEL", value_parser = typed_path())]
     pub(crate) models: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) of: GroupArguments,

@@ -1,6 +1,6 @@
 //! Arguments of `tones`.
 
-use super::groups::{HearingArguments, KnownArguments};
+use super::groups::{HearingArguments, KnownArguments, time_s, typed_path};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -21,19 +21,19 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = TONES_EXAMPLES)]
 pub(crate) struct TonesArguments {
-    /// Recordings: video or audio files
-    #[arg(required = true, value_name = "FILE")]
+    /// Recordings: video or audio files; - is stdin
+    #[arg(required = true, value_name = "FILE", value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
     /// A known vehicle, for what it rules out (see `hovertone vehicles`)
-    #[arg(long, value_name = "ID", help_heading = "Known facts about the vehicle")]
+    #[arg(long, value_name = "NAME", help_heading = "Known facts about the vehicle")]
     pub(crate) vehicle: Option<String>,
-    /// Listen from here
-    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]
+    /// Listen from here, in seconds or as 1:02.5
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) from: Option<f64>,
     /// Listen up to here
-    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "How it is analysed")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) hearing: HearingArguments,

@@ -1,10 +1,34 @@
 //! Arguments of `vehicles`.
 
+use super::groups::typed_path;
 use clap::Args;
+use std::path::PathBuf;
 
-/// The vehicles that hovertone knows: every number with the document it was read in
+const VEHICLES_EXAMPLES: &str = "\
+A file with a vehicle of your own; all but rotors may be left out:
+  [my-drone]
+  name = \"My drone\"
+  rotors = 4
+  blades = 2                    # or, with a gear: gear = { pinion = 8, wheel = 69 }
+  propeller_diameter_m = 0.127  # from tip to tip
+  mass_kg = 0.250               # with battery
+  shaft_speed_rev_s = [60.0, 400.0]
+  source = \"measured by me\"
+
+--add puts it into hovertone/vehicles.toml in $XDG_CONFIG_HOME, else in ~/.config. Then it is known as
+--vehicle my-drone on the command line, and as preset = \"my-drone\" in an experiment file.
+
+Examples:
+  hovertone vehicles
+  hovertone vehicles --add my-drone.toml";
+
+/// The vehicles that hovertone knows: every number with the document it was read in; and your own
 #[derive(Args, Debug)]
+#[command(after_help = VEHICLES_EXAMPLES)]
 pub(crate) struct VehiclesArguments {
+    /// Add the vehicles of this file to your own; - is stdin
+    #[arg(long, value_name = "FILE.toml", conflicts_with = "json", value_parser = typed_path())]
+    pub(crate) add: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

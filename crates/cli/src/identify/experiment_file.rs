@@ -1,14 +1,17 @@
 //! Reading the experiment file, with messages for its errors.
 
+use super::typed::TypedExperiment;
 use crate::compare::read_model;
 use crate::failure::Failure;
-use crate::files::sha256_of_bytes;
+use crate::files::{home_expanded, sha256_of_bytes};
 use crate::toml_file::TomlFile;
-use crate::vehicles::preset_hint;
+use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
 use hovertone::thrust::VehicleModel;
+use hovertone_vehicle::{find_preset, presets};
 use std::path::{Path, PathBuf};
 
+const KIND: &str = "experiment file";
 const SEE_EXAMPLE: &str = "`hovertone identify --help` shows an experiment file";
 
 /// An experiment file that was read and resolved.
@@ -25,6 +28,8 @@ pub(crate) struct ExperimentSource {
     pub(crate) has_notes: bool,
     /// Its meaning.
     pub(crate) experiment: Experiment,
+    /// The flags that stand in place of the file.
+    pub(crate) typed: Option<TypedExperiment>,
 }
 
 impl ExperimentSource {
@@ -36,24 +41,33 @@ impl ExperimentSource {
 
     /// Reads and resolves an experiment file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let toml = TomlFile::read(path, "experiment file", "recording", SEE_EXAMPLE)?;
-        let file: ExperimentFile = toml.parse()?;
-        let model = file.vehicle.model.as_deref().map(|name| model_of(name, path)).transpose()?;
-        let experiment = file.resolve(model).map_err(|error| meaning_failure(&error, path))?;
+        let toml = TomlFile::read(path, KIND, "recording", SEE_EXAMPLE)?;
+        Self::of_text(&toml.text, path.to_owned(), None)
+    }
+
+    /// The meaning of a text that stands, or would stand, at a path. `typed` are the flags in place of a file.
+    pub(crate) fn of_text(text: &str, path: PathBuf, typed: Option<TypedExperiment>) -> Result<Self, Failure> {
+        let file: ExperimentFile = TomlFile::of_text(&path, KIND, SEE_EXAMPLE, text).parse()?;
+        let model = file.vehicle.model.as_deref().map(|name| model_of(name, &path)).transpose()?;
+        // the user's own file is read only where it is needed: a fault in it does not stop other experiments
+        let is_own = file.vehicle.preset.as_deref().is_some_and(|name| find_preset(name).is_none());
+        let vehicles = if is_own { known_vehicles()? } else { presets().to_vec() };
+        let experiment = file.resolve_among(&vehicles, model).map_err(|error| meaning_failure(&error, &path))?;
         Ok(Self {
-            path: path.to_owned(),
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
             name: path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default(),
-            sha256: sha256_of_bytes(toml.text.as_bytes()),
-            has_notes: toml.text.trim_start().starts_with('#'),
+            sha256: sha256_of_bytes(text.as_bytes()),
+            has_notes: text.trim_start().starts_with('#'),
             experiment,
+            typed,
+            path,
         })
     }
 }
 
 /// The simulator's model that an experiment names, relative to the folder of the experiment.
 fn model_of(name: &str, experiment: &Path) -> Result<VehicleModel, Failure> {
-    let path = experiment.parent().unwrap_or(Path::new("")).join(name);
+    let path = experiment.parent().unwrap_or(Path::new("")).join(home_expanded(Path::new(name)));
     let model = read_model(&path)?;
     Ok(VehicleModel {
         file: name.to_owned(),
@@ -70,7 +84,7 @@ fn model_of(name: &str, experiment: &Path) -> Result<VehicleModel, Failure> {
 fn meaning_failure(error: &ExperimentError, path: &Path) -> Failure {
     let (what, hint) = match error {
         ExperimentError::UnknownPreset { name } => {
-            (format!("the experiment file names a vehicle preset that does not exist: \"{name}\""), preset_hint(name))
+            (format!("the experiment file names a vehicle that does not exist: \"{name}\""), preset_hint(name))
         }
         ExperimentError::Vehicle(contradiction) => (contradiction.to_string(), contradiction.hint()),
         _ => (error.to_string(), SEE_EXAMPLE.to_owned()),

@@ -1,10 +1,13 @@
 //! `hovertone identify`: the thrust constant from an experiment file and its recordings.
 
+mod check;
 mod experiment_file;
 mod recordings;
+mod typed;
 
 pub(crate) use experiment_file::ExperimentSource;
 pub(crate) use recordings::{LoadJob, jobs_of};
+use typed::{EXPERIMENT, TypedExperiment};
 
 use crate::args::HearingArguments;
 use crate::args::IdentifyArguments;
@@ -44,14 +47,24 @@ pub(crate) struct Identified {
 
 /// Identifies the experiment and prints warnings, the tables where they are wanted, and the lines to quote.
 pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let source = ExperimentSource::read(&arguments.experiment)?;
-    let hearing = hearing_of(&arguments.hearing, arguments.json || arguments.output.is_some());
+    let mut source = match &arguments.experiment {
+        Some(path) => ExperimentSource::read(path)?,
+        None => TypedExperiment::from_arguments(&arguments.draft)?.source()?,
+    };
+    if arguments.check {
+        return check::run(&source, arguments, terminal);
+    }
+    let hearing = hearing_of(&arguments.hearing, &source.experiment, arguments.json || arguments.output.is_some());
     let method = arguments.method.unwrap_or(source.experiment.config.method);
     let recordings = jobs_of(&source, arguments.data_root.as_deref())?;
     let inputs = recordings.iter().map(|LoadJob { job, .. }| job.path.clone()).chain(source.inputs());
     let outputs = Outputs::beside(inputs, arguments.replace.force);
     let prepare = |folder: &PathBuf| OutputFolder::prepare(folder, outputs, &RESULTS);
     let folder = arguments.output.as_ref().map(prepare).transpose()?;
+    let text_of_typed = match &folder {
+        Some(folder) => source.text_for(folder.path(), arguments.data_root.as_deref())?,
+        None => None,
+    };
     let identified = identify(source, recordings, hearing, method, !arguments.hearing.no_progress)?;
     identified.say_notes(terminal);
     if arguments.json {
@@ -69,6 +82,9 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
         Some(folder) => {
             let extras = Extras { command: &typed_command(), ..Extras::default() };
             identified.write(folder, &extras)?;
+            if let Some(text) = &text_of_typed {
+                folder.write(EXPERIMENT, text)?;
+            }
             page_line(&folder.place(PAGE))
         }
         None => "page: none; -o DIR writes it, with results.json, tables and figures\n".to_owned(),
@@ -84,8 +100,9 @@ pub(crate) fn page_line(page: &Path) -> String {
     format!("page: {}\n", printable(&page.display().to_string()))
 }
 
-fn hearing_of(arguments: &HearingArguments, wants_hash: bool) -> Hearing {
-    Hearing { audio_track: arguments.audio_track, channel: arguments.channel, wants_hash, wants_samples: true }
+fn hearing_of(arguments: &HearingArguments, experiment: &Experiment, wants_hash: bool) -> Hearing {
+    let clock_correction_ppm = arguments.clock_correction_ppm.unwrap_or(experiment.clock_correction_ppm);
+    Hearing { clock_correction_ppm, wants_hash, wants_samples: true, ..Hearing::of(arguments) }
 }
 
 /// Analyses all recordings of an experiment and fits its loads by every method.

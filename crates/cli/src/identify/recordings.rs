@@ -3,8 +3,10 @@
 use super::ExperimentSource;
 use crate::copies::refuse_copies;
 use crate::failure::Failure;
-use crate::files::files_of;
+use crate::files::{files_of, home_expanded};
+use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::recording::{Job, Requests};
+use crate::recording_files::groups_in;
 use hovertone::experiment::ExperimentLoad;
 use std::path::{Path, PathBuf};
 
@@ -19,13 +21,42 @@ pub(crate) struct LoadJob {
 }
 
 /// A name or pattern of a load that no file matches.
-struct Missing<'a> {
-    load: &'a ExperimentLoad,
-    name: &'a str,
+pub(super) struct Missing<'a> {
+    pub(super) load: &'a ExperimentLoad,
+    pub(super) name: &'a str,
+}
+
+/// The recordings of an experiment, and the names without a file.
+pub(super) struct FoundRecordings<'a> {
+    pub(super) jobs: Vec<LoadJob>,
+    pub(super) missing: Vec<Missing<'a>>,
 }
 
 /// All recordings, load by load. Two that are the same recording are refused.
 pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Result<Vec<LoadJob>, Failure> {
+    let FoundRecordings { mut jobs, missing } = found_recordings(source, data_root)?;
+    if !missing.is_empty() {
+        let root = data_root.unwrap_or(&source.folder);
+        return Err(missing_failure(&missing, source, root, data_root.is_some()));
+    }
+    refuse_twice(&mut jobs, source)?;
+    Ok(jobs)
+}
+
+/// Refuses two recordings that are the same.
+pub(super) fn refuse_twice(jobs: &mut [LoadJob], source: &ExperimentSource) -> Result<(), Failure> {
+    let (hint, path) = match source.typed {
+        Some(_) => ("name each recording once", None),
+        None => ("take one of them out of the experiment file, or out of the folder", Some(source.path.as_path())),
+    };
+    refuse_copies(jobs.iter_mut().map(|LoadJob { job, .. }| job), hint, path)
+}
+
+/// All recordings, load by load, as far as there are files.
+pub(super) fn found_recordings<'a>(
+    source: &'a ExperimentSource,
+    data_root: Option<&Path>,
+) -> Result<FoundRecordings<'a>, Failure> {
     let root = data_root.unwrap_or(&source.folder);
     if !root.is_dir() && data_root.is_some() {
         let hint = "give --data-root the folder that holds the recordings";
@@ -34,13 +65,17 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
     let (mut jobs, mut missing): (Vec<LoadJob>, Vec<Missing<'_>>) = (Vec::new(), Vec::new());
     for load in &source.experiment.loads {
         for name in &load.recordings {
-            let files: Vec<PathBuf> = files_of(&root.join(name)).into_iter().filter(|file| file.exists()).collect();
+            let is_piped = is_stdin(Path::new(name));
+            let files: Vec<PathBuf> = match is_piped {
+                true => vec![recording_of_stdin()?],
+                false => files_of(&place_of(name, root)).into_iter().filter(|file| file.is_file()).collect(),
+            };
             if files.is_empty() {
                 missing.push(Missing { load, name });
             }
             for path in files {
                 let job = Job {
-                    name: name_of(&path, root),
+                    name: if is_piped { STDIN.to_owned() } else { name_of(&path, root) },
                     path,
                     config: load.config(&source.experiment),
                     discovery: None,
@@ -54,12 +89,12 @@ pub(crate) fn jobs_of(source: &ExperimentSource, data_root: Option<&Path>) -> Re
             }
         }
     }
-    if !missing.is_empty() {
-        return Err(missing_failure(&missing, source, root, data_root.is_some()));
-    }
-    let hint = "take one of them out of the experiment file, or out of the folder";
-    refuse_copies(jobs.iter_mut().map(|LoadJob { job, .. }| job), hint, Some(&source.path))?;
-    Ok(jobs)
+    Ok(FoundRecordings { jobs, missing })
+}
+
+/// The place that a name or pattern means, from the folder of the recordings.
+pub(super) fn place_of(name: &str, root: &Path) -> PathBuf {
+    root.join(home_expanded(Path::new(name)))
 }
 
 /// Name of a recording relative to the folder, with forward slashes on all systems.
@@ -75,13 +110,30 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
         list += &format!("\n  and {} more", missing.len() - NAMES_MAX);
     }
     let shown_root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
-    let what = format!("no file matches these recordings of {}:\n  {list}\nlooked in", source.name);
+    let of = if source.typed.is_some() { "the command line" } else { &source.name };
+    let what = format!("no file matches these recordings of {of}:\n  {list}\nlooked in");
     let what = format!("{what} {}", shown_root.display());
     let notes = if source.has_notes { "; the notes at the top of the file may say where they come from" } else { "" };
-    let hint = if is_root_given {
+    let nearby: Vec<String> = missing.iter().filter_map(|Missing { name, .. }| nearby(&place_of(name, root))).collect();
+    let what = nearby.iter().fold(what, |what, nearby| format!("{what}\n{nearby}"));
+    let hint = if source.typed.is_some() {
+        "correct the names: they count from the current folder, or from --data-root".to_owned()
+    } else if is_root_given {
         format!("put them into the folder that --data-root names, or name another{notes}")
     } else {
         format!("put them beside the experiment file, or say with --data-root DIR which folder holds them{notes}")
     };
-    Failure::failed(what, hint, &source.path)
+    match source.typed {
+        Some(_) => Failure::Failed { what, hint, path: None },
+        None => Failure::failed(what, hint, &source.path),
+    }
+}
+
+/// The recordings in the folder of a pattern that matches none of them: often the ending is spelled otherwise.
+pub(super) fn nearby(pattern: &Path) -> Option<String> {
+    let folder = pattern.parent()?;
+    let groups = groups_in(folder);
+    let shown: Vec<String> =
+        groups.iter().map(|group| format!("{} ({})", group.pattern.display(), group.files.len())).collect();
+    (!shown.is_empty()).then(|| format!("there is: {}", shown.join(", ")))
 }

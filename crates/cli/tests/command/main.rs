@@ -3,27 +3,34 @@
 // The lints know tests by their attribute, and what tests share has none.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
+mod calibrate;
 mod chromium;
 mod codecs;
 mod demo;
 mod examples;
 mod identify;
+mod into;
 mod labels;
 mod lighthouse;
 mod messages;
 mod microphones;
+mod movie;
 mod nonsense;
 mod one_number;
 mod outputs;
+mod own_vehicles;
 mod page;
+mod reading;
 mod real_recordings;
 mod report;
 mod report_fixture;
 mod roundtrip;
 mod saying_more;
+mod shell;
 mod simulate;
 mod spectrogram;
 mod speed;
+mod start;
 mod testkit;
 mod thrust;
 mod tones;

@@ -83,6 +83,10 @@ fn help_and_version_are_data() {
     assert_eq!(version.stdout.trim_end(), format!("hovertone {}", env!("CARGO_PKG_VERSION")));
     let help = hovertone(&["--help"]).ends_with(0).stdout;
     for command in [
+        "init",
+        "calibrate",
+        "completions",
+        "man",
         "speed",
         "tones",
         "spectrogram",
@@ -99,6 +103,10 @@ fn help_and_version_are_data() {
         assert!(help.contains(command), "{command}");
     }
     for command in [
+        "init",
+        "calibrate",
+        "completions",
+        "man",
         "speed",
         "tones",
         "spectrogram",

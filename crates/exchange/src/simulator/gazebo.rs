@@ -1,7 +1,7 @@
 //! SDF of Gazebo (gz-sim and classic) and PX4: one motor plugin for each rotor, motorConstant in N/(rad/s)², momentConstant in m.
 
-use super::header::{missing_torque, number, xml_comment};
-use super::xml::{numbers_in, parsed, rooted, shared};
+use super::header::{missing_torque, number, plain, xml_comment};
+use super::xml::{indented, model_name, numbers_in, parsed, rooted, shared};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 
@@ -27,7 +27,23 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
             )
         })
         .collect();
-    xml_comment(rotor) + &plugins
+    let mass = match rotor.mass_kg {
+        Some(mass_kg) => {
+            format!(
+                "<inertial>\n  <mass>{}</mass> <!-- kg, of everything -->\n  <!-- inertia: keep yours -->\n</inertial>",
+                plain(mass_kg)
+            )
+        }
+        None => "<!-- mass and inertia: keep yours -->".to_owned(),
+    };
+    let links = "<!-- the links rotor_N and their joints rotor_N_joint: keep yours -->\n";
+    let base = format!("<link name=\"base_link\">\n{}</link>\n", indented(&mass, 2));
+    let model = indented(&format!("{base}{links}{plugins}"), 4);
+    let comment = indented(&xml_comment(rotor), 2);
+    let name = model_name(&rotor.vehicle_name);
+    format!(
+        "<?xml version=\"1.0\"?>\n<sdf version=\"1.6\">\n{comment}  <model name=\"{name}\">\n{model}  </model>\n</sdf>\n"
+    )
 }
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {

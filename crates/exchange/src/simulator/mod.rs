@@ -5,6 +5,9 @@ mod crazyflow;
 mod flightmare;
 mod gazebo;
 mod header;
+mod into;
+#[cfg(test)]
+mod into_tests;
 mod neutral;
 mod pybullet;
 mod rotorpy;
@@ -12,6 +15,8 @@ mod rotors;
 #[cfg(test)]
 mod tests;
 mod xml;
+
+pub use into::{ChangedLine, UpdatedModel, updated_model};
 
 use crate::identified::IdentifiedRotor;
 
@@ -169,6 +174,19 @@ pub enum ModelError {
         /// Largest constant.
         most: f64,
     },
+    /// A number that is written as an expression, which only its author can change.
+    #[error("{name} is `{value}`, and not a number that could be replaced")]
+    Expression {
+        /// Name of the element or the key.
+        name: String,
+        /// Its text.
+        value: String,
+    },
+    /// An export of this project, in which every number follows from the result.
+    #[error(
+        "this is an export of hovertone itself, without anything of yours to keep: write it again with --to json or --to yaml"
+    )]
+    OwnExport,
     /// A format that needs more numbers than the result has.
     #[error("{format} needs {what}")]
     Needs {
@@ -203,26 +221,18 @@ pub fn export_text(rotor: &IdentifiedRotor, format: SimulatorFormat) -> Result<S
 /// # Errors
 /// No known constant, an invalid file, a constant out of range, rotors with different constants.
 pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
-    let has = |word: &str| text.contains(word);
-    let (name, model) = if has("<motorConstant") {
-        ("motorConstant", gazebo::read(text)?)
-    } else if has("motor_constant") {
-        ("motor_constant", rotors::read(text)?)
-    } else if has("<properties") && has("kf=") {
-        ("kf", pybullet::read(text)?)
-    } else if has("k_eta") {
-        ("k_eta", rotorpy::read(text)?)
-    } else if has("thrust_map") {
-        ("thrust_map", flightmare::read(text)?)
-    } else if has("rpm2thrust") {
-        ("rpm2thrust", crazyflow::read(text)?)
-    } else if has("thrust_constant_per_rotor_n_s2") {
-        ("thrust_constant_per_rotor_n_s2", neutral::read(text)?)
-    } else if has("C_T") {
-        ("C_T", airsim::read(text)?)
-    } else {
-        return Err(ModelError::Unknown);
+    let format = format_of(text)?;
+    let model = match format {
+        SimulatorFormat::Gazebo => gazebo::read(text)?,
+        SimulatorFormat::Rotors => rotors::read(text)?,
+        SimulatorFormat::GymPybulletDrones => pybullet::read(text)?,
+        SimulatorFormat::Rotorpy => rotorpy::read(text)?,
+        SimulatorFormat::Flightmare => flightmare::read(text)?,
+        SimulatorFormat::Crazyflow => crazyflow::read(text)?,
+        SimulatorFormat::Json | SimulatorFormat::Yaml => neutral::read(text)?,
+        SimulatorFormat::Airsim => airsim::read(text)?,
     };
+    let (name, _) = format.constant();
     // a mass of zero stands for an unknown mass
     let model = SimulatorModel { mass_kg: model.mass_kg.filter(|mass_kg| *mass_kg != 0.0), ..model };
     for (name, value) in [
@@ -236,4 +246,28 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
         }
     }
     Ok(model)
+}
+
+/// The format of a model, known by its keywords.
+fn format_of(text: &str) -> Result<SimulatorFormat, ModelError> {
+    let has = |word: &str| text.contains(word);
+    if has("<motorConstant") {
+        Ok(SimulatorFormat::Gazebo)
+    } else if has("motor_constant") {
+        Ok(SimulatorFormat::Rotors)
+    } else if has("<properties") && has("kf=") {
+        Ok(SimulatorFormat::GymPybulletDrones)
+    } else if has("k_eta") {
+        Ok(SimulatorFormat::Rotorpy)
+    } else if has("thrust_map") {
+        Ok(SimulatorFormat::Flightmare)
+    } else if has("rpm2thrust") {
+        Ok(SimulatorFormat::Crazyflow)
+    } else if has("thrust_constant_per_rotor_n_s2") {
+        Ok(SimulatorFormat::Json)
+    } else if has("C_T") {
+        Ok(SimulatorFormat::Airsim)
+    } else {
+        Err(ModelError::Unknown)
+    }
 }

@@ -1,7 +1,7 @@
 //! URDF of gym-pybullet-drones: `<properties kf=… km=…>`, kf in N/rpm², km in N m/rpm².
 
 use super::header::{missing_torque, number, plain, xml_comment};
-use super::xml::{parsed, rooted};
+use super::xml::{indented, model_name, parsed, rooted};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
@@ -24,11 +24,17 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
         text += &format!("<!-- {} -->\n", missing_torque("km"));
     }
     text += &format!("<properties {attributes} />\n");
-    if let Some(mass_kg) = rotor.mass_kg {
-        text +=
-            &format!("<link name=\"base_link\"><inertial><mass value=\"{}\" /></inertial></link>\n", plain(mass_kg));
-    }
-    text
+    // a parser of URDF takes a mass only with an inertia, which is not known
+    text += &match rotor.mass_kg {
+        Some(mass_kg) => format!(
+            "<!-- for the inertial of base_link: <mass value=\"{}\" />; inertia: keep yours -->\n",
+            plain(mass_kg)
+        ),
+        None => "<!-- mass and inertia: keep yours -->\n".to_owned(),
+    };
+    text += "<link name=\"base_link\" />\n";
+    let name = model_name(&rotor.vehicle_name);
+    format!("<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n{}</robot>\n", indented(&text, 2))
 }
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {

@@ -1,7 +1,7 @@
 //! xacro of RotorS: properties, motor_constant in N/(rad/s)² (its files say kg·m/s² by mistake), moment_constant in m.
 
 use super::header::{missing_torque, number, plain, xml_comment};
-use super::xml::{parsed, rooted};
+use super::xml::{indented, model_name, parsed, rooted};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 
@@ -9,7 +9,8 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     let property = |name: &str, value: String, unit: &str| {
         format!("<xacro:property name=\"{name}\" value=\"{value}\" /> <!-- [{unit}] -->\n")
     };
-    let mut text = xml_comment(rotor);
+    let mut text =
+        xml_comment(rotor) + "<!-- use: <xacro:include filename=\"…\" /> behind the properties of your vehicle -->\n";
     if let Some(mass_kg) = rotor.mass_kg {
         text += "<!-- mass is that of everything; RotorS adds mass_rotor for each rotor: take those off -->\n";
         text += &property("mass", plain(mass_kg), "kg");
@@ -22,7 +23,9 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
         Some(moment_m) => property("moment_constant", number(moment_m), "m"),
         None => format!("<!-- {} -->\n", missing_torque("moment_constant")),
     };
-    text
+    let name = model_name(&rotor.vehicle_name);
+    let root = format!("<robot name=\"{name}\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">");
+    format!("<?xml version=\"1.0\"?>\n{root}\n{}</robot>\n", indented(&text, 2))
 }
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {

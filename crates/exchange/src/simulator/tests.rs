@@ -3,7 +3,7 @@
 use super::*;
 use std::f64::consts::TAU;
 
-fn rotor() -> IdentifiedRotor {
+pub(super) fn rotor() -> IdentifiedRotor {
     IdentifiedRotor {
         vehicle_name: "Parrot AR.Drone (the paper's) -- test".to_owned(),
         thrust_constant_n_s2: 7.07753e-6,
@@ -28,7 +28,7 @@ fn rotor() -> IdentifiedRotor {
 /// Relative precision of exported numbers.
 const TOLERANCE: f64 = 1e-7;
 
-fn agrees(value: f64, expected: f64, what: &str) {
+pub(super) fn agrees(value: f64, expected: f64, what: &str) {
     assert!((value / expected - 1.0).abs() < TOLERANCE, "{what}: {value} {expected}");
 }
 

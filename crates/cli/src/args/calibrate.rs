@@ -1,0 +1,65 @@
+//! Arguments of `calibrate`.
+
+use super::groups::{HearingArguments, ToneArguments, time_s, typed_path};
+use clap::Args;
+use std::path::PathBuf;
+
+const CALIBRATE_EXAMPLES: &str = "\
+Record one rotor on a bench while a tachometer shows its speed: the order of the tone and the recorder's clock are
+both in the ratio of the two. Without a rotor, record a tone of known frequency: this checks the clock alone.
+A tachometer that shows whole revolutions per minute leaves ±40 millionths at 7200 rpm (k = 1).
+
+Examples:
+  hovertone calibrate --vehicle crazyflie --tachometer-rpm 20850 crazyflie-propeller/44000.wav
+  hovertone calibrate --true-hz 1000 tone.wav";
+
+/// The recorder's clock and the order of the tone, checked against one known speed: pass or fail, with the correction
+///
+/// Hears the recording as `hovertone speed` does, without a hint from the known speed, and compares. Ends with 3 where the check fails.
+#[derive(Args, Debug)]
+#[command(after_help = CALIBRATE_EXAMPLES)]
+pub(crate) struct CalibrateArguments {
+    /// Recording: a video or audio file; - is stdin
+    #[arg(value_name = "RECORDING", value_parser = typed_path())]
+    pub(crate) file: PathBuf,
+    /// Speed of the rotor's shaft, as a tachometer shows it
+    #[arg(
+        long,
+        value_name = "RPM",
+        required_unless_present = "true_hz",
+        conflicts_with = "true_hz",
+        help_heading = "The known speed"
+    )]
+    pub(crate) tachometer_rpm: Option<String>,
+    /// Frequency of the tone: of a signal generator; or of the rotor's tone, with --blades, --gear, --order or --vehicle
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = "The known speed")]
+    pub(crate) true_hz: Option<f64>,
+    /// Standard uncertainty of the known speed, in millionths [default: by the last digit of --tachometer-rpm; 0 for --true-hz]
+    #[arg(long, value_name = "PPM", allow_negative_numbers = true, help_heading = "The known speed")]
+    pub(crate) known_std_ppm: Option<f64>,
+    #[command(flatten)]
+    pub(crate) tone: ToneArguments,
+    /// Rotors that turn [default: 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64), help_heading = "Which tone")]
+    pub(crate) rotors: Option<u32>,
+    /// How far the recorder's clock may be off, in millionths
+    #[arg(
+        long,
+        value_name = "PPM",
+        default_value_t = 50.0,
+        allow_negative_numbers = true,
+        help_heading = "How it is analysed"
+    )]
+    pub(crate) clock_ppm: f64,
+    /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
+    pub(crate) from: Option<f64>,
+    /// Use the recording up to here, and cut nothing away
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
+    pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print one JSON object
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+}

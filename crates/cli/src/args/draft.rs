@@ -1,0 +1,45 @@
+//! Arguments that describe an experiment in place of its file: of `init` and `identify`.
+
+use super::groups::gear;
+use super::thrust::PlaceArguments;
+use clap::Args;
+use hovertone_vehicle::Gear;
+
+/// How to type loads, for the help of both commands.
+pub(crate) const MASS_HELP: &str = "\
+--mass names one load: its mass as flown, and its recordings. These mean the same:
+  --mass '0.413=no_hull/*.mov'      hovertone expands the pattern; the quotes keep the shell from it
+  --mass 0.413 no_hull/*.mov        the shell expands the pattern; all files up to the next flag belong to it
+  --mass 413g=a.mov --mass 413g=b.mov
+Without quotes, bash leaves 0.413=no_hull/*.mov as it is, which works too; zsh and fish stop with \"no matches\".";
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Without an experiment file")]
+pub(crate) struct DraftArguments {
+    /// A load: its mass as flown, in kg (or with a unit, as 413g), and its recordings; once for each load
+    #[arg(long, value_name = "KG=FILES", num_args = 1..)]
+    pub(crate) mass: Vec<String>,
+    /// A known vehicle (see `hovertone vehicles`)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) vehicle: Option<String>,
+    /// Blades of each propeller
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub(crate) blades: Option<u32>,
+    /// Teeth of the motor's pinion and the rotor's wheel
+    #[arg(long, value_name = "P:W", value_parser = gear)]
+    pub(crate) gear: Option<Gear>,
+    /// Rotors that carry it [default: the vehicle's]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub(crate) rotors: Option<u32>,
+    /// Diameter of a propeller, from tip to tip: it settles the octave [default: the vehicle's]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) diameter_m: Option<f64>,
+    #[command(flatten)]
+    pub(crate) place: PlaceArguments,
+}
+
+impl DraftArguments {
+    /// Names of all arguments that `identify` refuses beside an experiment file.
+    pub(crate) const NAMES: [&str; 9] =
+        ["mass", "vehicle", "blades", "gear", "rotors", "diameter_m", "gravity_m_s2", "latitude_deg", "height_m"];
+}

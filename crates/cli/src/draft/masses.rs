@@ -1,0 +1,155 @@
+//! Loads as typed: `--mass 0.413=no_hull/*.mov`, whether the shell expanded the pattern or not.
+
+use crate::failure::Failure;
+use std::path::Path;
+
+/// Largest mass without a unit, kg. A larger number was read from a kitchen scale, in grams.
+const MASS_WITHOUT_UNIT_KG_MAX: f64 = 50.0;
+const GRAMS: f64 = 1e3;
+const HINT: &str =
+    "write a mass in kg and its recordings, as in --mass '0.413=no_hull/*.mov'; or --mass 0.413 no_hull/*.mov";
+
+/// One load: a mass as flown and its recordings.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LoadDraft {
+    /// Mass of the vehicle with the load.
+    pub(crate) mass_kg: f64,
+    /// Names or patterns of its recordings.
+    pub(crate) recordings: Vec<String>,
+}
+
+/// The loads of all `--mass`, in the order of their first names. Each word is `KG=FILE`, a mass whose files follow, or a file of the mass
+/// before it. Equal masses are one load.
+pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failure> {
+    let mut loads: Vec<LoadDraft> = Vec::new();
+    let mut current_kg = None;
+    for word in words {
+        let (mass, file) = match word.split_once('=') {
+            Some((mass, file)) if starts_as_number(mass) => (Some(mass), Some(file)),
+            _ if starts_as_number(word) && !Path::new(word).exists() && !word.contains(['/', '*']) && is_mass(word) => {
+                (Some(word.as_str()), None)
+            }
+            _ => (None, Some(word.as_str())),
+        };
+        if let Some(mass) = mass {
+            let mass_kg =
+                mass_kg_from_text(mass).map_err(|what| Failure::usage(format!("--mass {word}: {what}"), HINT))?;
+            current_kg = Some(mass_kg);
+            put_load(&mut loads, LoadDraft { mass_kg, recordings: Vec::new() });
+        }
+        let Some(mass_kg) = current_kg else {
+            return Err(Failure::usage(format!("--mass {word}: no mass stands before the recordings"), HINT));
+        };
+        let recordings = file.filter(|file| !file.is_empty()).map(str::to_owned).into_iter().collect();
+        put_load(&mut loads, LoadDraft { mass_kg, recordings });
+    }
+    match loads.iter().find(|load| load.recordings.is_empty()) {
+        Some(load) => {
+            let what = format!("--mass {}: no recording belongs to this mass", mass_words(load.mass_kg));
+            Err(Failure::usage(what, HINT))
+        }
+        None => Ok(loads),
+    }
+}
+
+/// Adds recordings to the load of the same mass, or a new load.
+pub(crate) fn put_load(loads: &mut Vec<LoadDraft>, new: LoadDraft) {
+    match loads.iter_mut().find(|load| load.mass_kg == new.mass_kg) {
+        Some(load) => load.recordings.extend(new.recordings),
+        None => loads.push(new),
+    }
+}
+
+/// A mass as typed: `0.413`, `0.413kg`, `413g`.
+pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (number, unit_kg) = match (text.strip_suffix("kg"), text.strip_suffix('g')) {
+        (Some(number), _) => (number, Some(1.0)),
+        (None, Some(number)) => (number, Some(1.0 / GRAMS)),
+        (None, None) => (text, None),
+    };
+    let number = number.trim();
+    let value = number.parse::<f64>().ok().filter(|value| value.is_finite() && *value > 0.0).ok_or_else(|| {
+        let point = if number.contains(',') { "; the decimal sign is a point" } else { "" };
+        format!("\"{text}\" is no mass: write kilograms, such as 0.413, or grams, such as 413g{point}")
+    })?;
+    match unit_kg {
+        Some(unit_kg) => Ok(rounded(value * unit_kg)),
+        None if value > MASS_WITHOUT_UNIT_KG_MAX => Err(format!(
+            "{value} kg is heavier than a multirotor for this method: write {value}g for grams, or {value}kg"
+        )),
+        None => Ok(value),
+    }
+}
+
+/// A mass for people: grams, without an exponent.
+pub(crate) fn mass_words(mass_kg: f64) -> String {
+    format!("{} g", rounded(mass_kg * GRAMS))
+}
+
+/// Without the last digits of binary arithmetic.
+pub(super) fn rounded(value: f64) -> f64 {
+    const DECIMALS: f64 = 1e9;
+    (value * DECIMALS).round() / DECIMALS
+}
+
+fn is_mass(word: &str) -> bool {
+    mass_kg_from_text(word).is_ok() || word.parse::<f64>().is_ok()
+}
+
+fn starts_as_number(text: &str) -> bool {
+    text.trim_start_matches(['-', '+', '.']).starts_with(|c: char| c.is_ascii_digit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn loads(words: &[&str]) -> Result<Vec<(f64, String)>, String> {
+        let words: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
+        match loads_from_words(&words) {
+            Ok(loads) => Ok(loads.into_iter().map(|load| (load.mass_kg, load.recordings.join(" "))).collect()),
+            Err(Failure::Usage { what, .. }) => Err(what),
+            Err(_) => panic!("wrong use ends with 2"),
+        }
+    }
+
+    #[test]
+    fn a_pattern_is_one_load_whether_the_shell_expanded_it_or_not() {
+        let quoted = loads(&["0.413=no_hull/*.mov", "0.444=small/*.mov"]).unwrap();
+        assert_eq!(quoted, [(0.413, "no_hull/*.mov".to_owned()), (0.444, "small/*.mov".to_owned())]);
+        let of_shell = loads(&["0.413", "no_hull/1.mov", "no_hull/2.mov", "444g", "small/1.mov"]).unwrap();
+        assert_eq!(of_shell, [(0.413, "no_hull/1.mov no_hull/2.mov".to_owned()), (0.444, "small/1.mov".to_owned())]);
+        // 0.413={a,b}.mov, and 0.413=a.mov b.mov
+        let braces = loads(&["0.413=a.mov", "0.413=b.mov", "c.mov"]).unwrap();
+        assert_eq!(braces, [(0.413, "a.mov b.mov c.mov".to_owned())]);
+        assert_eq!(loads(&["0.413=~/x=1/a.mov"]).unwrap()[0].1, "~/x=1/a.mov");
+        assert!(loads(&["1.2=2024-05-01/a.mov", "2024=x/a.mov"]).unwrap_err().contains("2024g"));
+        assert_eq!(loads(&["1.2", "2024-05-01/a.mov"]).unwrap()[0].1, "2024-05-01/a.mov");
+    }
+
+    #[test]
+    fn what_is_no_load_says_how_to_write_one() {
+        for (words, said) in [
+            (&["a.mov"][..], "no mass stands before"),
+            (&["0.413"], "no recording"),
+            (&["0.413="], "no recording"),
+            (&["0.413", "0.444=b.mov"], "413 g: no recording"),
+            (&["0,413=a.mov"], "the decimal sign is a point"),
+            (&["413=a.mov"], "413g"),
+            (&["-0.4=a.mov"], "is no mass"),
+        ] {
+            let what = loads(words).unwrap_err();
+            assert!(what.contains(said), "{words:?}: {what}");
+        }
+    }
+
+    #[test]
+    fn masses_have_units() {
+        assert_eq!(mass_kg_from_text("413g"), Ok(0.413));
+        assert_eq!(mass_kg_from_text("413 g"), Ok(0.413));
+        assert_eq!(mass_kg_from_text("60kg"), Ok(60.0));
+        assert_eq!(mass_words(0.413), "413 g");
+        assert_eq!(mass_words(0.1 + 0.2), "300 g");
+    }
+}

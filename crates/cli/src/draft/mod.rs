@@ -1,0 +1,79 @@
+//! An experiment that a person describes by flags or answers, and its text as an experiment file.
+
+mod masses;
+mod paths;
+mod text;
+
+pub(crate) use masses::{LoadDraft, loads_from_words, mass_kg_from_text, mass_words, put_load};
+pub(crate) use paths::recordings_from;
+
+use crate::args::DraftArguments;
+use crate::failure::Failure;
+use crate::place::gravity_of;
+use hovertone::vehicle::PROPELLER_DIAMETER_M;
+use hovertone_vehicle::{Gear, Vehicle};
+
+/// An experiment without its settings.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Draft {
+    /// Name of a known vehicle.
+    pub(crate) preset: Option<String>,
+    /// Number of rotors.
+    pub(crate) rotors: Option<u32>,
+    /// Blades of each propeller.
+    pub(crate) blades: Option<u32>,
+    /// Gear between motor and rotor.
+    pub(crate) gear: Option<Gear>,
+    /// Diameter of a propeller.
+    pub(crate) diameter_m: Option<f64>,
+    /// Local gravity, or the place of the flights.
+    pub(crate) gravity_m_s2: Option<f64>,
+    pub(crate) latitude_deg: Option<f64>,
+    pub(crate) height_m: Option<f64>,
+    /// The loads.
+    pub(crate) loads: Vec<LoadDraft>,
+}
+
+impl Draft {
+    /// What the flags say, checked against limits and against the vehicle.
+    pub(crate) fn from_arguments(arguments: &DraftArguments, vehicle: Option<&Vehicle>) -> Result<Self, Failure> {
+        gravity_of(&arguments.place)?;
+        arguments.gear.map_or(Ok(()), Gear::check)?;
+        vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(arguments.blades, arguments.gear))?;
+        if let Some(diameter_m) = arguments.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
+            let hint = "it is in metres, from tip to tip: 10 inches are 0.254";
+            return Err(Failure::usage(format!("diameter_m = {diameter_m}, allowed 0.01 to 10"), hint));
+        }
+        Ok(Self {
+            preset: arguments.vehicle.clone(),
+            rotors: arguments.rotors,
+            blades: arguments.blades,
+            gear: arguments.gear,
+            diameter_m: arguments.diameter_m,
+            gravity_m_s2: arguments.place.gravity_m_s2,
+            latitude_deg: arguments.place.latitude_deg,
+            height_m: arguments.place.height_m,
+            loads: loads_from_words(&arguments.mass)?,
+        })
+    }
+
+    /// The flags that are still needed before the draft describes an experiment.
+    pub(crate) fn missing(&self, vehicle: Option<&Vehicle>) -> Vec<&'static str> {
+        let has_tone = self.blades.is_some()
+            || self.gear.is_some()
+            || vehicle.is_some_and(|vehicle| vehicle.tone_order().is_some());
+        let has_rotors = self.rotors.is_some() || vehicle.is_some();
+        let needs: [(bool, &'static str); 4] = [
+            (vehicle.is_some() || has_tone, "--vehicle NAME, or --blades N"),
+            (vehicle.is_none() || has_tone, "--blades N, which is not known of this vehicle"),
+            (vehicle.is_some() || has_rotors, "--rotors N"),
+            (!self.loads.is_empty(), "--mass KG=FILES, once for each load"),
+        ];
+        needs.into_iter().filter(|(has, _)| !has).map(|(_, flag)| flag).collect()
+    }
+
+    /// Mass of the lightest load: that of the vehicle.
+    pub(crate) fn vehicle_mass_kg(&self) -> f64 {
+        self.loads.iter().map(|load| load.mass_kg).fold(f64::INFINITY, f64::min)
+    }
+}

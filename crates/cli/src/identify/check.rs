@@ -1,0 +1,131 @@
+//! `identify --check`: what would be done, which files were found, and what is missing, without analysis.
+
+use super::recordings::{FoundRecordings, Missing, found_recordings, nearby, place_of, refuse_twice};
+use super::{ExperimentSource, LoadJob, hearing_of};
+use crate::args::IdentifyArguments;
+use crate::failure::{Ending, Failure};
+use crate::recording::{Hearing, Job};
+use crate::terminal::Terminal;
+use hovertone::experiment::Experiment;
+use hovertone::thrust::{Force, Gravity};
+use hovertone_media::Recording;
+use hovertone_report::{
+    Notice, PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, counted, planned_experiment_text,
+};
+use std::path::Path;
+
+/// Fewest loads that can show whether the square law holds.
+const LOADS_WANTED: usize = 3;
+
+/// Prints the plan of an experiment and what it lacks. A recording that is missing, or cannot be read, is a failure.
+pub(super) fn run(
+    source: &ExperimentSource,
+    arguments: &IdentifyArguments,
+    terminal: &mut Terminal,
+) -> Result<Ending, Failure> {
+    let FoundRecordings { mut jobs, missing } = found_recordings(source, arguments.data_root.as_deref())?;
+    refuse_twice(&mut jobs, source)?;
+    let experiment = &source.experiment;
+    let hearing = hearing_of(&arguments.hearing, experiment, false);
+    let loads: Vec<PlannedLoad> = experiment
+        .loads
+        .iter()
+        .map(|load| PlannedLoad {
+            name: load.name.clone(),
+            force: load.force,
+            recordings: of_load(&jobs, &load.name).map(|job| planned(job, hearing)).collect(),
+        })
+        .collect();
+    let plan = PlannedExperiment {
+        vehicle_name: &experiment.vehicle_name,
+        rotor_count: experiment.rotor_count,
+        order: experiment.config.tone.order,
+        propeller_diameter_m: experiment.propeller_diameter_m,
+        method: arguments.method.unwrap_or(experiment.config.method).name(),
+        loads,
+    };
+    terminal.data(&planned_experiment_text(&plan, terminal.fold_width()))?;
+    terminal.flush()?;
+    let faults = faults_of(&plan, &missing, arguments.data_root.as_deref().unwrap_or(&source.folder));
+    faults.iter().for_each(|fault| terminal.error(fault));
+    wishes_of(experiment).iter().for_each(|wish| terminal.warning(wish, ""));
+    terminal.data(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
+    Ok(if faults.is_empty() { Ending::Done } else { Ending::FilesFailed })
+}
+
+fn of_load<'a>(jobs: &'a [LoadJob], load: &'a str) -> impl Iterator<Item = &'a Job> {
+    jobs.iter().filter(move |job| job.load == load).map(|LoadJob { job, .. }| job)
+}
+
+fn planned(job: &Job, hearing: Hearing) -> PlannedRecording {
+    let opened = Recording::open(&job.path, &hearing.open_options());
+    let sound = opened.map_err(|error| error.to_string()).map(|recording| {
+        let info = recording.info();
+        PlannedSound {
+            length_s: info.declared_duration_s,
+            sample_rate_hz: info.sample_rate_hz,
+            channel_count: info.channel_count,
+            codec: info.codec.clone(),
+        }
+    });
+    PlannedRecording { file: job.name.clone(), sound }
+}
+
+/// What makes the analysis impossible.
+fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path) -> Vec<Notice> {
+    let missing = missing.iter().map(|Missing { load, name }| {
+        let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
+        let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
+        Notice::new(what, "correct the name, or put the recordings there")
+    });
+    let recordings = plan.loads.iter().flat_map(|load| &load.recordings);
+    let broken = recordings.filter_map(|recording| {
+        let reason = recording.sound.as_ref().err()?;
+        Some(Notice::new(format!("{}: {reason}", recording.file), "name another recording, or leave this one out"))
+    });
+    missing.chain(broken).collect()
+}
+
+/// What would make the answer better.
+fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
+    let hovers = || experiment.loads.iter().filter(|load| matches!(load.force, Force::Weight { .. }));
+    let has_gravity = !hovers().any(|load| {
+        matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
+    });
+    let loads = experiment.loads.len();
+    let few = format!("{}: whether F = C_f ω² holds shows from {LOADS_WANTED} on", counted(loads, "load"));
+    [
+        (
+            experiment.is_weighed || hovers().next().is_none(),
+            "the vehicle was not weighed: the mass is that of another one",
+            "write vehicle.mass_kg",
+        ),
+        (
+            experiment.propeller_diameter_m.is_some(),
+            match experiment.config.known.shaft_speed {
+                Some(_) => "the diameter of the propellers is not known: no C_T",
+                None => "the diameter of the propellers is not known: it settles the octave, and C_T needs it",
+            },
+            "write vehicle.propeller_diameter_m, or give --diameter-m",
+        ),
+        (
+            has_gravity,
+            "the place is not known: gravity differs by 0.5 % on Earth",
+            "write vehicle.latitude_deg and height_m, or give --latitude-deg",
+        ),
+        (experiment.air.is_some(), "the air is not known: no C_T", "write [air] with temperature_c and pressure_hpa"),
+        (loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),
+    ]
+    .into_iter()
+    .filter(|(is_there, ..)| !is_there)
+    .map(|(_, what, hint)| Notice::new(what, hint))
+    .collect()
+}
+
+fn verdict(faults: usize, output: Option<&Path>) -> String {
+    match (faults, output) {
+        (0, Some(folder)) => format!("ready: without --check the results would be in {}\n", folder.display()),
+        (0, None) => "ready: without --check the constant would be printed; -o DIR writes the report too\n".to_owned(),
+        (faults, _) => format!("not ready: {}\n", counted(faults, "error")),
+    }
+}

@@ -1,0 +1,63 @@
+//! An experiment that was typed in place of its file.
+
+use super::ExperimentSource;
+use crate::args::DraftArguments;
+use crate::draft::{Draft, LoadDraft, recordings_from};
+use crate::failure::Failure;
+use crate::files::sha256_of_bytes;
+use crate::typed::typed_command;
+use crate::vehicles::preset;
+use hovertone_report::VERSION;
+use hovertone_vehicle::Vehicle;
+use std::path::{Path, PathBuf};
+
+/// Name of the file that the folder of results gets.
+pub(crate) const EXPERIMENT: &str = "experiment.toml";
+
+/// A typed experiment.
+pub(crate) struct TypedExperiment {
+    draft: Draft,
+    vehicle: Option<&'static Vehicle>,
+}
+
+impl TypedExperiment {
+    /// What the arguments describe. Recordings count from the current folder.
+    pub(crate) fn from_arguments(arguments: &DraftArguments) -> Result<Self, Failure> {
+        let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
+        let draft = Draft::from_arguments(arguments, vehicle)?;
+        let missing = draft.missing(vehicle);
+        if missing.is_empty() {
+            return Ok(Self { draft, vehicle });
+        }
+        let what = format!("the experiment is not complete without {}", missing.join("; and "));
+        Err(Failure::usage(what, "add it, or give an experiment file: `hovertone init` writes one"))
+    }
+
+    /// The same as an experiment file in the current folder.
+    pub(crate) fn source(self) -> Result<ExperimentSource, Failure> {
+        let text = self.text(&self.draft.loads);
+        let source = ExperimentSource::of_text(&text, PathBuf::from(EXPERIMENT), None)?;
+        Ok(ExperimentSource { typed: Some(self), ..source })
+    }
+
+    fn text(&self, loads: &[LoadDraft]) -> String {
+        let head = format!("# Written by hovertone {VERSION} for this command:\n#   {}\n", typed_command());
+        Draft { loads: loads.to_vec(), ..self.draft.clone() }.experiment_text(&head, self.vehicle)
+    }
+}
+
+impl ExperimentSource {
+    /// For a typed experiment: the text of the file in the folder of results that repeats it, whose hash the results get. Its recordings
+    /// are named from there.
+    pub(crate) fn text_for(&mut self, folder: &Path, data_root: Option<&Path>) -> Result<Option<String>, Failure> {
+        let Some(typed) = &self.typed else { return Ok(None) };
+        let root = data_root.unwrap_or(Path::new(""));
+        let mut loads = typed.draft.loads.clone();
+        for name in loads.iter_mut().flat_map(|load| &mut load.recordings) {
+            *name = recordings_from(name, root, folder)?;
+        }
+        let text = typed.text(&loads);
+        self.sha256 = sha256_of_bytes(text.as_bytes());
+        Ok(Some(text))
+    }
+}

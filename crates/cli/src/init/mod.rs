@@ -1,0 +1,67 @@
+//! `hovertone init`: an experiment file from flags, or from answers at the terminal.
+
+mod dialog;
+mod questions;
+
+use crate::args::InitArguments;
+use crate::draft::{Draft, recordings_from};
+use crate::failure::{Ending, Failure};
+use crate::identify::ExperimentSource;
+use crate::outputs::{Outputs, written};
+use crate::terminal::Terminal;
+use crate::typed::quoted;
+use crate::vehicles::preset;
+use dialog::Dialog;
+use hovertone_report::VERSION;
+use hovertone_vehicle::Vehicle;
+use std::io::{self, IsTerminal};
+use std::path::Path;
+
+/// Asks for what the flags leave out, and writes the file.
+pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let nothing: [&Path; 0] = [];
+    let outputs = Outputs::beside(nothing, arguments.replace.force);
+    outputs.check(&arguments.output)?;
+    let vehicle = arguments.draft.vehicle.as_deref().map(preset).transpose()?;
+    let draft = Draft::from_arguments(&arguments.draft, vehicle)?;
+    let can_ask = io::stdin().is_terminal() && io::stderr().is_terminal();
+    let draft = match draft.missing(vehicle) {
+        missing if missing.is_empty() => draft,
+        _ if can_ask => questions::complete(draft, Path::new(""), &mut Dialog::new(io::stdin().lock(), io::stderr()))?,
+        missing => {
+            let what =
+                format!("nothing can be asked without a terminal, and these are missing: {}", missing.join("; "));
+            return Err(Failure::usage(what, "add them, or run `hovertone init` in a terminal"));
+        }
+    };
+    let vehicle = draft.preset.as_deref().map(preset).transpose()?;
+    let text = file_text(&draft, vehicle, &arguments.output)?;
+    // a draft that means nothing is refused with its reason, and not written
+    let source = ExperimentSource::of_text(&text, arguments.output.clone(), None)?;
+    outputs.write(&arguments.output, &text)?;
+    terminal.say(&written(&arguments.output));
+    let name = quoted(&arguments.output.display().to_string());
+    let known = &source.experiment.config.known;
+    if known.diameter_m.is_none() && known.shaft_speed.is_none() {
+        terminal.say("The diameter of the propellers is not in it: measure it, it settles the octave.");
+    }
+    terminal.say(&format!("Look at what it would do: hovertone identify {name} --check"));
+    terminal.say(&format!("Identify the constant:    hovertone identify {name} -o results"));
+    Ok(Ending::Done)
+}
+
+/// The text of the file. Its recordings count from its own folder.
+fn file_text(draft: &Draft, vehicle: Option<&Vehicle>, output: &Path) -> Result<String, Failure> {
+    let folder = output.parent().unwrap_or(Path::new(""));
+    let mut draft = draft.clone();
+    for name in draft.loads.iter_mut().flat_map(|load| &mut load.recordings) {
+        *name = recordings_from(name, Path::new(""), folder)?;
+    }
+    let name = output.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let head = format!(
+        "# Written by `hovertone init` (hovertone {VERSION}). Change what you like: docs/formats.md lists all keys.\n\
+         # What it would do:       hovertone identify {name} --check\n\
+         # Identify the constant:  hovertone identify {name} -o results\n"
+    );
+    Ok(draft.experiment_text(&head, vehicle))
+}

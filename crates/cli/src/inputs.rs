@@ -1,0 +1,103 @@
+//! Reading a file, or stdin where its name is `-`. A recording is read several times, so stdin is kept in a temporary file until the end of
+//! the run.
+
+use crate::failure::Failure;
+use std::fs;
+use std::io::{self, IsTerminal, Read, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use tempfile::{NamedTempFile, TempPath};
+
+/// Name of stdin in messages and in the output.
+pub(crate) const STDIN: &str = "stdin";
+/// Bytes per step of a copy.
+const CHUNK: usize = 1 << 20;
+
+/// Stdin as far as this run has used it.
+enum Used {
+    No,
+    /// Read as text or a table.
+    Read,
+    /// Kept as a recording.
+    Kept(TempPath),
+}
+
+static USED: Mutex<Used> = Mutex::new(Used::No);
+
+/// Whether a name means stdin. A file of this name is `./-`.
+pub(crate) fn is_stdin(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// The bytes of a file or of stdin; `what` names the content in messages.
+pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>, Failure> {
+    if !is_stdin(path) {
+        return fs::read(path)
+            .map_err(|error| Failure::failed(format!("{what} cannot be read: {error}"), "check its name", path));
+    }
+    let mut used = first_use(what)?;
+    let mut bytes = Vec::new();
+    io::stdin().read_to_end(&mut bytes).map_err(|error| cannot_read(&error, what))?;
+    *used = Used::Read;
+    Ok(bytes)
+}
+
+/// The text of a file or of stdin; `what` names the content in messages.
+pub(crate) fn read_text(path: &Path, what: &str) -> Result<String, Failure> {
+    String::from_utf8(read_bytes(path, what)?)
+        .map_err(|error| Failure::failed(format!("{what} is not text: {}", error.utf8_error()), "check its name", path))
+}
+
+/// The file in which a recording from stdin is kept. [`forget_stdin`] removes it.
+pub(crate) fn recording_of_stdin() -> Result<PathBuf, Failure> {
+    let what = "the recording";
+    let mut used = first_use(what)?;
+    let mut file = NamedTempFile::with_prefix("hovertone-stdin-").map_err(|error| cannot_keep(&error))?;
+    let mut chunk = vec![0; CHUNK];
+    loop {
+        match io::stdin().read(&mut chunk) {
+            Ok(0) => break,
+            Ok(count) => file.write_all(&chunk[..count]).map_err(|error| cannot_keep(&error))?,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(cannot_read(&error, what)),
+        }
+    }
+    let path = file.into_temp_path();
+    let place = path.to_path_buf();
+    *used = Used::Kept(path);
+    Ok(place)
+}
+
+/// Removes what was kept of stdin.
+pub(crate) fn forget_stdin() {
+    let Ok(mut used) = USED.lock() else { return };
+    if let Used::Kept(path) = std::mem::replace(&mut *used, Used::Read) {
+        // where it cannot be removed, the system empties its folder of temporary files
+        let _ = path.close();
+    }
+}
+
+fn first_use(what: &str) -> Result<std::sync::MutexGuard<'static, Used>, Failure> {
+    let used = USED.lock().map_err(Failure::internal)?;
+    if !matches!(*used, Used::No) {
+        return Err(Failure::usage("stdin (-) is named twice, and it can be read once", "give the other as a file"));
+    }
+    if io::stdin().is_terminal() {
+        let hint = "pipe it in, as in `hovertone speed - < hover.wav`, or give a file";
+        return Err(Failure::usage(format!("{what} would be read from the terminal, and nobody can type it"), hint));
+    }
+    Ok(used)
+}
+
+fn cannot_read(error: &io::Error, what: &str) -> Failure {
+    Failure::failed(format!("{what} cannot be read: {error}"), "check the program before the pipe", Path::new(STDIN))
+}
+
+fn cannot_keep(error: &io::Error) -> Failure {
+    let folder = std::env::temp_dir();
+    Failure::failed(
+        format!("the recording of stdin cannot be kept: {error}"),
+        "free space there, or set TMPDIR",
+        &folder,
+    )
+}

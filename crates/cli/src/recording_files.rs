@@ -1,0 +1,78 @@
+//! Recordings in a folder, known by their endings: what `init` offers, and what a message about a missing file names.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Endings of files with sound, in lower case.
+const ENDINGS: [&str; 22] = [
+    "3gp", "aac", "aif", "aiff", "avi", "caf", "flac", "m4a", "m4v", "mka", "mkv", "mov", "mp3", "mp4", "mts", "oga",
+    "ogg", "opus", "ts", "wav", "webm", "wma",
+];
+
+/// Recordings of one folder with one ending.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct RecordingGroup {
+    /// The pattern that matches them all.
+    pub(crate) pattern: PathBuf,
+    /// The recordings, sorted.
+    pub(crate) files: Vec<PathBuf>,
+}
+
+/// The recordings of a folder, a group for each ending as it is spelled.
+pub(crate) fn groups_in(folder: &Path) -> Vec<RecordingGroup> {
+    let mut groups: BTreeMap<String, Vec<PathBuf>> = BTreeMap::new();
+    for path in entries_of(folder).into_iter().filter(|path| path.is_file()) {
+        if let Some(ending) = ending_of(&path) {
+            groups.entry(ending).or_default().push(path);
+        }
+    }
+    let group = |(ending, mut files): (String, Vec<PathBuf>)| {
+        files.sort();
+        RecordingGroup { pattern: folder.join(format!("*.{ending}")), files }
+    };
+    groups.into_iter().map(group).collect()
+}
+
+/// The recordings of all folders in a folder.
+pub(crate) fn groups_below(folder: &Path) -> Vec<RecordingGroup> {
+    let mut folders: Vec<PathBuf> = entries_of(folder).into_iter().filter(|path| path.is_dir()).collect();
+    folders.sort();
+    folders.iter().flat_map(|folder| groups_in(folder)).collect()
+}
+
+/// The ending of a recording as it is spelled; `None` for other files.
+fn ending_of(path: &Path) -> Option<String> {
+    let ending = path.extension()?.to_str()?;
+    ENDINGS.contains(&ending.to_lowercase().as_str()).then(|| ending.to_owned())
+}
+
+/// What is in a folder, without hidden names; empty where it cannot be read. The folder "" is the current one.
+fn entries_of(folder: &Path) -> Vec<PathBuf> {
+    let read = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let names = fs::read_dir(read).into_iter().flatten().filter_map(Result::ok).map(|entry| entry.file_name());
+    names.filter(|name| !name.as_encoded_bytes().starts_with(b".")).map(|name| folder.join(name)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn recordings_are_grouped_by_folder_and_ending() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["a/2.MOV", "a/1.MOV", "a/notes.txt", "a/._1.MOV", "b/x.wav", "b/y.mov", ".hidden/z.mov", "c.flac"]
+        {
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(path, "").unwrap();
+        }
+        let shown = |groups: Vec<RecordingGroup>| -> Vec<String> {
+            let short = |path: &Path| path.strip_prefix(folder.path()).unwrap().display().to_string();
+            groups.iter().map(|group| format!("{} {}", short(&group.pattern), group.files.len())).collect()
+        };
+        assert_eq!(shown(groups_below(folder.path())), ["a/*.MOV 2", "b/*.mov 1", "b/*.wav 1"]);
+        assert_eq!(shown(groups_in(folder.path())), ["*.flac 1"]);
+        assert!(groups_in(&folder.path().join("missing")).is_empty());
+    }
+}

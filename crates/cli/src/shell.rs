@@ -1,0 +1,73 @@
+//! `hovertone completions` and `hovertone man`: the command line, described for shells and for `man`.
+
+use crate::args::{Arguments, CompletionsArguments, ManArguments};
+use crate::failure::{Ending, Failure};
+use crate::nearest::nearest;
+use crate::outputs::{Outputs, written};
+use crate::terminal::Terminal;
+use clap::{Command, CommandFactory};
+use clap_mangen::Man;
+use std::fs;
+use std::path::Path;
+
+const NAME: &str = "hovertone";
+
+/// Prints the completions of a shell.
+pub(crate) fn run_completions(arguments: &CompletionsArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Arguments::command(), NAME, &mut script);
+    terminal.data(&String::from_utf8(script).map_err(Failure::internal)?)?;
+    Ok(Ending::Done)
+}
+
+/// Prints the page of a command, or writes all pages into a folder.
+pub(crate) fn run_man(arguments: &ManArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let program = built();
+    if let Some(folder) = &arguments.output {
+        return write_all(&program, folder, arguments.replace.force, terminal);
+    }
+    let command = match &arguments.command {
+        Some(name) => subcommand(&program, name)?,
+        None => &program,
+    };
+    terminal.data(&page(command)?)?;
+    Ok(Ending::Done)
+}
+
+/// The whole command line, with the arguments that clap adds. The pages of commands are named hovertone-COMMAND.
+fn built() -> Command {
+    let mut program = Arguments::command().disable_help_subcommand(true);
+    program.build();
+    program
+}
+
+fn subcommand<'a>(program: &'a Command, name: &str) -> Result<&'a Command, Failure> {
+    program.find_subcommand(name).ok_or_else(|| {
+        let names = program.get_subcommands().map(Command::get_name);
+        let hint = match nearest(name, names) {
+            Some(nearest) => format!("did you mean \"{nearest}\"? `hovertone --help` lists all"),
+            None => "`hovertone --help` lists all".to_owned(),
+        };
+        Failure::usage(format!("there is no command \"{name}\""), hint)
+    })
+}
+
+fn write_all(program: &Command, folder: &Path, force: bool, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
+    let nothing: [&Path; 0] = [];
+    let outputs = Outputs::beside(nothing, force);
+    for command in [program].into_iter().chain(program.get_subcommands()) {
+        let name = command.get_display_name().unwrap_or_else(|| command.get_name());
+        let place = folder.join(format!("{name}.1"));
+        outputs.write(&place, page(command)?)?;
+        terminal.say(&written(&place));
+    }
+    Ok(Ending::Done)
+}
+
+fn page(command: &Command) -> Result<String, Failure> {
+    let mut text = Vec::new();
+    let manual = format!("hovertone {}", env!("CARGO_PKG_VERSION"));
+    Man::new(command.clone()).source(manual).render(&mut text).map_err(Failure::internal)?;
+    String::from_utf8(text).map_err(Failure::internal)
+}

@@ -1,0 +1,92 @@
+//! Exports that load, and models that are changed in place.
+
+use crate::testkit::{Run, hovertone, refused_with, text};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+const IRIS: &str = "<?xml version=\"1.0\" ?>\n<!-- my model, from PX4 -->\n<sdf version='1.6'>\n  <model name='iris'>\n    \
+                    <link name='base_link'>\n      <inertial><mass>1.5</mass></inertial>\n    </link>\n    \
+                    <plugin name='front_right' filename='libgazebo_motor_model.so'>\n      \
+                    <motorConstant>5.84e-06</motorConstant> <!-- theirs -->\n      <momentConstant>0.06</momentConstant>\n    \
+                    </plugin>\n  </model>\n</sdf>\n";
+
+/// Results of a fit, for an export.
+fn write_results(folder: &Path) -> std::path::PathBuf {
+    let (table, results) = (folder.join("stand.csv"), folder.join("results.json"));
+    fs::write(&table, "rpm,thrust_n\n3000,0.70\n3600,1.00\n4200,1.38\n5000,1.94\n").unwrap();
+    let fitted = hovertone(&["fit", "--json", "--diameter-m", "0.2", text(&table)]).ends_with(0);
+    fs::write(&results, fitted.stdout).unwrap();
+    results
+}
+
+fn export(results: &Path, words: &[&str]) -> Run {
+    hovertone(&[&["export", text(results)], words].concat())
+}
+
+#[test]
+fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let model = folder.path().join("iris.sdf");
+    fs::write(&model, IRIS).unwrap();
+    let changed = export(&results, &["--into", text(&model)]).ends_with(0);
+    let after = fs::read_to_string(&model).unwrap();
+    let (start, end) = IRIS.split_once("5.84e-06").unwrap();
+    assert!(after.starts_with(start) && after.ends_with(end) && after != IRIS, "{after}");
+    for words in ["--- ", "+++ ", "@@ -9 +9 @@", "-      <motorConstant>5.84e-06<", "+      <motorConstant>", "theirs"]
+    {
+        assert!(changed.stdout.contains(words), "{words}:\n{}", changed.stdout);
+    }
+    assert!(changed.stderr.contains("written: "), "{}", changed.stderr);
+    let patch = folder.path().join("change.patch");
+    fs::write(&patch, &changed.stdout).unwrap();
+    match Command::new("patch").arg("-R").args([&model, &patch]).output() {
+        Ok(output) => {
+            assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+            assert_eq!(fs::read_to_string(&model).unwrap(), IRIS);
+        }
+        Err(_) => println!("skipped: no `patch`"),
+    }
+    fs::write(&model, &after).unwrap();
+    let again = export(&results, &["--into", text(&model)]).ends_with(0);
+    assert!(again.stdout.is_empty() && again.stderr.contains("nothing to change"), "{}", again.stderr);
+    let compared = hovertone(&["compare", text(&results), text(&model), "--json"]).ends_with(0).json_lines().remove(0);
+    assert!((compared["over_heard"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{compared}");
+}
+
+#[test]
+fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let (model, other) = (folder.path().join("iris.sdf"), folder.path().join("other.sdf"));
+    fs::write(&model, IRIS).unwrap();
+    let into = ["--into", text(&model), "-o", text(&other)];
+    export(&results, &into).ends_with(0);
+    assert_eq!(fs::read_to_string(&model).unwrap(), IRIS);
+    assert!(fs::read_to_string(&other).unwrap().contains("theirs"));
+    assert!(export(&results, &into).ends_with(2).stderr.contains("--force"));
+    export(&results, &[&into[..], &["--force"]].concat()).ends_with(0);
+    for place in [&model, &results] {
+        let refused = export(&results, &["--into", text(&model), "-o", text(place), "--force"]).ends_with(2);
+        assert!(refused.stderr.contains("the same command reads it"), "{}", refused.stderr);
+    }
+    assert_eq!(fs::read_to_string(&model).unwrap(), IRIS);
+    let results = text(&results);
+    refused_with(&["export", results, "--into", results], &["nothing was written"]);
+    let both = hovertone(&["export", results, "--to", "gazebo", "--into", text(&model)]).ends_with(2);
+    assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
+    fs::write(&model, IRIS.replace("5.84e-06", "${motor_constant}")).unwrap();
+    refused_with(&["export", results, "--into", text(&model)], &["nothing was written"]);
+}
+
+#[test]
+fn exports_of_xml_have_one_root() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    for (format, root) in [("gazebo", "sdf"), ("px4", "sdf"), ("rotors", "robot"), ("gym-pybullet-drones", "robot")] {
+        let text = export(&results, &["--to", format]).ends_with(0).stdout;
+        let document = roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{format}: {error}\n{text}"));
+        assert_eq!(document.root_element().tag_name().name(), root);
+    }
+}

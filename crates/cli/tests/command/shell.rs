@@ -1,0 +1,51 @@
+//! Completions and man pages.
+
+use crate::testkit::{hovertone, refused_with, text};
+use std::fs;
+use std::process::Command;
+
+#[test]
+fn every_shell_has_completions_of_every_command() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = hovertone(&["completions", shell]).ends_with(0).stdout;
+        for word in ["identify", "calibrate", "spectrogram", "tachometer-rpm", "clock-correction-ppm"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+    assert!(hovertone(&["completions", "csh"]).ends_with(2).stderr.contains("bash"));
+}
+
+#[test]
+fn bash_reads_its_completions_and_offers_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("hovertone.bash");
+    fs::write(&script, hovertone(&["completions", "bash"]).ends_with(0).stdout).unwrap();
+    let ask = "source \"$1\"; COMP_WORDS=(hovertone ca); COMP_CWORD=1; _hovertone hovertone ca hovertone; echo \"${COMPREPLY[@]}\"";
+    let Ok(output) = Command::new("bash").args(["-c", ask, "bash", text(&script)]).output() else {
+        println!("skipped: no bash");
+        return;
+    };
+    assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "calibrate", "{:?}", output.stderr);
+}
+
+#[test]
+fn man_pages_of_the_program_and_of_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let pages = folder.path().join("man1");
+    hovertone(&["man", "-o", text(&pages)]).ends_with(0);
+    let help = hovertone(&["--help"]).ends_with(0).stdout;
+    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    let names: Vec<&str> = commands
+        .filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' '))?.split_whitespace().next())
+        .collect();
+    let names: Vec<&str> = names.into_iter().filter(|name| *name != "help").collect();
+    assert!(names.len() >= 15, "{names:?}");
+    let page = |name: &str| fs::read_to_string(pages.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    for name in &names {
+        assert!(page(&format!("hovertone-{name}.1")).contains(".SH OPTIONS"), "{name}");
+    }
+    assert!(page("hovertone.1").contains("hovertone\\-speed"), "the program's page names the pages of its commands");
+    assert_eq!(hovertone(&["man", "speed"]).ends_with(0).stdout, page("hovertone-speed.1"));
+    assert!(hovertone(&["man", "-o", text(&pages)]).ends_with(2).stderr.contains("--force"));
+    refused_with(&["man", "spead"], &["did you mean \"speed\""]);
+}
