@@ -1,8 +1,9 @@
-//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `validate`.
+//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `validate`, `dist`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
 mod ci;
+mod dist;
 mod tidy;
 mod tree;
 mod validate;
@@ -19,6 +20,8 @@ const HELP: &str = "cargo xtask <task>
   tidy         rules of the house that no compiler knows: each fault with file, line and what to do
   tidy --list  the number of faults of each rule, and in which files
   words        no string, help text, page or document has an expression that docs/glossary.md forbids
+  dist         what a release page holds, in target/dist: a stripped program without libraries of the system, completions, man pages,
+               licences of all dependencies, checksums; and whether every crate can be packed for publication
   validate     exported files, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
 
 Exams and benchmarks: cargo run --release -p hovertone-bench
@@ -34,6 +37,7 @@ fn main() -> ExitCode {
         ["tidy", "--list"] => tidy::list(&root()),
         ["words"] => words::run(&root()),
         ["validate"] => validate::run(&root()),
+        ["dist"] => dist::run(&root()),
         _ => Err(HELP.to_owned()),
     };
     match outcome {

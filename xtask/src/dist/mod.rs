@@ -1,0 +1,177 @@
+//! `cargo xtask dist`: what a release page holds.
+
+mod elf;
+mod licences;
+mod publication;
+mod spdx;
+
+use crate::ci::cargo;
+use crate::target;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const PACKAGE: &str = "hovertone-cli";
+/// Shells and the names that their completions have by convention.
+const COMPLETIONS: [(&str, &str); 5] = [
+    ("bash", "hovertone.bash"),
+    ("zsh", "_hovertone"),
+    ("fish", "hovertone.fish"),
+    ("elvish", "hovertone.elv"),
+    ("powershell", "_hovertone.ps1"),
+];
+/// Files of the repository that a release has too.
+const COPIED: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"];
+const SUMS: &str = "SHA256SUMS";
+
+/// Builds everything into `target/dist` and says what is there.
+pub(crate) fn run(root: &Path) -> Result<(), String> {
+    publication::check(root)?;
+    let triple = host_triple()?;
+    let version = publication::version(root)?;
+    let name = format!("hovertone-{version}-{triple}");
+    let dist = target(root).join("dist");
+    let folder = dist.join(&name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    make_folder(&folder)?;
+    let program = build(root, &triple)?;
+    let is_static = elf::is_static(&read(&program)?);
+    let file = program.file_name().map(PathBuf::from).unwrap_or_default();
+    fs::copy(&program, folder.join(&file)).map_err(|error| format!("{}: {error}", program.display()))?;
+    describe(&folder.join(&file), &folder)?;
+    for name in COPIED {
+        fs::copy(root.join(name), folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
+    }
+    write(&folder.join("THIRD-PARTY-LICENSES.md"), &licences::text(root, &triple, PACKAGE)?)?;
+    let archive = pack(&dist, &name)?;
+    write_sums(&dist, &[archive.clone(), folder.join(&file)])?;
+    publication::pack_all(root)?;
+    println!("\n{}", listing(&folder)?);
+    println!("the program {}", in_words(is_static));
+    println!("written: {} and {}", archive.display(), dist.join(SUMS).display());
+    Ok(())
+}
+
+fn in_words(is_static: Option<bool>) -> &'static str {
+    match is_static {
+        Some(true) => "needs no library of the system",
+        Some(false) => "needs libraries of the system",
+        None => "is of a system whose programs this task cannot look into",
+    }
+}
+
+/// The triple of this machine.
+fn host_triple() -> Result<String, String> {
+    let output = Command::new("rustc").arg("-vV").output().map_err(|error| format!("rustc: {error}"))?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let triple = text.lines().find_map(|line| line.strip_prefix("host: "));
+    triple.map(str::to_owned).ok_or_else(|| "rustc -vV names no host".to_owned())
+}
+
+/// A stripped program. The triple is named, so that the flag holds for the program alone, and not for the macros that build it.
+fn build(root: &Path, triple: &str) -> Result<PathBuf, String> {
+    println!("== build");
+    let variables = [("RUSTFLAGS", "-C target-feature=+crt-static"), ("CARGO_PROFILE_RELEASE_STRIP", "symbols")];
+    cargo(root, &["build", "--release", "--locked", "--target", triple, "-p", PACKAGE], &variables)?;
+    let ending = if triple.contains("windows") { ".exe" } else { "" };
+    Ok(target(root).join(triple).join("release").join(format!("hovertone{ending}")))
+}
+
+/// Completions and man pages, by the program itself.
+fn describe(program: &Path, folder: &Path) -> Result<(), String> {
+    let completions = folder.join("completions");
+    make_folder(&completions)?;
+    for (shell, name) in COMPLETIONS {
+        write(&completions.join(name), &output_of(Command::new(program).args(["completions", shell]))?)?;
+    }
+    output_of(Command::new(program).args(["man", "-o"]).arg(folder.join("man")))?;
+    Ok(())
+}
+
+/// A packed folder. The same files give the same bytes.
+fn pack(dist: &Path, name: &str) -> Result<PathBuf, String> {
+    let archive = dist.join(format!("{name}.tar.gz"));
+    let mut tar = Command::new("tar");
+    tar.args(["--sort=name", "--owner=0", "--group=0", "--numeric-owner", "--mtime=@0", "-czf"]);
+    output_of(tar.arg(&archive).arg("-C").arg(dist).arg(name))?;
+    Ok(archive)
+}
+
+/// The file of checksums, as `sha256sum --check` reads it.
+fn write_sums(dist: &Path, files: &[PathBuf]) -> Result<(), String> {
+    let mut text = String::new();
+    for file in files {
+        let name = file.strip_prefix(dist).unwrap_or(file);
+        let hash = Sha256::digest(read(file)?);
+        let hexadecimal: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+        // writing to a string does not fail
+        let _ = writeln!(text, "{hexadecimal}  {}", name.display());
+    }
+    write(&dist.join(SUMS), &text)
+}
+
+/// The files of a folder with their sizes.
+fn listing(folder: &Path) -> Result<String, String> {
+    let mut lines = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        let entries = fs::read_dir(&next).map_err(|error| format!("{}: {error}", next.display()))?;
+        for path in entries.filter_map(Result::ok).map(|entry| entry.path()) {
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                let size = fs::metadata(&path).map_or(0, |facts| facts.len());
+                let name = path.strip_prefix(folder).unwrap_or(&path).display().to_string();
+                lines.push(format!("{name:44} {size:>10}"));
+            }
+        }
+    }
+    lines.sort();
+    Ok(lines.join("\n"))
+}
+
+fn output_of(command: &mut Command) -> Result<String, String> {
+    let name = command.get_program().to_string_lossy().into_owned();
+    let output = command.output().map_err(|error| format!("{name}: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("{name} failed: {}", String::from_utf8_lossy(&output.stderr).trim()));
+    }
+    String::from_utf8(output.stdout).map_err(|error| format!("{name}: {error}"))
+}
+
+fn make_folder(folder: &Path) -> Result<(), String> {
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, String> {
+    fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn checksums_are_as_sha256sum_reads_them() {
+        let dist = tempfile::tempdir().unwrap();
+        let file = dist.path().join("abc");
+        fs::write(&file, "abc").unwrap();
+        write_sums(dist.path(), std::slice::from_ref(&file)).unwrap();
+        let sums = fs::read_to_string(dist.path().join(SUMS)).unwrap();
+        // FIPS 180-2, appendix B.1
+        assert_eq!(sums, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad  abc\n");
+    }
+
+    #[test]
+    fn the_host_has_a_triple() {
+        assert!(host_triple().unwrap().matches('-').count() >= 2);
+    }
+}
