@@ -66,12 +66,10 @@ def constants_by_other_parsers(folder):
     rpm, rev_s = 60 / (2 * np.pi), 1 / (2 * np.pi)
 
     def xml(name):
-        text = (folder / name).read_text()
-        text = text.replace("xacro:", "xacro_")
-        return ElementTree.fromstring(f"<root>{text}</root>")
+        return ElementTree.fromstring((folder / name).read_text())
 
     gazebo = float(xml("gazebo").find(".//motorConstant").text)
-    rotors = next(float(e.get("value")) for e in xml("rotors").iter("xacro_property") if e.get("name") == "motor_constant")
+    rotors = next(float(e.get("value")) for e in xml("rotors").iter("{http://www.ros.org/wiki/xacro}property") if e.get("name") == "motor_constant")
     kf = float(xml("gym-pybullet-drones").find(".//properties").get("kf"))
     polynomial = yaml.safe_load((folder / "flightmare").read_text())["quadrotor_dynamics"]["thrust_map"]
     polynomial = [float(number) for number in polynomial]  # YAML 1.1 reads 1.0e-6 as a number and 1e-6 as a word
@@ -130,4 +128,5 @@ def main():
     assert max(others.values()) < 100 * TOLERANCE, others
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -22,7 +22,8 @@ const HELP: &str = "cargo xtask <task>
   words        no string, help text, page or document has an expression that docs/glossary.md forbids
   dist         what a release page holds, in target/dist: a stripped program without libraries of the system, completions, man pages,
                licences of all dependencies, checksums; and whether every crate can be packed for publication
-  validate     exported files, in the hands of other programs: rotorpy (installed by pip) hovers at the speed that was heard
+  validate     exported and changed files, in the hands of other programs: rotorpy, pybullet and xacro (installed by pip); sdformat and
+               urdfdom (apt-get install ignition-tools libsdformat-dev liburdfdom-tools), without which that part is left out and said
 
 Exams and benchmarks: cargo run --release -p hovertone-bench
 ";

@@ -6,14 +6,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What pip is asked for; the script was written for these.
-const PACKAGES: [&str; 2] = ["rotorpy==3.0.0", "pyyaml"];
+/// What pip is asked for; the scripts were written for these.
+const PACKAGES: [&str; 4] = ["rotorpy==3.0.0", "pyyaml", "xacro==2.1.1", "pybullet==3.2.7"];
 const FORMATS: [&str; 9] =
     ["gazebo", "rotors", "gym-pybullet-drones", "rotorpy", "flightmare", "airsim", "crazyflow", "json", "yaml"];
 /// The preset has no diameter: any will do, for what is written and read with the same one.
 const AIRSIM_NEEDS: [&str; 4] = ["--diameter-m", "0.2", "--air-density-kg-m3", "1.17"];
 
-/// Runs the demo, exports it to all formats, lets rotorpy hover with it, and writes `validation/rotorpy/hover.json`.
+/// Runs the demo, exports it to all formats, lets rotorpy hover with it, and writes `validation/rotorpy/hover.json`. Then the exports, and
+/// models that were changed in place, go to the programs that they are for: `validation/models/checked.json`.
 pub(crate) fn run(root: &Path) -> Result<(), String> {
     let folder = target(root).join("validate");
     let exports = folder.join("exports");
@@ -40,16 +41,20 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let python = python_with_rotorpy(&folder)?;
     let scripts = root.join("validation").join("rotorpy");
     let out = scripts.join("hover.json");
-    let status = Command::new(python)
-        .arg(scripts.join("hover.py"))
-        .args([&results, &exports, &out])
-        .status()
-        .map_err(|error| format!("python: {error}"))?;
-    if !status.success() {
-        return Err("rotorpy does not hover as it was heard".to_owned());
-    }
+    run_script(Command::new(&python).arg(scripts.join("hover.py")).args([&results, &exports, &out]))?;
+    println!("written: {}", out.display());
+    let scripts = root.join("validation").join("models");
+    let out = scripts.join("checked.json");
+    let files = [&hovertone, &results, &exports, &out];
+    run_script(Command::new(&python).arg(scripts.join("check.py")).args(files))?;
     println!("written: {}", out.display());
     Ok(())
+}
+
+/// Runs a script that asserts.
+fn run_script(command: &mut Command) -> Result<(), String> {
+    let status = command.status().map_err(|error| format!("python: {error}"))?;
+    if status.success() { Ok(()) } else { Err("another program does not agree: see the assertion above".to_owned()) }
 }
 
 /// A Python of its own with rotorpy, kept between runs.

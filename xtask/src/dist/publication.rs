@@ -6,8 +6,19 @@ use std::path::Path;
 use toml::{Table, Value};
 
 /// What a registry shows of a crate.
-const NEEDED: [&str; 8] =
-    ["description", "license", "version", "edition", "rust-version", "readme", "keywords", "categories"];
+const NEEDED: [&str; 9] = [
+    "description",
+    "documentation",
+    "license",
+    "version",
+    "edition",
+    "rust-version",
+    "readme",
+    "keywords",
+    "categories",
+];
+/// Crates for the development alone.
+const UNPUBLISHED: [&str; 4] = ["--exclude", "xtask", "--exclude", "hovertone-bench"];
 
 /// Refuses manifests that a registry would refuse, or show without a word.
 pub(super) fn check(root: &Path) -> Result<(), String> {
@@ -22,10 +33,14 @@ pub(super) fn version(root: &Path) -> Result<String, String> {
     version.map(str::to_owned).ok_or_else(|| "Cargo.toml: workspace.package.version is missing".to_owned())
 }
 
-/// Packs every crate that is to be published. Nothing is compiled: `cargo publish --dry-run --workspace` does that.
+/// Packs every crate that is to be published. Nothing is compiled: `cargo publish --dry-run --workspace` does it.
 pub(super) fn pack_all(root: &Path) -> Result<(), String> {
     println!("== packages");
-    cargo(root, &["package", "--workspace", "--no-verify", "--allow-dirty", "--locked"], &[])
+    cargo(
+        root,
+        &[&["package", "--workspace", "--no-verify", "--allow-dirty", "--locked"], &UNPUBLISHED[..]].concat(),
+        &[],
+    )
 }
 
 fn faults(root: &Path) -> Result<Vec<String>, String> {

@@ -17,7 +17,7 @@ const FILES: [(SimulatorFormat, &str, &str, &str); 7] = [
         SimulatorFormat::Rotors,
         "<?xml version=\"1.0\"?>\n<robot name=\"hummingbird\" xmlns:xacro=\"http://ros.org/wiki/xacro\">\n  \
          <xacro:property name=\"motor_constant\" value='8.54858e-06' /> <!-- [kg.m/s^2] -->\n  \
-         <xacro:property value=\"0.016\" name=\"moment_constant\" />\n</robot>\n",
+         <xacro:property value=\"0.016\" name=\"moment_constant\" />\n  <motorConstant>${motor_constant}</motorConstant>\n</robot>\n",
         "'8.54858e-06'",
         "'7.0775300e-6'",
     ),

@@ -251,7 +251,9 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
 /// The format of a model, known by its keywords.
 fn format_of(text: &str) -> Result<SimulatorFormat, ModelError> {
     let has = |word: &str| text.contains(word);
-    if has("<motorConstant") {
+    // a xacro may use its property in the plugin of a motor
+    let is_property = has("name=\"motor_constant\"") || has("name='motor_constant'");
+    if has("<motorConstant") && !is_property {
         Ok(SimulatorFormat::Gazebo)
     } else if has("motor_constant") {
         Ok(SimulatorFormat::Rotors)
