@@ -8,6 +8,7 @@ use crate::terminal::Terminal;
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
 use std::fs;
+use std::io;
 use std::path::Path;
 
 const NAME: &str = "hovertone";
@@ -68,6 +69,33 @@ fn write_all(program: &Command, folder: &Path, force: bool, terminal: &mut Termi
 fn page(command: &Command) -> Result<String, Failure> {
     let mut text = Vec::new();
     let manual = format!("hovertone {}", env!("CARGO_PKG_VERSION"));
-    Man::new(command.clone()).source(manual).render(&mut text).map_err(Failure::internal)?;
+    let man = Man::new(command.clone()).source(manual);
+    let mut render = || -> io::Result<()> {
+        man.render_title(&mut text)?;
+        man.render_name_section(&mut text)?;
+        man.render_synopsis_section(&mut text)?;
+        man.render_description_section(&mut text)?;
+        man.render_options_section(&mut text)?;
+        if command.has_subcommands() {
+            man.render_subcommands_section(&mut text)?;
+        }
+        text.extend(as_it_stands(command).into_bytes());
+        match command.get_version() {
+            Some(_) => man.render_version_section(&mut text),
+            None => Ok(()),
+        }
+    };
+    render().map_err(Failure::internal)?;
     String::from_utf8(text).map_err(Failure::internal)
+}
+
+/// The notes and examples below the help: lines that must not be joined, with the signs escaped that mean something to `man`.
+fn as_it_stands(command: &Command) -> String {
+    let Some(notes) = command.get_after_long_help().or_else(|| command.get_after_help()) else { return String::new() };
+    let escaped = |line: &str| {
+        let line = line.replace('\\', "\\e").replace('-', "\\-");
+        if line.starts_with(['.', '\'']) { format!("\\&{line}\n") } else { format!("{line}\n") }
+    };
+    let lines: String = notes.to_string().lines().map(escaped).collect();
+    format!(".SH \"NOTES AND EXAMPLES\"\n.nf\n{lines}.fi\n")
 }

@@ -52,7 +52,8 @@ Exit codes:
   0  done
   1  a file could not be read or written
   2  wrong use
-  3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early
+  3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early,
+     a calibration that fails
 
 Data goes to stdout and to files, everything else to stderr.";
 

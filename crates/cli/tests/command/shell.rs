@@ -44,6 +44,8 @@ fn man_pages_of_the_program_and_of_every_command() {
     for name in &names {
         assert!(page(&format!("hovertone-{name}.1")).contains(".SH OPTIONS"), "{name}");
     }
+    // an example is a line of its own
+    assert!(page("hovertone-speed.1").contains("\n  hovertone speed \\-\\-blades 2 hover.mp4\n"));
     assert!(page("hovertone.1").contains("hovertone\\-speed"), "the program's page names the pages of its commands");
     assert_eq!(hovertone(&["man", "speed"]).ends_with(0).stdout, page("hovertone-speed.1"));
     assert!(hovertone(&["man", "-o", text(&pages)]).ends_with(2).stderr.contains("--force"));
