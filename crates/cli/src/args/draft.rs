@@ -8,10 +8,10 @@ use hovertone_vehicle::Gear;
 /// How to type loads, for the help of both commands.
 pub(crate) const MASS_HELP: &str = "\
 --mass names one load: its mass as flown, and its recordings. These mean the same:
-  --mass '0.413=no_hull/*.mov'      hovertone expands the pattern; the quotes keep the shell from it
-  --mass 0.413 no_hull/*.mov        the shell expands the pattern; all files up to the next flag belong to it
+  --mass '0.413=no_hull/*.mov'    hovertone expands the pattern; the quotes keep the shell from it
+  --mass 0.413 no_hull/*.mov      the shell expands it; all files up to the next flag belong to it
   --mass 413g=a.mov --mass 413g=b.mov
-Without quotes, bash leaves 0.413=no_hull/*.mov as it is, which works too; zsh and fish stop with \"no matches\".";
+bash leaves 0.413=no_hull/*.mov without quotes as it is, which works; zsh and fish need the quotes.";
 
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Without an experiment file")]

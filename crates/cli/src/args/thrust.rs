@@ -15,7 +15,7 @@ An experiment file:
   mass_kg = 0.413             # ready to fly, from a kitchen scale
 
   [tone]
-  order = 69                  # lines per turn: blades, or the gear's wheel; \"auto\" takes the vehicle's
+  order = 69                  # lines per turn: blades, or the gear's wheel; \"auto\": the vehicle's
 
   [[load]]
   name = \"no hull\"
@@ -62,7 +62,7 @@ pub(crate) struct IdentifyArguments {
     #[command(flatten)]
     pub(crate) draft: DraftArguments,
     /// Only name the work, the files that were found, and the missing ones: nothing is analysed
-    #[arg(long, conflicts_with_all = ["json", "verbose"])]
+    #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
     /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of earlier results
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
@@ -79,7 +79,7 @@ pub(crate) struct IdentifyArguments {
     #[arg(long, value_name = "DIR", help_heading = "Reading files", value_parser = typed_path())]
     pub(crate) data_root: Option<PathBuf>,
     /// The method whose constant is reported; all are computed [default: separated where several rotors are heard beside each other, else harmonic]
-    #[arg(long, value_parser = method_parser())]
+    #[arg(long, value_parser = method_parser(), help_heading = "How it is analysed")]
     pub(crate) method: Option<Method>,
     #[command(flatten)]
     pub(crate) hearing: HearingArguments,

@@ -40,6 +40,10 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
         let Some(mass_kg) = current_kg else {
             return Err(Failure::usage(format!("--mass {word}: no mass stands before the recordings"), HINT));
         };
+        if let Some(toml) = file.filter(|file| file.ends_with(".toml")) {
+            let what = format!("{toml} stands behind --mass, so it counts as a recording");
+            return Err(Failure::usage(what, "an experiment file has its own masses: leave --mass out"));
+        }
         let recordings = file.filter(|file| !file.is_empty()).map(str::to_owned).into_iter().collect();
         put_load(&mut loads, LoadDraft { mass_kg, recordings });
     }
@@ -138,6 +142,7 @@ mod tests {
             (&["0,413=a.mov"], "the decimal sign is a point"),
             (&["413=a.mov"], "413g"),
             (&["-0.4=a.mov"], "is no mass"),
+            (&["0.4=a.mov", "experiment.toml"], "counts as a recording"),
         ] {
             let what = loads(words).unwrap_err();
             assert!(what.contains(said), "{words:?}: {what}");
