@@ -44,27 +44,29 @@ pub(crate) fn families_from_surveys(
 
 fn family_of(
     series: &Series,
-    coarse: &LevelRows,
-    fine: &LevelRows,
+    coarse: &LevelRows<'_>,
+    fine: &LevelRows<'_>,
     known: &KnownRotor,
     config: &DiscoveryConfig,
 ) -> Option<ToneFamily> {
     let (pattern, series) = pattern_of(series, coarse, fine, config)?;
     let (pattern, ratio) = pattern.or_single_line()?;
     let series = series.times(ratio);
-    let mut readings = readings_of(&pattern, series.hz, known, config);
-    hear_meshes(&mut readings, coarse, &series, config);
     let heard = pattern.lines_db.iter().zip(1u32..).filter_map(|(db, number)| Some((number, (*db)?)));
+    let lines: Vec<u32> = heard.clone().map(|(number, _)| number).collect();
+    let refined = series.by_lines_in(coarse, fine, &lines).unwrap_or_else(|| series.clone());
+    let mut readings = readings_of(&pattern, refined.hz, known, config);
+    hear_meshes(&mut readings, coarse, &series, config);
     let harmonics: Vec<SeenHarmonic> =
-        heard.map(|(number, level_db)| SeenHarmonic { number, hz: f64::from(number) * series.hz, level_db }).collect();
+        heard.map(|(number, level_db)| SeenHarmonic { number, hz: f64::from(number) * refined.hz, level_db }).collect();
     let level_db = harmonics.iter().map(|line| line.level_db).fold(0.0, f64::max);
     let present: Vec<&Span> =
         coarse.rows.iter().zip(&series.row_hz).filter(|(_, hz)| hz.is_some()).map(|(row, _)| &row.span).collect();
     let span = Span { from_s: present.first()?.from_s, to_s: present.last()?.to_s };
     let time_share = present.len() as f64 / coarse.rows.len() as f64;
-    let row_hz: Vec<f64> = series.row_hz.iter().copied().flatten().collect();
+    let row_hz: Vec<f64> = refined.row_hz.iter().copied().flatten().collect();
     let is_settled = is_settled(&readings, known, config);
-    let is_near_mains = MAINS_HZ.into_iter().any(|mains_hz| (series.hz / mains_hz - 1.0).abs() < MAINS_SHARE);
+    let is_near_mains = MAINS_HZ.into_iter().any(|mains_hz| (refined.hz / mains_hz - 1.0).abs() < MAINS_SHARE);
     let remark = if is_near_mains {
         Some(Remark::NearMains)
     } else if time_share < BRIEF_SHARE {
@@ -73,7 +75,7 @@ fn family_of(
         (harmonics.len() == 1).then_some(Remark::SingleLine)
     };
     (level_db >= config.listed_db_min).then_some(ToneFamily {
-        fundamental_hz: series.hz,
+        fundamental_hz: refined.hz,
         spread_hz: hovertone_signal::statistics::std(&row_hz),
         harmonics,
         level_db,
@@ -88,8 +90,8 @@ fn family_of(
 /// What the series looks like, and the series itself once it is not a fraction of a faster one.
 fn pattern_of(
     series: &Series,
-    coarse: &LevelRows,
-    fine: &LevelRows,
+    coarse: &LevelRows<'_>,
+    fine: &LevelRows<'_>,
     config: &DiscoveryConfig,
 ) -> Option<(Pattern, Series)> {
     let mut series = series.clone();

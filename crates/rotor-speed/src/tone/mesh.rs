@@ -18,7 +18,7 @@ const BESIDE_SHARES: [f64; 8] = [-0.075, -0.055, -0.04, -0.022, 0.022, 0.04, 0.0
 const MESH_GAIN: f64 = 100.0;
 
 /// Level of the mesh over the places beside it, and the scatter of those, in dB; `None` beyond the recording.
-fn mesh_over_db(levels: &LevelRows, series: &Series, order: f64) -> Option<(f64, f64)> {
+fn mesh_over_db(levels: &LevelRows<'_>, series: &Series, order: f64) -> Option<(f64, f64)> {
     let level_db = |share: f64| {
         let mut heard = Vec::new();
         for (row, hz) in levels.rows.iter().zip(&series.row_hz) {
@@ -38,7 +38,7 @@ fn mesh_over_db(levels: &LevelRows, series: &Series, order: f64) -> Option<(f64,
 ///
 /// The AR.Drone's, 69 lines per turn beside 2 of the blade pass, is at 34.5 times the blade pass: no harmonic of it.
 /// `series` is that of the family's fundamental.
-pub(crate) fn hear_meshes(readings: &mut [Reading], levels: &LevelRows, series: &Series, config: &DiscoveryConfig) {
+pub(crate) fn hear_meshes(readings: &mut [Reading], levels: &LevelRows<'_>, series: &Series, config: &DiscoveryConfig) {
     for gear in known_gears() {
         let blades_with_gear = presets().iter().filter(|vehicle| vehicle.gear.is_some_and(|it| it.value == gear));
         let known_blades: Vec<u32> = blades_with_gear.filter_map(|vehicle| Some(vehicle.blade_count?.value)).collect();

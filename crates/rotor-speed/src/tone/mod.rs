@@ -14,6 +14,7 @@ mod profile;
 mod reading;
 mod series;
 mod settings;
+mod skirts;
 
 pub(crate) use agreement::families_agree;
 pub use band::lines_between_speeds;

@@ -34,7 +34,7 @@ pub(crate) struct OrderProfile {
 
 impl OrderProfile {
     /// Mean over the rows in which the series is present; `None` where it is in none.
-    pub(crate) fn from_rows(levels: &LevelRows, series: &Series) -> Option<Self> {
+    pub(crate) fn from_rows(levels: &LevelRows<'_>, series: &Series) -> Option<Self> {
         let mut sums = vec![0.0; ORDERS * PLACES + PLACES / 2];
         let mut counts = vec![0u32; sums.len()];
         for (row, hz) in levels.rows.iter().zip(&series.row_hz) {

@@ -38,7 +38,7 @@ pub(crate) struct Series {
 
 impl Series {
     /// The strongest series of the rows; `None` where none scores enough in any row.
-    pub(crate) fn strongest(levels: &LevelRows, config: &DiscoveryConfig) -> Option<Self> {
+    pub(crate) fn strongest(levels: &LevelRows<'_>, config: &DiscoveryConfig) -> Option<Self> {
         let hz_max = config.fundamental_hz_max.min(0.9 * levels.hz_max());
         if hz_max <= config.fundamental_hz_min || levels.rows.is_empty() {
             return None;
@@ -60,7 +60,7 @@ impl Series {
     }
 
     fn followed(
-        levels: &LevelRows,
+        levels: &LevelRows<'_>,
         grid_hz: &[f64],
         scores: &[Vec<f64>],
         leading: usize,
@@ -80,7 +80,7 @@ impl Series {
             .iter()
             .zip(&levels.rows)
             .map(|(&(place, score), row)| {
-                (score >= score_db_min).then(|| refined_hz(row, grid_hz[place], levels.bin_hz))
+                (score >= score_db_min).then(|| refined_hz(row, grid_hz[place], levels.bin_hz, 1..=SERIES_LINES))
             })
             .collect();
         let present: Vec<f64> = row_hz.iter().copied().flatten().collect();
@@ -93,20 +93,34 @@ impl Series {
     }
 
     /// The same series in rows of another survey of the same sound.
-    pub(crate) fn in_rows_of(&self, own: &LevelRows, other: &LevelRows) -> Self {
-        let hz_at = |row: &LevelRow| {
+    pub(crate) fn in_rows_of(&self, own: &LevelRows<'_>, other: &LevelRows<'_>) -> Self {
+        let hz_at = |row: &LevelRow<'_>| {
             let within = own.rows.iter().zip(&self.row_hz).filter_map(|(mine, hz)| {
                 let middle_s = (mine.span.from_s + mine.span.to_s) / 2.0;
                 hz.filter(|_| middle_s >= row.span.from_s && middle_s <= row.span.to_s)
             });
             let hz = median(&within.collect::<Vec<_>>())?;
-            Some(refined_hz(row, hz, other.bin_hz))
+            Some(refined_hz(row, hz, other.bin_hz, 1..=SERIES_LINES))
         };
         Self { hz: self.hz, row_hz: other.rows.iter().map(hz_at).collect() }
     }
 
+    /// The same series in the rows of a finer spectrum, by these of its lines alone: where a line is not heard, the noise has peaks too. `None` where no
+    /// row has it.
+    pub(crate) fn by_lines_in(&self, own: &LevelRows<'_>, finer: &LevelRows<'_>, lines: &[u32]) -> Option<Self> {
+        let row_hz: Vec<Option<f64>> = self
+            .in_rows_of(own, finer)
+            .row_hz
+            .into_iter()
+            .zip(&finer.rows)
+            .map(|(hz, row)| hz.map(|hz| refined_hz(row, hz, finer.bin_hz, lines.iter().copied())))
+            .collect();
+        let present: Vec<f64> = row_hz.iter().copied().flatten().collect();
+        Some(Self { hz: median(&present)?, row_hz })
+    }
+
     /// Takes the lines of the series out of the rows, so that the next strongest shows.
-    pub(crate) fn take_out_of(&self, levels: &mut LevelRows) {
+    pub(crate) fn take_out_of(&self, levels: &mut LevelRows<'_>) {
         let bin_hz = levels.bin_hz;
         for (row, hz) in levels.rows.iter_mut().zip(&self.row_hz) {
             // where it is not present, something of it may still sound
@@ -161,10 +175,10 @@ fn leading_place(scores: &[Vec<f64>]) -> Option<usize> {
     (best > 0.0).then_some(place)
 }
 
-/// Least squares through the peaks of the harmonics: f = Σ w k p / Σ w k², w the level.
-fn refined_hz(row: &LevelRow, hz: f64, bin_hz: f64) -> f64 {
+/// Least squares through the peaks of these harmonics: f = Σ w k p / Σ w k², w the level.
+fn refined_hz(row: &LevelRow<'_>, hz: f64, bin_hz: f64, lines: impl Iterator<Item = u32>) -> f64 {
     let (mut products, mut squares) = (0.0, 0.0);
-    for line in (1..=SERIES_LINES).map(f64::from) {
+    for line in lines.map(f64::from) {
         let place = line * hz / bin_hz;
         let half = (REFINE_HALF_WIDTH_SHARE * place).max(1.0);
         if let Some((peak, level_db)) = row.peak(place - half, place + half).filter(|it| it.1 >= REFINE_LEVEL_DB_MIN) {
