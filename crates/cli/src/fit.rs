@@ -9,7 +9,7 @@ use crate::terminal::Terminal;
 
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
-    ForcePoint, Gravity, PlanError, PlanWish, PointNoise, SquareLawFit, ThrustCoefficients, ThrustSettings,
+    ForcePoint, Gravity, NoScatter, PlanError, PlanWish, PointNoise, SquareLawFit, ThrustCoefficients, ThrustSettings,
     ThrustWarning, TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
     torque_constant_n_m_s2, warnings_of_points,
 };
@@ -108,7 +108,7 @@ fn fitted_table(
         };
         Failure::failed(what, "correct or remove that row of the table", path)
     })?;
-    refuse_computed(&fit, &points, path)?;
+    refuse_without_scatter(&fit, &points, group, path)?;
     let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
     let is_weighed = group.rows.iter().all(is_mass);
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
@@ -172,18 +172,26 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
     Ok(())
 }
 
-/// Refuses rows that were computed from the law: without scatter there is no uncertainty.
-fn refuse_computed(fit: &SquareLawFit, points: &[ForcePoint], path: &Path) -> Result<(), Failure> {
-    if fit.is_computed(points) {
-        return Err(Failure::Usage {
-            what: "the rows lie exactly on F = C ω², as measured rows never do: without scatter there is no ±".to_owned(),
-            hint: "state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g), or give the \
-                   measured rows"
-                .to_owned(),
-            path: Some(path.to_owned()),
-        });
-    }
-    Ok(())
+/// Refuses rows whose scatter tells no uncertainty.
+fn refuse_without_scatter(
+    fit: &SquareLawFit,
+    points: &[ForcePoint],
+    group: &StandGroup,
+    path: &Path,
+) -> Result<(), Failure> {
+    let Some(reason) = fit.why_no_uncertainty(points) else { return Ok(()) };
+    let rows = match reason {
+        NoScatter::Computed => "give the measured rows",
+        _ => "measure more rows",
+    };
+    let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
+    Err(Failure::Usage {
+        what: format!("{group}{reason}"),
+        hint: format!(
+            "{rows}, or state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g)"
+        ),
+        path: Some(path.to_owned()),
+    })
 }
 
 /// The uncertainty of gravity is common to all masses and does not average out.

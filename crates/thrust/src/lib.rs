@@ -40,8 +40,8 @@ pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
 pub use settings::{ThrustSettings, UncertaintyInputs};
 pub use speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 pub use square_law::{
-    ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, PointNoise, PointVerdict, PowerLaw,
-    SquareLawFit, square_law_fit,
+    ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, NoScatter, PointNoise, PointVerdict,
+    PowerLaw, SquareLawFit, square_law_fit,
 };
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};

@@ -16,8 +16,10 @@ const NAMES_MAX: usize = 5;
 pub enum ThrustWarning {
     /// A load disagrees with the others.
     LoadDoesNotFit {
-        /// Name of the load.
+        /// Name of the load, or of the row of a table.
         name: String,
+        /// It is a row of a table.
+        is_row: bool,
         /// Mass that would agree; absent for a bench run.
         mass_that_fits_kg: Option<f64>,
         /// Standard uncertainty of that mass.
@@ -50,8 +52,6 @@ pub enum ThrustWarning {
         /// Number of loads.
         count: usize,
     },
-    /// Two rows without uncertainties: one difference tells the ± of the constant.
-    TwoRows,
     /// The loads are too similar to show an intercept.
     NarrowLoadRange(LoadRange),
     /// The evidence prefers another law than F = C ω².
@@ -95,6 +95,9 @@ impl ThrustWarning {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
+            Self::LoadDoesNotFit { is_row: true, .. } => {
+                "check this row: the unit, the offset of the scale, the propeller"
+            }
             Self::LoadDoesNotFit { mass_that_fits_kg: Some(_), is_left_out: false, .. } => {
                 "weigh that load again, and check that it does not disturb the rotors' air"
             }
@@ -112,9 +115,8 @@ impl ThrustWarning {
             Self::MixedBenchAndHover => {
                 "on a bench a rotor stands alone and the air around it is still; fit bench runs and hovers apart to compare them"
             }
-            Self::SingleLoad => "fly a second load: one load cannot show whether it fits",
-            Self::EqualLoads { .. } => "fly loads as far apart as is safe: equal ones show nothing of the law",
-            Self::TwoRows => "measure three rows or more, or state the standard uncertainty of each thrust",
+            Self::SingleLoad => "measure a second load: one load cannot show whether it fits",
+            Self::EqualLoads { .. } => "measure loads as far apart as is safe: equal ones show nothing of the law",
             Self::NarrowLoadRange(_) => {
                 "the square law is assumed, not tested; `hovertone fit --plan` says what loads and trials would do"
             }
@@ -146,8 +148,11 @@ impl ThrustWarning {
 impl fmt::Display for ThrustWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::LoadDoesNotFit { name, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
-                write!(f, "load \"{name}\" does not fit the others")?;
+            Self::LoadDoesNotFit { name, is_row, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
+                match is_row {
+                    true => write!(f, "{name} of the table does not fit the others")?,
+                    false => write!(f, "load \"{name}\" does not fit the others")?,
+                }
                 match (mass_that_fits_kg, mass_that_fits_std_kg) {
                     (Some(mass_kg), Some(std_kg)) => {
                         write!(f, "; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)?;
@@ -173,18 +178,19 @@ impl fmt::Display for ThrustWarning {
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),
-            Self::EqualLoads { count } => write!(f, "all {count} loads weigh the same"),
-            Self::TwoRows => f.write_str("the ± comes from two rows alone: chance can make it ten times too small"),
+            Self::EqualLoads { count } => write!(f, "all {count} loads are equal"),
             Self::NarrowLoadRange(range) => {
-                write!(
-                    f,
-                    "the largest force is only {:.2} times the smallest, which leaves an intercept open to ±{:.1} % of the force (k = 2)",
-                    range.force_ratio,
-                    100.0 * COVERAGE_FACTOR * range.intercept_std_share
-                )?;
+                let open = format!("±{:.1} % of the force (k = 2)", 100.0 * COVERAGE_FACTOR * range.intercept_std_share);
                 match range.force_ratio_needed {
-                    Some(ratio) => write!(f, "; {ratio:.1} times would do"),
-                    None => f.write_str("; no range would do without more or longer trials"),
+                    Some(needed) => write!(
+                        f,
+                        "the largest force is only {:.2} times the smallest, which leaves an intercept open to {open}; {needed:.1} times would do",
+                        range.force_ratio
+                    ),
+                    None => write!(
+                        f,
+                        "the forces scatter too much to show an intercept, which is open to {open}; a wider range of loads would not do"
+                    ),
                 }
             }
             Self::OtherLawPreferred { law, probability } => {

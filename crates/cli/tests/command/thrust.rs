@@ -43,7 +43,7 @@ fn the_papers_rows_fit_with_462_g_and_not_with_472() {
     let mass_g = 1e3 * number(misfits[0], "/force_that_fits_n") / 9.8;
     assert!((mass_g - 462.4).abs() < 0.5, "{mass_g}");
     let words = hovertone(&["fit", text(&paper_table(folder.path(), 472)), "--gravity-m-s2", "9.8"]).ends_with(0);
-    assert!(words.stderr.contains("\"line 4\" does not fit the others; 462."), "{}", words.stderr);
+    assert!(words.stderr.contains("line 4 of the table does not fit the others; 462."), "{}", words.stderr);
 }
 
 /// Constants and exponents as the README of the recordings has them, to its digits.
@@ -99,24 +99,26 @@ fn bad_tables_are_refused_or_flagged() {
         ("rpm,mass_g\n3600,NaN\n", &["line 2", "no number"]),
         ("rpm,volts\n3600,11\n", &["rpm, volts", "--help"]),
         ("rpm,thrust_n\n0,1\n", &["nothing to fit"]),
+        ("rpm,mass_g\n3600,413\n", &["at least 3 usable rows", "has 1", "mass_std_g"]),
+        ("rpm,mass_g\n3600,413\n3700,1744\n", &["at least 3 usable rows", "has 2", "mass_std_g"]),
+        // three rows that are one row
+        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "no ±"]),
     ] {
         let refused = run(rows).ends_with(2);
         assert!(refused.stdout.is_empty());
         assert!(words.iter().all(|word| refused.stderr.contains(word)), "{rows:?}: {}", refused.stderr);
     }
-    let one = run("rpm,mass_g\n3600,413\n").ends_with(0).json_lines().remove(0);
+    let one = run("rpm,mass_g,mass_std_g\n3600,413,1\n").ends_with(0).json_lines().remove(0);
     assert!(one["notices"].to_string().contains("only one load"), "{one}");
     let equal = run("rpm,mass_g\n3600,413\n3610,413\n3605,413\n").ends_with(0).json_lines().remove(0);
-    assert!(equal["notices"].to_string().contains("weigh the same"), "{equal}");
-    // three rows that are one row: no scatter, and an answer
-    let copies = run("rpm,mass_g\n3600,413\n3600,413\n3600,413\n").ends_with(0).json_lines().remove(0);
-    assert!(copies["notices"].to_string().contains("weigh the same"), "{copies}");
-    // one of two is four times too heavy, and nobody knows which
-    let halves = run("rpm,mass_g\n3600,413\n3700,1744\n").ends_with(0).json_lines().remove(0);
+    assert!(equal["notices"].to_string().contains("all 3 loads are equal"), "{equal}");
+    assert!(equal["fit"]["with_intercept"].is_null() && equal["fit"]["power_law"].is_null(), "{equal}");
+    // half of the rows are four times too heavy, and nobody knows which half
+    let halves = run("rpm,mass_g\n3600,413\n3610,416\n3700,1744\n3710,1755\n").ends_with(0).json_lines().remove(0);
     assert!(halves["notices"].to_string().contains("nothing tells which half is right"), "{halves}");
     // 300 % too heavy
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
-    assert!(outlier["notices"].to_string().contains("\\\"line 4\\\" does not fit"), "{outlier}");
+    assert!(outlier["notices"].to_string().contains("line 4 of the table does not fit"), "{outlier}");
     assert!(outlier["notices"].to_string().contains("left out"), "{outlier}");
     let expected = 0.4 * 9.80665 / RotorSpeed::from_rpm(3600.0).rad_s().powi(2);
     let found = number(&outlier, "/thrust_constant_total_n_s2/value");

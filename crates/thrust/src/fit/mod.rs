@@ -236,6 +236,7 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
         |name: &str| fit.is_some_and(|fit| fit.points.iter().any(|point| point.is_gross && point.name == name));
     warnings.extend(rows.iter().filter(|row| row.fits == Some(false)).map(|row| ThrustWarning::LoadDoesNotFit {
         name: row.name.clone(),
+        is_row: false,
         mass_that_fits_kg: row.mass_that_fits_kg,
         mass_that_fits_std_kg: row.mass_that_fits_std_kg,
         is_left_out: is_gross(&row.name),
@@ -278,6 +279,7 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     let mass_kg = |force_n: Option<f64>| Some(force_n? / gravity_m_s2?);
     let misfit = |point: &PointVerdict| ThrustWarning::LoadDoesNotFit {
         name: point.name.clone(),
+        is_row: true,
         mass_that_fits_kg: mass_kg(point.force_that_fits_n),
         mass_that_fits_std_kg: mass_kg(point.force_that_fits_std_n),
         is_left_out: point.is_gross,
@@ -297,9 +299,6 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
             .collect()
     };
     warnings.extend(range_warnings(points, fit, are_split_points(points)));
-    if points.len() == 2 && fit.agreement.is_none() {
-        warnings.push(ThrustWarning::TwoRows);
-    }
     warnings
 }
 

@@ -46,7 +46,7 @@ pub struct SquareLawFit {
     pub(crate) own_std_n_s2: f64,
     /// Weight of each point: C is the mean of the constants of the points with these weights. 0 for points that are left out.
     pub(crate) shares: Vec<f64>,
-    /// The law with an intercept; absent where all speeds are equal, and with two points without uncertainties.
+    /// The law with an intercept; absent where all speeds are equal, and, without uncertainties, with two points or equal forces.
     pub with_intercept: Option<InterceptLaw>,
     /// The force as a power of the speed; absent in the same cases.
     pub power_law: Option<PowerLaw>,
@@ -60,16 +60,39 @@ pub struct SquareLawFit {
     pub range: Option<LoadRange>,
 }
 
-/// Residuals below this share of the largest force are those of rounding: a thrust is measured to five digits at best. *Decision.*
-const ROUNDING_SHARE: f64 = 1e-6;
+/// Residuals below this share of a force are those of rounding: a thrust is measured to five digits at best. *Decision.*
+const ROUNDING_SHARE: f64 = 5e-5;
+/// Fewest points whose scatter tells an uncertainty: of two, chance makes it ten times too small in 8 % of
+/// tables. *Decision.*
+const SCATTER_POINTS_MIN: usize = 3;
+
+/// Reason why the scatter of points tells no uncertainty of their constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoScatter {
+    /// Too few points are left.
+    #[error("the ± comes from the scatter of at least {SCATTER_POINTS_MIN} usable rows, and the table has {count}")]
+    TooFewPoints {
+        /// Number of points that are not left out.
+        count: usize,
+    },
+    /// All points lie on the law but for rounding.
+    #[error("the rows lie exactly on F = C ω², as measured rows never do: without scatter there is no ±")]
+    Computed,
+}
 
 impl SquareLawFit {
-    /// Whether points of different speeds lie on the law but for rounding, without stated uncertainties: a table that was computed. Its
-    /// scatter tells no uncertainty.
-    pub fn is_computed(&self, points: &[ForcePoint]) -> bool {
-        let squares = || points.iter().map(|point| point.speed_square_rad2_s2);
-        let (low, high) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
-        self.agreement.is_none() && high > low * (1.0 + ROUNDING_SHARE) && self.residual_max_share < ROUNDING_SHARE
+    /// The reason why the ± of the constant is not known: no uncertainties are stated, and the points are too few, or were computed. `None`
+    /// where it is known. `points` are those of the fit.
+    pub fn why_no_uncertainty(&self, points: &[ForcePoint]) -> Option<NoScatter> {
+        if points.iter().all(ForcePoint::has_std) {
+            return None;
+        }
+        let count = self.shares.iter().filter(|share| **share > 0.0).count();
+        if count < SCATTER_POINTS_MIN {
+            return Some(NoScatter::TooFewPoints { count });
+        }
+        (self.residual_max_share < ROUNDING_SHARE).then_some(NoScatter::Computed)
     }
 }
 
@@ -90,6 +113,8 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
     let all_points = verdicts(points, &gross, noise);
     // two points without uncertainties leave nothing to tell the ± of a law with two parameters
     let has_freedom = noise != PointNoise::FromResiduals || kept.len() > 2;
+    // equal forces lie on a law without a slope, and again nothing tells its ±
+    let has_freedom = has_freedom && (noise != PointNoise::FromResiduals || are_different(&kept));
     let (with_intercept, line) = intercept_law(&kept, noise).filter(|_| has_freedom).unzip();
     let power_law = power_law(&kept, noise).filter(|_| has_freedom);
     let laws = law_probabilities(&kept, with_intercept.as_ref(), power_law.as_ref(), noise);
@@ -112,6 +137,13 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
         laws,
         points: all_points,
     })
+}
+
+/// Whether forces differ by more than rounding.
+fn are_different(points: &[&ForcePoint]) -> bool {
+    let forces = || points.iter().map(|point| point.force_n);
+    let (least_n, most_n) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
+    most_n > least_n * (1.0 + ROUNDING_SHARE)
 }
 
 /// Standard uncertainty of the slope, enlarged by the scatter of the points where that exceeds their stated uncertainties.

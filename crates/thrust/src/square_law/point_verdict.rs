@@ -1,5 +1,6 @@
 //! Whether each point agrees with the others, and which force would.
 
+use super::ROUNDING_SHARE;
 use super::agreement::{DISAGREEMENT_CHANCE, agreement_of, scatter_factor};
 use super::point::{ForcePoint, PointNoise, law_through_origin};
 use crate::statistics::two_sided_chance;
@@ -85,7 +86,8 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
         _ => scatter_factor(fit.agreement, noise),
     };
     let (speed_std, force_std_n) = match noise {
-        PointNoise::FromResiduals => (0.0, factor.unwrap_or(f64::INFINITY)),
+        // rows that agree by chance show less noise than the digits of a force have
+        PointNoise::FromResiduals => (0.0, factor.unwrap_or(f64::INFINITY).hypot(ROUNDING_SHARE * own.force_n)),
         _ => (own.speed_square_std_rad2_s2, own.force_std_n),
     };
     let expected_n = fit.slope * own.speed_square_rad2_s2;
