@@ -96,8 +96,7 @@ fn section_of(warning: &ThrustWarning) -> &'static str {
         | ThrustWarning::ImplausibleFigureOfMerit { .. } => "loads",
         ThrustWarning::MassNotWeighed { .. }
         | ThrustWarning::LoudestRotor
-        | ThrustWarning::UncertaintiesIncomplete { .. }
-        | ThrustWarning::TwoRows => "budget",
+        | ThrustWarning::UncertaintiesIncomplete { .. } => "budget",
         _ => "fit",
     }
 }
