@@ -132,10 +132,12 @@ fn draw_cuts(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, all_hz: Exte
 
 /// The tracks at the tone and its harmonics: of each rotor where they are separated, else the one that stands for all.
 fn draw_tracks(canvas: &mut Canvas, trial: &Trial<'_>, tone: &RotorTone, panel: &Panel) -> Result<(), FigureError> {
+    // coloured lines over a picture need to be wider than white ones
+    let width = if tone.rotors.is_empty() { 2 } else { 3 };
     let mut at_all_bands = |class: &str, lines: &dyn Fn(&Band) -> Vec<Vec<Point>>, colour: RGBColor| {
         canvas.plot(panel, class, |plot| {
             let lines = trial.bands().iter().flat_map(|band| coarser(lines(band)));
-            lines.into_iter().try_for_each(|line| plot.line(&line, colour.mix(0.9).stroke_width(3)))
+            lines.into_iter().try_for_each(|line| plot.line(&line, colour.mix(0.9).stroke_width(width)))
         })
     };
     for (index, rotor) in tone.rotors.iter().enumerate() {
