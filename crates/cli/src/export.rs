@@ -130,9 +130,11 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
 pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedRotor, Failure> {
     let text = read_text(path, "the results")?;
     identified_from_results(&text, group).map_err(|error| match error {
-        ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => {
-            Failure::Usage { what: error.to_string(), hint: "say --group NAME".to_owned(), path: Some(path.to_owned()) }
-        }
+        ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
+            what: error.to_string(),
+            hint: "give --group NAME".to_owned(),
+            path: Some(path.to_owned()),
+        },
         _ => {
             let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
             Failure::failed(error.to_string(), hint, path)

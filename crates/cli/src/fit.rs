@@ -246,7 +246,7 @@ fn plan_campaign(
             PlanError::OutOfReach { .. } => {
                 "ask for a larger --wanted-share, or make a contribution smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
             }
-            PlanError::OutOfRange { name: "wanted_share", .. } => "for 2 % say --wanted-share 0.02",
+            PlanError::OutOfRange { name: "wanted_share", .. } => "for 2 % give --wanted-share 0.02",
             _ => "see `hovertone fit --help`",
         };
         Failure::usage(error.to_string(), hint)

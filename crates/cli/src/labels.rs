@@ -98,13 +98,13 @@ fn logs_of(
             (None, _) => {
                 return Err(Failure::usage(
                     "the log has body rates, and it is not said how their axes point: front and rear would be a guess",
-                    "say --log-axes flu (x forward, y left, z up) or frd (y right, z down: PX4, ArduPilot)",
+                    "give --log-axes flu (x forward, y left, z up) or frd (y right, z down: PX4, ArduPilot)",
                 ));
             }
             (_, None) => {
                 return Err(Failure::usage(
                     "the log has body rates, and it is not said where the rotors stand",
-                    "say --layout x or plus, or a vehicle whose layout is known (`hovertone vehicles`)",
+                    "give --layout x or plus, or a vehicle whose layout is known (`hovertone vehicles`)",
                 ));
             }
         }

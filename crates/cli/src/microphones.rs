@@ -79,7 +79,7 @@ pub(crate) fn resolve(
     let Some(places) = Some(given).filter(|given| !given.is_empty()).or_else(|| places_of(vehicle?)) else {
         return Err(refused(
             "it is not said where the rotors stand".to_owned(),
-            "add a [[rotor]] with name and position_m for each, or say --vehicle with one whose frame is known (`hovertone vehicles`)",
+            "add a [[rotor]] with name and position_m for each, or give --vehicle with one whose frame is known (`hovertone vehicles`)",
         ));
     };
     let microphones_m = file.microphones.iter().map(|microphone| microphone.position_m).collect();

@@ -27,7 +27,7 @@ pub(crate) struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes the folder. A folder with files is refused unless an earlier run of the same command wrote it, or the user says --force.
+    /// Makes the folder. A folder with files is refused unless an earlier run of the same command wrote it, or the user uses --force.
     pub(crate) fn prepare(path: &Path, outputs: Outputs, kind: &FolderKind) -> Result<Self, Failure> {
         let is_empty = match fs::read_dir(path) {
             Ok(mut entries) => entries.next().is_none(),
@@ -43,7 +43,7 @@ impl OutputFolder {
                     "this folder is not empty, and its content is not an earlier {}: nothing was written",
                     kind.name
                 ),
-                hint: "choose a new folder with -o DIR, or say --force to write there: files of the same names are \
+                hint: "choose a new folder with -o DIR, or use --force to write there: files of the same names are \
                        replaced, all others stay"
                     .to_owned(),
                 path: Some(path.to_owned()),

@@ -41,7 +41,7 @@ impl Outputs {
         self.refuse_input(place)?;
         if !self.may_replace && has_content(place) {
             let what = "this file exists already: it was not replaced";
-            return Err(refused(what, "choose another name, or say --force to replace it", place));
+            return Err(refused(what, "choose another name, or use --force to replace it", place));
         }
         OutputFile::create(place)
     }

@@ -181,7 +181,7 @@ fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     let reading = record.found_reading().filter(|_| record.speed().is_some())?;
     let text =
         format!("no tone was given; hovertone found order {}, {}: {}", reading.order, reading.meaning, reading.why);
-    Some(Notice::new(text, "check the blades and say --blades N; `hovertone tones` shows the other readings"))
+    Some(Notice::new(text, "check the blades and give --blades N; `hovertone tones` shows the other readings"))
 }
 
 /// Results of the passes over a recording.

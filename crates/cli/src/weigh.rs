@@ -156,7 +156,7 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
         .or(of_vehicle.map(|vehicle| vehicle.rotor_count.value));
     if rotor_count.is_none() && results.is_some() {
         let what = "the constant is that of one rotor, and nothing says how many carry the vehicle";
-        return Err(Failure::usage(what, "say --rotors, or --vehicle"));
+        return Err(Failure::usage(what, "give --rotors, or --vehicle"));
     }
     Ok(rotor_count)
 }

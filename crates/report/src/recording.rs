@@ -165,7 +165,7 @@ impl SpeedRecord {
                 Outcome::NoRotorTone { reason } => Some(reason.to_string()),
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.is_some() => Some(
-                    "several readings of the tone stay plausible; count the blades and say --blades N, or give --diameter-m, \
+                    "several readings of the tone stay plausible; count the blades and give --blades N, or give --diameter-m, \
                      --mass-kg and --rotors"
                         .to_owned(),
                 ),

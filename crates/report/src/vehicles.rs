@@ -49,7 +49,7 @@ fn rows_of(vehicle: &Vehicle) -> Vec<Row> {
     let tone = match (vehicle.tone_order(), vehicle.gear_mesh_order()) {
         (Some(order), Some(_)) => format!("{order} (gear mesh)"),
         (Some(order), None) => format!("{order} (blade pass)"),
-        (None, _) => "say --blades".to_owned(),
+        (None, _) => "give --blades".to_owned(),
     };
     let gear = vehicle.gear.map_or(NO_GEAR.to_owned(), |gear| format!("{}:{}", gear.value.pinion, gear.value.wheel));
     vec![

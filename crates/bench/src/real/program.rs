@@ -35,7 +35,7 @@ impl Program {
         let path = path.and_then(|path| std::path::absolute(path).ok());
         path.map(|path| Self { path }).ok_or_else(|| {
             format!(
-                "there is no {place}: build it with `cargo build --release -p hovertone-cli`, or say --hovertone PATH"
+                "there is no {place}: build it with `cargo build --release -p hovertone-cli`, or give --hovertone PATH"
             )
         })
     }

@@ -26,9 +26,9 @@ fn bins<'a>(beliefs: &[&'a Belief]) -> Vec<Bin<'a>> {
 
 /// The section of the report.
 pub(super) fn add_reliability(document: &mut Document, rows: &[Row]) {
-    document.heading("Are beliefs right?");
+    document.heading("Are the plausibilities right?");
     document.paragraph(
-        "Of an ambiguous answer, each reading with its own belief; of a speed that was told, the belief in its reading, or 0.99 where the \
+        "Of an ambiguous answer, each reading with its own plausibility; of a speed that was told, the plausibility of its reading, or 0.99 where the \
          flags left no choice. Right: a speed of a rotor, or of their mean. Recordings of low confidence are left out. In brackets: the 95 % \
          interval of the share (Clopper and Pearson 1934), as if all answers were independent. Several answers are of one recording, so the \
          true interval is wider.",
@@ -46,7 +46,7 @@ pub(super) fn add_reliability(document: &mut Document, rows: &[Row]) {
             }
         }
     }
-    let heads = ["set", "told", "belief", "answers", "mean belief, %", "right, %"];
+    let heads = ["set", "told", "plausibility", "answers", "mean plausibility, %", "right, %"];
     document.table(&heads, &lines);
 }
 

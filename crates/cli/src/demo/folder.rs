@@ -24,7 +24,7 @@ pub(super) fn prepare(path: &Path, force: bool) -> Result<OutputFolder, Failure>
         return Err(Failure::Usage {
             what: "this experiment file was changed, or is of another version of hovertone: nothing was written"
                 .to_owned(),
-            hint: "choose a new folder with -o DIR, or say --force to replace it".to_owned(),
+            hint: "choose a new folder with -o DIR, or use --force to replace it".to_owned(),
             path: Some(experiment),
         });
     }
