@@ -14,6 +14,8 @@ use serde_json::Value;
 
 /// Digits of a frequency or speed from the survey.
 const DIGITS: usize = 4;
+/// Standard deviation of a fundamental over time, Hz, up to which a tone is steady: it has two decimals.
+const STEADY_HZ: f64 = 0.1;
 /// Indentation of the table of a family.
 const INDENT: &str = "   ";
 
@@ -68,17 +70,19 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     }
     let Some(found) = record.found.as_ref() else { return text };
     let rotor = found.rotor.filter(|_| record.tone().is_some());
-    let verdict = match rotor {
-        Some(_) if record.is_ambiguous() => "a rotor whose shaft speed the sound does not settle",
-        Some(_) => "a rotor",
-        None => "no rotor tone",
+    let remark = rotor.and_then(|rotor| found.families.get(rotor)).and_then(|family| family.remark);
+    let verdict = match (rotor, remark) {
+        (Some(_), Some(Remark::SingleLine)) => "one tone: of a rotor, or of something else",
+        (Some(_), _) if record.is_ambiguous() => "a rotor; the sound does not settle its shaft speed",
+        (Some(_), _) => "a rotor",
+        (None, _) => "no rotor tone",
     };
     text += &format!("{verdict}\n");
     if found.families.is_empty() {
         text += "\nno family of lines stands out\n";
     }
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
-        text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(&family.readings, width));
+        text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(family, width));
     }
     let others = found.families.iter().enumerate().filter(|(index, _)| rotor != Some(*index));
     for (_, family) in others {
@@ -97,7 +101,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
 /// "rotor: 360.2 Hz × 1–9, 31 dB over the floor, all the time".
 fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
     let lines = if family.harmonics.len() == 1 {
-        String::new()
+        if kind == Remark::SingleLine.text() { String::new() } else { format!(" ({})", Remark::SingleLine.text()) }
     } else {
         format!(" × {}", numbers_in_words(&family.harmonics))
     };
@@ -105,7 +109,7 @@ fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
         100.0 => "all the time".to_owned(),
         percent => format!("{percent:.0} % of the time ({:.1}–{:.1} s)", family.span.from_s, family.span.to_s),
     };
-    let fundamental = significant(family.fundamental_hz, DIGITS);
+    let fundamental = significant(family.fundamental_hz, digits(family));
     format!("{kind}: {fundamental} Hz{lines}, {:.0} dB over the floor, {time}", family.level_db)
 }
 
@@ -135,7 +139,15 @@ pub(crate) fn percent(plausibility: f64) -> String {
     }
 }
 
-fn readings_table(readings: &[Reading], width: Option<usize>) -> String {
+/// Digits of the frequencies and speeds of a family.
+fn digits(family: &ToneFamily) -> usize {
+    let is_steady = family.spread_hz.is_some_and(|spread_hz| spread_hz < STEADY_HZ);
+    let decimals = family.fundamental_hz.log10().floor().max(0.0) as usize + 3;
+    if is_steady { DIGITS.max(decimals) } else { DIGITS }
+}
+
+fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
+    let (readings, digits) = (&family.readings, digits(family));
     let has_mach = readings.iter().any(|reading| reading.tip_mach.is_some());
     let has_coefficient = readings.iter().any(|reading| reading.thrust_coefficient.is_some());
     let mut columns = vec![
@@ -148,16 +160,16 @@ fn readings_table(readings: &[Reading], width: Option<usize>) -> String {
     ];
     columns.extend(has_mach.then(|| Column::numbers("tip", "Mach")));
     columns.extend(has_coefficient.then(|| Column::numbers("C_T", "")));
-    columns.extend([Column::numbers("belief", "%"), Column::words("because")]);
+    columns.extend([Column::numbers("plausible", "%"), Column::words("because")]);
     let mut table = TextTable::new(columns);
     for reading in readings {
         let mut cells = vec![
             reading.meaning.to_string(),
             reading.order.to_string(),
-            significant(reading.tone_hz, DIGITS),
-            significant(reading.speed.rev_s(), DIGITS),
-            significant(reading.speed.rpm(), DIGITS),
-            significant(reading.motor_speed.rpm(), DIGITS),
+            significant(reading.tone_hz, digits),
+            significant(reading.speed.rev_s(), digits),
+            significant(reading.speed.rpm(), digits),
+            significant(reading.motor_speed.rpm(), digits),
         ];
         let number = |value: Option<f64>| value.map_or(DASH.to_owned(), |value| significant(value, 2));
         cells.extend(has_mach.then(|| number(reading.tip_mach)));

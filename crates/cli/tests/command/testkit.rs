@@ -4,6 +4,7 @@ use hovertone_sim::prescribed::{HoverSettings, HoverSound, Noise, Recording, Rot
 use hovertone_sim::scenario::ScenarioFile;
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
+use std::f64::consts::TAU;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -81,6 +82,17 @@ pub(crate) fn write_noise(path: &Path, duration_s: f64) {
     let mut noise = Recording::of_rotors(&[], Sampling::new(f64::from(rate_hz), duration_s));
     noise.add_noise(&Noise::white(0.06), &mut seeded(1));
     write_wav(path, &noise.samples_f32(), rate_hz);
+}
+
+/// Four seconds of a sine of amplitude 0.4, with white noise of this standard deviation.
+pub(crate) fn write_sine(path: &Path, rate_hz: u32, hz: f64, noise_std: f64) {
+    let mut noise = Recording::of_rotors(&[], Sampling::new(f64::from(rate_hz), 4.0));
+    if noise_std > 0.0 {
+        noise.add_noise(&Noise::white(noise_std), &mut seeded(1));
+    }
+    let sine = (0u32..).map(|n| 0.4 * (TAU * hz * f64::from(n) / f64::from(rate_hz)).sin() as f32);
+    let samples: Vec<f32> = noise.samples_f32().into_iter().zip(sine).map(|(noise, sine)| noise + sine).collect();
+    write_wav(path, &samples, rate_hz);
 }
 
 /// Writes samples into a 16-bit WAV file.

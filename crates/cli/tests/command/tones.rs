@@ -1,6 +1,6 @@
 //! `hovertone tones`, and `speed` where nobody names the tone: on sound with a known speed, and on real recordings.
 
-use crate::testkit::{files_in, hovertone, recordings, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{files_in, hovertone, recordings, steady_hover, text, write_hover, write_noise, write_sine};
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -72,6 +72,31 @@ fn an_open_reading_is_ambiguous_shows_all_and_ends_with_3() {
     let ruled_out =
         rotor["readings"].as_array().unwrap().iter().filter(|reading| number(reading, "plausibility") == 0.0);
     assert!(ruled_out.count() >= 3, "{rotor}");
+}
+
+/// Beside the sine of amplitude 0.4 is no noise, and noise 20 and 3 dB below it, with which the Cramér-Rao bound is below a thousandth of a hertz.
+#[test]
+fn a_sine_is_one_family_with_its_frequency_to_a_hundredth() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("sine.wav");
+    for (rate_hz, hz) in [(8000, 437.31), (44100, 437.31), (44100, 61.3), (48000, 1000.0), (48000, 2718.28)] {
+        for noise_std in [0.0, 0.03, 0.2] {
+            write_sine(&path, rate_hz, hz, noise_std);
+            let run = hovertone(&["tones", "--json", text(&path)]);
+            let line = &run.json_lines()[0];
+            let families = line["families"].as_array().unwrap();
+            assert_eq!(families.len(), 1, "{hz} Hz, noise {noise_std}: {line}");
+            let found_hz = number(&families[0], "fundamental_hz");
+            assert!((found_hz - hz).abs() < 0.01, "{hz} Hz, noise {noise_std}: {found_hz}");
+            assert_eq!(families[0]["remark"], "single_line", "{hz} Hz, noise {noise_std}");
+            if line["status"] == "ambiguous" {
+                assert!((number(line, "tone_hz") - hz).abs() < 0.01, "{hz} Hz, noise {noise_std}: {}", line["tone_hz"]);
+            }
+        }
+    }
+    write_sine(&path, 44100, 437.31, 0.0);
+    let words = hovertone(&["tones", text(&path)]).stdout;
+    assert!(words.contains(": 437.31 Hz (a single line)") && words.contains("or of something else"), "{words}");
 }
 
 #[test]

@@ -14,7 +14,7 @@ use hovertone_vehicle::Order;
 
 /// The analysis knows the speed better than the evidence where it followed the same line: within this share, the width of a line of the
 /// evidence. *Numeric.*
-const SAME_LINE_SHARE: f64 = 0.01;
+pub(super) const SAME_LINE_SHARE: f64 = 0.01;
 
 /// Readings whose speeds differ by less are one reading: the evidence and the survey hear different parts of a recording. *Decision.*
 const SAME_READING_SHARE: f64 = 0.05;

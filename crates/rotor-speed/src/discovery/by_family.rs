@@ -1,11 +1,12 @@
 //! The speed of a tone family, by the lines of the survey.
 
+use super::by_beliefs::SAME_LINE_SHARE;
 use super::{Discovery, FoundSpeed, at_ratio, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
 use crate::pipeline::{passes_after_survey, speed_from_survey};
 use crate::stages::{Silence, Surveyed};
-use hovertone_analysis::{NoTone, Outcome, Reading, SpeedAnalysis, ToneFamily};
+use hovertone_analysis::{NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::RotorSpeed;
 
@@ -56,16 +57,30 @@ pub(super) fn speed_of_family(
     if !speed_of(&analysis, &found).is_none_or(|speed| is_near(speed.speed, reading)) {
         (found, analysis) = analysed(reading, 1.0 + SAME_TONE_SHARE)?;
     }
-    let alternatives = match speed_of(&analysis, &found) {
-        Some(speed) if !families[rotor].is_settled => {
-            // the analysis knows the tone better than the survey
-            let ratio = speed.speed.rad_s() / reading.speed.rad_s();
+    // the analysis knows the tone better than the survey
+    let ratio = speed_of(&analysis, &found).map(|speed| speed.speed.rad_s() / reading.speed.rad_s());
+    let alternatives = match ratio {
+        Some(ratio) if !families[rotor].is_settled => {
             let plausible = families[rotor].plausible_readings(discovery.config.plausible_min);
             plausible.into_iter().map(|reading| at_ratio(reading, ratio)).collect()
         }
         _ => Vec::new(),
     };
+    let mut families = families;
+    if let Some(ratio) = ratio.filter(|ratio| (ratio - 1.0).abs() < SAME_LINE_SHARE) {
+        families[rotor] = family_at_ratio(&families[rotor], ratio);
+    }
     Ok(FoundSpeed { rotor: Some(rotor), config: found, analysis, alternatives, families })
+}
+
+/// A family whose frequencies are multiplied by this ratio.
+fn family_at_ratio(family: &ToneFamily, ratio: f64) -> ToneFamily {
+    ToneFamily {
+        fundamental_hz: ratio * family.fundamental_hz,
+        harmonics: family.harmonics.iter().map(|line| SeenHarmonic { hz: ratio * line.hz, ..*line }).collect(),
+        readings: family.readings.iter().map(|reading| at_ratio(reading, ratio)).collect(),
+        ..family.clone()
+    }
 }
 
 fn is_near(speed: RotorSpeed, reading: &Reading) -> bool {

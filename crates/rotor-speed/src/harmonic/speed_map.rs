@@ -167,22 +167,28 @@ impl SpeedMap {
             self.lines.iter().zip(series).map(|(line, series)| series.len() / line.frames.length()).min().unwrap_or(0);
         let points = self.speeds_rev_s.len();
         let mut in_band = vec![0.0; self.lines.len()];
-        let mut power = vec![0.0f32; points];
-        let mut score = vec![0.0f32; points];
         let frame_len = self.frame_len();
         self.amplitudes.resize(frames * frame_len, 0.0);
-        self.scores.clear();
         for (frame, on_grid) in self.amplitudes.chunks_exact_mut(frame_len).enumerate() {
-            for (((line, series), &noise), row) in
-                self.lines.iter_mut().zip(series).zip(noise_variances).zip(on_grid.chunks_exact_mut(points))
+            let rows = on_grid.chunks_exact_mut(points).zip(&mut in_band);
+            for (((line, series), &noise), (row, in_band)) in
+                self.lines.iter_mut().zip(series).zip(noise_variances).zip(rows)
             {
                 line.transform(&series[frame * line.frames.length()..], noise);
                 line.interpolate(row);
+                *in_band += f64::from(highest(row).powi(2)) / frames as f64;
             }
+        }
+        // noise does not agree: one line beside it is all that is heard
+        let is_one_line = in_band.iter().filter(|power| **power > NOISE_PEAK_POWER).count() == 1;
+        let mut power = vec![0.0f32; points];
+        let mut score = vec![0.0f32; points];
+        self.scores.clear();
+        for on_grid in self.amplitudes.chunks_exact(frame_len) {
             let peaks: Vec<f32> = on_grid.chunks_exact(points).map(highest).collect();
-            let cap = second_largest(&peaks);
+            let cap = if is_one_line { f32::INFINITY } else { second_largest(&peaks) };
             score.fill(0.0);
-            for ((row, &peak), in_band) in on_grid.chunks_exact(points).zip(&peaks).zip(&mut in_band) {
+            for (row, &peak) in on_grid.chunks_exact(points).zip(&peaks) {
                 // one loud tone in one band must not outvote several lines that agree
                 let scale = if peak > cap { cap / peak } else { 1.0 };
                 for ((sum, power), amplitude) in score.iter_mut().zip(&mut power).zip(row) {
@@ -190,7 +196,6 @@ impl SpeedMap {
                     *sum += scaled;
                     *power += scaled * scaled;
                 }
-                *in_band += f64::from(peak * peak) / frames as f64;
             }
             self.scores.extend(score.iter().copied().map(f64::from));
         }

@@ -87,7 +87,9 @@ impl<'a> HarmonicWeights<'a> {
                     format!("its tone is in only {:.0} % of the frames", 100.0 * ridge.point_share())
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
-                    format!("its speed differs by {:.1} % from the others'", 100.0 * (speed / reference - 1.0))
+                    let (percent, how) =
+                        (100.0 * (speed / reference - 1.0), if *speed < reference { "below" } else { "above" });
+                    format!("its speed is {:.1} % {how} that of the others", percent.abs())
                 }
                 (Some(_), Some(_)) => {
                     used.push(ridge);

@@ -66,13 +66,24 @@ impl LevelRow<'_> {
     /// Place and height of the peak between two places, in bins, where there is one inside.
     pub(crate) fn peak(&self, first: f64, last: f64) -> Option<(f64, f64)> {
         let (first, last) = (first.round().max(1.0) as usize, last.round() as usize);
-        let levels = self.level_db.get(first..=last)?.iter().zip(self.power.get(first..=last)?);
-        // levels that are cut are equal
-        let loudest = levels.enumerate().max_by(|(_, a), (_, b)| a.0.total_cmp(b.0).then(a.1.total_cmp(b.1)));
-        let (index, (level_db, _)) = loudest?;
+        let levels = self.level_db.get(first..=last)?;
+        let (index, _) = levels.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+        let at = first + index;
+        let [before, top, after] = [at - 1, at, at + 1].map(|bin| self.level_db.get(bin).copied().map(f64::from));
+        let (before, top, after) = (before?, top?, after?);
+        let curve = before - 2.0 * top + after;
+        let is_peak = top >= before && top >= after && curve < 0.0;
+        is_peak.then(|| (at as f64 + 0.5 * (before - after) / curve, top))
+    }
+
+    /// The same by power, in which the peak of a steady tone is placed to a thousandth of a bin, however loud it is: levels are cut.
+    pub(crate) fn power_peak(&self, first: f64, last: f64) -> Option<(f64, f64)> {
+        let (first, last) = (first.round().max(1.0) as usize, last.round() as usize);
+        let bins = self.power.get(first..=last)?;
+        let (index, _) = bins.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         let at = first + index;
         let offset = hann_peak_offset_bins(self.power[at - 1], self.power[at], *self.power.get(at + 1)?)?;
-        Some((at as f64 + offset, f64::from(*level_db)))
+        Some((at as f64 + offset, f64::from(*self.level_db.get(at)?)))
     }
 
     /// Levels all bins between two places to the floor.

@@ -80,7 +80,8 @@ impl Series {
             .iter()
             .zip(&levels.rows)
             .map(|(&(place, score), row)| {
-                (score >= score_db_min).then(|| refined_hz(row, grid_hz[place], levels.bin_hz, 1..=SERIES_LINES))
+                (score >= score_db_min)
+                    .then(|| refined_hz(grid_hz[place], levels.bin_hz, 1..=SERIES_LINES, |a, b| row.peak(a, b)))
             })
             .collect();
         let present: Vec<f64> = row_hz.iter().copied().flatten().collect();
@@ -100,7 +101,7 @@ impl Series {
                 hz.filter(|_| middle_s >= row.span.from_s && middle_s <= row.span.to_s)
             });
             let hz = median(&within.collect::<Vec<_>>())?;
-            Some(refined_hz(row, hz, other.bin_hz, 1..=SERIES_LINES))
+            Some(refined_hz(hz, other.bin_hz, 1..=SERIES_LINES, |a, b| row.peak(a, b)))
         };
         Self { hz: self.hz, row_hz: other.rows.iter().map(hz_at).collect() }
     }
@@ -113,7 +114,9 @@ impl Series {
             .row_hz
             .into_iter()
             .zip(&finer.rows)
-            .map(|(hz, row)| hz.map(|hz| refined_hz(row, hz, finer.bin_hz, lines.iter().copied())))
+            .map(|(hz, row)| {
+                hz.map(|hz| refined_hz(hz, finer.bin_hz, lines.iter().copied(), |a, b| row.power_peak(a, b)))
+            })
             .collect();
         let present: Vec<f64> = row_hz.iter().copied().flatten().collect();
         Some(Self { hz: median(&present)?, row_hz })
@@ -175,13 +178,21 @@ fn leading_place(scores: &[Vec<f64>]) -> Option<usize> {
     (best > 0.0).then_some(place)
 }
 
-/// Least squares through the peaks of these harmonics: f = Σ w k p / Σ w k², w the level.
-fn refined_hz(row: &LevelRow<'_>, hz: f64, bin_hz: f64, lines: impl Iterator<Item = u32>) -> f64 {
+/// Least squares through the peaks of these harmonics: f = Σ w k p / Σ w k², w the level. `peak_between` finds the place and level of the peak
+/// between two places, in bins.
+fn refined_hz(
+    hz: f64,
+    bin_hz: f64,
+    lines: impl Iterator<Item = u32>,
+    peak_between: impl Fn(f64, f64) -> Option<(f64, f64)>,
+) -> f64 {
     let (mut products, mut squares) = (0.0, 0.0);
     for line in lines.map(f64::from) {
         let place = line * hz / bin_hz;
         let half = (REFINE_HALF_WIDTH_SHARE * place).max(1.0);
-        if let Some((peak, level_db)) = row.peak(place - half, place + half).filter(|it| it.1 >= REFINE_LEVEL_DB_MIN) {
+        if let Some((peak, level_db)) =
+            peak_between(place - half, place + half).filter(|it| it.1 >= REFINE_LEVEL_DB_MIN)
+        {
             products += level_db * line * peak * bin_hz;
             squares += level_db * line * line;
         }

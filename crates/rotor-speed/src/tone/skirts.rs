@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_sine_is_its_main_lobe_alone() {
-        for hz in [437.0, 437.31, 437.5] {
+        for hz in [437.2, 437.31, 437.5] {
             let (with, without) = levels(|t| 0.5 * (TAU * hz * t).sin());
             assert!(loud(&with).len() > 6, "{:?}", loud(&with));
             assert!(loud(&without).iter().all(|&bin| (bin as f64 - hz).abs() < 2.0), "{hz}: {:?}", loud(&without));
