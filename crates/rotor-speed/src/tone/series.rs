@@ -106,8 +106,8 @@ impl Series {
         Self { hz: self.hz, row_hz: other.rows.iter().map(hz_at).collect() }
     }
 
-    /// The same series in the rows of a finer spectrum, by these of its lines alone: where a line is not heard, the noise has peaks too. `None` where no
-    /// row has it.
+    /// The same series in the rows of a finer spectrum, by these of its lines alone: where a line is not heard, the noise has peaks too. `None` where
+    /// no row has it.
     pub(crate) fn by_lines_in(&self, own: &LevelRows<'_>, finer: &LevelRows<'_>, lines: &[u32]) -> Option<Self> {
         let row_hz: Vec<Option<f64>> = self
             .in_rows_of(own, finer)

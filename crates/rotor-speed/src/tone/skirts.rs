@@ -11,8 +11,8 @@ const MAIN_LOBE_BINS: f64 = 2.0;
 /// What the skirt may exceed the formula by, dB: the loudest bin is up to 1.4 dB below its line, a transform that is 8 % longer than its window adds
 /// 2 dB, and the floor adds to the skirt. *Numeric.*
 const MARGIN_DB: f64 = 6.0;
-/// What lies this far below the loudest line of a spectrum, dB, is rounding and distortion: 16 bits round a sine at a quarter of full scale with lines
-/// 75 dB and more below it. *Decision.*
+/// What lies this far below the loudest line of a spectrum, dB, is rounding and distortion: 16 bits round a sine at a quarter of full scale with
+/// lines 75 dB and more below it. *Decision.*
 const RANGE_DB: f64 = 75.0;
 
 /// Levels to the floor what the skirts of loud lines explain.
