@@ -173,7 +173,7 @@ impl NotTold {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::OtherCount { .. } => "say how many rotors turn with --rotors, and give the log of the same flight",
+            Self::OtherCount { .. } => "give the number of rotors with --rotors, and the log of the same flight",
             Self::TooManyRotors { .. } => "they keep their numbers by speed",
             Self::TooFewTracks { .. } => {
                 "place the microphone nearer and keep the high frequencies: then more rotors can be separated"

@@ -3,7 +3,7 @@
 use crate::args::FitArguments;
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
-use crate::inputs::read_bytes;
+use crate::inputs::{is_no_text, read_bytes};
 use crate::place::{air_density_kg_m3, gravity_of};
 use crate::terminal::Terminal;
 
@@ -69,6 +69,10 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
 
 fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> {
     let bytes = read_bytes(path, "the table")?;
+    // headers in Latin-1 are welcome, a recording is not
+    if bytes.contains(&0) {
+        return Err(is_no_text("the table", path));
+    }
     let text = String::from_utf8_lossy(&bytes);
     let table = table_from_csv(&text).map_err(|error| table_failure(&error, path))?;
     let sha256 = sha256_of_bytes(&bytes);

@@ -32,8 +32,7 @@ pub(crate) fn is_stdin(path: &Path) -> bool {
 /// The bytes of a file or of stdin; `what` names the content in messages.
 pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>, Failure> {
     if !is_stdin(path) {
-        return fs::read(path)
-            .map_err(|error| Failure::failed(format!("{what} cannot be read: {error}"), "check its name", path));
+        return fs::read(path).map_err(|error| cannot_open(&error, what, path));
     }
     let mut used = first_use(what)?;
     let mut bytes = Vec::new();
@@ -44,8 +43,25 @@ pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>, Failure> {
 
 /// The text of a file or of stdin; `what` names the content in messages.
 pub(crate) fn read_text(path: &Path, what: &str) -> Result<String, Failure> {
-    String::from_utf8(read_bytes(path, what)?)
-        .map_err(|error| Failure::failed(format!("{what} is not text: {}", error.utf8_error()), "check its name", path))
+    String::from_utf8(read_bytes(path, what)?).map_err(|_| is_no_text(what, path))
+}
+
+/// The failure of a file that should be text and is something else, such as a recording.
+pub(crate) fn is_no_text(what: &str, path: &Path) -> Failure {
+    let found = format!("this file is not text, and {what} is");
+    Failure::failed(found, "check the name and the order of the files in the command", path)
+}
+
+fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {
+    let (found, hint) = match error.kind() {
+        _ if path.is_dir() => (format!("this is a folder, and {what} is a file"), "name the file in the folder"),
+        io::ErrorKind::NotFound => (format!("there is no such file for {what}"), "check its name and its folder"),
+        io::ErrorKind::PermissionDenied => {
+            (format!("you have no right to read {what}"), "change the rights of the file")
+        }
+        _ => (format!("{what} cannot be read: {error}"), "check the file and its disk"),
+    };
+    Failure::failed(found, hint, path)
 }
 
 /// The file in which a recording from stdin is kept. [`forget_stdin`] removes it.

@@ -46,7 +46,7 @@ pub(crate) fn resolve(
     }
     if rotors < 2 {
         let what = format!("{told} names of several rotors, and only one is heard");
-        return Err(Failure::usage(what, "say how many turn, as in --rotors 4"));
+        return Err(Failure::usage(what, "give their number, as in --rotors 4"));
     }
     let Some(path) = &arguments.log else {
         let typed = arguments.spin_up.as_deref().unwrap_or_default();

@@ -63,7 +63,7 @@ pub(crate) fn resolve(
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
     if rotors < 2 {
         let what = "microphones give names to several rotors, and only one is heard";
-        return Err(refused(what.to_owned(), "say how many turn, as in --rotors 4"));
+        return Err(refused(what.to_owned(), "give their number, as in --rotors 4"));
     }
     let file: MicrophonesFile = TomlFile::read(path, "file of microphones", "recording", SEE_EXAMPLE)?.parse()?;
     let defaults = MicrophonesConfig::default();
@@ -93,7 +93,7 @@ pub(crate) fn resolve(
     })?;
     if array.rotor_count() != rotors as usize {
         let what = format!("{rotors} rotors turn, and {} have a place", array.rotor_count());
-        return Err(refused(what, "say how many turn with --rotors, and give the place of each"));
+        return Err(refused(what, "give their number with --rotors, and the place of each"));
     }
     for job in jobs {
         check_channels(job, hearing, &array)?;

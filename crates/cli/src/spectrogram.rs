@@ -62,7 +62,7 @@ fn kind_of(output: &Path) -> Result<Kind, Failure> {
         Some("svg") => Ok(Kind::Svg),
         _ => Err(Failure::Usage {
             what: "the picture's name ends neither with .png nor with .svg".to_owned(),
-            hint: "say -o spectrogram.png or -o spectrogram.svg".to_owned(),
+            hint: "use -o spectrogram.png or -o spectrogram.svg".to_owned(),
             path: Some(output.to_owned()),
         }),
     }

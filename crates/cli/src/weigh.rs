@@ -43,7 +43,9 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     let scale = plan.scale_for(&records);
     refuse_different_loads(&scale, &hovers, &names)?;
     if let Some(weighed) = scale.weigh(&hovers) {
-        weighed.check().map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+        let model_kg = model_mass_kg(arguments)?;
+        let checked = weighed.check().and_then(|()| model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
+        checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
         let text =
             if arguments.json { weighed_json(&weighed).map_err(Failure::internal)? } else { weighed_text(&weighed) };
         terminal.data(&text)?;
@@ -159,6 +161,12 @@ fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> R
         return Err(Failure::usage(what, "give --rotors, or --vehicle"));
     }
     Ok(rotor_count)
+}
+
+/// Mass of the vehicle that the arguments name, where they give no other.
+fn model_mass_kg(arguments: &WeighArguments) -> Result<Option<f64>, Failure> {
+    let said = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    Ok(said.and_then(|vehicle| Some(vehicle.mass_kg?.value)).filter(|_| arguments.mass_kg.is_none()))
 }
 
 /// Compares the vehicle that the arguments name with their own numbers and with the vehicle of the results.

@@ -1,10 +1,13 @@
 //! The mass of a hovering vehicle from its sound.
 
-use crate::number::{rounded, with_uncertainty};
+use crate::number::{rounded, significant, with_uncertainty};
 use crate::version::VERSION;
 use hovertone_thrust::WeighedHover;
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
+
+/// Digits of a mass without uncertainty.
+const DIGITS: usize = 3;
 
 #[derive(Serialize)]
 struct Weighed<'a> {
@@ -25,8 +28,10 @@ pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error>
 pub fn weighed_text(weighed: &WeighedHover) -> String {
     let grams = |mass_kg: Estimate| {
         let mass = mass_kg.scaled(1e3);
-        let meaning = mass.std_uncertainty.map_or("", |_| " (k = 2)");
-        format!("{} g{meaning}", with_uncertainty(mass.value, mass.std_uncertainty))
+        match mass.std_uncertainty {
+            Some(_) => format!("{} g (k = 2)", with_uncertainty(mass.value, mass.std_uncertainty)),
+            None => format!("{} g (± is not known: the constant has none)", significant(mass.value, DIGITS)),
+        }
     };
     let mut text = format!(
         "hovers at {} rpm ({} {})\nmass: {}\n",

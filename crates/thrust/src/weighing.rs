@@ -9,6 +9,8 @@ use serde::Serialize;
 const LIGHTER_SHARE_MAX: f64 = 0.05;
 /// … and by this many standard uncertainties. *Decision.*
 const LIGHTER_STD_MAX: f64 = 3.0;
+/// Smallest mass of a flying vehicle, as a share of the mass of its model: without hull, camera and with a smaller battery. *Decision.*
+const STRIPPED_SHARE_MIN: f64 = 0.5;
 /// Speeds of one load lie closer than this many of their standard uncertainties. *Decision.*
 const ALIKE_STD_MAX: f64 = 4.0;
 /// … or closer than this share, 3 % of the mass: trials in moving air differ by more than they state. *Decision.*
@@ -130,6 +132,23 @@ impl WeighedHover {
         let vehicle_kg = hover_kg - payload.value;
         let allowed_kg = (LIGHTER_SHARE_MAX * vehicle_kg).max(LIGHTER_STD_MAX * payload.std_uncertainty.unwrap_or(0.0));
         if payload.value < -allowed_kg {
+            return Err(WeighError::LighterThanVehicle { hover_kg, vehicle_kg });
+        }
+        if hover_kg > MASS_FACTOR_MAX * vehicle_kg {
+            return Err(WeighError::FarHeavier { hover_kg, vehicle_kg });
+        }
+        Ok(())
+    }
+}
+
+impl WeighedHover {
+    /// Compares the weighed mass with the mass of the vehicle's model, which another specimen may exceed or not reach.
+    ///
+    /// # Errors
+    /// A hover of less than half of that mass, or of more than ten times.
+    pub fn check_model(&self, vehicle_kg: f64) -> Result<(), WeighError> {
+        let hover_kg = self.mass_kg.value;
+        if hover_kg < STRIPPED_SHARE_MIN * vehicle_kg {
             return Err(WeighError::LighterThanVehicle { hover_kg, vehicle_kg });
         }
         if hover_kg > MASS_FACTOR_MAX * vehicle_kg {

@@ -80,7 +80,7 @@ impl Contradiction {
             Self::Gear { .. } => "leave out one of the two; another gear than the usual one needs --gear without \
                                   --vehicle"
                 .to_owned(),
-            Self::Rotors { .. } => "say how many of its rotors turn".to_owned(),
+            Self::Rotors { .. } => "give the number of its rotors that turn".to_owned(),
             Self::Mass { known_kg, said_kg, .. } if GRAMS_FACTOR.contains(&(said_kg / known_kg)) => {
                 format!("masses are in kilograms: {said_kg} g are {}", said_kg / 1e3)
             }

@@ -42,7 +42,7 @@ fn a_refusal_is_one_line_with_the_file_first_and_the_advice_last() {
 fn a_warning_is_one_line_with_its_advice() {
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("a.csv");
-    fs::write(&table, "rpm,mass_g\n3600,413\n").unwrap();
+    fs::write(&table, "rpm,mass_g,mass_std_g\n3600,413,1\n").unwrap();
     let run = hovertone(&["fit", text(&table)]).ends_with(0);
     assert!(!lines(&run).is_empty());
     for line in lines(&run) {
@@ -62,7 +62,7 @@ fn counts_agree_with_their_nouns() {
         several.stdout
     );
     let table = folder.path().join("a.csv");
-    fs::write(&table, "rpm,mass_g\n3600,413\n").unwrap();
+    fs::write(&table, "rpm,mass_g,mass_std_g\n3600,413,1\n").unwrap();
     let one_row = hovertone(&["fit", text(&table)]).ends_with(0).stdout;
     assert!(one_row.contains("\n1 table row, "), "{one_row}");
     let only = fs::read_to_string(&experiment).unwrap().replace("load0/*.wav", "load0/trial0.wav");

@@ -248,3 +248,53 @@ fn rows_that_were_computed_are_no_measurement() {
     let rounded = hovertone(&["fit", text(&table)]).ends_with(0);
     assert!(!rounded.stderr.contains("not fit"), "{}", rounded.stderr);
 }
+
+#[test]
+fn a_weighed_mass_is_that_of_a_vehicle() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = hover(folder.path(), 0.413);
+    let weigh = |constant: &str, more: &[&str]| {
+        let arguments = [&["weigh", text(&wav), "--constant-n-s2", constant], more].concat();
+        arguments.into_iter().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let refused = |arguments: Vec<String>, words: &[&str]| {
+        refused_with(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), words);
+    };
+    let ardrone = ["--vehicle", "ardrone"];
+    refused(weigh("2.8", &ardrone), &["ten times the vehicle's 413 g", "of the whole vehicle"]);
+    // the constant of one rotor in place of four
+    refused(weigh("7.07e-6", &ardrone), &["carries 10", "alone weighs 413 g", "of the whole vehicle"]);
+    // without a ± of the constant the mass has none, and says so
+    let arguments = weigh("2.83e-5", &ardrone);
+    let words = hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0).stdout;
+    assert!(words.contains("mass: 413 g (± is not known"), "{words}");
+}
+
+#[test]
+fn files_of_another_kind_are_named_for_what_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = hover(folder.path(), 0.413);
+    let (wav, place) = (text(&wav), text(folder.path()));
+    for (arguments, words) in [
+        (vec!["fit", wav], ["413g.wav", "not text"]),
+        (vec!["export", wav, "--to", "gazebo"], ["413g.wav", "not text"]),
+        (vec!["fit", place], ["this is a folder", "the table is a file"]),
+        (vec!["identify", place], ["this is a folder", "experiment file is a file"]),
+        (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "check its name"]),
+        (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "check its name"]),
+    ] {
+        let run = hovertone(&arguments).ends_with(1);
+        assert!(run.stdout.is_empty() && !run.stderr.contains("os error"), "{}", run.stderr);
+        words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word:?}: {}", run.stderr));
+    }
+}
+
+/// The tables of `identify` have speeds and constants, and a constant is no thrust.
+#[test]
+fn a_constant_is_no_thrust() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("samples.csv");
+    let rows = "speed_rpm,thrust_constant_total_n_s2\n3600,2.8e-5\n3700,2.9e-5\n3800,2.8e-5\n";
+    fs::write(&table, rows).unwrap();
+    refused_with(&["fit", text(&table)], &["no column holds a thrust", "thrust_constant_total_n_s2"]);
+}

@@ -81,7 +81,7 @@ enum Meaning {
 }
 
 /// Words of columns that contain the name of a thrust or a speed but are neither: ratios, rates, settings, errors of an unknown kind.
-const NO_MEASUREMENT: [&str; 14] = [
+const NO_MEASUREMENT: [&str; 15] = [
     "efficiency",
     "acceleration",
     "settling",
@@ -96,6 +96,7 @@ const NO_MEASUREMENT: [&str; 14] = [
     "target",
     "setpoint",
     "coefficient",
+    "constant",
 ];
 /// Words of standard uncertainties.
 const STD: [&str; 9] = ["std", "stddev", "stdev", "sd", "sigma", "uncertainty", "unc", "u", "se"];
@@ -244,6 +245,8 @@ mod tests {
             "ESC signal (µs)",
             "Specific thrust (g/W)",
             "thrust_error_n",
+            "thrust_constant_total_n_s2",
+            "thrust_constant_total_std_n_s2",
             "propeller mass (g)",
             "Load cell 1 (g)",
             "Motor Efficiency (%)",
