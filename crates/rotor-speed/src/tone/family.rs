@@ -54,7 +54,9 @@ fn family_of(
     let series = series.times(ratio);
     let heard = pattern.lines_db.iter().zip(1u32..).filter_map(|(db, number)| Some((number, (*db)?)));
     let lines: Vec<u32> = heard.clone().map(|(number, _)| number).collect();
-    let refined = series.by_lines_in(coarse, fine, &lines).unwrap_or_else(|| series.clone());
+    // a line that stands alone, more than an octave above the others, may be another sound's
+    let together = lines.windows(2).position(|pair| pair[1] > 2 * pair[0]).map_or(lines.len(), |last| last + 1);
+    let refined = series.by_lines_in(coarse, fine, &lines[..together]).unwrap_or_else(|| series.clone());
     let mut readings = readings_of(&pattern, refined.hz, known, config);
     hear_meshes(&mut readings, coarse, &series, config);
     let harmonics: Vec<SeenHarmonic> =
