@@ -1,9 +1,11 @@
 //! Sound that a codec has squeezed: the speed stays right, or is declined.
 
-use crate::testkit::{hovertone, steady_hover, text, write_hover};
+use crate::identify::{TRUTH_TOTAL_N_S2, write_experiment};
+use crate::testkit::{files_in, hovertone, steady_hover, text, write_hover};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
+use std::fs;
 use std::process::Command;
 
 const CODECS: [(&str, &[&str]); 6] = [
@@ -61,4 +63,32 @@ fn a_codec_at_32_kbit_per_second_does_not_change_the_speed() {
     }
     println!("{heard} heard, {cuts} with a cut said");
     assert!(heard >= 5, "{heard}");
+}
+
+/// As the recordings of the README come from a phone.
+#[test]
+fn the_constant_of_films_lies_within_its_uncertainty() {
+    if Command::new("ffmpeg").arg("-version").output().is_err() {
+        println!("skipped: no ffmpeg on the search path");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let experiment = write_experiment(folder.path());
+    let toml = fs::read_to_string(&experiment).unwrap();
+    for kind in ["mov", "m4a", "mp4"] {
+        for load in ["load0", "load1"] {
+            for wav in files_in(&folder.path().join(load), ".wav") {
+                let film = wav.with_extension(kind);
+                let run =
+                    Command::new("ffmpeg").args(["-v", "error", "-i", text(&wav), "-c:a", "aac", text(&film)]).output();
+                assert!(run.unwrap().status.success(), "{}", film.display());
+            }
+        }
+        fs::write(&experiment, toml.replace("*.wav", &format!("*.{kind}"))).unwrap();
+        let run = hovertone(&["identify", &experiment, "--json"]).ends_with(0);
+        let results: Value = serde_json::from_str(&run.stdout).unwrap();
+        let constant = &results["thrust_constant_total_n_s2"];
+        let [found, std] = ["value", "std_uncertainty"].map(|name| constant[name].as_f64().unwrap());
+        assert!((found - TRUTH_TOTAL_N_S2).abs() < 2.0 * std && std < 0.01 * found, "{kind}: {constant}");
+    }
 }

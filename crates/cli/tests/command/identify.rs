@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-const TRUTH_TOTAL_N_S2: f64 = 2.83e-5;
+pub(crate) const TRUTH_TOTAL_N_S2: f64 = 2.83e-5;
 const GRAVITY_M_S2: f64 = 9.80;
 const VEHICLE_KG: f64 = 0.413;
 const ADDED_KG: [f64; 2] = [0.0, 0.05];

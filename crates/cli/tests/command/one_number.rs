@@ -1,7 +1,7 @@
 //! One number, one ±, no contradiction: the constant in all outputs of a run, and what stands above and below it.
 
 use crate::identify::write_experiment;
-use crate::testkit::{Run, hovertone, refused_with, text};
+use crate::testkit::{Run, hovertone, refused_with, repository, text};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -229,4 +229,17 @@ fn every_printed_plus_minus_is_k_2() {
     let (_, plus_minus) = quoted_after(line, "C_f, one rotor = ");
     assert_rounded(plus_minus, 2.0 * number(&fit, "/thrust_constant_per_rotor_n_s2/std_uncertainty"), line);
     assert!(line.ends_with("(k = 2)"), "{line}");
+}
+
+/// The page on the budget begins with the command of a plan and the share that it prints.
+#[test]
+fn the_page_on_the_budget_quotes_the_plan() {
+    let page = fs::read_to_string(repository().join("docs/budget.md")).unwrap();
+    let (_, rest) = page.split_once("`hovertone fit --plan ").unwrap();
+    let (flags, rest) = rest.split_once('`').unwrap();
+    let (_, quoted) = rest.split_once("expects ").unwrap();
+    let (quoted, _) = quoted.split_once(" %").unwrap();
+    let arguments: Vec<&str> = ["fit", "--plan", "--json"].into_iter().chain(flags.split(' ')).collect();
+    let plan: Value = serde_json::from_str(&hovertone(&arguments).ends_with(0).stdout).unwrap();
+    assert_eq!(format!("{:.1}", 100.0 * number(&plan, "/expanded_share")), quoted);
 }
