@@ -10,9 +10,9 @@ use super::pace::Pace;
 const STEP_STD_SHARE: f64 = 0.0008;
 /// The same, where its lines are not apart from those of another rotor. *Decision.*
 const STEP_STD_SHARE_CLOSE: f64 = 0.0025;
-/// Cost of a step up to which it is its square, in nats. A wider one costs less than its square, because rotors jump in a gust; but it costs more
-/// than levels can, because the levels of a rotor rise and fall with its direction and the room. *Decision.*
-const STEP_COST: f64 = 1000.0;
+/// Cost of a step up to which it is its square, in nats. A wider one costs less than its square, because rotors jump in a gust. With a tenth,
+/// levels that rise and fall move rotors between names; with ten times, rotors 0.1 % apart lose each other. *Decision.*
+const STEP_COST: f64 = 100.0;
 /// Largest slope that is believed, as a share of the speed in a second. *Decision.*
 const SLOPE_SHARE_S_MAX: f64 = 0.1;
 /// How well the level of a line is known, in nepers, what one line may cost, and what its word counts beside the speeds': neighbouring
