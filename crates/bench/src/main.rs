@@ -34,6 +34,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--only CLASS] to print one class, [--all] to print right cases too, [--ci] for the subset with its floors,
              [--peers] to run other programs, or [--peers-of real|semi-real] on one set,
              [--out ROWS.json] to keep the rows, [--compare ROWS.json] to print what changed
+  sensitivity  what one step of each setting changes on the real recordings: docs/sensitivity.md
+             [--data DIR] for other recordings
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";
@@ -50,6 +52,7 @@ fn main() -> ExitCode {
         ["accuracy", options @ ..] => accuracy::run(&root(), options),
         ["rotors", options @ ..] => rotors::run(&root(), options),
         ["real", options @ ..] => real::run(&root(), options),
+        ["sensitivity", options @ ..] => real::sensitivity::run(&root(), options),
         ["labels", options @ ..] => labels::run(&root(), options),
         ["roundtrip", options @ ..] => roundtrip::run(&root(), options),
         [speed::DECODE_TASK, file] => speed::decode(Path::new(file)),

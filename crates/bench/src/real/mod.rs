@@ -26,12 +26,13 @@ mod reliability;
 mod rotors_told;
 mod rows;
 mod semi_real;
+pub(crate) mod sensitivity;
 mod tables;
 mod truth_track;
 
 use crate::document::Document;
 use crate::workspace::{made_by, target};
-use cases::TruthSet;
+use cases::{Mode, TruthSet};
 use causes::Causes;
 use judgement::Verdict;
 use options::Options;

@@ -329,7 +329,7 @@ pub(crate) fn block_at(fit: &BlockFit, is_coherent: bool, chunk: &ChunkPlace) ->
         span: Span { from_s: at(fit.tick_from), to_s: at(fit.tick_to) },
         speed_rev_s: fit.speed_rev_s,
         slope_rev_s2: fit.slope_rev_s2,
-        std_uncertainty_rev_s: (fit.phase_scatter / fit.information).sqrt(),
+        std_uncertainty_rev_s: (fit.phase_scatter / fit.information + fit.bend_variance).sqrt(),
         step_to_next_turns: fit.step_to_next_turns,
         is_several: false,
         level_db: power_db(fit.strongest_power),

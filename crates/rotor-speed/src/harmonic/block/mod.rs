@@ -62,6 +62,8 @@ pub(crate) struct BlockFit {
     pub(crate) phase_likelihood: f64,
     /// Variance of the phases of the strong lines along the block, over the variance from noise; at least 1.
     pub(crate) phase_scatter: f64,
+    /// Variance of the mean speed because the speed bends within the block, (rev/s)².
+    pub(crate) bend_variance: f64,
     /// Information on the speed, 1/σ², s².
     pub(crate) information: f64,
     /// Number of lines that stand out of the noise by themselves.
@@ -121,6 +123,7 @@ impl BlockSlices {
             likelihood: summit.value,
             phase_likelihood: stats.phase_likelihood,
             phase_scatter: stats.phase_scatter,
+            bend_variance: stats.bend_variance,
             information: stats.information,
             lines_heard: stats.lines_heard,
             is_first_heard: stats.is_first_heard,

@@ -1,6 +1,6 @@
 //! What a block shows at its most likely speed: how well this speed is known, and whether the lines keep their phase.
 
-use super::slices::BlockSlices;
+use super::slices::{BlockLine, BlockSlices};
 use crate::harmonic::phasors::OrderPhasors;
 use realfft::num_complex::Complex;
 use std::f64::consts::{PI, TAU};
@@ -12,9 +12,11 @@ const LINE_LIKELIHOOD_MIN: f64 = 12.0;
 const PHASE_PIECES: usize = 8;
 /// Smallest number of pieces whose phases are compared. *Numeric.*
 const PHASE_PIECES_MIN: usize = 4;
-/// Smallest excess of the phase scatter over the scatter from noise that counts, in standard deviations of the scatter from noise:
-/// noise alone reaches it once in a few hundred blocks. *Decision.*
+/// Smallest excess of the phase scatter over the scatter from noise that counts, in standard deviations of the scatter from noise, and smallest
+/// bend, in standard deviations of the bend from noise: noise alone reaches it once in a few hundred blocks. *Decision.*
 const SCATTER_STDS: f64 = 3.0;
+/// Degree of the Legendre polynomial of a bend: the lowest that a line of speed leaves, and that is unlike at both ends. *Numeric.*
+const BEND_DEGREE: usize = 3;
 /// Number of parameters that were fitted to the phases: speed and slope. *Physics.*
 const FITTED: f64 = 2.0;
 
@@ -26,6 +28,7 @@ pub(super) struct BlockStats {
     pub(super) information: f64,
     pub(super) phase_likelihood: f64,
     pub(super) phase_scatter: f64,
+    pub(super) bend_variance: f64,
 }
 
 /// The phases of one strong line in the pieces of a block.
@@ -43,6 +46,23 @@ struct Pieces {
     count: usize,
     /// Share of the block in a piece.
     share: f64,
+    /// Ends of the pieces, on −1 … 1 over the block.
+    ends: Vec<f64>,
+}
+
+/// Mean of a Legendre polynomial from `from` to `to`, by `(2n + 1) P_n = (P_{n+1} − P_{n−1})′`.
+fn legendre_mean(degree: usize, from: f64, to: f64) -> f64 {
+    let integral = |x: f64| (legendre(degree + 1, x) - legendre(degree - 1, x)) / (2 * degree + 1) as f64;
+    (integral(to) - integral(from)) / (to - from)
+}
+
+/// Legendre polynomial P_n(x) by Bonnet's recursion.
+fn legendre(degree: usize, x: f64) -> f64 {
+    let (mut before, mut last) = (1.0, x);
+    for n in 1..degree {
+        (before, last) = (last, ((2 * n + 1) as f64 * x * last - n as f64 * before) / (n + 1) as f64);
+    }
+    if degree == 0 { 1.0 } else { last }
 }
 
 impl BlockSlices {
@@ -54,6 +74,7 @@ impl BlockSlices {
             information: 0.0,
             phase_likelihood: 0.0,
             phase_scatter: 1.0,
+            bend_variance: 0.0,
             strongest_power: 0.0,
             lines_heard: 0,
             is_first_heard: false,
@@ -64,6 +85,7 @@ impl BlockSlices {
         let pieces = Pieces::of(halves);
         let mut spreads = Vec::with_capacity(self.lines.len());
         let mut amplitudes = Vec::with_capacity(self.lines.len());
+        let mut bend = Bend::new(&pieces);
         for (index, (line, half_hops)) in self.lines.iter().zip(self.half_hops.chunks_exact(halves)).enumerate() {
             let mut sum = Complex::<f64>::default();
             for ((into, z), phasor) in turned.iter_mut().zip(half_hops).zip(phasors.of(line.order)) {
@@ -84,6 +106,7 @@ impl BlockSlices {
                 stats.phase_likelihood += line.scale * self.in_phase_energy(&turned, phase);
                 let squares = self.piece_squares(&turned, phase, line.scale, pieces.halves);
                 spreads.push(PhaseSpread { line: index, squares });
+                bend.add(&turned, phase, line, likelihood);
             } else {
                 stats.phase_likelihood += likelihood;
             }
@@ -92,6 +115,7 @@ impl BlockSlices {
         if let Some(scatter) = self.phase_scatter(&spreads, &amplitudes, self.guess.speed_rev_s + d_speed, &pieces) {
             stats.phase_scatter = scatter;
         }
+        stats.bend_variance = bend.variance_turns2() / self.length_s.powi(2);
         stats
     }
 
@@ -150,11 +174,58 @@ impl BlockSlices {
     }
 }
 
+/// Bend of the speed within a block: the deviation of the angle of the shaft from the line of speed, as a multiple c of the Legendre polynomial
+/// `P₃` of the time from −1 to 1 over the block. The turns over the block are then `2 c` more than the line of speed says.
+///
+/// A fitted line of speed leaves no deviation of lower degree, and degree 4 is alike at both ends.
+struct Bend<'a> {
+    pieces: &'a Pieces,
+    /// Mean of the polynomial over each piece.
+    shape: Vec<f64>,
+    /// Sum over lines and pieces of angle, precision and polynomial, turns⁻¹.
+    sum: f64,
+    /// Sum over lines of the precision of the angle over the whole block, turns⁻².
+    precision: f64,
+}
+
+impl<'a> Bend<'a> {
+    fn new(pieces: &'a Pieces) -> Self {
+        let shape = pieces.ends.windows(2).map(|ends| legendre_mean(BEND_DEGREE, ends[0], ends[1]));
+        Self { pieces, shape: shape.collect(), sum: 0.0, precision: 0.0 }
+    }
+
+    /// Adds a line that is turned along the line of speed.
+    fn add(&mut self, turned: &[Complex<f64>], phase: Complex<f64>, line: &BlockLine, likelihood: f64) {
+        let rad_per_turn = TAU * line.order;
+        // angle = across / (|sum| share rad_per_turn), precision = 2 J share rad_per_turn², J = scale |sum|²
+        let factor = 2.0 * rad_per_turn * (likelihood * line.scale).sqrt();
+        for (turned, shape) in turned.chunks(self.pieces.halves).zip(&self.shape) {
+            self.sum += factor * shape * (turned.iter().sum::<Complex<f64>>() * phase).im;
+        }
+        self.precision += 2.0 * rad_per_turn * rad_per_turn * likelihood;
+    }
+
+    /// Square of `2 c`, less its expectation from noise, turns²: the variance of the turns over the block, estimated from this block alone. 0
+    /// where noise explains the bend, and where the pieces are few.
+    fn variance_turns2(&self) -> f64 {
+        if self.pieces.count <= BEND_DEGREE || self.precision <= 0.0 {
+            return 0.0;
+        }
+        let squares =
+            self.shape.iter().zip(self.pieces.ends.windows(2)).map(|(p, ends)| p * p * (ends[1] - ends[0]) / 2.0);
+        let precision = self.precision * squares.sum::<f64>();
+        let (turns, variance) = (2.0 * self.sum / precision, 4.0 / precision);
+        if turns * turns > SCATTER_STDS * SCATTER_STDS * variance { turns * turns - variance } else { 0.0 }
+    }
+}
+
 impl Pieces {
     /// Pieces of a block of a number of half hops.
     fn of(half_hops: usize) -> Self {
         let halves = half_hops.div_ceil(PHASE_PIECES);
-        Self { halves, count: half_hops.div_ceil(halves), share: halves as f64 / half_hops as f64 }
+        let count = half_hops.div_ceil(halves);
+        let end = |piece: usize| 2.0 * (piece * halves).min(half_hops) as f64 / half_hops as f64 - 1.0;
+        Self { halves, count, share: halves as f64 / half_hops as f64, ends: (0..=count).map(end).collect() }
     }
 }
 
@@ -166,6 +237,53 @@ mod tests {
     use crate::harmonic::speed_path::SpeedPath;
     use rand::SeedableRng;
     use rand_distr::{Distribution, StandardNormal};
+
+    /// Variance of the turns over a block of 1 s that the block states, where the angle of the shaft deviates by `bend_turns` P₃ from a line of
+    /// speed.
+    fn stated_turns2(bend_turns: f64) -> f64 {
+        let (tick_s, ticks, samples_per_tick, speed_rev_s) = (0.01, 100, 12, 60.3);
+        let noise_variance: f64 = 1e-3;
+        let mut rng = rand_pcg::Pcg64::seed_from_u64(12);
+        let line_of = |order: f64| {
+            let samples = (0..ticks * samples_per_tick).map(|sample| {
+                let place = 2.0 * (sample as f64 + 0.5) / (ticks * samples_per_tick) as f64 - 1.0;
+                let mut normal = || -> f64 { StandardNormal.sample(&mut rng) };
+                let noise = Complex::new(normal(), normal()) * (noise_variance / 2.0).sqrt();
+                Complex::from_polar(1.0, TAU * order * bend_turns * legendre(3, place)) + noise
+            });
+            let samples: Vec<Complex<f64>> = samples.collect();
+            Line {
+                order,
+                is_first: order == 2.0,
+                is_strong: true,
+                noise_variance,
+                leakage_band_hz: 0.0..0.0,
+                samples_per_tick: samples_per_tick as f64,
+                ticks: samples.chunks(samples_per_tick).map(|tick| tick.iter().sum()).collect(),
+            }
+        };
+        let lines = [2.0, 4.0].map(line_of);
+        let path = SpeedPath::from_borders(tick_s, vec![speed_rev_s; ticks + 1]);
+        let guess = SpeedLine { speed_rev_s, slope_rev_s2: 0.0 };
+        let length_s = tick_s * ticks as f64;
+        BlockSlices::new(&lines, &path, 0..ticks, guess).stats_at(0.0, 0.0).bend_variance * length_s.powi(2)
+    }
+
+    #[test]
+    fn a_bend_within_a_block_widens_its_uncertainty_and_noise_does_not() {
+        assert_eq!(stated_turns2(0.0), 0.0);
+        let bend_turns = 0.01;
+        let stated = stated_turns2(bend_turns).sqrt();
+        assert!((stated / (2.0 * bend_turns) - 1.0).abs() < 0.1, "{stated}");
+    }
+
+    #[test]
+    fn legendre_polynomials_have_their_values_and_means() {
+        assert!((legendre(3, 0.5) + 0.4375).abs() < 1e-12 && (legendre(0, 0.3) - 1.0).abs() < 1e-12);
+        let steps = 1000;
+        let sum: f64 = (0..steps).map(|n| legendre(5, 0.5 + 0.25 * (f64::from(n) + 0.5) / f64::from(steps))).sum();
+        assert!((legendre_mean(5, 0.5, 0.75) - sum / f64::from(steps)).abs() < 1e-6);
+    }
 
     /// Phase scatter of three lines of a blade pass, each in a channel that holds the other two, with a phase that oscillates by
     /// `sway_rad` once a second.
