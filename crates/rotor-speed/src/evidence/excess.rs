@@ -1,8 +1,8 @@
 //! Sound → power over the local floor, in short and long frames, in bounded memory and time.
 
+use super::floor::Floor;
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
-use std::collections::VecDeque;
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
 
@@ -20,9 +20,6 @@ const ZERO_PAD_FACTOR: u32 = 4;
 const HZ_MAX: f64 = 9000.0;
 /// Highest frequency as a share of the sample rate: filters of recorders end below one half. *Decision.*
 const RATE_SHARE_MAX: f64 = 0.45;
-/// Width of the running median of the floor, Hz: wider than several lines of a small rotor's comb, narrower than the slope of noise.
-/// *Decision.*
-const FLOOR_HZ: f64 = 120.0;
 /// Noise that is added to power and floor, as a share of the mean power of the frame: codecs leave holes in the spectrum. *Numeric.*
 const ADDED_NOISE_SHARE: f64 = 1e-7;
 /// Bins to either side among which a line is the highest: the main lobe of the window. *Numeric.*
@@ -118,7 +115,7 @@ impl Excess {
 impl ExcessFrame {
     /// The highest level within a bin of a frequency, where bins are `bin_hz` apart. `None` outside the band.
     pub(super) fn level_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {
-        let bin = (hz / bin_hz).round() as usize;
+        let bin = (hz / bin_hz + 0.5) as usize;
         self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max()
     }
 }
@@ -185,7 +182,7 @@ impl ExcessBuilder {
         let mut stft = Stft::<f32>::new(self.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         let bin_hz = stft.bin_hz();
         let bins = (HZ_MAX.min(RATE_SHARE_MAX * self.sample_rate_hz) / bin_hz) as usize;
-        let mut floor = RunningMedian::of_width((FLOOR_HZ / bin_hz) as usize | 1);
+        let mut floor = Floor::of_bins(bin_hz);
         let mut frames: Vec<ExcessFrame> = Vec::new();
         let mut next = None;
         for section in &self.sections {
@@ -207,7 +204,7 @@ impl ExcessBuilder {
 }
 
 /// Levels over the floor. A skirt or a side lobe of a line counts as noise at most.
-fn over_floor(power: &[f64], floor: &mut RunningMedian, mean_power: f64) -> Vec<Level> {
+fn over_floor(power: &[f64], floor: &mut Floor, mean_power: f64) -> Vec<Level> {
     let added = (ADDED_NOISE_SHARE * mean_power).max(f64::MIN_POSITIVE);
     // the median of noise is ln 2 of its mean
     let floors = floor.of(power);
@@ -245,62 +242,9 @@ fn side_lobe_share(resolutions: f64) -> f64 {
     (PI * resolutions * (resolutions * resolutions - 1.0)).powi(-2)
 }
 
-/// Median of a window that runs over a series; at the ends the window holds the values that there are.
-struct RunningMedian {
-    width: usize,
-    window: VecDeque<f64>,
-    sorted: Vec<f64>,
-}
-
-impl RunningMedian {
-    fn of_width(width: usize) -> Self {
-        Self { width, window: VecDeque::new(), sorted: Vec::new() }
-    }
-
-    fn of(&mut self, values: &[f64]) -> Vec<f64> {
-        self.window.clear();
-        self.sorted.clear();
-        let half = self.width / 2;
-        values.iter().take(half).for_each(|&value| self.add(value));
-        (0..values.len())
-            .map(|middle| {
-                if let Some(&value) = values.get(middle + half) {
-                    self.add(value);
-                }
-                if middle > half {
-                    self.drop_first();
-                }
-                self.sorted[self.sorted.len() / 2]
-            })
-            .collect()
-    }
-
-    fn add(&mut self, value: f64) {
-        self.window.push_back(value);
-        self.sorted.insert(self.sorted.partition_point(|&other| other < value), value);
-    }
-
-    fn drop_first(&mut self) {
-        if let Some(value) = self.window.pop_front() {
-            self.sorted.remove(self.sorted.partition_point(|&other| other < value));
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_running_median_is_that_of_the_values_around() {
-        let values: Vec<f64> = (0..40).map(|n| f64::from((n * 7919) % 101)).collect();
-        let found = RunningMedian::of_width(7).of(&values);
-        for (middle, found) in found.iter().enumerate() {
-            let mut near = values[middle.saturating_sub(3)..(middle + 4).min(values.len())].to_vec();
-            near.sort_by(f64::total_cmp);
-            assert_eq!(*found, near[near.len() / 2], "at {middle}");
-        }
-    }
 
     #[test]
     fn a_long_recording_keeps_a_bounded_number_of_sections() {

@@ -25,6 +25,7 @@
 
 mod companions;
 mod excess;
+mod floor;
 mod hypotheses;
 mod level_model;
 mod levels;

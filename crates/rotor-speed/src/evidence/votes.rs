@@ -64,7 +64,7 @@ impl VotePlaces {
     pub(super) fn new(speeds_rev_s: &[f64], table: &VoteTable, bin_hz: f64, bins: usize) -> Self {
         let place = |speed_rev_s: f64, order: usize| {
             let hz = speed_rev_s * order as f64;
-            let bin = (hz / bin_hz).round() as usize;
+            let bin = (hz / bin_hz + 0.5) as usize;
             (bin < bins && hz >= LINE_HZ_MIN).then_some(bin as u32)
         };
         let places =
