@@ -3,6 +3,8 @@
 use super::limits::binomial_interval;
 use super::rows::{Belief, Row};
 use crate::document::Document;
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Lower edges of the bins of belief; the last bin ends at 1.
 const EDGES: [f64; 5] = [0.0, 0.1, 0.5, 0.9, 0.99];
@@ -15,11 +17,24 @@ struct Bin<'a> {
     beliefs: Vec<&'a Belief>,
 }
 
-fn bins<'a>(beliefs: &[&'a Belief]) -> Vec<Bin<'a>> {
+/// The edges of each bin.
+fn ranges() -> impl Iterator<Item = Range<f64>> {
     let ends = EDGES.iter().skip(1).copied().chain([f64::INFINITY]);
-    let bins = EDGES.into_iter().zip(ends).map(|(low, high)| Bin {
-        name: format!("{low}–{}", if high.is_finite() { high } else { 1.0 }),
-        beliefs: beliefs.iter().filter(|belief| (low..high).contains(&(belief.belief + ROUNDING))).copied().collect(),
+    EDGES.into_iter().zip(ends).map(|(low, high)| low..high)
+}
+
+fn name_of(range: &Range<f64>) -> String {
+    format!("{}–{}", range.start, range.end.min(1.0))
+}
+
+fn is_in(range: &Range<f64>, belief: &Belief) -> bool {
+    range.contains(&(belief.belief + ROUNDING))
+}
+
+fn bins<'a>(beliefs: &[&'a Belief]) -> Vec<Bin<'a>> {
+    let bins = ranges().map(|range| Bin {
+        name: name_of(&range),
+        beliefs: beliefs.iter().filter(|belief| is_in(&range, belief)).copied().collect(),
     });
     bins.collect()
 }
@@ -48,6 +63,60 @@ pub(super) fn add_reliability(document: &mut Document, rows: &[Row]) {
     }
     let heads = ["set", "told", "plausibility", "answers", "mean plausibility, %", "right, %"];
     document.table(&heads, &lines);
+    add_by_recording(document, rows);
+}
+
+/// All sets together, where each recording counts once in each bin.
+fn add_by_recording(document: &mut Document, rows: &[Row]) {
+    document.paragraph(
+        "All of them together, where each recording counts once in a bin, with the mean of its answers there: the answers of one recording to several \
+         flags are not independent. The belief holds where its mean lies in the 95 % interval of the share that is right.",
+    );
+    let trusted: Vec<&Row> = rows.iter().filter(|row| !row.is_low_confidence).collect();
+    let lines: Vec<Vec<String>> = ranges()
+        .filter_map(|range| Some((name_of(&range), Recordings::of(&trusted, &range)?)))
+        .map(|(name, recordings)| {
+            let limits = binomial_interval(recordings.right.round() as usize, recordings.count);
+            let holds = (limits.low..=limits.high).contains(&recordings.mean_belief);
+            let share = recordings.right / recordings.count as f64;
+            let right = format!("{:.0} ({:.0}–{:.0})", 100.0 * share, 100.0 * limits.low, 100.0 * limits.high);
+            let mean = format!("{:.0}", 100.0 * recordings.mean_belief);
+            vec![name, recordings.count.to_string(), mean, right, (if holds { "yes" } else { "no" }).to_owned()]
+        })
+        .collect();
+    document.table(&["plausibility", "recordings", "mean plausibility, %", "right, %", "holds"], &lines);
+}
+
+/// The recordings with beliefs in one bin.
+#[derive(Debug, PartialEq)]
+struct Recordings {
+    count: usize,
+    /// Sum over the recordings of the share of their answers that is right.
+    right: f64,
+    /// Mean over the recordings of their mean belief.
+    mean_belief: f64,
+}
+
+impl Recordings {
+    /// `None` where no recording has a belief in the range.
+    fn of(rows: &[&Row], range: &Range<f64>) -> Option<Self> {
+        let mut of_recording: BTreeMap<(&str, &str), Vec<&Belief>> = BTreeMap::new();
+        for row in rows {
+            for belief in row.beliefs.iter().filter(|belief| is_in(range, belief)) {
+                of_recording.entry((&row.set, &row.file)).or_default().push(belief);
+            }
+        }
+        let mean = |beliefs: &[&Belief], value: fn(&Belief) -> f64| {
+            beliefs.iter().map(|belief| value(belief)).sum::<f64>() / beliefs.len() as f64
+        };
+        let sum = |value: fn(&Belief) -> f64| of_recording.values().map(|beliefs| mean(beliefs, value)).sum::<f64>();
+        let count = of_recording.len();
+        (count > 0).then(|| Self {
+            count,
+            right: sum(|belief| f64::from(u8::from(belief.is_right))),
+            mean_belief: sum(|belief| belief.belief) / count as f64,
+        })
+    }
 }
 
 fn cells(bin: &Bin<'_>) -> [String; 4] {
@@ -61,6 +130,23 @@ fn cells(bin: &Bin<'_>) -> [String; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::real::judgement::Verdict;
+    use crate::real::rows::tests::row;
+
+    #[test]
+    fn a_recording_counts_once_in_a_bin() {
+        let with = |file: &str, belief: f64, is_right| Row {
+            file: file.to_owned(),
+            beliefs: vec![Belief { belief, is_right }],
+            ..row("c", "blades", Verdict::Right)
+        };
+        let rows = [with("a", 0.95, false), with("a", 0.97, true), with("b", 0.92, true), with("b", 0.3, false)];
+        let rows: Vec<&Row> = rows.iter().collect();
+        let found = Recordings::of(&rows, &(0.9..0.99)).unwrap();
+        assert_eq!((found.count, found.right), (2, 1.5));
+        assert!((found.mean_belief - 0.94).abs() < 1e-12);
+        assert_eq!(Recordings::of(&rows, &(0.0..0.1)), None);
+    }
 
     #[test]
     fn beliefs_fall_into_their_bins() {
