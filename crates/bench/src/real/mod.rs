@@ -11,10 +11,12 @@ mod answer;
 mod cases;
 mod causes;
 mod contact_sheet;
+mod decoys;
 mod false_alarms;
 mod floors;
 mod hearing;
 mod judgement;
+mod library;
 mod limits;
 mod microphones;
 mod options;
@@ -178,6 +180,7 @@ fn report(root: &Path, made_by: &str, examined: &Examined<'_>, peers_of: &[Strin
     add_outcomes(&mut document, rows);
     reliability::add_reliability(&mut document, rows);
     false_alarms::add_false_alarms(&mut document, rows);
+    decoys::add_decoys(&mut document, real)?;
     microphones::add_microphones(&mut document, &data.join("real"), program)?;
     if !peers_of.is_empty() {
         let is_meant = |set: &&TruthSet| peers_of.iter().any(|name| name == set.name);

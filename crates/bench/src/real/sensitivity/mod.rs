@@ -2,11 +2,11 @@
 //! `docs/sensitivity.md`.
 
 mod constants;
-mod library;
 mod numbers;
 
 use super::cases::{Told, TruthSet};
 use super::judgement::{Expected, Verdict};
+use super::library::LoadedCase;
 use super::progress::Progress;
 use super::{Mode, REAL, data_folder, sentence};
 use crate::accuracy::drawn;
@@ -14,7 +14,6 @@ use crate::document::{Document, three_digits};
 use crate::workspace::made_by;
 use constants::decision_constants;
 use hovertone::speed::Config;
-use library::LoadedCase;
 use numbers::Number;
 use std::fmt::Write as _;
 use std::fs;
@@ -34,7 +33,7 @@ pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
     };
     let made_by = made_by(root, "sensitivity", words);
     let set = TruthSet::read(REAL, &data_folder(root, data).join("real"))?;
-    let cases = LoadedCase::all(&set)?;
+    let cases = LoadedCase::all(&set, |told| matches!(told, Told::Blades | Told::Known))?;
     let Some(first) = cases.first() else { return Err("no case has blades alone, or with the vehicle".to_owned()) };
     let numbers = Number::all(&first.config()?)?;
     let usual = counts(&cases, Ok)?;

@@ -1,7 +1,7 @@
 //! The recordings in memory, and their speeds by the library: without the start of a program for each case.
 
-use crate::real::answer::{Answer, Status, ToldReading};
-use crate::real::cases::{Case, Mode, Told, TruthSet};
+use super::answer::{Answer, Status, ToldReading};
+use super::cases::{Case, Mode, Told, TruthSet};
 use hovertone::sound::{Signal, SignalSource};
 use hovertone::speed::{Config, Method, Outcome, SpeedAnalysis, ToneConfig, speed_from_source};
 use hovertone::tones::Reading;
@@ -11,7 +11,7 @@ use hovertone_vehicle::{KnownRotor, Order};
 /// A case that the library can hear: its sound and its settings.
 pub(super) struct LoadedCase<'a> {
     pub(super) case: Case<'a>,
-    sound: Signal,
+    pub(super) sound: Signal,
     facts: Facts,
 }
 
@@ -53,12 +53,11 @@ impl Facts {
 }
 
 impl<'a> LoadedCase<'a> {
-    /// The trusted cases where blades are given, alone or with rotors, diameter and mass.
-    pub(super) fn all(set: &'a TruthSet) -> Result<Vec<Self>, String> {
+    /// The trusted cases over the whole recording of which `is_wanted` says so, where blades are given, alone or with rotors, diameter and mass.
+    pub(super) fn all(set: &'a TruthSet, is_wanted: impl Fn(Told) -> bool) -> Result<Vec<Self>, String> {
         let is_meant = |case: &Case<'_>| {
             let mode = Mode::of(case.flags);
-            let is_told = matches!(mode.told, Told::Blades | Told::Known) && !mode.is_spanned;
-            is_told && !case.truth.is_low_confidence()
+            is_wanted(mode.told) && !mode.is_spanned && !case.truth.is_low_confidence()
         };
         let meant = set.cases().into_iter().filter(is_meant);
         let with_facts = meant.filter_map(|case| Facts::of(case.flags).map(|facts| (case, facts)));
@@ -84,10 +83,14 @@ impl<'a> LoadedCase<'a> {
 
     /// What the library hears with these settings.
     pub(super) fn answer(&self, config: &Config) -> Result<Answer, String> {
-        let mut sound = self.sound.clone();
-        let analysis = speed_from_source(&mut sound, config, &mut |_| {}).map_err(|error| error.to_string())?;
-        Ok(answer_of(&analysis, config.method))
+        answer_to(self.sound.clone(), config)
     }
+}
+
+/// What the library hears in a sound.
+pub(super) fn answer_to(mut sound: Signal, config: &Config) -> Result<Answer, String> {
+    let analysis = speed_from_source(&mut sound, config, &mut |_| {}).map_err(|error| error.to_string())?;
+    Ok(answer_of(&analysis, config.method))
 }
 
 fn answer_of(analysis: &SpeedAnalysis, method: Method) -> Answer {
