@@ -29,6 +29,7 @@ mod floor;
 mod hypotheses;
 mod level_model;
 mod levels;
+mod near_speed;
 mod own_lines;
 mod path;
 mod search;
@@ -38,5 +39,6 @@ mod votes;
 
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
+pub(crate) use near_speed::nats_near;
 pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
 pub use settings::{EvidenceConfig, LevelPrior};

@@ -6,10 +6,11 @@ use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum};
 use crate::error::Error;
+use crate::evidence::{OwnPropeller, nats_near};
 use crate::harmonic::HarmonicTracer;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use crate::tone::{families_agree, foreign_series, lines_and_between};
+use crate::tone::{blades_of_tone, families_agree, foreign_series, lines_and_between};
 use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
@@ -74,6 +75,9 @@ fn why_no_rotor(
     if candidates.is_heard {
         return Ok(not_held_or_hum());
     }
+    if evidence_is_against(surveyed, speed_rev_s, config) {
+        return Ok(Some(NoTone::NoSeries));
+    }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
     if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
         not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
@@ -86,6 +90,15 @@ fn why_no_rotor(
     Ok(not_a_line
         .or_else(not_held_or_hum)
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
+}
+
+/// Whether the levels of all orders speak against a rotor at this speed, where they can be compared.
+fn evidence_is_against(surveyed: &Surveyed, speed_rev_s: f64, config: &Config) -> bool {
+    let heard = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone));
+    let nats = heard.and_then(|(looks, blades)| {
+        nats_near(looks, speed_rev_s, &OwnPropeller { blades, prior: &config.evidence.levels })
+    });
+    nats.is_some_and(|nats| nats < 0.0)
 }
 
 /// Tests in one pass whether lines between the assumed ones sound as well, so that a slower shaft explains them better: the comb cannot
