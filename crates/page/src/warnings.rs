@@ -50,7 +50,10 @@ impl Warnings {
             .collect();
         let mut lines: Vec<WarningLine> =
             notices.iter().map(|notice| WarningLine { text: notice.text.clone(), target: notice.id.clone() }).collect();
-        for (index, (input, name)) in inputs.iter().zip(names).enumerate() {
+        // a missing speed weighs more than any warning about another recording
+        let (missing, told): (Vec<_>, Vec<_>) =
+            inputs.iter().zip(names).enumerate().partition(|(_, (input, _))| input.record.reason().is_some());
+        for (index, (input, name)) in missing.into_iter().chain(told) {
             lines.extend(lines_of(input, name, index, &of_all));
         }
         let count = table.map_or(0, |table| table.warnings.len()) + warning_count(&records);
@@ -78,14 +81,11 @@ pub(crate) fn own_notices<'a>(record: &'a SpeedRecord, of_all: &[&Notice]) -> Ve
 fn lines_of(input: &InputRecord, name: &str, index: usize, of_all: &[&Notice]) -> Vec<WarningLine> {
     let (record, id) = (&input.record, recording_id(index));
     let words = |text: &str| format!("{} · {name}: {text}", input.load);
-    let mut lines: Vec<WarningLine> = (1..)
+    let why_none = record.reason().map(|reason| WarningLine { text: words(&reason), target: id.clone() });
+    let notices = (1..)
         .zip(own_notices(record, of_all))
-        .map(|(number, notice)| WarningLine { text: words(&notice.text), target: format!("{id}-warning-{number}") })
-        .collect();
-    if let Some(reason) = record.reason() {
-        lines.push(WarningLine { text: words(&reason), target: id });
-    }
-    lines
+        .map(|(number, notice)| WarningLine { text: words(&notice.text), target: format!("{id}-warning-{number}") });
+    why_none.into_iter().chain(notices).collect()
 }
 
 /// The section of the page that a warning concerns.

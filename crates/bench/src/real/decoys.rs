@@ -117,7 +117,7 @@ pub(super) fn add_decoys(document: &mut Document, set: &TruthSet) -> Result<(), 
     document.paragraph(&format!(
         "Decoys, heard with the blades alone: each trusted recording without a rotor with {DRAWS} draws of random phases, which keep its spectrum \
          and nothing that moves; and each trusted recording of a rotor with all frequencies shifted by {SHIFT_ORDERS} of its shaft speed, so that \
-         its lines move as those of a rotor and are no harmonics."
+         its lines move as a rotor's lines do and are no harmonics."
     ));
     let rows = [
         heard("random phases", &draws, |case, seed| with_random_phases(&case.sound, seed))?,

@@ -70,7 +70,7 @@ pub(super) fn add_reliability(document: &mut Document, rows: &[Row]) {
 fn add_by_recording(document: &mut Document, rows: &[Row]) {
     document.paragraph(
         "All of them together, where each recording counts once in a bin, with the mean of its answers there: the answers of one recording to several \
-         flags are not independent. The belief holds where its mean lies in the 95 % interval of the share that is right.",
+         flags are not independent. The plausibility holds where its mean lies in the 95 % interval of the share that is right.",
     );
     let trusted: Vec<&Row> = rows.iter().filter(|row| !row.is_low_confidence).collect();
     let lines: Vec<Vec<String>> = ranges()

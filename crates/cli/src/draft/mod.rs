@@ -39,7 +39,10 @@ impl Draft {
     pub(crate) fn from_arguments(arguments: &DraftArguments, vehicle: Option<&Vehicle>) -> Result<Self, Failure> {
         gravity_of(&arguments.place)?;
         arguments.gear.map_or(Ok(()), Gear::check)?;
-        vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(arguments.blades, arguments.gear))?;
+        vehicle.map_or(Ok(()), |vehicle| {
+            vehicle.check_said(arguments.blades, arguments.gear)?;
+            vehicle.check_flown(arguments.rotors, None)
+        })?;
         if let Some(diameter_m) = arguments.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
             let hint = "it is in metres, from tip to tip: 10 inches are 0.254";
             return Err(Failure::usage(format!("diameter_m = {diameter_m}, allowed 0.01 to 10"), hint));

@@ -6,6 +6,7 @@ mod questions;
 use crate::args::InitArguments;
 use crate::draft::{Draft, recordings_from};
 use crate::failure::{Ending, Failure};
+use crate::files::files_of;
 use crate::identify::ExperimentSource;
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
@@ -20,8 +21,7 @@ use std::path::Path;
 /// Asks for what the flags leave out, and writes the file.
 pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let nothing: [&Path; 0] = [];
-    let outputs = Outputs::beside(nothing, arguments.replace.force);
-    outputs.check(&arguments.output)?;
+    Outputs::beside(nothing, arguments.replace.force).check(&arguments.output)?;
     let vehicle = arguments.draft.vehicle.as_deref().map(preset).transpose()?;
     let draft = Draft::from_arguments(&arguments.draft, vehicle)?;
     let can_ask = io::stdin().is_terminal() && io::stderr().is_terminal();
@@ -38,7 +38,8 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let text = file_text(&draft, vehicle, &arguments.output)?;
     // a draft that means nothing is refused with its reason, and not written
     let source = ExperimentSource::of_text(&text, arguments.output.clone(), None)?;
-    outputs.write(&arguments.output, &text)?;
+    let recordings = draft.loads.iter().flat_map(|load| &load.recordings).flat_map(|name| files_of(Path::new(name)));
+    Outputs::beside(recordings, arguments.replace.force).write(&arguments.output, &text)?;
     terminal.say(&written(&arguments.output));
     let name = quoted(&arguments.output.display().to_string());
     let known = &source.experiment.config.known;

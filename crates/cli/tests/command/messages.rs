@@ -94,6 +94,12 @@ fn names_cannot_move_the_cursor_and_lose_the_folder_that_they_share() {
     assert!(run.stdout.ends_with(&format!("\nfiles in {}/\n", folder.path().display())), "{}", run.stdout);
     let alone = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&paths[2])]).ends_with(0).stdout;
     assert!(alone.contains(text(&paths[2])), "a single name stays as it was typed:\n{alone}");
+    // the command line stands in a comment of the experiment that it means
+    for path in &paths {
+        let mass = format!("0.03={}", text(path));
+        let run = hovertone(&["identify", "--vehicle", "crazyflie", "--mass", &mass, "--check"]).ends_with(0);
+        assert!(!run.stdout.contains('\u{1b}') && !run.stderr.contains('\u{1b}'), "{}{}", run.stdout, run.stderr);
+    }
 }
 
 #[test]

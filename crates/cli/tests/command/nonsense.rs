@@ -93,6 +93,10 @@ fn blades_and_gear_are_those_of_the_vehicle() {
     ardrone(&["--gear", "68"], &["gear = 1:68", "8:69"]);
     ardrone(&["--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
     ardrone(&["--rotors", "6"], &["rotors = 6", "\"ardrone\" has 4 rotors"]);
+    refused_with(
+        &["identify", "--vehicle", "ardrone", "--rotors", "6", "--mass", "413g=a.wav"],
+        &["rotors = 6", "\"ardrone\" has 4 rotors"],
+    );
     refused_with(&["speed", "a.wav", "--gear", "69:8"], &["gear = 69:8", "swapped", "write 8:69"]);
     let folder = tempfile::tempdir().unwrap();
     let experiment = folder.path().join("experiment.toml");

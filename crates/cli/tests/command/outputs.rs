@@ -69,6 +69,20 @@ fn an_input_by_another_name_is_the_same_file() {
 }
 
 #[test]
+fn a_recording_of_a_new_experiment_is_not_replaced_by_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = noise(folder.path(), "vict.wav");
+    for mass in [text(&wav).to_owned(), format!("{}/*.wav", text(folder.path()))] {
+        let mass = format!("413g={mass}");
+        keeps(
+            &wav,
+            &["init", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&wav), "--force"],
+            &["the same command reads it"],
+        );
+    }
+}
+
+#[test]
 fn the_files_that_experiments_and_scenarios_read_are_inputs() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");

@@ -40,12 +40,14 @@ fn described(rotor: &IdentifiedRotor) -> Vec<String> {
             number(units.n_rpm2()),
             number(units.g_rpm2())
         ),
-        format!(
+    ];
+    if rotor.rotor_count > 1 {
+        lines.push(format!(
             "{} rotors together: {} N/(rad/s)^2",
             rotor.rotor_count,
             number(units.n_s2() * f64::from(rotor.rotor_count))
-        ),
-    ];
+        ));
+    }
     if let (Some(density), Some(diameter_m)) = (rotor.air_density_kg_m3, rotor.propeller_diameter_m) {
         lines.push(format!(
             "C_T = T/(rho n^2 D^4) = {} with rho = {density:.4} kg/m^3, D = {diameter_m:.4} m; C_f goes with rho",

@@ -5,7 +5,9 @@ use crate::config::Config;
 use crate::detection::{warning_of_rotors, warning_of_samples, warnings_of_hover, warnings_of_speed};
 use crate::rotors::RotorTracks;
 use crate::speed::{HarmonicWeights, Track, excerpts_from_hover, mean_track, with_budget};
-use hovertone_analysis::{Hover, Method, NoTone, Outcome, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate};
+use hovertone_analysis::{
+    Hover, Method, NoTone, Outcome, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, Warning,
+};
 
 /// Speeds over the hover and in each excerpt (*sample* in the paper), tracks, rotors, and warnings.
 ///
@@ -38,6 +40,10 @@ pub(crate) fn speeds_from_decision(
     warnings.extend(warnings_of_speed(&lines.ridges, &speeds));
     warnings.extend(warning_of_samples(&samples));
     let rotors = rotor_tracks.rotors(order, &config.budget);
+    if !rotors.is_empty() {
+        // the result is the mean of the separated rotors, and does not follow the loudest
+        warnings.retain(|warning| !matches!(warning, Warning::SeveralLines { .. }));
+    }
     let wants_rotors = config.methods().any(|method| method == Method::Separated);
     warnings.extend(warning_of_rotors(&rotors, &speeds, if wants_rotors { config.rotors.count } else { 1 }));
     let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;

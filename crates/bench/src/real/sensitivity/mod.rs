@@ -162,7 +162,7 @@ fn report(root: &Path, made_by: &str, usual: &Counts, rows: &[Vec<String>]) -> R
 }
 
 const HEAD: &str = "The numbers of the settings that decide, and what one step each way changes on the trusted real recordings: with blades \
-    alone, and with blades, rotors, diameter and mass (“known”). Rotors are not separated here. A share above one half, or a belief, is \
+    alone, and with blades, rotors, diameter and mass (“known”). Rotors are not separated here. A share above one half is \
     stepped by its distance from 1. Each cell says how many cases more or fewer are right, ambiguous, wrong (an octave off, or another \
     speed) or silent; “–” is no change. A setting that its limits refuse says so.";
 
