@@ -64,21 +64,44 @@ pub fn speed_from_survey(
     surveyed: &Surveyed,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let candidates = match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
-        Ok(candidates) => candidates,
-        Err(stop) => return stop.answer(surveyed.heard),
-    };
+    match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
+        Ok(candidates) => speed_from_candidates(passes, surveyed, &candidates, config),
+        Err(stop) => stop.answer(surveyed.heard),
+    }
+}
+
+/// The stages after the survey for a tone that was found, and that nobody has named: it may be a single line.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub(crate) fn speed_of_found_tone(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    config: &Config,
+) -> Result<SpeedAnalysis, Error> {
+    match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
+        Ok(candidates) => speed_from_candidates(passes, surveyed, &candidates.of_found_tone(), config),
+        Err(stop) => stop.answer(surveyed.heard),
+    }
+}
+
+fn speed_from_candidates(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    candidates: &Candidates,
+    config: &Config,
+) -> Result<SpeedAnalysis, Error> {
     let several = candidates.are_several.then(|| config.with_several_rotors());
     if let Some(several) = &several {
         passes.expect_more(passes_after_survey(several) - passes_after_survey(config));
     }
     let config = several.as_ref().unwrap_or(config);
-    let leading = speed_of_candidate(passes, surveyed, &candidates, candidates.leading_rev_s, config)?;
+    let leading = speed_of_candidate(passes, surveyed, candidates, candidates.leading_rev_s, config)?;
     if matches!(leading.outcome, Outcome::Ok(_)) {
         return Ok(leading);
     }
     if let Some(slower_rev_s) = candidates.slower_than(&leading)
-        && let Some(slower) = rotor_at_another_speed(passes, surveyed, &candidates, slower_rev_s, config)?
+        && let Some(slower) = rotor_at_another_speed(passes, surveyed, candidates, slower_rev_s, config)?
     {
         return Ok(slower);
     }

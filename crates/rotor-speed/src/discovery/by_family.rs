@@ -4,7 +4,7 @@ use super::by_beliefs::SAME_LINE_SHARE;
 use super::{Discovery, FoundSpeed, at_ratio, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
-use crate::pipeline::{passes_after_survey, speed_from_survey};
+use crate::pipeline::{passes_after_survey, speed_of_found_tone};
 use crate::stages::{Silence, Surveyed};
 use hovertone_analysis::{NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
@@ -36,7 +36,7 @@ pub(super) fn speed_of_family(
         if !std::mem::take(&mut is_first) {
             passes.expect_more(passes_after_survey(&found));
         }
-        let analysis = speed_from_survey(passes, surveyed, &found)?;
+        let analysis = speed_of_found_tone(passes, surveyed, &found)?;
         Ok((found, analysis))
     };
     let mut reading = first;

@@ -75,7 +75,7 @@ fn why_no_rotor(
     if candidates.is_heard {
         return Ok(not_held_or_hum());
     }
-    if evidence_is_against(surveyed, speed_rev_s, config) {
+    if candidates.is_named && evidence_is_against(surveyed, speed_rev_s, config) {
         return Ok(Some(NoTone::NoSeries));
     }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
@@ -92,9 +92,11 @@ fn why_no_rotor(
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
-/// Whether the levels of all orders speak against a rotor at this speed, where they can be compared.
+/// Whether the levels of all orders speak against a rotor at this speed, where they can be compared: where a single line is followed, others
+/// need not sound.
 fn evidence_is_against(surveyed: &Surveyed, speed_rev_s: f64, config: &Config) -> bool {
-    let heard = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone));
+    let blades = blades_of_tone(&config.tone).filter(|_| config.tone.harmonics > 1);
+    let heard = surveyed.excess.as_ref().zip(blades);
     let nats = heard.and_then(|(looks, blades)| {
         nats_near(looks, speed_rev_s, &OwnPropeller { blades, prior: &config.evidence.levels })
     });
