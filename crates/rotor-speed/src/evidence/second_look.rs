@@ -28,22 +28,25 @@ impl SecondLook {
 
 /// The best path in long frames near a path of the short frames, which has this speed in each. `None` without frames.
 pub(super) fn path_in_long_frames(looks: &Looks, speeds_rev_s: &[f64], table: &VoteTable) -> Option<Vec<f64>> {
-    let long = &looks.long;
-    let bins = long.frames.first()?.levels.len();
-    let steps = (NEAR / STEP) as i32;
+    path_near(&looks.long, &speeds_at(&looks.short, speeds_rev_s, &looks.long)?, NEAR, table)
+}
+
+/// The best path in frames within `reach` of a speed in each, as a logarithm of the speed. `None` without frames.
+pub(super) fn path_near(look: &Excess, middles_rev_s: &[f64], reach: f64, table: &VoteTable) -> Option<Vec<f64>> {
+    let bins = look.frames.first()?.levels.len();
+    let steps = (reach / STEP) as i32;
     let ratios: Vec<f64> = (-steps..=steps).map(|step| (STEP * f64::from(step)).exp()).collect();
-    let middles_rev_s = speeds_at(&looks.short, speeds_rev_s, long)?;
-    let votes: Vec<Vec<f32>> = long
+    let votes: Vec<Vec<f32>> = look
         .frames
         .iter()
-        .zip(&middles_rev_s)
+        .zip(middles_rev_s)
         .map(|(frame, middle_rev_s)| {
             let speeds_rev_s: Vec<f64> = ratios.iter().map(|ratio| ratio * middle_rev_s).collect();
-            votes_of_frame(frame, table, &VotePlaces::new(&speeds_rev_s, table, long.bin_hz, bins))
+            votes_of_frame(frame, table, &VotePlaces::new(&speeds_rev_s, table, look.bin_hz, bins))
         })
         .collect();
-    let path = best_path(&votes, 0..ratios.len(), &long.hops(), STEP);
-    Some(path.iter().zip(&middles_rev_s).map(|(&point, middle_rev_s)| ratios[point] * middle_rev_s).collect())
+    let path = best_path(&votes, 0..ratios.len(), &look.hops(), STEP);
+    Some(path.iter().zip(middles_rev_s).map(|(&point, middle_rev_s)| ratios[point] * middle_rev_s).collect())
 }
 
 /// The speeds of a path of the short frames at the middles of the long frames; constant beyond the ends. `None` without short frames.
