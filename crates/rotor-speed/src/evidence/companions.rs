@@ -56,7 +56,8 @@ pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &Ow
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::excess::{Excess, ExcessFrame, level_of};
+    use crate::evidence::excess::{Excess, ExcessFrame};
+    use crate::evidence::level_table::level_of;
     use crate::evidence::settings::LevelPrior;
 
     /// Two seconds of noise to 9 kHz, with lines of 20 dB at twelve harmonics of the blade pass of each rotor.

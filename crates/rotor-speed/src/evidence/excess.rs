@@ -1,10 +1,12 @@
 //! Sound → power over the local floor, in short and long frames, in bounded memory and time.
 
 use super::floor::Floor;
+use super::level_table::{Level, LevelTable};
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Length of a short frame, s. Most rotors in flight are clearest in 0.1 s: their speeds wander by 1 to 3 %. *Decision.*
 const SHORT_S: f64 = 0.1;
@@ -37,26 +39,6 @@ const SECTION_S: f64 = 1.0;
 /// Largest number of sections. *Numeric.*
 const SECTIONS_MAX: usize = 32;
 
-/// A level in steps of 1/8 dB above [`LEVEL_DB_MIN`].
-pub(super) type Level = u16;
-/// Lowest level that is told, dB. *Numeric.*
-pub(super) const LEVEL_DB_MIN: f64 = -30.0;
-/// Steps of levels to a dB. *Numeric.*
-pub(super) const LEVELS_PER_DB: f64 = 8.0;
-/// Number of levels: from −30 to 60 dB. *Numeric.*
-pub(super) const LEVELS: usize = 721;
-
-/// The level of a power over the floor.
-pub(super) fn level_of(excess: f64) -> Level {
-    let db = 10.0 * excess.max(f64::MIN_POSITIVE).log10();
-    ((db - LEVEL_DB_MIN) * LEVELS_PER_DB).round().clamp(0.0, (LEVELS - 1) as f64) as Level
-}
-
-/// A level in dB; also that of a mean of levels.
-pub(super) fn level_db(level: f64) -> f64 {
-    LEVEL_DB_MIN + level / LEVELS_PER_DB
-}
-
 /// Two looks at the same sound.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Looks {
@@ -80,8 +62,8 @@ pub(crate) struct Excess {
 pub(crate) struct ExcessFrame {
     /// Middle of the frame on the recording's clock, s.
     pub(crate) centre_s: f64,
-    /// Power over the floor of each bin, as a [`Level`].
-    pub(super) levels: Vec<Level>,
+    /// Power over the floor of each bin, as a [`Level`]. Shared, because part of the frames are looked at again.
+    pub(super) levels: Arc<[Level]>,
     mean_power: f64,
 }
 
@@ -89,7 +71,7 @@ pub(crate) struct ExcessFrame {
 impl ExcessFrame {
     /// A frame with these levels.
     pub(super) fn of_levels(centre_s: f64, levels: Vec<Level>) -> Self {
-        Self { centre_s, levels, mean_power: 1.0 }
+        Self { centre_s, levels: levels.into(), mean_power: 1.0 }
     }
 }
 
@@ -172,30 +154,63 @@ impl ExcessBuilder {
         }
     }
 
-    /// The sections in frames of both lengths.
+    /// The sections in frames of both lengths. Each section is freed once it is in frames.
     pub(crate) fn finish(self) -> Looks {
-        Looks { short: self.frames_of(SHORT_S, HOP_S), long: self.frames_of(LONG_S, f64::from(LONG_HOPS) * HOP_S) }
+        let section_samples = self.section_samples();
+        let mut short = Frames::new(self.sample_rate_hz, SHORT_S, HOP_S);
+        let mut long = Frames::new(self.sample_rate_hz, LONG_S, f64::from(LONG_HOPS) * HOP_S);
+        let mut next = None;
+        for Section { index, samples } in self.sections {
+            let start_s = self.start_s + (index * section_samples) as f64 / self.sample_rate_hz;
+            let start_s = (next != Some(index)).then_some(start_s);
+            short.push(&samples, start_s);
+            long.push(&samples, start_s);
+            next = Some(index + 1);
+        }
+        Looks { short: short.finish(), long: long.finish() }
+    }
+}
+
+/// Sections of sound → frames of one length.
+struct Frames {
+    stft: Stft<f32>,
+    /// Number of bins in the band.
+    bins: usize,
+    floor: Floor,
+    levels: LevelTable,
+    frames: Vec<ExcessFrame>,
+}
+
+impl Frames {
+    fn new(sample_rate_hz: f64, frame_s: f64, hop_s: f64) -> Self {
+        let stft = Stft::<f32>::new(sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
+        Self {
+            bins: (HZ_MAX.min(RATE_SHARE_MAX * sample_rate_hz) / stft.bin_hz()) as usize,
+            floor: Floor::of_bins(stft.bin_hz()),
+            levels: LevelTable::new(),
+            frames: Vec::new(),
+            stft,
+        }
     }
 
-    fn frames_of(&self, frame_s: f64, hop_s: f64) -> Excess {
-        let section_samples = self.section_samples();
-        let mut stft = Stft::<f32>::new(self.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
-        let bin_hz = stft.bin_hz();
-        let bins = (HZ_MAX.min(RATE_SHARE_MAX * self.sample_rate_hz) / bin_hz) as usize;
-        let mut floor = Floor::of_bins(bin_hz);
-        let mut frames: Vec<ExcessFrame> = Vec::new();
-        let mut next = None;
-        for section in &self.sections {
-            if next != Some(section.index) {
-                stft.restart(self.start_s + (section.index * section_samples) as f64 / self.sample_rate_hz);
-            }
-            next = Some(section.index + 1);
-            stft.push(&section.samples, |frame| {
-                let mean_power = frame.power.iter().sum::<f64>() / frame.power.len() as f64;
-                let levels = over_floor(&frame.power[..bins.min(frame.power.len())], &mut floor, mean_power);
-                frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
-            });
+    /// Takes in a section. Where it does not follow the last one, its start is given.
+    fn push(&mut self, samples: &[f32], start_s: Option<f64>) {
+        let Self { stft, bins, floor, levels, frames } = self;
+        if let Some(start_s) = start_s {
+            stft.restart(start_s);
         }
+        stft.push(samples, |frame| {
+            let mean_power = frame.power.iter().sum::<f64>() / frame.power.len() as f64;
+            let excess = over_floor(&frame.power[..frame.power.len().min(*bins)], floor, mean_power);
+            let levels = excess.into_iter().map(|excess| levels.of(excess)).collect();
+            frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
+        });
+    }
+
+    /// The frames without quiet ones.
+    fn finish(self) -> Excess {
+        let bin_hz = self.stft.bin_hz();
+        let mut frames = self.frames;
         let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
         let power_min = QUIET_SHARE * median(&powers).unwrap_or(0.0);
         frames.retain(|frame| frame.mean_power > power_min);
@@ -203,8 +218,8 @@ impl ExcessBuilder {
     }
 }
 
-/// Levels over the floor. A skirt or a side lobe of a line counts as noise at most.
-fn over_floor(power: &[f64], floor: &mut Floor, mean_power: f64) -> Vec<Level> {
+/// Power over the floor. A skirt or a side lobe of a line counts as noise at most.
+fn over_floor(power: &[f64], floor: &mut Floor, mean_power: f64) -> Vec<f64> {
     let added = (ADDED_NOISE_SHARE * mean_power).max(f64::MIN_POSITIVE);
     // the median of noise is ln 2 of its mean
     let floors = floor.of(power);
@@ -212,7 +227,7 @@ fn over_floor(power: &[f64], floor: &mut Floor, mean_power: f64) -> Vec<Level> {
     let excess: Vec<f64> = power.iter().zip(floors).map(over).collect();
     let limits = skirt_limits(&excess);
     let without_skirts = |(&excess, limit): (&f64, f64)| if excess < limit { excess.min(1.0) } else { excess };
-    excess.iter().zip(limits).map(|pair| level_of(without_skirts(pair))).collect()
+    excess.iter().zip(limits).map(without_skirts).collect()
 }
 
 /// For each bin, the power over the floor below which it is a skirt or a side lobe of a line nearby.
@@ -245,6 +260,7 @@ fn side_lobe_share(resolutions: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::level_table::level_db;
 
     #[test]
     fn a_long_recording_keeps_a_bounded_number_of_sections() {

@@ -9,7 +9,7 @@
 //! reflection may take most of a line of the blade pass away (a notch), or weaken every other one: an echo that comes half a period of the
 //! blade pass later.
 
-use super::excess::LEVEL_DB_MIN;
+use super::level_table::LEVEL_DB_MIN;
 use super::levels::NoiseLevel;
 use super::settings::LevelPrior;
 use hovertone_signal::statistics::log_sum_exp;

@@ -1,7 +1,8 @@
 //! Levels of orders along a path.
 
-use super::excess::{self, Excess};
+use super::excess::Excess;
 use super::level_model::{LAST_HARMONIC, OrderLevel};
+use super::level_table;
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
 
 /// Share of frames in which a line must be inside the band. *Decision.*
@@ -32,7 +33,7 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
     }
     let frames = excess.frames.len() as f64;
     let is_inside = count > 0 && f64::from(count) >= INSIDE_SHARE_MIN * frames;
-    (is_inside && hz_sum >= LINE_HZ_MIN * frames).then(|| excess::level_db(f64::from(sum) / f64::from(count)))
+    (is_inside && hz_sum >= LINE_HZ_MIN * frames).then(|| level_table::level_db(f64::from(sum) / f64::from(count)))
 }
 
 /// Levels of all orders that are compared, along a path.

@@ -29,6 +29,7 @@ mod excess;
 mod floor;
 mod hypotheses;
 mod level_model;
+mod level_table;
 mod levels;
 mod near_speed;
 mod own_lines;

@@ -1,7 +1,8 @@
 //! Evidence of the lines that a rotor alone has, beside other rotors.
 
-use super::excess::{self, Excess};
+use super::excess::Excess;
 use super::level_model::{LevelModel, OrderLevel};
+use super::level_table;
 use super::levels::{level_db, noise_level};
 use super::settings::LevelPrior;
 use super::votes::HARMONICS;
@@ -52,7 +53,7 @@ pub(crate) fn own_lines_nats(
             }
         }
         let is_often_apart = f64::from(count) >= APART_SHARE_MIN * excess.frames.len() as f64;
-        let level_db = excess::level_db(f64::from(sum) / f64::from(count.max(1)));
+        let level_db = level_table::level_db(f64::from(sum) / f64::from(count.max(1)));
         is_often_apart.then_some(OrderLevel { order, level_db })
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
@@ -71,7 +72,8 @@ pub(crate) struct OwnPropeller<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::excess::{ExcessFrame, level_of};
+    use crate::evidence::excess::ExcessFrame;
+    use crate::evidence::level_table::level_of;
 
     /// Forty frames of 9 kHz, with lines 20 dB over noise.
     fn lines_at(lines_hz: &[f64]) -> Excess {

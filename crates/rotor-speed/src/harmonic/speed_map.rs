@@ -54,8 +54,8 @@ struct MapLine {
     /// Whether no other line of the rotor reaches into the band.
     is_alone: bool,
     frames: FrameTransform,
-    /// Amplitude of each bin, lowest frequency first, and its difference to the next bin.
-    amplitudes: Vec<[f32; 2]>,
+    /// Amplitude of each bin, lowest frequency first, and a zero.
+    amplitudes: Vec<f32>,
     /// Place of the line at each speed: the bin below, and the fraction of a bin from there.
     places: Vec<(u32, f32)>,
 }
@@ -119,7 +119,7 @@ impl SpeedMap {
                 MapLine {
                     order: channel.order,
                     is_alone: channel.order * (high - low) / 2.0 <= apart * low / 2.0,
-                    amplitudes: vec![[0.0; 2]; ZERO_PAD_FACTOR * length],
+                    amplitudes: vec![0.0; ZERO_PAD_FACTOR * length + 1],
                     places: places_of(channel, length, &speeds_rev_s),
                     frames: FrameTransform::new(length, ZERO_PAD_FACTOR, planner),
                 }
@@ -313,24 +313,20 @@ impl MapLine {
     fn transform(&mut self, series: &[Complex<f32>], noise_variance: f64) {
         let length = self.frames.length();
         let scale = 1.0 / (self.frames.energy * noise_variance).sqrt() as f32;
-        let spectrum = self.frames.spectrum(series);
-        // from the lowest frequency to the highest
-        let (rising, negative) = spectrum.split_at(length);
-        for (into, bin) in self.amplitudes.iter_mut().zip(negative.iter().chain(rising)) {
-            into[0] = bin.norm_sqr().sqrt() * scale;
-        }
-        let mut above = 0.0;
-        for [amplitude, step] in self.amplitudes.iter_mut().rev() {
-            *step = above - *amplitude;
-            above = *amplitude;
+        let (rising, negative) = self.frames.spectrum(series).split_at(length);
+        // from the lowest frequency to the highest; two loops, because the compiler turns each into vector instructions
+        let (lower, upper) = self.amplitudes.split_at_mut(negative.len());
+        for (into, bins) in [(lower, negative), (upper, rising)] {
+            into.iter_mut().zip(bins).for_each(|(into, bin)| *into = bin.norm_sqr().sqrt() * scale);
         }
     }
 
     /// Writes the amplitude at the line's place for each speed, interpolated between bins.
     fn interpolate(&self, row: &mut [f32]) {
         for (into, &(bin, share)) in row.iter_mut().zip(&self.places) {
-            let [amplitude, step] = self.amplitudes[bin as usize];
-            *into = amplitude + share * step;
+            let bin = bin as usize;
+            let (below, above) = (self.amplitudes[bin], self.amplitudes[bin + 1]);
+            *into = below + share * (above - below);
         }
     }
 }
