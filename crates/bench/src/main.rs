@@ -35,7 +35,7 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--peers] to run other programs, or [--peers-of real|semi-real] on one set,
              [--out ROWS.json] to keep the rows, [--compare ROWS.json] to print what changed
   sensitivity  what one step of each setting changes on the real recordings: docs/sensitivity.md
-             [--data DIR] for other recordings
+             [--data DIR] for other recordings, [--try NAME=VALUE,…] to print what other values change
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";

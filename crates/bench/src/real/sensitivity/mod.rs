@@ -3,6 +3,7 @@
 
 mod constants;
 mod numbers;
+mod trial;
 
 use super::cases::{Told, TruthSet};
 use super::judgement::{Expected, Verdict};
@@ -18,6 +19,7 @@ use numbers::Number;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
+use trial::Trial;
 
 /// What it writes, in the repository.
 const REPORT: &str = "docs/sensitivity.md";
@@ -26,26 +28,38 @@ const FACTORS: [f64; 2] = [0.7, 1.4];
 
 /// Runs the exam and writes its report.
 pub(crate) fn run(root: &Path, words: &[&str]) -> Result<(), String> {
-    let data = match words {
-        [] => None,
-        ["--data", folder] => Some(*folder),
-        _ => return Err("cargo run --release -p hovertone-bench -- sensitivity [--data DIR]".to_owned()),
+    let (data, tried) = match words {
+        [] => (None, None),
+        ["--data", folder] => (Some(*folder), None),
+        ["--try", values] => (None, Some(*values)),
+        ["--data", folder, "--try", values] => (Some(*folder), Some(*values)),
+        _ => {
+            return Err(
+                "cargo run --release -p hovertone-bench -- sensitivity [--data DIR] [--try NAME=VALUE,…]".to_owned()
+            );
+        }
     };
     let made_by = made_by(root, "sensitivity", words);
     let set = TruthSet::read(REAL, &data_folder(root, data).join("real"))?;
     let cases = LoadedCase::all(&set, |told| matches!(told, Told::Blades | Told::Known))?;
     let Some(first) = cases.first() else { return Err("no case has blades alone, or with the vehicle".to_owned()) };
     let numbers = Number::all(&first.config()?)?;
-    let usual = counts(&cases, Ok)?;
+    let usual = verdicts(&cases, Ok)?;
+    if let Some(values) = tried {
+        let trial = Trial::read(values, &numbers)?;
+        print_changes(&cases, &usual, &verdicts(&cases, |config| trial.applied(config))?);
+        return Ok(());
+    }
+    let usual = Counts::of(&cases, &usual);
     println!("as it is: {}", usual.text());
     let progress = Progress::new("steps", numbers.len() * FACTORS.len());
     let mut rows = Vec::new();
     for number in &numbers {
-        let mut row = vec![format!("`{}.{}`", number.group.name(), number.name), three_digits(Some(number.value))];
+        let mut row = vec![format!("`{}`", number.full_name()), three_digits(Some(number.value))];
         for factor in FACTORS {
             let value = number.times(factor);
-            let stepped = counts(&cases, |config| number.put(&config, value));
-            row.push(stepped.map_or_else(|refused| refused, |stepped| stepped.against(&usual)));
+            let stepped = verdicts(&cases, |config| number.put(&config, value));
+            row.push(stepped.map_or_else(|refused| refused, |stepped| Counts::of(&cases, &stepped).against(&usual)));
             progress.step();
         }
         rows.push(row);
@@ -107,6 +121,17 @@ impl ModeCounts {
 }
 
 impl Counts {
+    fn of(cases: &[LoadedCase<'_>], verdicts: &[Verdict]) -> Self {
+        let mut counts = Self::default();
+        for (loaded, verdict) in cases.iter().zip(verdicts) {
+            match Mode::of(loaded.case.flags).told {
+                Told::Known => counts.known.add(*verdict),
+                _ => counts.blades.add(*verdict),
+            }
+        }
+        counts
+    }
+
     fn text(&self) -> String {
         format!("with blades {}; with blades, rotors, diameter and mass {}", self.blades.text(), self.known.text())
     }
@@ -122,24 +147,24 @@ impl Counts {
     }
 }
 
-/// Hears all cases with settings made of the default ones.
-fn counts(
+/// The verdict on each case with settings made of the default ones.
+fn verdicts(
     cases: &[LoadedCase<'_>],
     settings: impl Fn(Config) -> Result<Config, String> + Sync,
-) -> Result<Counts, String> {
-    let heard = drawn(cases.len(), |number| {
+) -> Result<Vec<Verdict>, String> {
+    drawn(cases.len(), |number| {
         let loaded = &cases[number];
         let answer = loaded.answer(&settings(loaded.config()?)?)?;
         Ok(Expected::of(loaded.case.truth, loaded.case.flags, &answer, None).verdict(&answer))
-    })?;
-    let mut counts = Counts::default();
-    for (loaded, verdict) in cases.iter().zip(heard) {
-        match Mode::of(loaded.case.flags).told {
-            Told::Known => counts.known.add(verdict),
-            _ => counts.blades.add(verdict),
-        }
+    })
+}
+
+/// Prints the counts with other settings, and each case whose verdict changes.
+fn print_changes(cases: &[LoadedCase<'_>], usual: &[Verdict], tried: &[Verdict]) {
+    println!("as it is: {}\ntried: {}", Counts::of(cases, usual).text(), Counts::of(cases, tried).text());
+    for ((loaded, usual), tried) in cases.iter().zip(usual).zip(tried).filter(|((_, usual), tried)| usual != tried) {
+        println!("{} {}: {usual:?} → {tried:?}", loaded.case.truth.file, loaded.case.flags.join(" "));
     }
-    Ok(counts)
 }
 
 fn report(root: &Path, made_by: &str, usual: &Counts, rows: &[Vec<String>]) -> Result<String, String> {

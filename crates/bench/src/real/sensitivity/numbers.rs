@@ -80,6 +80,11 @@ impl Number {
         Ok(numbers)
     }
 
+    /// The name with that of its group: `evidence.levels.echo`.
+    pub(super) fn full_name(&self) -> String {
+        format!("{}.{}", self.group.name(), self.name)
+    }
+
     /// The number times a factor. Of a share that is nearly all, the distance from 1 is changed.
     pub(super) fn times(&self, factor: f64) -> f64 {
         let is_nearly_all = self.value > NEARLY_ALL && self.value < 1.0;
