@@ -1,16 +1,16 @@
 //! The trials of a load in sequence on one time axis, as in figure 6 of the paper.
 
-use crate::canvas::{Anchor, Canvas, Label, Panel};
+use crate::canvas::{Anchor, Canvas, LETTER, Label, Panel};
 use crate::colour::{INK, MUTED};
 use crate::figure::{FigureError, shortened};
 use crate::geometry::{Extent, Point};
 use crate::trial::Trial;
 use hovertone_analysis::Span;
 
-/// Narrower trials have only their number above them, units of the sheet.
-const WIDTH_OF_WORDS: f64 = 120.0;
-/// Narrower trials have no text above them.
+/// Narrower trials have no text above them, units of the sheet.
 const WIDTH_OF_NUMBER: f64 = 40.0;
+/// What the text above the panels means, for descriptions.
+pub(crate) const NAMES_OR_NUMBERS: &str = "Where names have no room, numbers count the recordings of the load in the order of figure 5, with those that are not used.";
 
 /// A trial with its position on the joined axis.
 #[derive(Clone, Copy)]
@@ -57,7 +57,7 @@ pub(crate) fn end_s(joined: &[Joined<'_>]) -> f64 {
     joined.last().map_or(1.0, |last| last.shown.to_s + last.shift_s)
 }
 
-/// Text above a panel: the name of its load, and the numbers of the trials where they fit.
+/// Text above a panel: the name of its load; the names of the trials where all fit, else their numbers where they fit.
 pub(crate) fn joined_words(
     canvas: &mut Canvas,
     panel: &Panel,
@@ -67,16 +67,21 @@ pub(crate) fn joined_words(
     let (left, top) = (panel.place.left, panel.place.top);
     canvas.layer("load", |sheet| sheet.text(&shortened(load, 80), Point::new(left, top - 60), Anchor::Left, INK))?;
     let unit_per_s = f64::from(panel.place.right - left) / end_s(joined);
-    for one in joined {
-        let words = match one.shown.length_s() * unit_per_s {
-            width if width >= WIDTH_OF_WORDS => format!("trial {}", one.number),
-            width if width >= WIDTH_OF_NUMBER => one.number.to_string(),
-            _ => continue,
-        };
+    let width = |one: &Joined<'_>| one.shown.length_s() * unit_per_s;
+    // one more letter than the name has: neighbours stay apart
+    let has_room = |one: &Joined<'_>| width(one) >= letters_width(one.trial.recording.chars().count() + 1);
+    let has_names = joined.iter().all(has_room);
+    for one in joined.iter().filter(|one| has_names || width(one) >= WIDTH_OF_NUMBER) {
+        let words = if has_names { shortened(one.trial.recording, usize::MAX) } else { one.number.to_string() };
         let middle_s = one.shown.middle_s() + one.shift_s;
         let on_sheet = Point::new(panel.x_unit(middle_s), top - 24);
         let label = Label { text: &words, x: middle_s, y: None, on_sheet, anchor: Anchor::Middle, colour: MUTED };
-        canvas.label("trial-number", &label)?;
+        canvas.label("trial-name", &label)?;
     }
     Ok(())
+}
+
+/// Room that a text needs, units of the sheet.
+fn letters_width(letters: usize) -> f64 {
+    letters as f64 * f64::from(LETTER * 3 / 5)
 }
