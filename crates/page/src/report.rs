@@ -1,5 +1,6 @@
 //! The page, from its input and the template.
 
+use crate::filters;
 use crate::input::{Report, TrialReport};
 use crate::recordings::{InputView, TrialView, names_of};
 use crate::seal::policy;
