@@ -68,23 +68,31 @@ def constants_by_other_parsers(folder):
     def xml(name):
         return ElementTree.fromstring((folder / name).read_text())
 
-    gazebo = float(xml("gazebo").find(".//motorConstant").text)
+    def motor_constant(name):
+        return float(xml(name).find(".//motorConstant").text)
+
+    def polynomial_of_rpm(name):
+        a, b, c = next(iter(tomllib.loads((folder / name).read_text()).values()))["rpm2thrust"]
+        return lambda w: a + b * (w * rpm) + c * (w * rpm) ** 2
+
+    gazebo, px4 = motor_constant("gazebo"), motor_constant("px4")
     rotors = next(float(e.get("value")) for e in xml("rotors").iter("{http://www.ros.org/wiki/xacro}property") if e.get("name") == "motor_constant")
     kf = float(xml("gym-pybullet-drones").find(".//properties").get("kf"))
     polynomial = yaml.safe_load((folder / "flightmare").read_text())["quadrotor_dynamics"]["thrust_map"]
     polynomial = [float(number) for number in polynomial]  # YAML 1.1 reads 1.0e-6 as a number and 1e-6 as a word
     airsim = dict(re.findall(r"real_T (\w+) = ([-+.\de]+)f;", (folder / "airsim").read_text()))
     c_t, density, diameter = (float(airsim[name]) for name in ("C_T", "air_density", "propeller_diameter"))
-    a, b, c = next(iter(tomllib.loads((folder / "crazyflow").read_text()).values()))["rpm2thrust"]
     own = json.loads((folder / "json").read_text())["thrust_constant_per_rotor_n_rpm2"]
     own_yaml = float(yaml.safe_load((folder / "yaml").read_text())["thrust_constant_per_rotor_n_rev_s2"])
     return {
         "gazebo": lambda w: gazebo * w**2,
+        "px4": lambda w: px4 * w**2,
         "rotors": lambda w: rotors * w**2,
         "gym-pybullet-drones": lambda w: kf * (w * rpm) ** 2,
         "flightmare": lambda w: polynomial[0] * w**2 + polynomial[1] * w + polynomial[2],
         "airsim": lambda w: c_t * density * (w * rev_s) ** 2 * diameter**4,
-        "crazyflow": lambda w: a + b * (w * rpm) + c * (w * rpm) ** 2,
+        "crazyflow": polynomial_of_rpm("crazyflow"),
+        "crazyflie": polynomial_of_rpm("crazyflie"),
         "json": lambda w: own * (w * rpm) ** 2,
         "yaml": lambda w: own_yaml * (w * rev_s) ** 2,
     }

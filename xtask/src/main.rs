@@ -21,9 +21,9 @@ const HELP: &str = "cargo xtask <task>
   tidy --list  the number of faults of each rule, and in which files
   words        no string, help text, page or document has an expression that docs/glossary.md forbids
   dist         what a release page holds, in target/dist: a stripped program without libraries of the system, completions, man pages,
-               licences of all dependencies, checksums; and whether every crate can be packed for publication
+               licences of all dependencies, checksums; and whether every crate can be published (cargo publish --dry-run)
   validate     exported and changed files, in the hands of other programs: rotorpy, pybullet and xacro (installed by pip); sdformat and
-               urdfdom (apt-get install ignition-tools libsdformat-dev liburdfdom-tools), without which that part is left out and said
+               urdfdom (apt-get install ignition-tools libsdformat-dev liburdfdom-tools), without which that part is left out and said; where CI is set, that is an error
 
 Exams and benchmarks: cargo run --release -p hovertone-bench
 ";

@@ -8,8 +8,6 @@ use std::process::Command;
 
 /// What pip is asked for; the scripts were written for these.
 const PACKAGES: [&str; 4] = ["rotorpy==3.0.0", "pyyaml", "xacro==2.1.1", "pybullet==3.2.7"];
-const FORMATS: [&str; 9] =
-    ["gazebo", "rotors", "gym-pybullet-drones", "rotorpy", "flightmare", "airsim", "crazyflow", "json", "yaml"];
 /// The preset has no diameter: any will do, for what is written and read with the same one.
 const AIRSIM_NEEDS: [&str; 4] = ["--diameter-m", "0.2", "--air-density-kg-m3", "1.17"];
 
@@ -24,14 +22,14 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let demo = folder.join("demo");
     run_quietly(Command::new(&hovertone).arg("demo").arg("--no-progress").arg("-o").arg(&demo))?;
     let results = demo.join("results.json");
-    for format in FORMATS {
+    for format in formats(&hovertone)? {
         let more: &[&str] = if format == "airsim" { &AIRSIM_NEEDS } else { &[] };
-        let out = exports.join(format);
+        let out = exports.join(&format);
         run_quietly(
             Command::new(&hovertone)
                 .arg("export")
                 .arg(&results)
-                .args(["--to", format])
+                .args(["--to", &format])
                 .args(more)
                 .arg("--force")
                 .arg("-o")
@@ -49,6 +47,20 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     run_script(Command::new(&python).arg(scripts.join("check.py")).args(files))?;
     println!("written: {}", out.display());
     Ok(())
+}
+
+/// All names that `hovertone export --to` takes.
+fn formats(hovertone: &Path) -> Result<Vec<String>, String> {
+    let output = Command::new(hovertone).args(["export", "--help"]).output();
+    let output = output.map_err(|error| format!("{}: {error}", hovertone.display()))?;
+    formats_in(&String::from_utf8_lossy(&output.stdout))
+}
+
+/// The names in a help text: "[possible values: gazebo, rotors]".
+fn formats_in(help: &str) -> Result<Vec<String>, String> {
+    let names = help.split_once("[possible values:").and_then(|(_, rest)| rest.split_once(']'));
+    let (names, _) = names.ok_or("hovertone export --help lists no formats")?;
+    Ok(names.split(',').map(|name| name.trim().to_owned()).collect())
 }
 
 /// Runs a script that asserts.
@@ -78,4 +90,17 @@ fn run_quietly(command: &mut Command) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("{name} failed: {}", String::from_utf8_lossy(&output.stderr).trim()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::formats_in;
+
+    #[test]
+    fn every_format_of_the_help_is_exported() {
+        let help =
+            "--to <FORMAT>  Which program [possible values: gazebo,\n       airsim, px4]\n --diameter-m [default: 1]";
+        assert_eq!(formats_in(help).unwrap(), ["gazebo", "airsim", "px4"]);
+        assert!(formats_in("no formats").is_err());
+    }
 }

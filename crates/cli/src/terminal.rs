@@ -2,7 +2,9 @@
 
 use crate::failure::Failure;
 use anstream::AutoStream;
-use hovertone_report::{Notice, SpeedRecord, cuts_in_words, notice_of_all, notices_of_all, printable, wrapped};
+use hovertone_report::{
+    Notice, SpeedRecord, cuts_in_words, folded_warnings, own_notices, own_reason, printable, wrapped,
+};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
 
 const RED: &str = "\x1b[1;31m";
@@ -123,30 +125,30 @@ impl Terminal {
     /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several
     /// recordings is written once.
     pub(crate) fn notes(&mut self, records: &[&SpeedRecord]) {
-        let of_all = notices_of_all(records);
+        let folded = folded_warnings(records);
         let mut is_first = true;
         for record in records {
-            let notices: Vec<&Notice> = record.notices.iter().filter(|notice| !of_all.contains(notice)).collect();
-            let reason = record.reason();
+            let notices = own_notices(record, &folded);
+            let reason = own_reason(record, &folded);
             let cuts = record.analysis().and_then(|analysis| cuts_in_words(&analysis.hover.cuts));
-            let cuts = cuts.filter(|_| reason.is_none());
+            let cuts = cuts.filter(|_| record.reason().is_none());
             if reason.is_none() && cuts.is_none() && notices.is_empty() {
                 continue;
             }
             if std::mem::take(&mut is_first) && self.err_width.is_some() {
                 self.say("");
             }
-            match (reason, record.has_failed()) {
-                (Some(reason), true) => {
+            match reason {
+                Some(reason) if record.has_failed() => {
                     self.file_error(&reason, &record.file);
                     continue;
                 }
-                (Some(reason), false) => {
+                Some(reason) => {
                     self.heading(&printable(&record.file));
                     let label = if record.is_ambiguous() { "ambiguous:" } else { "no rotor tone:" };
                     self.labelled("  ", label, PLAIN, &reason);
                 }
-                (None, _) => self.heading(&printable(&record.file)),
+                None => self.heading(&printable(&record.file)),
             }
             if let Some(cuts) = cuts {
                 self.labelled("  ", "cut", PLAIN, &cuts);
@@ -155,8 +157,8 @@ impl Terminal {
                 self.warning(notice, "  ");
             }
         }
-        for notice in of_all {
-            self.warning(&notice_of_all(notice, records), "");
+        for kind in &folded {
+            self.warning(&kind.notice, "");
         }
     }
 }

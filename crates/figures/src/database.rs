@@ -3,7 +3,7 @@
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, Sheet, WIDTH};
 use crate::colour::{GRID, INK, MUTED, SERIES};
-use crate::figure::{Figure, FigureError, shortened};
+use crate::figure::{Figure, FigureError, beginning, shortened};
 use crate::geometry::{Extent, Point};
 use crate::trial::Trial;
 use hovertone_analysis::{CutReason, Span};
@@ -136,11 +136,11 @@ fn row(sheet: &Sheet<'_, '_>, trial: &Trial<'_>, top: i32, at: &impl Fn(f64) -> 
     sheet.outlined(bar(analysis.heard, 6, ROW - 14), MUTED)
 }
 
-/// Text that is cut at the end of its room; nothing where the room is too small.
+/// Text that ends with the last word that has room; nothing where the room is too small.
 fn words(sheet: &Sheet<'_, '_>, text: &str, at: Point<i32>, right: i32) -> Result<(), FigureError> {
     let letters = (right - at.x) / (LETTER * 11 / 20);
     if letters < LETTERS_MIN {
         return Ok(());
     }
-    sheet.text(&shortened(text, letters as usize), Point { y: at.y + ROW / 2 - 4, ..at }, Anchor::Left, INK)
+    sheet.text(&beginning(text, letters as usize), Point { y: at.y + ROW / 2 - 4, ..at }, Anchor::Left, INK)
 }

@@ -60,6 +60,16 @@ pub(crate) fn shortened(name: &str, letters: usize) -> String {
     kept.map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
 }
 
+/// The beginning of a sentence, up to the last whole word of at most `letters`.
+pub(crate) fn beginning(sentence: &str, letters: usize) -> String {
+    if sentence.chars().count() <= letters {
+        return shortened(sentence, letters);
+    }
+    let end = sentence.char_indices().take(letters).filter(|(_, letter)| *letter == ' ').last();
+    let words = end.map_or("", |(end, _)| &sentence[..end]);
+    shortened(&format!("{}…", words.trim_end_matches([',', ';', ':', ' '])), letters)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -69,5 +79,16 @@ mod tests {
         assert_eq!(escaped("<b a='\"'>&\u{1}"), "&lt;b a=&#39;&quot;&#39;&gt;&amp;\u{fffd}");
         assert_eq!(shortened("no_hull/trial_1.wav", 11), "no_hu…1.wav");
         assert_eq!(shortened("a\nb", 11), "a\u{fffd}b");
+    }
+
+    #[test]
+    fn a_sentence_ends_after_a_whole_word() {
+        let sentence = "nothing resembles, as yet, a rotor";
+        assert_eq!(beginning(sentence, 34), sentence);
+        for letters in [28, 27] {
+            assert_eq!(beginning(sentence, letters), "nothing resembles, as yet…");
+        }
+        assert_eq!(beginning(sentence, 26), "nothing resembles, as…");
+        assert_eq!(beginning("rotor", 3), "…");
     }
 }

@@ -5,7 +5,7 @@ use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{ColourMap, OVER_PICTURE};
 use crate::figure::{Figure, FigureError};
 use crate::geometry::{Extent, Point};
-use crate::joined::{end_s, joined_by_load, joined_words};
+use crate::joined::{NAMES, end_s, joined_by_load, joined_words};
 use crate::raster::{Raster, level_range_db};
 use crate::trial::Trial;
 use plotters::style::Color;
@@ -55,7 +55,9 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         })?;
         joined_words(&mut canvas, &panel, load, joined)?;
     }
-    let description = "Level of the sound over time and frequency, one picture for each load, its trials joined as in figure 6 of the \
-                       paper. The bright lines are the tone of the rotors and its harmonics; heavier loads have them higher.";
+    let description = format!(
+        "Level of the sound over time and frequency, one picture for each load, its trials joined as in figure 6 of the \
+                       paper. The bright lines are the tone of the rotors and its harmonics; heavier loads have them higher. {NAMES}"
+    );
     Ok(Some(canvas.finish("Figure 6: spectrogram of each load", description)))
 }

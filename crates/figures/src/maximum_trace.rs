@@ -5,7 +5,7 @@ use crate::canvas::{Canvas, Panel, Place, WIDTH};
 use crate::colour::{GRID, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError};
 use crate::geometry::{Extent, Point};
-use crate::joined::{Joined, end_s, joined_by_load, joined_words};
+use crate::joined::{Joined, NAMES, end_s, joined_by_load, joined_words};
 use crate::trial::{Trial, ridge_lines};
 use hovertone_analysis::{Method, Ridge};
 use plotters::style::Color;
@@ -63,8 +63,10 @@ pub(crate) fn figure(trials: &[Trial<'_>]) -> Result<Option<Figure>, FigureError
         }
         joined_words(&mut canvas, &panel, load, joined)?;
     }
-    let description = "Frequency of the fundamental in every frame by the Maximum Trace method, one plot for each load, trials joined; \
-                       dashed: the mean of each trial (eq 7). Where nothing stands out of the noise there is a gap.";
+    let description = format!(
+        "Frequency of the fundamental in every frame by the Maximum Trace method, one plot for each load, trials joined; \
+                       dashed: the mean of each trial (eq 7). Where nothing stands out of the noise there is a gap. {NAMES}"
+    );
     Ok(Some(canvas.finish("Figure 8: maximum trace of the fundamental over time", description)))
 }
 

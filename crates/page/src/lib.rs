@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! input      input of the page                            report    the page
+//! filters    filters of the templates
 //! view       the results as words and cells of templates      recordings   the same for the recordings
 //! warnings   all warnings, linked to their places
 //! sound      a recording, small enough for the page       seal      content security policy: the page loads nothing
@@ -9,6 +10,7 @@
 //!
 //! `templates/style` and `templates/script` are copied into the page unchanged.
 
+mod filters;
 mod input;
 mod recordings;
 mod report;

@@ -2,10 +2,10 @@
 
 use crate::input::TrialReport;
 use crate::sound::{SoundShare, opus_uri};
-use crate::warnings::{own_notices, recording_id};
+use crate::warnings::recording_id;
 use hovertone_report::{
-    DecisionWords, InputRecord, Notice, RecordingFacts, SpeedRecord, counted, cuts_in_words, decision_in_words,
-    short_names, with_uncertainty,
+    DecisionWords, FoldedWarning, InputRecord, Notice, RecordingFacts, SpeedRecord, counted, cuts_in_words,
+    decision_in_words, distinct_notices, short_names, with_uncertainty,
 };
 
 /// A playable sound.
@@ -26,22 +26,24 @@ pub(crate) struct TrialView<'a> {
     pub(crate) cuts: Option<String>,
     /// "9.4 of 10.0", seconds.
     pub(crate) used: String,
-    /// Its own warnings, without those of all recordings.
+    /// Its warnings, without those that all recordings have in the same words.
     pub(crate) warnings: Vec<&'a Notice>,
+    /// Whether all recordings have a warning in the same words, which stands above them.
+    has_shared_warning: bool,
     pub(crate) svg: Option<&'a str>,
     pub(crate) words: &'a str,
     pub(crate) sound: Option<SoundView>,
 }
 
 impl<'a> TrialView<'a> {
-    /// A recording; the warnings in `of_all` hold for every recording, and stand above them all.
+    /// A recording; the warnings in `folded` stand above all recordings.
     pub(crate) fn new(
         index: usize,
         input: &'a InputRecord,
         name: &str,
         trial: &TrialReport<'a>,
         share: SoundShare,
-        of_all: &[&Notice],
+        folded: &[FoldedWarning],
     ) -> Self {
         let record = &input.record;
         let sound = trial.sound.and_then(|clip| Some(SoundView { uri: opus_uri(clip, share)?, from_s: clip.from_s }));
@@ -60,7 +62,8 @@ impl<'a> TrialView<'a> {
             reason: record.reason(),
             cuts: cuts_of(record),
             used,
-            warnings: own_notices(record, of_all),
+            warnings: distinct_notices(record, folded),
+            has_shared_warning: folded.iter().any(|kind| kind.is_of_all),
             svg: trial.figure.map(|figure| figure.svg.as_str()),
             words: trial.figure.map_or("", |figure| figure.description.as_str()),
             sound,
@@ -72,6 +75,7 @@ impl<'a> TrialView<'a> {
         match (&self.speed, self.warnings.is_empty()) {
             (None, _) => ("fails", "✗", "no speed"),
             (Some(_), false) => ("doubt", "!", "has warnings"),
+            (Some(_), true) if self.has_shared_warning => ("holds", "✓", "no warning of its own"),
             (Some(_), true) => ("holds", "✓", "without warnings"),
         }
     }

@@ -1,5 +1,6 @@
 //! The page, from its input and the template.
 
+use crate::filters;
 use crate::input::{Report, TrialReport};
 use crate::recordings::{InputView, TrialView, names_of};
 use crate::seal::policy;
@@ -12,8 +13,8 @@ use base64::engine::general_purpose::STANDARD;
 use hovertone_analysis::Method;
 use hovertone_figures::{Figure, level_colours, method_colour};
 use hovertone_report::{
-    ConstantInUnit, Identification, LOADS_FOOTNOTE, Notice, SpeedRecord, TitledTable, VERSION, agreement_text,
-    budget_table, constants_in_units, laws_table, load_in_words, loads_data, methods_table, notices_of_all,
+    ConstantInUnit, FoldedWarning, Identification, LOADS_FOOTNOTE, SpeedRecord, TitledTable, VERSION, agreement_text,
+    budget_table, constants_in_units, folded_warnings, laws_table, load_in_words, loads_data, methods_table,
     preferred_text, samples_data, thrust_table,
 };
 use serde_json::{Map, Value};
@@ -124,7 +125,8 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
     let (reported, inputs) = (identification.reported(), identification.inputs);
     let fit = reported.and_then(|table| table.fit.as_ref());
     let names = names_of(inputs);
-    let (trials, share) = trial_views(report, &names);
+    let folded = folded_warnings(&inputs.iter().map(|input| &input.record).collect::<Vec<&SpeedRecord>>());
+    let (trials, share) = trial_views(report, &names, &folded);
     let has_sound = trials.iter().any(|trial| trial.sound.is_some());
     let page = Page {
         policy: policy(STYLE, SCRIPT),
@@ -135,7 +137,7 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         version: VERSION,
         words: Words::new(identification),
         answer: reported.and_then(Answer::new),
-        warnings: Warnings::new(reported, inputs, &names),
+        warnings: Warnings::new(reported, inputs, &names, &folded),
         constants: reported.map(constants_in_units).unwrap_or_default(),
         methods: method_views(report),
         method_constants: PageTable::new("methods", "", &methods_table(identification.tables, identification.method)),
@@ -176,14 +178,16 @@ fn method_views(report: &Report<'_>) -> Vec<MethodView> {
 }
 
 /// The recordings, and how their sound shares the page.
-fn trial_views<'a>(report: &Report<'a>, names: &[String]) -> (Vec<TrialView<'a>>, SoundShare) {
+fn trial_views<'a>(
+    report: &Report<'a>,
+    names: &[String],
+    folded: &[FoldedWarning],
+) -> (Vec<TrialView<'a>>, SoundShare) {
     let inputs = report.identification.inputs;
     let clips: Vec<&SoundClip> = report.trials.iter().filter_map(|trial| trial.sound).collect();
     let share = sound_share(&clips, SOUND_BYTES_MAX);
-    let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
-    let of_all: Vec<&Notice> = notices_of_all(&records);
     let view = |((index, input), (name, trial)): (_, (&String, &TrialReport<'a>))| {
-        TrialView::new(index, input, name, trial, share, &of_all)
+        TrialView::new(index, input, name, trial, share, folded)
     };
     (inputs.iter().enumerate().zip(names.iter().zip(report.trials)).map(view).collect(), share)
 }

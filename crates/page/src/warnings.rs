@@ -1,6 +1,8 @@
 //! All warnings of the page: one line each in the answer, linked to the place where the advice stands.
 
-use hovertone_report::{InputRecord, Notice, SpeedRecord, counted, notice_of_all, notices_of_all, warning_count};
+use hovertone_report::{
+    FoldedWarning, InputRecord, Notice, SpeedRecord, counted, distinct_notices, own_notices, own_reason, warning_count,
+};
 use hovertone_thrust::{ThrustTable, ThrustWarning};
 
 /// Most lines in the answer; the others are counted.
@@ -32,15 +34,19 @@ pub(crate) struct Warnings {
 }
 
 impl Warnings {
-    /// The warnings about the constant, about all recordings, and about single recordings, whose names for people are `names`.
-    pub(crate) fn new(table: Option<&ThrustTable>, inputs: &[InputRecord], names: &[String]) -> Self {
+    /// The warnings about the constant, about several recordings, and about single recordings, whose names for people are `names`.
+    pub(crate) fn new(
+        table: Option<&ThrustTable>,
+        inputs: &[InputRecord],
+        names: &[String],
+        folded: &[FoldedWarning],
+    ) -> Self {
         let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
         let of_constant = table.into_iter().flat_map(|table| &table.warnings);
         let of_constant = of_constant.map(|warning| (section_of(warning), Notice::from(warning)));
-        let of_all = notices_of_all(&records);
-        let about_all = of_all.iter().map(|notice| ("recordings", notice_of_all(notice, &records)));
+        let of_several = folded.iter().map(|kind| ("recordings", kind.notice.clone()));
         let notices: Vec<PlacedNotice> = (1..)
-            .zip(of_constant.chain(about_all))
+            .zip(of_constant.chain(of_several))
             .map(|(number, (section, notice))| PlacedNotice {
                 id: format!("warning-{number}"),
                 section,
@@ -54,7 +60,7 @@ impl Warnings {
         let (missing, told): (Vec<_>, Vec<_>) =
             inputs.iter().zip(names).enumerate().partition(|(_, (input, _))| input.record.reason().is_some());
         for (index, (input, name)) in missing.into_iter().chain(told) {
-            lines.extend(lines_of(input, name, index, &of_all));
+            lines.extend(lines_of(input, name, index, folded));
         }
         let count = table.map_or(0, |table| table.warnings.len()) + warning_count(&records);
         lines.truncate(LINES_MAX);
@@ -72,18 +78,15 @@ pub(crate) fn recording_id(index: usize) -> String {
     format!("recording-{}", index + 1)
 }
 
-/// The warnings of one recording that do not hold for all; a recording that could not be read has only its reason.
-pub(crate) fn own_notices<'a>(record: &'a SpeedRecord, of_all: &[&Notice]) -> Vec<&'a Notice> {
-    record.notices.iter().filter(|notice| !of_all.contains(notice) && !record.has_failed()).collect()
-}
-
-/// The lines of one recording: its warnings, and a missing speed.
-fn lines_of(input: &InputRecord, name: &str, index: usize, of_all: &[&Notice]) -> Vec<WarningLine> {
+/// The lines of one recording: its warnings, and a missing speed, without those that are folded.
+fn lines_of(input: &InputRecord, name: &str, index: usize, folded: &[FoldedWarning]) -> Vec<WarningLine> {
     let (record, id) = (&input.record, recording_id(index));
     let words = |text: &str| format!("{} · {name}: {text}", input.load);
-    let why_none = record.reason().map(|reason| WarningLine { text: words(&reason), target: id.clone() });
+    let why_none = own_reason(record, folded).map(|reason| WarningLine { text: words(&reason), target: id.clone() });
+    let own = own_notices(record, folded);
     let notices = (1..)
-        .zip(own_notices(record, of_all))
+        .zip(distinct_notices(record, folded))
+        .filter(|(_, notice)| own.contains(notice))
         .map(|(number, notice)| WarningLine { text: words(&notice.text), target: format!("{id}-warning-{number}") });
     why_none.into_iter().chain(notices).collect()
 }

@@ -6,7 +6,7 @@
 //! recording    the record of one recording                 speed         its table row, its JSON, its track
 //! thrust       tables like those of the paper              results       results.json and its schema
 //! quote        the constant and the verdict to quote       table_lines   a table, folded to the terminal
-//! printable    names without control characters             weakness      warnings of recordings, counted
+//! printable    names without control characters             folded_warnings  warnings of recordings, folded
 //! comparison   a simulation beside paper and truth         vehicles      the presets and their sources
 //! adequacy     agreement, laws, uncertainty budget         samples       samples and loads as data tables
 //! fitted_table the fit of a thrust stand's table           flight_plan   flying for a wanted uncertainty
@@ -28,6 +28,7 @@ mod decision;
 mod fitted_table;
 mod flight;
 mod flight_plan;
+mod folded_warnings;
 mod models;
 mod names;
 mod notice;
@@ -47,7 +48,6 @@ mod typeset;
 mod units;
 mod vehicles;
 mod version;
-mod weakness;
 mod weighed;
 
 pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text, preferred_text};
@@ -59,6 +59,7 @@ pub use decision::{DecisionWords, decision_in_words};
 pub use fitted_table::{FittedTable, fitted_table_text, fitted_tables_json};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
+pub use folded_warnings::{FoldedWarning, distinct_notices, folded_warnings, own_notices, own_reason, warning_count};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use names::short_names;
 pub use notice::Notice;
@@ -78,5 +79,4 @@ pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use units::{ConstantInUnit, constants_in_units};
 pub use vehicles::{vehicles_json, vehicles_text};
 pub use version::VERSION;
-pub use weakness::{notice_of_all, notices_of_all, warning_count};
 pub use weighed::{weighed_json, weighed_text};

@@ -49,7 +49,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     write(&folder.join("THIRD-PARTY-LICENSES.md"), &licences::text(root, &triple, PACKAGE)?)?;
     let archive = pack(&dist, &name)?;
     write_sums(&dist, &[archive.clone(), folder.join(&file)])?;
-    publication::pack_all(root)?;
+    publication::rehearse(root)?;
     println!("\n{}", listing(&folder)?);
     println!("the program {}", in_words(is_static));
     println!("written: {} and {}", archive.display(), dist.join(SUMS).display());

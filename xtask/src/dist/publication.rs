@@ -33,14 +33,11 @@ pub(super) fn version(root: &Path) -> Result<String, String> {
     version.map(str::to_owned).ok_or_else(|| "Cargo.toml: workspace.package.version is missing".to_owned())
 }
 
-/// Packs every crate that is to be published. Nothing is compiled: `cargo publish --dry-run --workspace` does it.
-pub(super) fn pack_all(root: &Path) -> Result<(), String> {
+/// Publishes every crate to nobody: packs it, and builds it from its package and from the packages of the crates that it uses.
+pub(super) fn rehearse(root: &Path) -> Result<(), String> {
     println!("== packages");
-    cargo(
-        root,
-        &[&["package", "--workspace", "--no-verify", "--allow-dirty", "--locked"], &UNPUBLISHED[..]].concat(),
-        &[],
-    )
+    let publish = ["publish", "--dry-run", "--workspace", "--allow-dirty", "--locked"];
+    cargo(root, &[&publish[..], &UNPUBLISHED[..]].concat(), &[])
 }
 
 fn faults(root: &Path) -> Result<Vec<String>, String> {

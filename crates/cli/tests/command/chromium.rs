@@ -161,6 +161,14 @@ impl Browser {
         self.mouse("mouseReleased", to);
     }
 
+    /// Presses a key where the focus is.
+    pub(crate) fn press(&mut self, key: &str, code: u32) {
+        for kind in ["rawKeyDown", "keyUp"] {
+            let parameters = json!({ "type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code });
+            self.call("Input.dispatchKeyEvent", parameters);
+        }
+    }
+
     /// Everything that the page asked for since it was opened.
     pub(crate) fn requests(&self) -> Vec<String> {
         self.events_of("Network.requestWillBeSent")

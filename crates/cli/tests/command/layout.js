@@ -20,7 +20,7 @@
     const rest = box.scrollWidth - box.clientWidth;
     if (rest > 1 && (width >= 1200 || isPrint)) faults.push(`${name(box)} is cut by ${rest} px`);
     if (rest > 1 && !isPrint && !box.matches(".more-right")) faults.push(`${name(box)} does not show that it scrolls`);
-    if (rest > 1 && !isPrint && !box.matches(".drawing, [tabindex='0']")) faults.push(`a keyboard cannot scroll ${name(box)}`);
+    if (rest > 1 && !isPrint && !box.matches("[tabindex='0']") && !box.querySelector("svg[tabindex='0']")) faults.push(`a keyboard cannot scroll ${name(box)}`);
   }
 
   // letters of figures are readable, and no label stands over an axis or over another label
@@ -74,6 +74,37 @@
   for (const svg of figures) {
     const sheet = getComputedStyle(svg.querySelector(".sheet")).fill;
     for (const text of all("text", svg).filter((text) => isVisible(text) && !text.closest(".reason-of-cut"))) check(text, getComputedStyle(text).fill, sheet);
+  }
+
+  // curves differ from the sheet and from the bands behind them (3:1: WCAG 2.2, 1.4.11)
+  const GRAPHIC_CONTRAST_MIN = 3;
+  for (const svg of figures) {
+    const sheet = channels(getComputedStyle(svg.querySelector(".sheet")).fill);
+    const bands = all(".bands [fill-opacity], .bands [opacity]", svg).map((band) => {
+      const [share, colour] = [Number(band.getAttribute("fill-opacity") ?? band.getAttribute("opacity")), channels(getComputedStyle(band).fill)];
+      return `rgb(${colour.slice(0, 3).map((value, index) => share * value + (1 - share) * sheet[index]).join(", ")})`;
+    });
+    for (const curve of all(".spectrum polyline", svg).filter(isVisible)) {
+      const { stroke } = getComputedStyle(curve);
+      for (const background of [`rgb(${sheet.slice(0, 3).join(", ")})`, ...bands]) {
+        const ratio = contrast(stroke, background);
+        if (ratio < GRAPHIC_CONTRAST_MIN) faults.push(`a curve of ${svg.dataset.figure}: contrast ${ratio.toFixed(2)}, ${stroke} on ${background}`);
+      }
+    }
+    if (svg.dataset.figure === "figure-7-spectrum" && bands.length === 0) faults.push("figure 7 has no bands");
+  }
+
+  // a flag stays whole at the end of a line
+  const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  while (texts.nextNode()) {
+    const node = texts.currentNode;
+    if (node.parentElement.closest("script, style, svg, pre") || !isVisible(node.parentElement)) continue;
+    for (const flag of node.textContent.matchAll(/--[a-z]+/g)) {
+      const range = document.createRange();
+      range.setStart(node, flag.index);
+      range.setEnd(node, flag.index + flag[0].length);
+      if (new Set([...range.getClientRects()].map((box) => Math.round(box.top))).size > 1) faults.push(`${flag[0]} is parted in "${node.textContent.trim().slice(0, 60)}"`);
+    }
   }
 
   // on paper nothing is parted that fits on one page

@@ -16,6 +16,11 @@ fn lighthouse_finds_no_fault_of_accessibility() {
     let program = std::env::var("HOVERTONE_LIGHTHOUSE").unwrap_or_else(|_| "lighthouse".to_owned());
     let runs = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
     let (Ok(_), Some(chromium)) = (runs, chromium_path()) else {
+        let is_required = std::env::var_os("HOVERTONE_REQUIRE_BROWSER").is_some();
+        assert!(
+            !is_required,
+            "Lighthouse and a browser are required: install chromium, and npm install --global lighthouse"
+        );
         println!("skipped: no lighthouse on the PATH (HOVERTONE_LIGHTHOUSE names it), or no Chromium");
         return;
     };

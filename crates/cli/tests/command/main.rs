@@ -8,6 +8,7 @@ mod chromium;
 mod codecs;
 mod demo;
 mod examples;
+mod folded;
 mod identify;
 mod into;
 mod labels;

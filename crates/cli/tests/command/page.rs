@@ -29,6 +29,8 @@ fn sixty_recordings_and_one_without_a_rotor_can_be_read_on_phone_screen_and_pape
     constants_can_be_copied(&mut browser, &results);
     tables_are_sorted_and_saved(&mut browser, &folder.path().join("out"));
     fits_phone_screen_and_paper(&mut browser, "details.fold, details.trial:nth-of-type(-n+3), #recording-24");
+    recordings_are_a_short_table_on_a_phone(&mut browser);
+    figures_scroll_by_keyboard_on_a_phone(&mut browser);
     assert_eq!(browser.complaints(), [""; 0]);
 }
 
@@ -124,6 +126,40 @@ fn recordings_have_decision_runner_up_and_cuts(browser: &mut Browser, results: &
         "['.tracks polyline', '.track polyline', '.reason-of-cut text'].map(part => document.querySelectorAll(`#recording-6 ${part}`).length)",
     );
     assert!(drawn[0].as_u64() >= Some(3) && drawn[1].as_u64() >= Some(2) && drawn[2] == 1, "{drawn}");
+}
+
+fn recordings_are_a_short_table_on_a_phone(browser: &mut Browser) {
+    browser.screen(PHONE);
+    browser.draw();
+    let table = browser.value(
+        "(() => { const table = document.querySelector('table.recordings'); const box = table.parentElement;
+          return [Math.max(...[...table.tBodies[0].rows].map(row => row.offsetHeight)), box.scrollWidth - box.clientWidth]; })()",
+    );
+    // three lines of a long name
+    assert!(table[0].as_f64().unwrap() < 80.0, "a row is {} px high", table[0]);
+    assert_eq!(table[1], 0, "the table is wider than the phone");
+    let row = browser.text("document.querySelector('table.recordings tbody tr').innerText");
+    assert!(row.contains("payload number") && row.contains(".wav") && row.contains(" ± "), "{row}");
+    browser.screen(SCREEN);
+}
+
+fn figures_scroll_by_keyboard_on_a_phone(browser: &mut Browser) {
+    const ARROW_RIGHT: u32 = 39;
+    browser.screen(PHONE);
+    browser.draw();
+    for focus in ["#budget .drawing", "#figure-5-database .drawing", "#fit svg", "#figure-7-spectrum svg"] {
+        let element = format!("document.querySelector('{focus}')");
+        browser.value(&format!("{element}.scrollIntoView({{ block: 'center', behavior: 'instant' }})"));
+        browser.value(&format!("{element}.focus()"));
+        for _ in 0..3 {
+            browser.press("ArrowRight", ARROW_RIGHT);
+        }
+        let scrolled = browser.value(&format!(
+            "new Promise(done => setTimeout(() => done({element}.closest('.scroll').scrollLeft), 400))"
+        ));
+        assert!(scrolled.as_f64().unwrap() > 20.0, "{focus} is scrolled by {scrolled} px");
+    }
+    browser.screen(SCREEN);
 }
 
 fn titles_have_names_without_folders(browser: &mut Browser) {

@@ -72,7 +72,7 @@ pub(crate) fn many_identified(folder: &Path) -> Value {
                 _ => {
                     let speed_rev_s = 100.0 * (1.0 + added_kg / 0.5).sqrt() * (1.0 + 0.001 * f64::from(number % 3));
                     let silence_s = if number == 5 { 2.0 } else { 0.0 };
-                    write_rotor(&path, speed_rev_s, silence_s, 10 * load + number);
+                    write_rotor(&path, speed_rev_s, silence_s, MANY_S, 10 * load + number);
                 }
             }
         }
@@ -84,10 +84,10 @@ pub(crate) fn many_identified(folder: &Path) -> Value {
 }
 
 /// One rotor of two blades with five harmonics in noise, after silence; faster to make than a simulated hover.
-fn write_rotor(path: &Path, speed_rev_s: f64, silence_s: f64, seed: u32) {
+pub(crate) fn write_rotor(path: &Path, speed_rev_s: f64, silence_s: f64, rotor_s: f64, seed: u32) {
     let rate = f64::from(MANY_RATE_HZ);
     let mut state = u64::from(seed) + 1;
-    let samples: Vec<f32> = (0..((silence_s + MANY_S) * rate) as usize)
+    let samples: Vec<f32> = (0..((silence_s + rotor_s) * rate) as usize)
         .map(|n| {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             let noise = 0.02 * ((state >> 40) as f64 / f64::from(1 << 23) - 1.0);

@@ -71,7 +71,8 @@ const signs = (box) => {
   const doesScroll = rest > 1;
   box.classList.toggle("more-left", doesScroll && box.scrollLeft > 1);
   box.classList.toggle("more-right", doesScroll && box.scrollLeft < rest - 1);
-  if (!doesScroll || box.matches(".drawing")) box.removeAttribute("tabindex");
+  // a figure that has the focus scrolls by itself
+  if (!doesScroll || box.querySelector("svg[tabindex]")) box.removeAttribute("tabindex");
   else box.setAttribute("tabindex", "0");
 };
 const sizes = new ResizeObserver((entries) => { for (const { target } of entries) signs(target.closest(SCROLLS)); });

@@ -96,6 +96,8 @@ const prepare = (svg) => {
   });
   svg.addEventListener("dblclick", reset);
   svg.addEventListener("keydown", (event) => {
+    // the arrows scroll a figure that is not enlarged
+    if (active.isWhole && event.key.startsWith("Arrow")) return;
     const { view } = active;
     const [width, height] = [view.xTo - view.xFrom, view.yTo - view.yFrom];
     const scaled = (share) => ({
