@@ -166,6 +166,20 @@ pub fn p_value_text(p_value: f64) -> String {
     format!("p = {p_value:.decimals$}")
 }
 
+fn drift_text(drift: &Drift) -> String {
+    let step = match drift.kind {
+        DriftKind::PerTrial => "from trial to trial",
+        DriftKind::PerSecond => "each second of a trial",
+        DriftKind::PerRow => "from row to row of the table",
+        DriftKind::PerVolt => "with each volt of the supply",
+    };
+    let percent = 100.0 * drift.constant_share;
+    // two digits of a small drift, which would else be printed as zero
+    let decimals = (1.0 - percent.abs().log10().floor()).clamp(3.0, 9.0) as usize;
+    let percent = format!("{percent:+.decimals$}").replace('-', "−");
+    format!("the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
+}
+
 impl fmt::Display for ThrustWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -223,19 +237,7 @@ impl fmt::Display for ThrustWarning {
             Self::OtherLawPreferred { law, probability } => {
                 write!(f, "{} describes the loads better (probability {:.0} %)", law.formula(), 100.0 * probability)
             }
-            Self::ConstantDrifts(drift) => {
-                let step = match drift.kind {
-                    DriftKind::PerTrial => "from trial to trial",
-                    DriftKind::PerSecond => "each second of a trial",
-                    DriftKind::PerRow => "from row to row of the table",
-                    DriftKind::PerVolt => "with each volt of the supply",
-                };
-                let percent = 100.0 * drift.constant_share;
-                // two digits of a small drift, which would else be printed as zero
-                let decimals = (1.0 - percent.abs().log10().floor()).clamp(3.0, 9.0) as usize;
-                let percent = format!("{percent:+.decimals$}").replace('-', "−");
-                write!(f, "the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
-            }
+            Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
                 write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside of what propellers have")
             }
