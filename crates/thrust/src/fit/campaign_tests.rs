@@ -169,7 +169,7 @@ fn without_limits(settings: &ThrustSettings) -> ThrustSettings {
         tilt_deg_max: 0.0,
         rotor_radius_m: 0.0,
         downwash_share_max: 0.0,
-        ..settings.uncertainty.clone()
+        ..settings.uncertainty
     };
     ThrustSettings { uncertainty, clock_ppm: 0.0, ..settings.clone() }
 }
