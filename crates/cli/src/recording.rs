@@ -4,7 +4,7 @@ use crate::args::HearingArguments;
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
-use hovertone::sound::Passes;
+use hovertone::sound::{LineFrequency, Passes, line_frequency};
 use hovertone::speed::{Config, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, OpenOptions, Recording};
@@ -12,6 +12,7 @@ use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// How every file is opened, and what its output needs.
@@ -122,11 +123,37 @@ impl NotHeard {
     }
 }
 
-fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
-    if let Some(reason) = wrong_kind(&job.path) {
-        return Err(NotHeard::because(reason));
+/// The strongest line of a recording in a band, and what weakens the recording; a failure is its reason.
+pub(crate) fn line_in_band(
+    job: &Job,
+    hearing: Hearing,
+    band_hz: Range<f64>,
+    progress: &Progress,
+) -> Result<(Option<LineFrequency>, Vec<Notice>), String> {
+    let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
+    let highest_hz = recording.info().sample_rate_hz / 2.0;
+    if band_hz.end >= highest_hz {
+        return Err(format!("this recording holds nothing above {highest_hz:.0} Hz; give a lower tone"));
     }
-    let mut recording = Recording::open(&job.path, &hearing.open_options()).map_err(NotHeard::because)?;
+    let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
+    let mut share = progress.recording();
+    let mut on_progress = progress_of(&recording, &mut share);
+    let line = Passes::planned(&mut recording, 1, &mut on_progress)
+        .and_then(|mut passes| line_frequency(&mut passes, span_s, band_hz))
+        .map_err(|error| error.to_string())?;
+    let notices = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
+    Ok((line, notices.collect()))
+}
+
+fn opened(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
+    match wrong_kind(&job.path) {
+        Some(reason) => Err(NotHeard::because(reason)),
+        None => Recording::open(&job.path, &hearing.open_options()).map_err(NotHeard::because),
+    }
+}
+
+fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
+    let mut recording = opened(job, hearing)?;
     let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
     let sha256 = hearing.wants_hash.then(hashed).transpose().map_err(|error| {
         NotHeard::because(format!("the file could not be read to its end: {error}; check the disk"))
@@ -192,10 +219,14 @@ struct Analysed {
     spin_up: Option<SpinUp>,
 }
 
-fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Result<Analysed, hovertone::speed::Error> {
+/// Shows the progress of the passes over a recording.
+fn progress_of<'a, 'b>(
+    recording: &Recording,
+    share: &'a mut Share<'b>,
+) -> impl FnMut(hovertone::sound::Progress) + use<'a, 'b> {
     let (start_s, declared_s) = (recording.info().start_s, recording.info().declared_duration_s);
     let mut heard_s: f64 = 0.0;
-    let mut on_progress = |progress: hovertone::sound::Progress| {
+    move |progress: hovertone::sound::Progress| {
         let time_s = progress.time_s - start_s;
         // after the first pass the length is known exactly; the header only estimates it
         let length_s = if progress.pass == 1 { declared_s } else { Some(heard_s) };
@@ -203,7 +234,11 @@ fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Resu
         let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
         share.name_pass(progress.pass, progress.pass_count);
         share.set((f64::from(progress.pass - 1) + of_pass) / f64::from(progress.pass_count));
-    };
+    }
+}
+
+fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Result<Analysed, hovertone::speed::Error> {
+    let mut on_progress = progress_of(recording, share);
     let Requests { condition, spin_up } = job.requests;
     let speed_passes = match (job.discovery, spin_up) {
         (Some(_), true) => passes_of_speed(&job.config) + passes_of_spin_up(&job.config),

@@ -5,7 +5,7 @@
 //! use hovertone::vehicle::{Order, RotorSpeed};
 //!
 //! let known = KnownSpeed { speed: RotorSpeed::from_rpm(7200.0), std_share: 20e-6 };
-//! // heard 100 millionths too slow, and with twice the blades
+//! // heard 100 millionths too slow because the clock is fast, and with twice the blades
 //! let heard = |rpm: f64| check_against(RotorSpeed::from_rpm(rpm), 10e-6, Order::new(2.0)?, known);
 //! let check = heard(7199.28)?;
 //! assert_eq!(check.relation, Relation::Agrees);
@@ -20,6 +20,8 @@ use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Order, QuantityError, RotorSpe
 const MILLION: f64 = 1e6;
 /// Standard uncertainties at which a heard and a known speed differ. *Decision.*
 const COVERAGE: f64 = 3.0;
+/// Smallest standard uncertainty of a correction, in millionths: audio samples in single precision. *Numeric.*
+const STD_PPM_MIN: f64 = 0.05;
 /// Largest order that is offered in place of a wrong one: the teeth of a large gear wheel. *Decision.*
 const ORDER_MAX: f64 = 200.0;
 
@@ -50,17 +52,40 @@ pub struct SpeedCheck {
     pub relation: Relation,
     /// Heard over known speed, with the given order.
     pub heard_over_known: f64,
-    /// Correction of the recorder's clock, in millionths, with the order that fits: positive where the clock runs slow, so that all tones
-    /// are heard too low.
+    /// Correction of the recorder's clock, in millionths, with the order that fits: positive where the clock runs fast. A fast clock counts
+    /// more audio samples per second than the file says, so that all tones are heard too low.
     pub correction_ppm: f64,
     /// Its standard uncertainty, from the sound and from the known speed.
     pub correction_std_ppm: f64,
 }
 
+/// Whether a recorder is as good as it should be (ISO 14253-1: the uncertainty counts against whoever claims).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judgement {
+    /// It is, with all of the ±.
+    Passes,
+    /// It is not, with all of the ±.
+    Fails,
+    /// The limit lies within the ±.
+    Undecided,
+}
+
 impl SpeedCheck {
-    /// Whether the order is right, and the clock within its limit as far as the uncertainty (k = 2) shows.
-    pub fn passes(&self, clock_ppm: f64) -> bool {
-        self.relation == Relation::Agrees && self.correction_ppm.abs() <= clock_ppm + self.expanded_ppm()
+    /// Whether the clock is within its limit.
+    pub fn clock(&self, clock_ppm: f64) -> Judgement {
+        let off_ppm = self.correction_ppm.abs();
+        if off_ppm + self.expanded_ppm() <= clock_ppm {
+            Judgement::Passes
+        } else if off_ppm - self.expanded_ppm() > clock_ppm {
+            Judgement::Fails
+        } else {
+            Judgement::Undecided
+        }
+    }
+
+    /// Whether the order is right and the clock within its limit.
+    pub fn judgement(&self, clock_ppm: f64) -> Judgement {
+        if self.relation == Relation::Agrees { self.clock(clock_ppm) } else { Judgement::Fails }
     }
 
     /// Whether the correction is more than its uncertainty (k = 2).
@@ -86,7 +111,7 @@ pub fn check_against(
     known: KnownSpeed,
 ) -> Result<SpeedCheck, QuantityError> {
     let ratio = heard.rev_s() / known.speed.rev_s();
-    let correction_std_ppm = MILLION * heard_std_share.hypot(known.std_share);
+    let correction_std_ppm = (MILLION * heard_std_share.hypot(known.std_share)).max(STD_PPM_MIN);
     let limit_ppm = CLOCK_CORRECTION_PPM_MAX + COVERAGE * correction_std_ppm;
     let correction_ppm = |ratio: f64| MILLION * (1.0 / ratio - 1.0);
     let fits = |ratio: f64| correction_ppm(ratio).abs() <= limit_ppm;
@@ -119,14 +144,34 @@ mod tests {
 
     #[test]
     fn a_clock_is_corrected_and_an_order_named() {
-        let slow = check(6000.0 / (1.0 + 83e-6), 2.0, 10e-6);
-        assert!(slow.relation == Relation::Agrees && (slow.correction_ppm - 83.0).abs() < 1e-6);
-        assert!(slow.is_significant() && !slow.passes(50.0) && slow.passes(70.0));
+        let fast = check(6000.0 / (1.0 + 83e-6), 2.0, 10e-6);
+        assert!(fast.relation == Relation::Agrees && (fast.correction_ppm - 83.0).abs() < 1e-6);
+        assert!(fast.is_significant());
+        // 83 ± 20 against three limits
+        assert_eq!(
+            [50.0, 70.0, 104.0].map(|limit| fast.judgement(limit)),
+            [Judgement::Fails, Judgement::Undecided, Judgement::Passes]
+        );
         let of = |order: f64| Relation::OtherOrder(Order::new(order).unwrap());
         assert_eq!(check(9000.0, 2.0, 1e-5).relation, of(3.0));
         assert_eq!(check(3000.0, 2.0, 1e-5).relation, of(1.0));
         assert_eq!(check(6000.0 * 68.0 / 69.0, 69.0, 1e-5).relation, of(68.0));
         assert!((check(9000.9, 2.0, 1e-5).correction_ppm + 100.0).abs() < 0.1);
+    }
+
+    /// A recorder whose clock is fast by ε takes (1 + ε) as many samples of a second as its file says. The tone has fewer turns in each.
+    #[test]
+    fn the_sign_follows_from_counting_samples() {
+        for off in [400e-6, -400e-6, 0.03e-6] {
+            let (true_hz, said_rate_hz) = (440.0, 44_100.0);
+            let turns_per_sample = true_hz / (said_rate_hz * (1.0 + off));
+            let heard_hz = turns_per_sample * said_rate_hz;
+            let order = Order::new(1.0).unwrap();
+            let known = KnownSpeed { speed: RotorSpeed::from_tone_hz(true_hz, order), std_share: 0.0 };
+            let check = check_against(RotorSpeed::from_tone_hz(heard_hz, order), 0.0, order, known).unwrap();
+            assert!((check.correction_ppm - 1e6 * off).abs() < 1e-6, "{check:?}");
+            assert_eq!(check.is_significant(), off.abs() > 1e-7, "{check:?}");
+        }
     }
 
     #[test]
@@ -135,10 +180,10 @@ mod tests {
         for (heard, order) in [(6000.0 * 44.1 / 48.0, 2.0), (6500.0, 2.0), (3000.0, 1.0)] {
             let check = check(heard, order, 1e-5);
             assert_eq!(check.relation, Relation::None, "{heard}");
-            assert!(!check.passes(1e6));
+            assert_eq!(check.judgement(1e6), Judgement::Fails);
         }
         // a coarse tachometer shows no more than it can
         let coarse = check(6003.0, 2.0, 1e-3);
-        assert!(coarse.passes(50.0) && !coarse.is_significant());
+        assert!(coarse.judgement(50.0) == Judgement::Undecided && !coarse.is_significant());
     }
 }

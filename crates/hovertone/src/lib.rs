@@ -72,6 +72,7 @@ pub mod experiment;
 /// # Ok::<(), hovertone::sound::SignalError>(())
 /// ```
 pub mod sound {
+    pub use hovertone_signal::line_frequency::{LineFrequency, line_frequency};
     pub use hovertone_signal::passes::{Passes, Piece, Progress, StretchListener};
     pub use hovertone_signal::spectrogram::{Frame, Stft, Window};
     pub use hovertone_signal::{Signal, SignalError, SignalSource, SourceError};

@@ -4,13 +4,12 @@ use crate::number::{DASH, PowerOfTen, significant, spread, with_uncertainty};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
-use hovertone_thrust::{BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget};
+use hovertone_thrust::{
+    BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget, p_value_text,
+};
 
 /// Contributions below this share of the constant have no line for people; the JSON has all of them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
-
-/// Smallest p-value that is printed as a number.
-const P_VALUE_SHOWN_MIN: f64 = 1e-4;
 
 /// Laws and budget of the table of one method; empty without a fit.
 pub fn adequacy_text(table: &ThrustTable, width: Option<usize>) -> String {
@@ -96,15 +95,11 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "χ² = {} with {} degree{} of freedom, p {}; residuals {:.2} % of full scale\n",
+            "χ² = {} with {} degree{} of freedom, {}; residuals {:.2} % of full scale\n",
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
-            if agreement.p_value < P_VALUE_SHOWN_MIN {
-                format!("< {P_VALUE_SHOWN_MIN}")
-            } else {
-                format!("= {}", significant(agreement.p_value, 2))
-            },
+            p_value_text(agreement.p_value),
             100.0 * fit.residual_rms_share
         ),
         None if fit.points.len() > 1 => {

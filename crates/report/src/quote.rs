@@ -3,7 +3,7 @@
 use crate::number::{PowerOfTen, with_uncertainty};
 use crate::thrust::CONSTANT_UNIT;
 use hovertone_analysis::RotorsHeardCounts;
-use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
+use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, p_value_text};
 use hovertone_vehicle::Estimate;
 
 /// Whether the loads agree with each other.
@@ -23,10 +23,17 @@ impl Verdict {
         let misfits: Vec<&str> =
             table.loads.iter().filter(|load| load.fits == Some(false)).map(|load| load.name.as_str()).collect();
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
-            format!(" (χ² = {:.2}, p = {:.2})", agreement.chi_square, agreement.p_value)
+            format!(" (χ² = {:.2}, {})", agreement.chi_square, p_value_text(agreement.p_value))
         });
         if !table.loads.iter().any(|load| load.fits.is_some()) {
-            return Self::Untested("not tested: there is no second load to compare with".to_owned());
+            let heard = table.loads.iter().filter(|load| load.speed.is_some()).count();
+            let why = match heard {
+                0 | 1 => "there is no second load to compare with",
+                _ => {
+                    "each load has one recording, which does not show how much the speed differs from flight to flight"
+                }
+            };
+            return Self::Untested(format!("not tested: {why}"));
         }
         match misfits.as_slice() {
             [] => Self::Holds(format!("every load agrees with the others{agreement}")),

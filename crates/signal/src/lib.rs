@@ -9,6 +9,7 @@
 //! | [`fft`] | plans of fast Fourier transforms |
 //! | [`peak`] | the frequency of a spectral peak, finer than a bin |
 //! | [`statistics`] | mean, spread, median, uncertainty of the mean of a correlated series |
+//! | [`line_frequency`] | the frequency of one line in a band, with its uncertainty |
 //! | [`line_solver`] | least squares of spectral lines that overlap |
 //!
 //! Units are SI: times in s, frequencies in Hz. Samples have full scale ±1; a power of 1 (0 dB) is a sine of full scale.
@@ -17,6 +18,7 @@
 
 pub mod channels;
 mod error;
+pub mod line_frequency;
 pub mod line_solver;
 pub mod passes;
 pub mod peak;

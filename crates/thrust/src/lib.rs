@@ -45,5 +45,5 @@ pub use square_law::{
 };
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
-pub use warning::ThrustWarning;
+pub use warning::{ThrustWarning, p_value_text};
 pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

@@ -1,6 +1,9 @@
-//! Mean, spread and median of a few numbers, and the probability of a deviation.
+//! Mean, spread and median of a few numbers, the probability of a deviation, and Student's factor.
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+/// Standard uncertainties of the expanded uncertainty, as the coverage factor of a budget (k = 2). *Decision.*
+const COVERAGE_STDS: f64 = 2.0;
 
 /// Arithmetic mean; `None` without values.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
@@ -31,4 +34,31 @@ pub(crate) fn two_sided_chance(stds: f64, degrees_of_freedom: Option<f64>) -> Op
         Some(freedom) => StudentsT::new(0.0, 1.0, freedom).ok()?.sf(stds.abs()),
     };
     Some((2.0 * tail).min(1.0)).filter(|chance| chance.is_finite())
+}
+
+/// Factor on a standard uncertainty with few degrees of freedom that makes twice its value cover as often as two standard deviations of
+/// a normal distribution: the quantile of Student's t for 95.45 %, over 2 (JCGM 100:2008, table G.2). 6.98 for one degree of freedom,
+/// 1.43 for four, 1 for many.
+pub(crate) fn student_factor(degrees_of_freedom: f64) -> f64 {
+    let covered = Normal::new(0.0, 1.0).map(|normal| normal.cdf(COVERAGE_STDS));
+    let student = StudentsT::new(0.0, 1.0, degrees_of_freedom);
+    match (covered, student) {
+        (Ok(covered), Ok(student)) => student.inverse_cdf(covered) / COVERAGE_STDS,
+        _ => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::student_factor;
+
+    /// Table G.2 of JCGM 100:2008, column 95.45 %.
+    #[test]
+    fn students_factor_is_half_the_table_of_the_gum() {
+        for (freedom, t) in
+            [(1.0, 13.97), (2.0, 4.53), (3.0, 3.31), (4.0, 2.87), (10.0, 2.28), (20.0, 2.13), (1e4, 2.0)]
+        {
+            assert!((2.0 * student_factor(freedom) - t).abs() < 0.0051, "{freedom}: {}", student_factor(freedom));
+        }
+    }
 }

@@ -9,6 +9,9 @@ use std::fmt;
 /// Most names in the list of a warning. *Decision.*
 const NAMES_MAX: usize = 5;
 
+/// Smallest p-value that is printed as a number. *Decision.*
+const P_VALUE_SHOWN_MIN: f64 = 1e-4;
+
 /// A reason to doubt a thrust constant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
@@ -47,6 +50,11 @@ pub enum ThrustWarning {
     MixedBenchAndHover,
     /// There is only one load, and nothing to compare it with.
     SingleLoad,
+    /// Every load has one recording: none shows how much the speed differs from flight to flight.
+    OneRecordingEach {
+        /// Number of loads.
+        load_count: usize,
+    },
     /// All loads have the same weight.
     EqualLoads {
         /// Number of loads.
@@ -116,6 +124,9 @@ impl ThrustWarning {
                 "on a bench a rotor stands alone and the air around it is still; fit bench runs and hovers apart to compare them"
             }
             Self::SingleLoad => "measure a second load: one load cannot show whether it fits",
+            Self::OneRecordingEach { .. } => {
+                "record each load several times, five if possible: land and start again between"
+            }
             Self::EqualLoads { .. } => "measure loads as far apart as is safe: equal ones show nothing of the law",
             Self::NarrowLoadRange(_) => {
                 "the square law is assumed, not tested; `hovertone fit --plan` says what loads and trials would do"
@@ -143,6 +154,30 @@ impl ThrustWarning {
             Self::LoudestRotor => "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; its ± contains that",
         }
     }
+}
+
+/// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
+pub fn p_value_text(p_value: f64) -> String {
+    if p_value < P_VALUE_SHOWN_MIN {
+        return format!("p < {P_VALUE_SHOWN_MIN}");
+    }
+    // two digits
+    let decimals = (1.0 - p_value.log10().floor()).clamp(2.0, 5.0) as usize;
+    format!("p = {p_value:.decimals$}")
+}
+
+fn drift_text(drift: &Drift) -> String {
+    let step = match drift.kind {
+        DriftKind::PerTrial => "from trial to trial",
+        DriftKind::PerSecond => "each second of a trial",
+        DriftKind::PerRow => "from row to row of the table",
+        DriftKind::PerVolt => "with each volt of the supply",
+    };
+    let percent = 100.0 * drift.constant_share;
+    // two digits of a small drift, which would else be printed as zero
+    let decimals = (1.0 - percent.abs().log10().floor()).clamp(3.0, 9.0) as usize;
+    let percent = format!("{percent:+.decimals$}").replace('-', "−");
+    format!("the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
 }
 
 impl fmt::Display for ThrustWarning {
@@ -178,6 +213,12 @@ impl fmt::Display for ThrustWarning {
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),
+            Self::OneRecordingEach { load_count: 1 } => {
+                f.write_str("there is one recording: the ± does not contain how much the speed differs from flight to flight")
+            }
+            Self::OneRecordingEach { .. } => f.write_str(
+                "each load has one recording: the ± comes from the scatter of the loads about one law, so that the law is not tested",
+            ),
             Self::EqualLoads { count } => write!(f, "all {count} loads are equal"),
             Self::NarrowLoadRange(range) => {
                 let open = format!("±{:.1} % of the force (k = 2)", 100.0 * COVERAGE_FACTOR * range.intercept_std_share);
@@ -196,17 +237,7 @@ impl fmt::Display for ThrustWarning {
             Self::OtherLawPreferred { law, probability } => {
                 write!(f, "{} describes the loads better (probability {:.0} %)", law.formula(), 100.0 * probability)
             }
-            Self::ConstantDrifts(drift) => {
-                let step = match drift.kind {
-                    DriftKind::PerTrial => "from trial to trial",
-                    DriftKind::PerSecond => "each second of a trial",
-                    DriftKind::PerRow => "from row to row of the table",
-                    DriftKind::PerVolt => "with each volt of the supply",
-                };
-                let percent = 100.0 * drift.constant_share;
-                let percent = format!("{percent:+.3}").replace('-', "−");
-                write!(f, "the constant drifts by {percent} % {step} (p = {:.4})", drift.p_value)
-            }
+            Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
                 write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside of what propellers have")
             }

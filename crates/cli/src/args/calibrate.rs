@@ -6,16 +6,19 @@ use std::path::PathBuf;
 
 const CALIBRATE_EXAMPLES: &str = "\
 Record one rotor on a bench while a tachometer shows its speed: the order of the tone and the recorder's clock are
-both in the ratio of the two. Without a rotor, record a tone of known frequency: this checks the clock alone.
-A tachometer that shows whole revolutions per minute leaves ±40 millionths at 7200 rpm (k = 1).
+both in the ratio of the two. Without a rotor, record a tone of known frequency: this checks the clock alone, by the
+strongest line within 2.5 % of that frequency (or within --band).
+The clock passes where its error and its ± are together within --clock-ppm, fails where no part of the ± is, and is
+not decided between. A tachometer that shows whole revolutions per minute leaves ±80 millionths at 7200 rpm (k = 2):
+it decides the order, and a clock only with a --clock-ppm above that.
 
 Examples:
   hovertone calibrate --vehicle crazyflie --tachometer-rpm 20850 crazyflie-propeller/44000.wav
   hovertone calibrate --true-hz 1000 tone.wav";
 
-/// The recorder's clock and the order of the tone, checked against one known speed: pass or fail, with the correction
+/// The recorder's clock and the order of the tone, checked against one known speed: pass, fail or not decided, with the correction
 ///
-/// Hears the recording as `hovertone speed` does, without a hint from the known speed, and compares. Ends with 3 where the check fails.
+/// Hears a rotor as `hovertone speed` does, without a hint from the known speed, and compares. Ends with 3 where the check does not pass.
 #[derive(Args, Debug)]
 #[command(after_help = CALIBRATE_EXAMPLES)]
 pub(crate) struct CalibrateArguments {
@@ -39,7 +42,7 @@ pub(crate) struct CalibrateArguments {
     pub(crate) known_std_ppm: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
-    /// Rotors that turn [default: 1]
+    /// Rotors that turn: 1, since the known speed is that of one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64), help_heading = "Which tone")]
     pub(crate) rotors: Option<u32>,
     /// How far the recorder's clock may be off, in millionths

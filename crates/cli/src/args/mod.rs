@@ -53,7 +53,7 @@ Exit codes:
   1  a file could not be read or written
   2  wrong use
   3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early,
-     a calibration that fails
+     a calibration that does not pass
 
 Data goes to stdout and to files, everything else to stderr.";
 

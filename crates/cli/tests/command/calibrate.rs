@@ -6,9 +6,10 @@ use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::path::Path;
 
-/// One rotor of two blades at a true speed, in a file whose rate is off: the recorder's clock runs slow by `slow_ppm`.
-fn write_bench(path: &Path, rpm: f64, slow_ppm: f64) {
-    let speed = RotorSpeed::from_rpm(rpm / (1.0 + slow_ppm / 1e6));
+/// One rotor of two blades at a true speed, by a recorder whose clock runs fast by `fast_ppm`: it takes more samples per second than the
+/// file says, so that all is heard slower.
+fn write_bench(path: &Path, rpm: f64, fast_ppm: f64) {
+    let speed = RotorSpeed::from_rpm(rpm / (1.0 + fast_ppm / 1e6));
     let mut settings = steady_hover("crazyflie", speed, 4.0);
     settings.rotors.truncate(1);
     write_hover(path, HoverSettings { seed: 3, ..settings });
@@ -19,12 +20,12 @@ fn calibrated(path: &Path, more: &[&str]) -> Run {
 }
 
 #[test]
-fn a_slow_clock_fails_and_its_correction_passes_everywhere() {
+fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
     write_bench(&sound, 21_000.0, 400.0);
     let failed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(3);
-    for words in ["order: pass", "clock: fail, it runs slow by", "--clock-correction-ppm", "[recorder]"] {
+    for words in ["order: pass", "clock: fail, it runs fast by", "--clock-correction-ppm", "[recorder]"] {
         assert!(failed.stdout.contains(words), "{words}:\n{}", failed.stdout);
     }
     let json = calibrated(&sound, &["--vehicle", "crazyflie", "--json"]).ends_with(3).json_lines().remove(0);
@@ -70,25 +71,101 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     assert!(other.stdout.contains("no order explains"), "{}", other.stdout);
 }
 
-#[test]
-fn a_tone_of_known_frequency_checks_the_clock_alone() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("tone.wav");
+/// A pure tone as a recorder takes it whose clock runs fast by `fast_ppm`: it counts more samples per second than the file says.
+fn write_tone(path: &Path, true_hz: f64, fast_ppm: f64, seconds: u32) {
     let spec = hound::WavSpec {
         channels: 1,
         sample_rate: 44_100,
         bits_per_sample: 16,
         sample_format: hound::SampleFormat::Int,
     };
-    let mut writer = hound::WavWriter::create(&path, spec).unwrap();
-    for index in 0..4 * 44_100 {
-        let turns = 1000.2 * f64::from(index) / 44_100.0;
-        writer.write_sample((12_000.0 * (std::f64::consts::TAU * turns).sin()) as i16).unwrap();
+    let true_rate_hz = 44_100.0 * (1.0 + fast_ppm / 1e6);
+    let mut writer = hound::WavWriter::create(path, spec).unwrap();
+    for index in 0..seconds * 44_100 {
+        let turns = (true_hz * f64::from(index) / true_rate_hz).fract();
+        writer.write_sample((4095.0 * (std::f64::consts::TAU * turns).sin()).round() as i16).unwrap();
     }
     writer.finalize().unwrap();
-    let fast = hovertone(&["calibrate", "--true-hz", "1000", text(&path)]).ends_with(3);
-    assert!(fast.stdout.contains("it runs fast by") && fast.stdout.contains("ppm -200.0"), "{}", fast.stdout);
-    hovertone(&["calibrate", "--true-hz", "1000.2", text(&path)]).ends_with(0);
+}
+
+#[test]
+fn a_tone_of_known_frequency_checks_the_clock_alone_in_both_directions() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tone.wav");
+    for (hz, fast_ppm, direction) in [("1000", -200.0, "slow"), ("440", 200.0, "fast"), ("2000", 1500.0, "fast")] {
+        write_tone(&path, hz.parse().unwrap(), fast_ppm, 4);
+        let off = hovertone(&["calibrate", "--true-hz", hz, text(&path)]).ends_with(3);
+        assert!(off.stdout.contains(&format!("clock: fail, it runs {direction} by")), "{hz}:\n{}", off.stdout);
+        let json =
+            hovertone(&["calibrate", "--true-hz", hz, "--json", text(&path)]).ends_with(3).json_lines().remove(0);
+        let of = |name: &str| json[name].as_f64().unwrap();
+        assert!((of("clock_correction_ppm") - fast_ppm).abs() < 2.0 * of("clock_correction_std_ppm"), "{json}");
+        assert!(off.stdout.contains(&format!("ppm {fast_ppm:.1}")), "{}", off.stdout);
+        let corrected = ["calibrate", "--true-hz", hz, text(&path), "--clock-correction-ppm", &fast_ppm.to_string()];
+        hovertone(&corrected).ends_with(0);
+    }
+}
+
+/// No decision about rotors is needed: not whether the tone is hum, nor whether one rotor makes all lines.
+#[test]
+fn every_pure_tone_calibrates_a_good_clock() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tone.wav");
+    for hz in ["50", "100", "440", "880", "1000", "2000", "8000.5"] {
+        write_tone(&path, hz.parse().unwrap(), 0.0, 6);
+        let json =
+            hovertone(&["calibrate", "--true-hz", hz, "--json", text(&path)]).ends_with(0).json_lines().remove(0);
+        let (ppm, std_ppm) = (&json["clock_correction_ppm"], &json["clock_correction_std_ppm"]);
+        assert!(ppm.as_f64().unwrap().abs() < 0.2 && std_ppm.as_f64().unwrap() < 0.2, "{hz}: {json}");
+        let passed = hovertone(&["calibrate", "--true-hz", hz, text(&path)]).ends_with(0);
+        // what is within its ± has no direction and no correction
+        assert!(
+            passed.stdout.contains("it is off by") && passed.stdout.contains("correction: none"),
+            "{}",
+            passed.stdout
+        );
+    }
+    for hz in ["500", "7600"] {
+        let none = hovertone(&["calibrate", "--true-hz", hz, text(&path)]).ends_with(3);
+        assert!(none.stdout.is_empty() && none.stderr.contains("no clear line of 2 s or more"), "{}", none.stderr);
+    }
+    let high = hovertone(&["calibrate", "--true-hz", "30000", text(&path)]).ends_with(1);
+    assert!(high.stderr.contains("nothing above 22050 Hz"), "{}", high.stderr);
+}
+
+#[test]
+fn a_wide_uncertainty_decides_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("tone.wav");
+    write_tone(&path, 1000.0, 10.0, 4);
+    let checked =
+        |std_ppm: &str| ["calibrate", "--true-hz", "1000", text(&path), "--known-std-ppm", std_ppm].map(str::to_owned);
+    let run = |std_ppm: &str, more: &[&str]| {
+        let words = checked(std_ppm);
+        hovertone(&[&words.iter().map(String::as_str).collect::<Vec<_>>()[..], more].concat())
+    };
+    assert!(run("10", &[]).ends_with(0).stdout.contains("clock: pass"));
+    let open = run("30", &[]).ends_with(3);
+    assert!(open.stdout.contains("clock: not decided") && open.stdout.ends_with("\nnot decided\n"), "{}", open.stdout);
+    assert!(open.stdout.contains("the ± is too wide for this limit"), "{}", open.stdout);
+    assert!(run("30", &["--json"]).ends_with(3).json_lines()[0]["passes"].is_null());
+    run("30", &["--clock-ppm", "80"]).ends_with(0);
+}
+
+/// A tachometer reads one rotor.
+#[test]
+fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
+    refused_with(
+        &["calibrate", "a.wav", "--vehicle", "ardrone", "--tachometer-rpm", "3600", "--rotors", "4"],
+        &["4 rotors turn", "let one rotor turn alone"],
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("bench.wav");
+    write_bench(&sound, 21_000.0, 0.0);
+    let assumed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0);
+    assert!(assumed.stderr.contains("one rotor is assumed to turn, and the vehicle has 4"), "{}", assumed.stderr);
+    let said = calibrated(&sound, &["--vehicle", "crazyflie", "--rotors", "1"]).ends_with(0);
+    assert!(!said.stderr.contains("assumed"), "{}", said.stderr);
 }
 
 #[test]

@@ -53,6 +53,10 @@ fn three_movies_become_a_constant_in_under_a_minute() {
     let expanded = results["expanded_uncertainty_total_n_s2"].as_f64().unwrap();
     assert!((constant - CONSTANT_TOTAL_N_S2).abs() < expanded, "{constant:e} ± {expanded:e}");
     assert!(expanded < 0.01 * constant, "{expanded:e}");
+    // one recording of each load shows no scatter from flight to flight: no load is accused, and none is said to fit
+    assert!(identified.stdout.contains("verdict: not tested: each load has one recording"), "{}", identified.stdout);
+    assert!(results["loads"].as_array().unwrap().iter().all(|load| load["fits"].is_null()), "{}", results["loads"]);
+    assert!(identified.stderr.contains("the law is not tested"), "{}", identified.stderr);
     assert!(at.join("results/report.html").exists());
     assert!(took < Duration::from_secs(60), "{took:?}");
     // what was written is never replaced without being asked

@@ -153,7 +153,7 @@ pub struct ToneSection {
 pub struct RecorderSection {
     /// Half width of the error of its clock that remains, in millionths.
     pub clock_ppm: Option<f64>,
-    /// Correction of its clock, in millionths: positive where it runs slow, so that it hears all tones too low.
+    /// Correction of its clock, in millionths: positive where it runs fast, so that it hears all tones too low.
     pub clock_correction_ppm: Option<f64>,
 }
 

@@ -22,6 +22,10 @@ const OWN_HZ: f64 = 0.15;
 const SERIES_SHARE: f64 = 0.01;
 /// Smallest height of a line of hum over its surroundings, dB. *Decision.*
 const OVER_DB_MIN: f64 = 10.0;
+/// Smallest power of a line, re a sine of full scale: the rounding of 16 bits, 2⁻³⁰/12, over the power 1/2 of such a sine: −98 dB. The rounding of
+/// a pure tone is no noise but lines, at multiples of the common divisor of its frequency and the sample rate, which may be 10 or 20 Hz.
+/// *Physics.*
+const ROUNDING_POWER: f64 = 1.55e-10;
 /// The same for further lines, once there is hum, dB. *Decision.*
 const WEAK_OVER_DB_MIN: f64 = 5.0;
 /// Smallest share of rows in which a line of hum is in its place: noise moves weak lines, and a rotor of varying speed leaves the place
@@ -165,7 +169,7 @@ fn still_line(spectrum: &FineSpectrum<'_>, hz: f64) -> Option<StillLine> {
     let PlacedPeak { place, bin } = peak_near(power, hz / fine.bin_hz)?;
     let heard_hz = place * fine.bin_hz;
     let is_in_place = |at_hz: f64| (at_hz - hz).abs() <= reach_hz;
-    if !is_in_place(heard_hz) || *over_db.get(bin)? < OVER_DB_MIN {
+    if !is_in_place(heard_hz) || *over_db.get(bin)? < OVER_DB_MIN || power[bin] < ROUNDING_POWER {
         return None;
     }
     // a row has one frame or few, so that noise moves a weak line further

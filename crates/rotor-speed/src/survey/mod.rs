@@ -144,6 +144,19 @@ mod tests {
         builder.finish(2.0 + seconds as f64)
     }
 
+    /// Rounded to 16 bits, a pure tone has lines at multiples of 20 Hz. Below the rounding noise they are no hum.
+    #[test]
+    fn the_rounding_of_a_pure_tone_is_no_hum() {
+        for hz in [440.0, 880.0, 1000.0, 2000.0] {
+            let mut builder = SurveyBuilder::new(SurveySettings::default(), 44_100.0, 0.0);
+            let turns = |n: u32| (hz * f64::from(n) / 44_100.0).fract();
+            let sine = |n: u32| ((4095.0 * (std::f64::consts::TAU * turns(n)).sin()).round() / 32_768.0) as f32;
+            let samples: Vec<f32> = (0..10 * 44_100).map(sine).collect();
+            samples.chunks(4096).for_each(|samples| builder.push(samples));
+            assert_eq!(builder.finish(10.0).hum, None, "{hz}");
+        }
+    }
+
     #[test]
     fn rows_cover_the_recording_on_its_own_clock() {
         let survey = survey(10, 256);

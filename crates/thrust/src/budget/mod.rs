@@ -5,17 +5,13 @@ use crate::campaign::{Campaign, HeardLoad};
 use crate::force::Force;
 use crate::regression::Agreement;
 use crate::settings::{ThrustSettings, UncertaintyInputs};
-use crate::square_law::{LawAgreement, SquareLawFit, scatter_factor};
+use crate::square_law::{LawAgreement, PointNoise, SquareLawFit, covering_factor};
 use crate::statistics::mean;
 use hovertone_vehicle::SOUND_M_S;
 use serde::Serialize;
 
 /// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
 pub const COVERAGE_FACTOR: f64 = 2.0;
-
-/// Fewest degrees of freedom for the standard deviation of Student's t, which is infinite with 2 or fewer. With fewer degrees the
-/// standard deviation at this number is used. *Numeric.*
-const FREEDOM_MIN: f64 = 3.0;
 
 /// Inputs of a thrust constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -281,9 +277,8 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
     let rad_s = sensitivity.mean_speed_rad_s;
     let per_rad_s = -2.0 * sensitivity.constant_n_s2 / rad_s;
     let freedom = campaign.speed_freedom;
-    // a mean of few trials is more uncertain than its standard error: standard deviation of Student's t (JCGM 101:2008, 6.4.9)
-    let known = freedom.max(FREEDOM_MIN);
-    let few = (known / (known - 2.0)).sqrt();
+    // a mean of few trials is more uncertain than its standard error
+    let few = campaign.student_factor();
     let statistics = few
         * 2.0
         * sensitivity.independent(campaign, |load| {
@@ -351,11 +346,14 @@ fn of_scatter(fit: &SquareLawFit, campaign: &Campaign<'_>) -> Option<BudgetLine>
     let compared = fit.points.iter().filter(|point| !point.is_gross).count();
     let (extra, freedom) = match fit.agreement {
         Some(LawAgreement { chi_square, degrees_of_freedom, .. }) => {
-            let factor = scatter_factor(Agreement { chi_square, degrees_of_freedom }, campaign.noise)?;
+            let factor = covering_factor(Agreement { chi_square, degrees_of_freedom }, campaign.noise)?;
             (fit.own_std_n_s2 * (factor.powi(2) - 1.0).max(0.0).sqrt(), degrees_of_freedom)
         }
-        None if compared > 1 => (fit.thrust_constant_n_s2.std_uncertainty?, compared - 1),
-        None => return None,
+        // unless the loads were the repeated observations, so that their scatter is that of the speeds
+        None if compared > 1 && fit.noise == PointNoise::FromResiduals => {
+            (fit.thrust_constant_n_s2.std_uncertainty?, compared - 1)
+        }
+        _ => return None,
     };
     (extra > 0.0).then(|| BudgetLine {
         degrees_of_freedom: Some(freedom as f64),

@@ -7,18 +7,13 @@ pub(crate) use bootstrap::trial_bootstrap;
 
 use crate::force::Force;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
-use crate::square_law::{CONSTANTS_FOR_GROSS, ForcePoint, PointNoise, are_split, is_off_by_a_factor};
-use crate::statistics::{mean, median};
+use crate::square_law::{CONSTANTS_FOR_GROSS, ForcePoint, PointNoise, are_split, gross_points, is_off_by_a_factor};
+use crate::statistics::{mean, median, student_factor};
 use hovertone_vehicle::RotorSpeed;
 
 /// Degrees of freedom of an uncertainty from the frames of one trial. The frames of a hover are correlated: about a hundred of them
 /// count as this many independent ones. *Decision.*
 const FREEDOM_OF_FRAMES: f64 = 20.0;
-/// Degrees of freedom from which the scatter of the trials is a better estimate of their uncertainty than the frames. *Decision.*
-const FREEDOM_OF_TRIALS_MIN: usize = 4;
-/// Degrees of freedom from which an uncertainty counts as exactly known. Student's distribution is then the normal one and F is
-/// chi-square, with p-values that differ by less than 1e-5. *Numeric.*
-const FREEDOM_KNOWN: f64 = 1e5;
 
 /// A load with a speed.
 pub(crate) struct HeardLoad<'a> {
@@ -77,26 +72,27 @@ impl<'a> Campaign<'a> {
             .enumerate()
             .filter_map(|(index, load)| heard_load(index, load, rotor_count, &gross[index]))
             .collect();
-        let speed_freedom = settle_speed_std(&mut heard);
+        let scatter = flight_scatter(&heard);
+        let speed_freedom = settle_speed_std(&mut heard, scatter);
         let points: Vec<ForcePoint> = heard.iter().map(HeardLoad::point).collect();
-        let share = |of: &dyn Fn(&HeardLoad<'_>) -> f64| heard.iter().map(|load| of(load).powi(2)).sum::<f64>();
-        let speed_share = share(&|load| 2.0 * load.speed_std_share);
-        let all_share = speed_share + share(&|load| load.own_force_std_n / load.force_n);
-        // Welch and Satterthwaite: the stated part of the uncertainty raises the effective degrees of freedom
-        let degrees_of_freedom = speed_freedom * (all_share / speed_share.max(f64::MIN_POSITIVE)).powi(2);
         let names = gross.iter().zip(loads).flat_map(|(gross, load)| {
             let named = load.trials.iter().zip(gross).filter(|(_, gross)| **gross);
             named.map(|(trial, _)| GrossTrial { load: load.name.clone(), recording: trial.recording.clone() })
         });
-        let is_known = degrees_of_freedom > FREEDOM_KNOWN;
-        Self {
-            points,
-            noise: if is_known { PointNoise::Stated } else { PointNoise::Measured { degrees_of_freedom } },
-            speed_freedom,
-            gross_trials: names.collect(),
-            are_split,
-            loads: heard,
-        }
+        // the forces have more degrees of freedom, but how much of the uncertainty is theirs is known no better than the scatter
+        let degrees_of_freedom = speed_freedom;
+        let noise = match scatter {
+            Some(FlightScatter { is_repeated: true, .. }) => PointNoise::Measured { degrees_of_freedom },
+            _ => PointNoise::Unrepeated { degrees_of_freedom },
+        };
+        Self { points, noise, speed_freedom, gross_trials: names.collect(), are_split, loads: heard }
+    }
+}
+
+impl Campaign<'_> {
+    /// Student's factor on the uncertainty of the speeds.
+    pub(crate) fn student_factor(&self) -> f64 {
+        student_factor(self.speed_freedom)
     }
 }
 
@@ -180,29 +176,58 @@ fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &
     })
 }
 
-/// Sets the uncertainty of the speed of every load from the scatter of all trials about the means of their loads. The scatter is
-/// pooled over the loads, because the standard deviation of five trials alone has an uncertainty of a third. Returns its degrees of
-/// freedom.
-fn settle_speed_std(loads: &mut [HeardLoad<'_>]) -> f64 {
-    let freedom: usize = loads.iter().map(|load| load.trials_rad_s.len() - 1).sum();
-    let squares: f64 = loads
-        .iter()
-        .flat_map(|load| load.trials_rad_s.iter().map(|trial| (trial / load.speed_rad_s - 1.0).powi(2)))
-        .sum();
-    let scatter = (freedom > 0).then(|| (squares / freedom as f64).sqrt());
-    let mut by_frames = true;
+/// How much the mean speed of a recording differs from flight to flight.
+#[derive(Clone, Copy)]
+struct FlightScatter {
+    /// Relative standard deviation of the speed of one trial.
+    std_share: f64,
+    degrees_of_freedom: f64,
+    /// It comes from repeated trials of a load; else from the loads themselves, one recording each.
+    is_repeated: bool,
+}
+
+/// The scatter of all trials about the means of their loads, pooled over the loads, because the standard deviation of five trials alone
+/// has an uncertainty of a third. Where every load has one trial, the loads themselves are the repeated observations: the scatter of
+/// their speeds about one square law. `None` with a single recording.
+fn flight_scatter(loads: &[HeardLoad<'_>]) -> Option<FlightScatter> {
+    let repeats: usize = loads.iter().map(|load| load.trials_rad_s.len() - 1).sum();
+    let is_repeated = repeats > 0;
+    let (squares, degrees_of_freedom): (f64, usize) = if is_repeated {
+        let of_load = |load: &HeardLoad<'_>| relative_squares(&load.trials_rad_s);
+        (loads.iter().map(of_load).sum(), repeats)
+    } else {
+        let gross = gross_points(&loads.iter().map(HeardLoad::point).collect::<Vec<_>>());
+        let sound = loads.iter().zip(gross).filter(|(_, gross)| !gross);
+        let per_root_force: Vec<f64> = sound.map(|(load, _)| load.speed_rad_s / load.force_n.sqrt()).collect();
+        (relative_squares(&per_root_force), per_root_force.len().saturating_sub(1))
+    };
+    (degrees_of_freedom > 0).then(|| FlightScatter {
+        std_share: (squares / degrees_of_freedom as f64).sqrt(),
+        degrees_of_freedom: degrees_of_freedom as f64,
+        is_repeated,
+    })
+}
+
+/// Sum of the squared deviations from the mean, as shares of the mean.
+fn relative_squares(values: &[f64]) -> f64 {
+    mean(values).map_or(0.0, |middle| values.iter().map(|value| (value / middle - 1.0).powi(2)).sum())
+}
+
+/// Sets the uncertainty of the speed of every load, and returns its degrees of freedom. Two evaluations exist: the statement of the
+/// estimator, and the scatter from flight to flight. The one with the larger expanded uncertainty counts: few flights can agree by
+/// chance, and the estimator does not know of other flights.
+fn settle_speed_std(loads: &mut [HeardLoad<'_>], scatter: Option<FlightScatter>) -> f64 {
+    let by_frames = |load: &HeardLoad<'_>| load.estimator_std_share.powi(2);
+    let trials = |load: &HeardLoad<'_>| load.trials_rad_s.len() as f64;
+    let of_frames = loads.iter().map(by_frames).sum::<f64>().sqrt() * student_factor(FREEDOM_OF_FRAMES);
+    let trial_parts = loads.iter().map(|load| trials(load).recip()).sum::<f64>().sqrt();
+    let is_larger = |scatter: &FlightScatter| {
+        scatter.std_share * trial_parts * student_factor(scatter.degrees_of_freedom) >= of_frames
+    };
+    let Some(scatter) = scatter.filter(is_larger) else { return FREEDOM_OF_FRAMES };
     for load in loads {
-        let of_scatter = scatter.map(|scatter| scatter / (load.trials_rad_s.len() as f64).sqrt());
-        load.speed_std_share = match of_scatter {
-            Some(of_scatter) if freedom >= FREEDOM_OF_TRIALS_MIN => {
-                by_frames = false;
-                of_scatter
-            }
-            // two or three trials can agree better by chance than the uncertainty of their frames allows
-            Some(of_scatter) => of_scatter.max(load.estimator_std_share),
-            None => load.estimator_std_share,
-        };
+        load.speed_std_share = scatter.std_share / trials(load).sqrt();
         load.estimator_std_share = load.estimator_std_share.min(load.speed_std_share);
     }
-    if by_frames { FREEDOM_OF_FRAMES } else { freedom as f64 }
+    scatter.degrees_of_freedom
 }

@@ -14,8 +14,10 @@ use crate::drift::drifts;
 use crate::force::Force;
 use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
-use crate::square_law::{ForceLaw, ForcePoint, LoadRange, PointVerdict, SquareLawFit, are_split, square_law_fit};
-use crate::statistics::{mean, std};
+use crate::square_law::{
+    ForceLaw, ForcePoint, LoadRange, PointNoise, PointVerdict, SquareLawFit, are_split, square_law_fit,
+};
+use crate::statistics::{mean, std, student_factor};
 use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
 use hovertone_analysis::Method;
@@ -110,20 +112,23 @@ fn rows(
     fit: Option<&SquareLawFit>,
     settings: &ThrustSettings,
 ) -> Vec<LoadThrust> {
+    let few = campaign.student_factor();
     let row = |(index, load): (usize, &LoadSpeeds)| {
         let place = campaign.loads.iter().position(|heard| heard.index == index);
         let heard = place.and_then(|place| campaign.loads.get(place));
         let verdict = place.and_then(|place| fit?.points.get(place));
-        row_of_load(load, heard, verdict, settings)
+        row_of_load(load, heard, verdict, settings, few)
     };
     loads.iter().enumerate().map(row).collect()
 }
 
+/// A row of the table; `few` is Student's factor on the uncertainty of the speeds.
 fn row_of_load(
     load: &LoadSpeeds,
     heard: Option<&HeardLoad<'_>>,
     verdict: Option<&PointVerdict>,
     settings: &ThrustSettings,
+    few: f64,
 ) -> LoadThrust {
     let rotor_count = settings.rotor_count.max(1);
     let force_n = load.force.newtons();
@@ -133,7 +138,7 @@ fn row_of_load(
     let counted = load.trials.iter().flat_map(TrialSpeeds::counted);
     let speeds: Vec<f64> = counted.map(|sample| sample.speed.rad_s()).collect();
     let speed = mean(&speeds).map(RotorSpeed::from_rad_s);
-    let speed_std_share = heard.map(|heard| heard.speed_std_share).filter(|share| *share > 0.0);
+    let speed_std_share = heard.map(|heard| few * heard.speed_std_share).filter(|share| *share > 0.0);
     let total = speed.map(|speed| {
         let force = load.force.relative_std();
         let relative = speed_std_share.map(|share| (2.0 * share).hypot(force.own).hypot(force.shared));
@@ -211,10 +216,11 @@ fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estim
     let count = values.len() as f64;
     let value = mean(&values)?;
     let alone = |(load, total): &(&HeardLoad<'_>, Estimate)| {
-        total.value * (2.0 * load.speed_std_share).hypot(load.own_force_std_n / load.force_n)
+        total.value
+            * (2.0 * campaign.student_factor() * load.speed_std_share).hypot(load.own_force_std_n / load.force_n)
     };
     let by_parts = heard.iter().map(|load| alone(load).powi(2)).sum::<f64>().sqrt() / count;
-    let by_scatter = std(&values).map_or(0.0, |scatter| scatter / count.sqrt());
+    let by_scatter = std(&values).map_or(0.0, |scatter| student_factor(count - 1.0) * scatter / count.sqrt());
     let shared: Vec<f64> =
         heard.iter().map(|(load, total)| total.value * load.load.force.relative_std().shared).collect();
     let std_uncertainty = by_parts.max(by_scatter).hypot(mean(&shared).unwrap_or_default());
@@ -241,6 +247,9 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
         mass_that_fits_std_kg: row.mass_that_fits_std_kg,
         is_left_out: is_gross(&row.name),
     }));
+    if matches!(campaign.noise, PointNoise::Unrepeated { .. }) {
+        warnings.push(ThrustWarning::OneRecordingEach { load_count: campaign.loads.len() });
+    }
     let kinds = |is_hover: bool| campaign.loads.iter().any(|load| load.is_hover() == is_hover);
     if kinds(true) && kinds(false) {
         warnings.push(ThrustWarning::MixedBenchAndHover);

@@ -109,10 +109,50 @@ fn loads_without_any_uncertainty_have_that_of_their_scatter() {
     }
     let table = fitted(&loads);
     let total = table.thrust_constant_total_n_s2.unwrap();
-    // four constants 0.4 % off either way: their mean is known to about 0.4 %·√(4/3)/√4
-    let expected = 0.004 * (4.0f64 / 3.0).sqrt() / 2.0;
+    // four constants 0.4 % off either way: their mean is known to about 0.4 %·√(4/3)/√4, and three degrees of freedom make that 3.307/2
+    // times as large (JCGM 100:2008, table G.2)
+    let expected = 0.004 * (4.0f64 / 3.0).sqrt() / 2.0 * 3.307 / 2.0;
     assert!((table.measured_std_total_n_s2.unwrap() / total.value / expected - 1.0).abs() < 0.1, "{total:?}");
-    assert!(table.budget.unwrap().lines.iter().any(|line| line.input == BudgetInput::LoadScatter));
+    let budget = table.budget.unwrap();
+    let scatter = budget.lines.iter().find(|line| line.input == BudgetInput::SpeedStatistics).unwrap();
+    assert_eq!(scatter.degrees_of_freedom, Some(3.0));
+    assert!(table.measured_std_total_n_s2.unwrap() < 1.001 * scatter.contribution_n_s2, "{scatter:?}");
+}
+
+/// One recording of each load: the law is not tested, but a load far outside of the scatter of the others is named.
+#[test]
+fn a_wrong_mass_among_single_recordings_is_named() {
+    let mut loads = exact_hovers(&[0.0, 0.05, 0.1, 0.15, 0.2, 0.25], 1);
+    for (index, load) in loads.iter_mut().enumerate() {
+        let offset = [1.0, -1.0, 0.5, -1.2, 0.8, -0.3][index];
+        for sample in load.trials.iter_mut().flat_map(|trial| &mut trial.samples) {
+            sample.speed = RotorSpeed::from_rad_s(sample.speed.rad_s() * (1.0 + 0.002 * offset));
+        }
+    }
+    let said = |loads: &[LoadSpeeds]| {
+        let table = fitted(loads);
+        let warned = |is: fn(&ThrustWarning) -> bool| table.warnings.iter().any(is);
+        assert!(warned(|warning| matches!(warning, ThrustWarning::OneRecordingEach { load_count: 6 })));
+        assert!(table.fit.unwrap().agreement.is_none());
+        table.loads.iter().map(|row| row.fits).collect::<Vec<_>>()
+    };
+    assert_eq!(said(&loads), [None; 6]);
+    if let Force::Weight { added_mass_kg, .. } = &mut loads[3].force {
+        *added_mass_kg += 0.1;
+    }
+    assert_eq!(said(&loads), [None, None, None, Some(false), None, None]);
+}
+
+#[test]
+fn small_numbers_are_not_printed_as_zero() {
+    assert_eq!(
+        [0.9, 0.0349, 0.00123, 0.00004, 0.0].map(p_value_text),
+        ["p = 0.90", "p = 0.035", "p = 0.0012", "p < 0.0001", "p < 0.0001"]
+    );
+    let drift =
+        Drift { kind: DriftKind::PerSecond, constant_share: -1.234e-6, std_uncertainty_share: 1e-7, p_value: 1e-9 };
+    let text = ThrustWarning::ConstantDrifts(drift).to_string();
+    assert_eq!(text, "the constant drifts by −0.00012 % each second of a trial (p < 0.0001)");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::point::PointNoise;
 use crate::regression::Agreement;
+use crate::statistics::student_factor;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -25,7 +26,7 @@ pub struct LawAgreement {
 pub(crate) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<LawAgreement> {
     let freedom = agreement.degrees_of_freedom as f64;
     let p_value = match noise {
-        PointNoise::FromResiduals => None,
+        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => None,
         PointNoise::Stated => agreement.p_value(),
         PointNoise::Measured { degrees_of_freedom } => {
             let distribution = FisherSnedecor::new(freedom, degrees_of_freedom).ok()?;
@@ -38,9 +39,12 @@ pub(crate) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<La
 /// Factor from stated to real uncertainties: Birge's ratio (Birge 1932) where the points disagree with the law or state no
 /// uncertainty, else 1. `None` where the ratio is needed and there are no degrees of freedom.
 pub(crate) fn scatter_factor(agreement: Agreement, noise: PointNoise) -> Option<f64> {
-    match (noise, agreement_of(agreement, noise)) {
-        (PointNoise::FromResiduals, _) => agreement.scatter_factor(),
-        (_, Some(law)) if law.p_value < DISAGREEMENT_CHANCE => agreement.scatter_factor(),
-        _ => Some(1.0),
-    }
+    let disagrees = || agreement_of(agreement, noise).is_some_and(|law| law.p_value < DISAGREEMENT_CHANCE);
+    if noise.is_by_residuals() || disagrees() { agreement.scatter_factor() } else { Some(1.0) }
+}
+
+/// The same factor for a ±: where nothing but the scatter of few points shows their uncertainty, Student's factor is part of it.
+pub(crate) fn covering_factor(agreement: Agreement, noise: PointNoise) -> Option<f64> {
+    let few = if noise.is_by_residuals() { student_factor(agreement.degrees_of_freedom as f64) } else { 1.0 };
+    Some(few * scatter_factor(agreement, noise)?)
 }

@@ -74,6 +74,27 @@ pub struct PowerLaw {
     pub reference_force_n: f64,
 }
 
+impl InterceptLaw {
+    /// With all uncertainties times a factor.
+    pub(super) fn widened(self, factor: f64) -> Self {
+        Self {
+            intercept_n: widened(self.intercept_n, factor),
+            thrust_constant_n_s2: widened(self.thrust_constant_n_s2, factor),
+        }
+    }
+}
+
+impl PowerLaw {
+    /// With the uncertainty of the exponent times a factor.
+    pub(super) fn widened(self, factor: f64) -> Self {
+        Self { exponent: widened(self.exponent, factor), ..self }
+    }
+}
+
+fn widened(estimate: Estimate, factor: f64) -> Estimate {
+    Estimate { std_uncertainty: estimate.std_uncertainty.map(|std| factor * std), ..estimate }
+}
+
 fn estimate(value: f64, std_uncertainty: Option<f64>) -> Estimate {
     Estimate { value, std_uncertainty, ending: Ending::Solved }
 }
@@ -117,8 +138,9 @@ pub(super) fn law_probabilities(
 ) -> Vec<LawProbability> {
     let freedom = points.len().saturating_sub(2);
     let noise_freedom = match noise {
-        PointNoise::FromResiduals => Some(freedom),
-        PointNoise::Stated | PointNoise::Measured { .. } => None,
+        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => Some(freedom),
+        PointNoise::Measured { degrees_of_freedom } => Some(degrees_of_freedom as usize),
+        PointNoise::Stated => None,
     };
     if noise_freedom == Some(0) {
         // two points without uncertainties: every law with two parameters goes through both

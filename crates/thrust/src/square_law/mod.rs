@@ -14,7 +14,7 @@ mod point;
 mod point_verdict;
 
 pub use agreement::LawAgreement;
-pub(crate) use agreement::scatter_factor;
+pub(crate) use agreement::covering_factor;
 pub use laws::{ForceLaw, InterceptLaw, LawProbability, PowerLaw};
 pub use load_range::LoadRange;
 pub(crate) use load_range::force_ratio_for_intercept;
@@ -23,6 +23,7 @@ pub use point::{ForcePoint, PointNoise};
 pub use point_verdict::PointVerdict;
 
 use crate::regression::{FitError, ProportionalFit};
+use crate::statistics::student_factor;
 use agreement::agreement_of;
 use hovertone_vehicle::{Ending, Estimate};
 use laws::{intercept_law, law_probabilities, power_law, preferred};
@@ -44,6 +45,9 @@ pub struct SquareLawFit {
     pub residual_max_share: f64,
     /// Standard uncertainty of C from the uncertainties of the points, without their scatter. A budget starts from it.
     pub(crate) own_std_n_s2: f64,
+    /// Where the uncertainties of the points come from.
+    #[serde(skip)]
+    pub(crate) noise: PointNoise,
     /// Weight of each point: C is the mean of the constants of the points with these weights. 0 for points that are left out.
     pub(crate) shares: Vec<f64>,
     /// The law with an intercept; absent where all speeds are equal, and, without uncertainties, with two points or equal forces.
@@ -112,12 +116,14 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
     let fit = law_through_origin(&kept, noise)?;
     let all_points = verdicts(points, &gross, noise);
     // two points without uncertainties leave nothing to tell the ± of a law with two parameters
-    let has_freedom = noise != PointNoise::FromResiduals || kept.len() > 2;
+    let has_freedom = !noise.is_by_residuals() || kept.len() > 2;
     // equal forces lie on a law without a slope, and again nothing tells its ±
-    let has_freedom = has_freedom && (noise != PointNoise::FromResiduals || are_different(&kept));
+    let has_freedom = has_freedom && (!noise.is_by_residuals() || are_different(&kept));
     let (with_intercept, line) = intercept_law(&kept, noise).filter(|_| has_freedom).unzip();
     let power_law = power_law(&kept, noise).filter(|_| has_freedom);
     let laws = law_probabilities(&kept, with_intercept.as_ref(), power_law.as_ref(), noise);
+    // the evidence knows Student's distribution; a ± needs its factor
+    let few = if noise.is_by_residuals() { student_factor(kept.len() as f64 - 2.0) } else { 1.0 };
     let largest_n = kept.iter().map(|point| point.force_n).fold(0.0, f64::max);
     let residuals = || kept.iter().map(|p| (p.force_n - fit.slope * p.speed_square_rad2_s2).abs());
     let squares: f64 = residuals().map(|residual| residual.powi(2)).sum();
@@ -129,11 +135,12 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
         residual_rms_share: (squares / kept.len() as f64).sqrt() / largest_n,
         residual_max_share: residuals().fold(0.0, f64::max) / largest_n,
         own_std_n_s2: fit.slope_std,
+        noise,
         shares: shares(points, &gross, &fit, noise),
         preferred: preferred(&laws),
         range: line.and_then(|line| load_range(&kept, &line, noise)),
-        with_intercept,
-        power_law,
+        with_intercept: with_intercept.map(|law| law.widened(few)),
+        power_law: power_law.map(|law| law.widened(few)),
         laws,
         points: all_points,
     })
@@ -148,7 +155,12 @@ fn are_different(points: &[&ForcePoint]) -> bool {
 
 /// Standard uncertainty of the slope, enlarged by the scatter of the points where that exceeds their stated uncertainties.
 fn scattered_std(fit: ProportionalFit, noise: PointNoise) -> Option<f64> {
-    Some(fit.slope_std * scatter_factor(fit.agreement, noise)?)
+    let factor = match noise {
+        // the scatter is in the uncertainties of the points already
+        PointNoise::Unrepeated { degrees_of_freedom } => Some(student_factor(degrees_of_freedom)),
+        _ => covering_factor(fit.agreement, noise),
+    };
+    Some(fit.slope_std * factor?)
 }
 
 /// Weights with which the constants of the points make the constant of the fit: x²/(u_y² + C² u_x²), divided by their sum.

@@ -90,15 +90,28 @@ pub enum PointNoise {
         /// Effective degrees of freedom of that estimate.
         degrees_of_freedom: f64,
     },
+    /// Every point was observed once. Their uncertainties come from their own scatter about the law, or are larger, so that nothing is
+    /// left to test the law.
+    Unrepeated {
+        /// Degrees of freedom of that estimate.
+        degrees_of_freedom: f64,
+    },
     /// No uncertainty is stated: all forces have the same one, and the residuals give its size.
     FromResiduals,
+}
+
+impl PointNoise {
+    /// Whether the residuals of a law are all that shows how uncertain the points are.
+    pub(super) fn is_by_residuals(self) -> bool {
+        matches!(self, Self::FromResiduals | Self::Unrepeated { .. })
+    }
 }
 
 /// The points as the regression takes them. Without stated uncertainties every force has a standard uncertainty of 1 N.
 pub(super) fn fit_points(points: &[&ForcePoint], noise: PointNoise) -> Vec<FitPoint> {
     let of = |point: &&ForcePoint| match noise {
         PointNoise::FromResiduals => FitPoint::with_y_std(point.speed_square_rad2_s2, point.force_n, 1.0),
-        PointNoise::Stated | PointNoise::Measured { .. } => point.fit_point(),
+        PointNoise::Stated | PointNoise::Measured { .. } | PointNoise::Unrepeated { .. } => point.fit_point(),
     };
     points.iter().map(of).collect()
 }

@@ -6,6 +6,10 @@ use super::point::{ForcePoint, PointNoise, law_through_origin};
 use crate::statistics::two_sided_chance;
 use serde::Serialize;
 
+/// The same for a point that was observed once, as all others were: it is named if it lies far outside of their scatter. The test assumes
+/// that speeds scatter normally, which few flights cannot show. *Decision.*
+const OUTLIER_CHANCE: f64 = 0.01;
+
 /// One point against the others.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PointVerdict {
@@ -49,7 +53,11 @@ pub(super) fn verdicts(points: &[ForcePoint], gross: &[bool], noise: PointNoise)
     let judged = |index: usize| {
         let is_misfit = gross[index] || misfits.contains(&index);
         let against = against_others(points, index, &kept, noise);
-        let fits = against.as_ref().filter(|against| against.p_value.is_some()).map(|_| !is_misfit);
+        let fits = match noise {
+            // nothing tests the law itself; a single point can still lie far outside of the scatter of the others
+            PointNoise::Unrepeated { .. } => is_misfit.then_some(false),
+            _ => against.as_ref().filter(|against| against.p_value.is_some()).map(|_| !is_misfit),
+        };
         let that_fits = |of: fn(&Against) -> f64| against.as_ref().filter(|_| is_misfit).map(of);
         PointVerdict {
             name: points[index].name.clone(),
@@ -80,14 +88,15 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     let own = &points[index];
     let others: Vec<&ForcePoint> = kept.iter().filter(|&&other| other != index).map(|&other| &points[other]).collect();
     let fit = law_through_origin(&others, noise).ok()?;
-    let factor = match noise {
-        // only the residuals of the others show the noise
-        PointNoise::FromResiduals => fit.agreement.scatter_factor(),
-        _ => scatter_factor(fit.agreement, noise),
-    };
+    // without repeated observations only the residuals of the others show the noise
+    let factor = scatter_factor(fit.agreement, noise);
     let (speed_std, force_std_n) = match noise {
         // rows that agree by chance show less noise than the digits of a force have
         PointNoise::FromResiduals => (0.0, factor.unwrap_or(f64::INFINITY).hypot(ROUNDING_SHARE * own.force_n)),
+        PointNoise::Unrepeated { .. } => {
+            let factor = factor.unwrap_or(f64::INFINITY);
+            (factor * own.speed_square_std_rad2_s2, factor * own.force_std_n)
+        }
         _ => (own.speed_square_std_rad2_s2, own.force_std_n),
     };
     let expected_n = fit.slope * own.speed_square_rad2_s2;
@@ -97,7 +106,9 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     let p_value = match noise {
         PointNoise::Stated => two_sided_chance(stds, None),
         PointNoise::Measured { degrees_of_freedom } => two_sided_chance(stds, Some(degrees_of_freedom)),
-        PointNoise::FromResiduals => two_sided_chance(stds, Some(fit.agreement.degrees_of_freedom as f64)),
+        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => {
+            two_sided_chance(stds, Some(fit.agreement.degrees_of_freedom as f64))
+        }
     };
     Some(Against {
         constant_n_s2: fit.slope,
@@ -114,11 +125,11 @@ fn stds_of(deviation: f64, std: f64) -> f64 {
     if deviation == 0.0 { 0.0 } else { deviation / std }
 }
 
-/// Whether the kept points disagree with one law. Without stated uncertainties the smallest p-value of the points decides, times
+/// Whether the kept points disagree with one law. Where the residuals alone show the noise, the smallest p-value of the points decides, times
 /// their number (Bonferroni 1936).
 fn together_disagree(points: &[ForcePoint], kept: &[usize], noise: PointNoise) -> bool {
     let p_value = match noise {
-        PointNoise::FromResiduals => {
+        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => {
             let p_of = |&index: &usize| against_others(points, index, kept, noise)?.p_value;
             kept.iter().filter_map(p_of).reduce(f64::min).map(|p_value| p_value * kept.len() as f64)
         }
@@ -130,5 +141,6 @@ fn together_disagree(points: &[ForcePoint], kept: &[usize], noise: PointNoise) -
                 .map(|law| law.p_value)
         }
     };
-    p_value.is_some_and(|p_value| p_value < DISAGREEMENT_CHANCE)
+    let chance = if matches!(noise, PointNoise::Unrepeated { .. }) { OUTLIER_CHANCE } else { DISAGREEMENT_CHANCE };
+    p_value.is_some_and(|p_value| p_value < chance)
 }

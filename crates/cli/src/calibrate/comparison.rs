@@ -1,0 +1,194 @@
+//! A heard speed against the known one, in words and as JSON.
+
+use super::{BAND_SHARE, MILLION};
+use crate::args::CalibrateArguments;
+use crate::failure::Failure;
+use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
+use hovertone_report::{fixed, printable, signed, with_uncertainty};
+use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Order, RotorSpeed};
+use serde_json::json;
+
+/// What a crystal changes with the warmth of a room, in millionths: a correction is no better.
+const WARMTH_PPM: f64 = 5.0;
+
+/// What is known.
+#[derive(Clone, Copy)]
+pub(super) enum Reference {
+    /// The speed of the shaft.
+    Speed { rpm: f64, std_share: f64 },
+    /// The frequency of the tone.
+    Tone { hz: f64, std_share: f64 },
+}
+
+/// What was heard.
+#[derive(Clone, Copy)]
+pub(super) struct HeardSpeed {
+    pub(super) speed: RotorSpeed,
+    pub(super) std_rev_s: Option<f64>,
+    pub(super) order: Order,
+    /// The order of the tone is a claim that the known speed checks.
+    pub(super) is_rotor: bool,
+}
+
+/// A heard speed, what was known, and their comparison.
+pub(super) struct Comparison {
+    heard: HeardSpeed,
+    reference: Reference,
+    pub(super) check: SpeedCheck,
+}
+
+impl Comparison {
+    pub(super) fn of(heard: HeardSpeed, reference: Reference) -> Result<Self, Failure> {
+        let known = match reference {
+            Reference::Speed { rpm, std_share } => KnownSpeed { speed: RotorSpeed::from_rpm(rpm), std_share },
+            Reference::Tone { hz, std_share } => {
+                KnownSpeed { speed: RotorSpeed::from_tone_hz(hz, heard.order), std_share }
+            }
+        };
+        let std_share = heard.std_rev_s.unwrap_or(0.0) / heard.speed.rev_s();
+        let check = check_against(heard.speed, std_share, heard.order, known).map_err(Failure::internal)?;
+        Ok(Self { heard, reference, check })
+    }
+
+    /// The known and the heard number in the unit of the known one.
+    fn pair(&self) -> (String, String) {
+        let in_unit = |factor: f64| {
+            let value = self.heard.speed.rev_s() * factor;
+            with_uncertainty(value, self.heard.std_rev_s.map(|std| std * factor))
+        };
+        match self.reference {
+            Reference::Speed { rpm, .. } => (format!("{rpm} rpm"), format!("{} rpm", in_unit(60.0))),
+            Reference::Tone { hz, .. } => {
+                (format!("{hz} Hz"), format!("{} Hz", in_unit(self.heard.order.lines_per_turn())))
+            }
+        }
+    }
+
+    /// The band around the tone that the known speed and the given order mean.
+    fn band(&self) -> String {
+        let tone_hz = self.heard.speed.tone_hz(self.heard.order) / self.check.heard_over_known;
+        format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
+    }
+
+    /// The correction for the setting: on top of the one with which the recording was opened.
+    fn whole_correction_ppm(&self, before_ppm: f64) -> f64 {
+        MILLION * ((1.0 + before_ppm / MILLION) * (1.0 + self.check.correction_ppm / MILLION) - 1.0)
+    }
+}
+
+/// The comparison for people.
+pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &CalibrateArguments) -> String {
+    let (known, heard) = comparison.pair();
+    let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
+    let mut text = format!("{}: known {known}, heard {heard} (± is k = 2){order}\n", printable(name));
+    text += &order_in_words(comparison);
+    if comparison.check.relation != Relation::None {
+        text += &clock_in_words(comparison, arguments);
+    }
+    text + word(comparison.check.judgement(arguments.clock_ppm)) + "\n"
+}
+
+fn word(judgement: Judgement) -> &'static str {
+    match judgement {
+        Judgement::Passes => "pass",
+        Judgement::Fails => "fail",
+        Judgement::Undecided => "not decided",
+    }
+}
+
+fn order_in_words(comparison: &Comparison) -> String {
+    let Comparison { check, heard: HeardSpeed { order, is_rotor, .. }, .. } = comparison;
+    let ratio = fixed(check.heard_over_known, 4);
+    match check.relation {
+        Relation::Agrees if !is_rotor => String::new(),
+        Relation::Agrees => format!("order: pass, {order} fits\n"),
+        Relation::OtherOrder(fitting) if *is_rotor => format!(
+            "order: fail, heard / known is {ratio}: order {fitting} fits, not {order}. Use --order {fitting} (--blades {fitting} for \
+             a blade pass), or [tone] order = {fitting} in an experiment file; if {order} is known to be right, --band {} holds its tone\n",
+            comparison.band()
+        ),
+        _ if !is_rotor => format!(
+            "tone: fail, heard / known is {ratio}, which no clock explains: they are off by {CLOCK_CORRECTION_PPM_MAX} millionths at \
+             most. Is the known frequency right, or was the file resampled or slowed down?\n"
+        ),
+        _ => format!(
+            "order: fail, heard / known is {ratio}, which no order explains, nor a clock: they are off by {CLOCK_CORRECTION_PPM_MAX} \
+             millionths at most. Was another rotor heard, or the file resampled or slowed down?\n"
+        ),
+    }
+}
+
+fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
+    let check = &comparison.check;
+    let before_ppm = arguments.hearing.clock_correction_ppm.unwrap_or(0.0);
+    let judgement = check.clock(arguments.clock_ppm);
+    // a direction is told where it is known
+    let off = if check.is_significant() {
+        let direction = if check.correction_ppm > 0.0 { "fast" } else { "slow" };
+        let off = with_uncertainty(check.correction_ppm.abs(), Some(check.correction_std_ppm));
+        format!("it runs {direction} by {off} millionths")
+    } else {
+        let off = with_uncertainty(check.correction_ppm, Some(check.correction_std_ppm));
+        format!("it is off by {off} millionths")
+    };
+    let advice = match judgement {
+        Judgement::Undecided if check.expanded_ppm() >= arguments.clock_ppm => {
+            "; the ± is too wide for this limit: record longer, know the speed better, or allow more with --clock-ppm"
+        }
+        Judgement::Undecided => "; the limit lies within the ±: record longer, or know the speed better",
+        _ => "",
+    };
+    let verdict = word(judgement);
+    let mut text = format!("clock: {verdict}, {off} (k = 2), at most {} are expected{advice}\n", arguments.clock_ppm);
+    text += &if check.is_significant() {
+        let ppm = signed(comparison.whole_correction_ppm(before_ppm), 1).replace('−', "-").replace('+', "");
+        format!(
+            "correction: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
+             clock_ppm = {}\n",
+            fixed(check.expanded_ppm().max(WARMTH_PPM), 1)
+        )
+    } else {
+        "correction: none, the difference is within its ±\n".to_owned()
+    };
+    text
+}
+
+/// One JSON object. `passes` is null where the ± leaves it open.
+pub(super) fn as_json(
+    name: &str,
+    status: &str,
+    reason: Option<&str>,
+    comparison: Option<&Comparison>,
+    arguments: &CalibrateArguments,
+) -> String {
+    let before_ppm = arguments.hearing.clock_correction_ppm.unwrap_or(0.0);
+    let of_check = |of: &dyn Fn(&SpeedCheck) -> f64| comparison.map(|comparison| of(&comparison.check));
+    let heard = comparison.map(|comparison| comparison.heard);
+    let judgement = comparison.map(|comparison| comparison.check.judgement(arguments.clock_ppm));
+    json!({
+        "file": name,
+        "status": status,
+        "passes": match judgement {
+            Some(Judgement::Passes) => Some(true),
+            Some(Judgement::Undecided) => None,
+            Some(Judgement::Fails) | None => Some(false),
+        },
+        "order": heard.map(|heard| heard.order.lines_per_turn()),
+        "order_that_fits": comparison.and_then(|comparison| match comparison.check.relation {
+            Relation::Agrees => Some(comparison.heard.order.lines_per_turn()),
+            Relation::OtherOrder(order) => Some(order.lines_per_turn()),
+            Relation::None => None,
+        }),
+        "heard_speed_rev_s": heard.map(|heard| heard.speed.rev_s()),
+        "heard_std_uncertainty_rev_s": heard.and_then(|heard| heard.std_rev_s),
+        "heard_over_known": of_check(&|check| check.heard_over_known),
+        "clock_correction_ppm": comparison
+            .filter(|comparison| comparison.check.relation != Relation::None)
+            .map(|comparison| comparison.whole_correction_ppm(before_ppm)),
+        "clock_correction_std_ppm": of_check(&|check| check.correction_std_ppm),
+        "clock_ppm": arguments.clock_ppm,
+        "reason": reason,
+        "version": env!("CARGO_PKG_VERSION"),
+    })
+    .to_string()
+}

@@ -1,0 +1,204 @@
+//! `hovertone calibrate`: the recorder's clock and the order of the tone against one known speed.
+
+mod comparison;
+
+use crate::args::{AnalysisArguments, CalibrateArguments, KnownArguments};
+use crate::failure::{Ending, Failure};
+use crate::jobs::{ending_of, jobs_of};
+use crate::progress::Progress;
+use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
+use crate::settings::config_of;
+use crate::terminal::Terminal;
+use crate::vehicles::preset;
+use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words};
+use hovertone::calibration::Judgement;
+use hovertone::speed::Config;
+use hovertone::tones::Discovery;
+use hovertone_report::{Notice, SpeedRecord};
+use hovertone_vehicle::{Order, RotorSpeed};
+use std::ops::Range;
+
+const MILLION: f64 = 1e6;
+/// Half of the band around a tone of known frequency in which it is searched, as a share.
+const BAND_SHARE: f64 = 0.025;
+const SEE_HELP: &str = "see `hovertone calibrate --help`";
+
+/// The meaning of the arguments.
+struct Plan {
+    config: Config,
+    discovery: Option<Discovery>,
+    reference: Reference,
+    /// The band of a tone that is no rotor's: its line alone is measured.
+    line_band_hz: Option<Range<f64>>,
+    /// What is assumed about the rotors.
+    notice: Option<Notice>,
+}
+
+/// What a recording holds.
+struct Heard {
+    speed: Option<HeardSpeed>,
+    status: &'static str,
+    reason: Option<String>,
+    notices: Vec<Notice>,
+    /// The record of an analysis of rotors.
+    record: Option<SpeedRecord>,
+    ending: Ending,
+}
+
+/// Hears the recording and compares.
+pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let plan = resolve(arguments)?;
+    let files = std::slice::from_ref(&arguments.file);
+    let jobs = jobs_of(files, &plan.config, plan.discovery, Requests::default())?;
+    let [job] = &jobs[..] else {
+        let what = format!("one recording is compared with one speed, and {} match", jobs.len());
+        return Err(Failure::usage(what, "give the one that was made at this speed"));
+    };
+    let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
+    let hearing = Hearing::of(&arguments.hearing);
+    let heard = match plan.line_band_hz.clone() {
+        Some(band_hz) => heard_line(job, hearing, band_hz, &progress)?,
+        None => heard_rotor(&jobs, hearing, &progress),
+    };
+    progress.finish();
+    let comparison = heard.speed.map(|speed| Comparison::of(speed, plan.reference)).transpose()?;
+    let judgement = comparison.as_ref().map(|comparison| comparison.check.judgement(arguments.clock_ppm));
+    if arguments.json {
+        let text = as_json(&job.name, heard.status, heard.reason.as_deref(), comparison.as_ref(), arguments);
+        terminal.data(&(text + "\n"))?;
+    } else if let Some(comparison) = &comparison {
+        terminal.data(&in_words(&job.name, comparison, arguments))?;
+    }
+    terminal.flush()?;
+    say_notes(&heard, &job.name, plan.notice.as_ref(), terminal);
+    Ok(if judgement == Some(Judgement::Passes) { heard.ending } else { heard.ending.max(Ending::Incomplete) })
+}
+
+fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut Terminal) {
+    if let Some(notice) = notice {
+        terminal.warning(notice, "");
+    }
+    if let Some(record) = &heard.record {
+        return terminal.notes(&[record]);
+    }
+    if let Some(reason) = &heard.reason {
+        terminal.error(&Notice::new(format!("{name}: {reason}"), ""));
+    }
+    heard.notices.iter().for_each(|notice| terminal.warning(notice, ""));
+}
+
+/// The speed of a rotor, as `hovertone speed` hears it.
+fn heard_rotor(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Heard {
+    let mut records = records_of(jobs, hearing, progress);
+    let ending = ending_of(&records);
+    let record = records.pop();
+    let speed = record.as_ref().and_then(|record| {
+        let speed = record.speed()?;
+        let std_rev_s = speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s);
+        Some(HeardSpeed { speed: speed.speed, std_rev_s, order: record.order, is_rotor: true })
+    });
+    Heard {
+        speed,
+        status: record.as_ref().map_or("error", SpeedRecord::status),
+        reason: record.as_ref().and_then(SpeedRecord::reason),
+        notices: Vec::new(),
+        record,
+        ending,
+    }
+}
+
+/// The frequency of a line, as the speed of a shaft with one line per turn.
+fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progress) -> Result<Heard, Failure> {
+    let order = Order::new(1.0).map_err(Failure::internal)?;
+    let (line, notices) = match line_in_band(job, hearing, band_hz.clone(), progress) {
+        Ok(found) => found,
+        Err(reason) => {
+            let ending = Ending::FilesFailed;
+            return Ok(Heard {
+                speed: None,
+                status: "error",
+                reason: Some(reason),
+                notices: vec![],
+                record: None,
+                ending,
+            });
+        }
+    };
+    let speed = line.map(|line| HeardSpeed {
+        speed: RotorSpeed::from_tone_hz(line.hz, order),
+        std_rev_s: Some(RotorSpeed::from_tone_hz(line.std_uncertainty_hz, order).rev_s()),
+        order,
+        is_rotor: false,
+    });
+    let (status, reason, ending) = match speed {
+        Some(_) => ("ok", None, Ending::Done),
+        None => {
+            let reason = format!(
+                "no clear line of 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, record the tone louder and without \
+                 other sound, or search elsewhere with --band LOW:HIGH",
+                band_hz.start, band_hz.end
+            );
+            ("no_line", Some(reason), Ending::Incomplete)
+        }
+    };
+    Ok(Heard { speed, status, reason, notices, record: None, ending })
+}
+
+fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
+    let reference = reference_of(arguments)?;
+    if let Some(several) = arguments.rotors.filter(|count| *count > 1) {
+        let what = format!("{several} rotors turn at speeds of their own, and the known speed is that of one");
+        return Err(Failure::usage(what, "let one rotor turn alone, and leave --rotors out"));
+    }
+    let known = KnownArguments { rotors: Some(1), ..KnownArguments::default() };
+    let tone = &arguments.tone;
+    let names_tone = tone.blades.is_some() || tone.gear.is_some() || tone.order.is_some() || tone.vehicle.is_some();
+    let line_band_hz = match reference {
+        Reference::Tone { hz, .. } if !names_tone => Some(
+            tone.band.map_or(hz * (1.0 - BAND_SHARE)..hz * (1.0 + BAND_SHARE), |(low_hz, high_hz)| low_hz..high_hz),
+        ),
+        _ => None,
+    };
+    // the clock is what is sought, and a bench does not move
+    let analysis = AnalysisArguments {
+        clock_ppm: Some(0.0),
+        drift_m_max: Some(0.0),
+        from: arguments.from,
+        to: arguments.to,
+        ..AnalysisArguments::default()
+    };
+    let (config, discovery) = config_of(tone, &known, &analysis)?;
+    let notice = assumed_rotors(arguments)?;
+    Ok(Plan { config, discovery, reference, line_band_hz, notice })
+}
+
+/// A notice where the vehicle has several rotors and nobody said that one turns alone.
+fn assumed_rotors(arguments: &CalibrateArguments) -> Result<Option<Notice>, Failure> {
+    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let count = vehicle.map_or(1, |vehicle| vehicle.rotor_count.value);
+    let is_assumed = arguments.rotors.is_none() && count > 1;
+    let text =
+        format!("one rotor is assumed to turn, and the vehicle has {count}: the sound of several has no single speed");
+    Ok(is_assumed.then(|| Notice::new(text, "let one rotor turn alone, and confirm it with --rotors 1")))
+}
+
+fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
+    let positive = |name: &str, value: Option<f64>| {
+        let what = format!("{name} must be a number above 0");
+        value.filter(|value| value.is_finite() && *value > 0.0).ok_or_else(|| Failure::usage(what, SEE_HELP))
+    };
+    for (name, value) in [("known_std_ppm", arguments.known_std_ppm), ("clock_ppm", Some(arguments.clock_ppm))] {
+        if let Some(value) = value.filter(|value| !(0.0..=MILLION).contains(value)) {
+            return Err(Failure::usage(format!("{name} = {value}, must be 0 to {MILLION}"), SEE_HELP));
+        }
+    }
+    let stated = arguments.known_std_ppm.map(|ppm| ppm / MILLION);
+    if let Some(typed) = &arguments.tachometer_rpm {
+        let rpm = positive("tachometer_rpm", typed.trim().parse().ok())?;
+        // the last digit is rounded: half a unit of it is the limit of a rectangular distribution
+        let decimals = typed.trim().split_once('.').map_or(0, |(_, decimals)| decimals.len().min(9) as i32);
+        let rounded = 0.5 * 10f64.powi(-decimals) / 3f64.sqrt() / rpm;
+        return Ok(Reference::Speed { rpm, std_share: stated.unwrap_or(rounded) });
+    }
+    Ok(Reference::Tone { hz: positive("true_hz", arguments.true_hz)?, std_share: stated.unwrap_or(0.0) })
+}
