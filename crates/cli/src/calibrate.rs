@@ -51,6 +51,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, Hearing::of(&arguments.hearing), &progress);
     progress.finish();
+    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     let mut ending = ending_of(&records);
     for record in &records {
         let checked = record.speed().map(|speed| checked(speed, record.order, plan.reference));
@@ -62,11 +63,10 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
         if arguments.json {
             terminal.data(&(as_json(record, checked, arguments, passes) + "\n"))?;
         } else if let Some(checked) = checked {
-            terminal.data(&in_words(record, checked, arguments, passes))?;
+            terminal.text(&in_words(record, checked, arguments, passes))?;
         }
     }
     terminal.flush()?;
-    terminal.notes(&records.iter().collect::<Vec<_>>());
     Ok(ending)
 }
 

@@ -2,7 +2,10 @@
 
 use crate::failure::Failure;
 use anstream::AutoStream;
-use hovertone_report::{Notice, SpeedRecord, cuts_in_words, notice_of_all, notices_of_all, printable, wrapped};
+use hovertone_report::{
+    Notice, SpeedRecord, counted, cuts_in_words, folded, notice_of_all, notices_of_all, printable, warning_count,
+    wrapped,
+};
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
 
 const RED: &str = "\x1b[1;31m";
@@ -57,6 +60,11 @@ impl Terminal {
         self.out.write_all(text.as_bytes()).map_err(stdout_failure)
     }
 
+    /// Writes text for people to stdout. On a terminal, lines that are too long are wrapped.
+    pub(crate) fn text(&mut self, text: &str) -> Result<(), Failure> {
+        self.data(&folded(text, self.fold_width()))
+    }
+
     /// Flushes the data before any message about it.
     pub(crate) fn flush(&mut self) -> Result<(), Failure> {
         self.out.flush().map_err(stdout_failure)
@@ -64,6 +72,10 @@ impl Terminal {
 
     /// Writes a line for people. A failure to write it is ignored, since nobody could read the message about it.
     pub(crate) fn say(&mut self, line: &str) {
+        self.line(&folded(line, self.err_width));
+    }
+
+    fn line(&mut self, line: &str) {
         let _ = writeln!(self.err, "{line}");
     }
 
@@ -76,7 +88,7 @@ impl Terminal {
             None => vec![words.to_owned()],
         };
         let text = lines.join(&format!("\n{hanging}"));
-        self.say(&format!("{indent}{colour}{label}{RESET} {text}"));
+        self.line(&format!("{indent}{colour}{label}{RESET} {text}"));
     }
 
     /// A message with its hint: on a terminal the hint stands below, elsewhere all of it is one line for programs.
@@ -112,12 +124,27 @@ impl Terminal {
 
     /// A line above messages.
     pub(crate) fn heading(&mut self, words: &str) {
-        self.say(&format!("{BOLD}{words}{RESET}"));
+        self.line(&format!("{BOLD}{}{RESET}", folded(words, self.err_width)));
     }
 
     /// A warning with its hint.
     pub(crate) fn warning(&mut self, notice: &Notice, indent: &str) {
         self.with_hint(indent, WARNING, &printable(&notice.text), &notice.hint);
+    }
+
+    /// The number of warnings, where there is one. They stand above the answer that they weaken.
+    pub(crate) fn warning_count(&mut self, count: usize) {
+        if count > 0 {
+            self.heading(&counted(count, "warning"));
+        }
+    }
+
+    /// The number of warnings about recordings, and all messages about them, above their speeds.
+    pub(crate) fn counted_notes(&mut self, records: &[&SpeedRecord]) {
+        // a file that failed has an error
+        let failed = records.iter().filter(|record| record.has_failed()).count();
+        self.warning_count(warning_count(records) - failed);
+        self.notes(records);
     }
 
     /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several
@@ -161,7 +188,8 @@ impl Terminal {
     }
 }
 
-fn width_of(stream: &impl IsTerminal) -> Option<usize> {
+/// Columns of a terminal; `None` where the stream is none.
+pub(crate) fn width_of(stream: &impl IsTerminal) -> Option<usize> {
     let size = stream.is_terminal().then(terminal_size::terminal_size).flatten();
     size.map(|(width, _)| usize::from(width.0))
 }
