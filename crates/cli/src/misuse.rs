@@ -68,7 +68,7 @@ impl Misuse {
                     return Self { what: format!("{name} is given more than once"), hint };
                 }
                 let hint = Some("leave one of them out".to_owned());
-                Self { what: format!("{name} and {other} do not go together"), hint }
+                Self { what: format!("{name} cannot be used with {other}"), hint }
             }
             ErrorKind::MissingRequiredArgument => {
                 Self { what: format!("this is missing: {}", text(ContextKind::InvalidArg)), hint: None }
@@ -183,10 +183,7 @@ mod tests {
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
             ("hovertone speed", "this is missing: <FILE>... (see `hovertone speed --help`)"),
             ("hovertone demo extra", "\"extra\" is one word too many (see `hovertone demo --help`)"),
-            (
-                "hovertone identify a.toml --check --json",
-                "--check and --json do not go together (leave one of them out)",
-            ),
+            ("hovertone identify a.toml --check --json", "--check cannot be used with --json (leave one of them out)"),
             ("hovertone speed a.wav --blades 2 --blades 3", "--blades is given more than once (give it once)"),
             (
                 "hovertone identify --mass -0.4=a.mov",

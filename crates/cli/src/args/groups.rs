@@ -139,7 +139,7 @@ pub(crate) fn whole_number<T: FromStr + Display + PartialOrd + Clone>(
 fn clock_correction(text: &str) -> Result<f64, String> {
     let limit = CLOCK_CORRECTION_PPM_MAX;
     let ppm = finite(text).filter(|ppm| ppm.abs() <= limit);
-    ppm.ok_or_else(|| format!("must be a number from −{limit} to {limit}: no clock is further off"))
+    ppm.ok_or_else(|| format!("must be a number from -{limit} to {limit}: no clock is further off"))
 }
 
 /// A whole number, whose range the analysis checks.

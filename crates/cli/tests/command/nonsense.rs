@@ -283,7 +283,7 @@ fn files_of_another_kind_are_named_for_what_they_are() {
         (vec!["fit", wav], ["413g.wav", "not text"]),
         (vec!["export", wav, "--to", "gazebo"], ["413g.wav", "not text"]),
         (vec!["fit", place], ["this is a folder", "the table must be a file"]),
-        (vec!["identify", place], ["this is a folder", "experiment file is a file"]),
+        (vec!["identify", place], ["this is a folder", "experiment file must be a file"]),
         (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "check its name"]),
         (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "check its name"]),
     ] {
