@@ -25,8 +25,15 @@ struct Heard {
 }
 
 impl Heard {
-    /// Is the error of `more` at most this error and the ± that was stated with it?
+    fn is_right(&self) -> bool {
+        self.error_share.is_some_and(|error| error.abs() <= TRUTH_SHARE)
+    }
+
+    /// Is the error of `more` at most this error and the ± that was stated with it, and `more` right where this is?
     fn is_no_better_than(&self, more: &Heard) -> bool {
+        if self.is_right() && !more.is_right() {
+            return false;
+        }
         match (self.error_share, more.error_share) {
             (Some(less), Some(error)) => {
                 error.abs() <= less.abs() + (COVERAGE_FACTOR * self.std_share).max(TRUTH_SHARE)
@@ -73,15 +80,17 @@ fn heard_in_all_ways(folder: &Path, seed: u64) -> Vec<Heard> {
     ways.into_iter().map(of_way).collect()
 }
 
-/// The ways in which saying more makes it worse: the error grows by more than the ± stated without it, or the speed is lost.
+/// The ways in which saying more makes it worse: a right answer becomes a wrong one or none, or the error grows by more than the ± stated
+/// without it.
 fn worse(seeds: impl Iterator<Item = u64>) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
-    let (mut found, mut compared) = (Vec::new(), 0);
+    let (mut found, mut right) = (Vec::new(), 0);
     for seed in seeds {
         let place = folder.path().join(seed.to_string());
         let mut ways = heard_in_all_ways(&place, seed).into_iter();
         fs::remove_dir_all(&place).unwrap();
         let alone = ways.next().unwrap();
+        right += usize::from(alone.is_right());
         for more in ways {
             let of = |heard: &Heard| match heard.error_share {
                 Some(error) => format!("{:+.3} % (u {:.3} %)", 100.0 * error, 100.0 * heard.std_share),
@@ -89,11 +98,10 @@ fn worse(seeds: impl Iterator<Item = u64>) -> Vec<String> {
             };
             let line = format!("seed {seed}: {} {}, {} {}", alone.what, of(&alone), more.what, of(&more));
             println!("{line}");
-            compared += usize::from(alone.error_share.is_some());
             found.extend((!alone.is_no_better_than(&more)).then_some(line));
         }
     }
-    assert!(compared > 0, "no recording has a speed by its blades alone: nothing was compared");
+    assert!(right > 0, "no recording is heard right by its blades alone: nothing was compared");
     found
 }
 
