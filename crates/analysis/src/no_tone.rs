@@ -1,5 +1,6 @@
 //! Reasons why no rotor tone was found.
 
+use crate::percent::percent_in_words;
 use serde::Serialize;
 use std::fmt;
 
@@ -99,9 +100,9 @@ impl fmt::Display for NoTone {
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames; a rotor is one in clearly \
+                "the best candidate, near {tone_hz:.0} Hz, is a line in {} of its frames; a rotor is one in clearly \
                  more than {:.0} %",
-                100.0 * line_share,
+                percent_in_words(*line_share),
                 100.0 * line_share_min
             ),
             Self::MainsHum { mains_hz } => write!(
@@ -130,9 +131,9 @@ impl fmt::Display for NoTone {
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, is a line in only {:.0} % of its frames and none of its \
+                "the best candidate, near {tone_hz:.0} Hz, is a line in only {} of its frames and none of its \
                  harmonics is heard",
-                100.0 * line_share
+                percent_in_words(*line_share)
             ),
         }
     }

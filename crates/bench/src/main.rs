@@ -36,6 +36,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--out ROWS.json] to keep the rows, [--compare ROWS.json] to print what changed
   sensitivity  what one step of each setting changes on the real recordings: docs/sensitivity.md
              [--data DIR] for other recordings, [--try NAME=VALUE,…] to print what other values change
+  saying-more  each error with a fact about the vehicle said and without it, on simulated and semi-real sound: docs/saying-more.md
+             [--semi-real DIR] for recordings made before, [--flights N] for fewer flights
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";
@@ -53,6 +55,7 @@ fn main() -> ExitCode {
         ["rotors", options @ ..] => rotors::run(&root(), options),
         ["real", options @ ..] => real::run(&root(), options),
         ["sensitivity", options @ ..] => real::sensitivity::run(&root(), options),
+        ["saying-more", options @ ..] => real::saying_more::run(&root(), options),
         ["labels", options @ ..] => labels::run(&root(), options),
         ["roundtrip", options @ ..] => roundtrip::run(&root(), options),
         [speed::DECODE_TASK, file] => speed::decode(Path::new(file)),

@@ -13,12 +13,11 @@ use std::path::Path;
 pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let heard = identified(&arguments.results, arguments.of.group.as_deref())?;
     let models: Vec<ComparedModel> = arguments.models.iter().map(|path| model_of(path)).collect::<Result<_, _>>()?;
-    let text = if arguments.json {
-        models_json(&models, &heard).map_err(Failure::internal)?
+    if arguments.json {
+        terminal.data(&models_json(&models, &heard).map_err(Failure::internal)?)?;
     } else {
-        models_text(&models, &heard, terminal.fold_width())
-    };
-    terminal.data(&text)?;
+        terminal.text(&models_text(&models, &heard, terminal.fold_width()))?;
+    }
     Ok(Ending::Done)
 }
 

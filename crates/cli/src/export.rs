@@ -135,6 +135,11 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             hint: "give --group NAME".to_owned(),
             path: Some(path.to_owned()),
         },
+        ResultsError::NoGroups { .. } => Failure::Usage {
+            what: error.to_string(),
+            hint: "leave --group out".to_owned(),
+            path: Some(path.to_owned()),
+        },
         _ => {
             let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
             Failure::failed(error.to_string(), hint, path)

@@ -54,7 +54,14 @@ impl Failure {
     }
 
     pub(crate) fn cannot_write(error: &io::Error, path: &Path) -> Self {
-        Self::failed(format!("cannot write: {error}"), "choose another place, or check your rights and the disk", path)
+        let (what, hint) = match error.kind() {
+            io::ErrorKind::NotFound => {
+                ("the folder of this file does not exist".to_owned(), "make the folder, or choose another place")
+            }
+            io::ErrorKind::PermissionDenied => ("you have no right to write here".to_owned(), "choose another place"),
+            _ => (format!("this file cannot be written: {error}"), "choose another place, or check the disk"),
+        };
+        Self::failed(what, hint, path)
     }
 
     /// For errors that should be impossible, in place of a panic.

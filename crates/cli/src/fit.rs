@@ -57,11 +57,12 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
             if !std::mem::take(&mut is_first) {
                 terminal.data("\n")?;
             }
-            terminal.data(&fitted_table_text(&table, terminal.fold_width()))?;
             terminal.flush()?;
+            terminal.warning_count(table.notices.len());
             for notice in &table.notices {
                 terminal.warning(notice, "");
             }
+            terminal.text(&fitted_table_text(&table, terminal.fold_width()))?;
         }
     }
     Ok(Ending::Done)
@@ -255,11 +256,10 @@ fn plan_campaign(
         };
         Failure::usage(error.to_string(), hint)
     })?;
-    let text = if arguments.json {
-        serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"
+    if arguments.json {
+        terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
     } else {
-        flight_plan_text(&plan, &wish)
-    };
-    terminal.data(&text)?;
+        terminal.text(&flight_plan_text(&plan, &wish))?;
+    }
     Ok(Ending::Done)
 }

@@ -48,13 +48,13 @@ pub(crate) fn read_text(path: &Path, what: &str) -> Result<String, Failure> {
 
 /// The failure of a file that should be text and is something else, such as a recording.
 pub(crate) fn is_no_text(what: &str, path: &Path) -> Failure {
-    let found = format!("this file is not text, and {what} is");
+    let found = format!("this file is not text, so it cannot be {what}");
     Failure::failed(found, "check the name and the order of the files in the command", path)
 }
 
 fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {
     let (found, hint) = match error.kind() {
-        _ if path.is_dir() => (format!("this is a folder, and {what} is a file"), "name the file in the folder"),
+        _ if path.is_dir() => (format!("this is a folder, and {what} must be a file"), "name the file in the folder"),
         io::ErrorKind::NotFound => (format!("there is no such file for {what}"), "check its name and its folder"),
         io::ErrorKind::PermissionDenied => {
             (format!("you have no right to read {what}"), "change the rights of the file")

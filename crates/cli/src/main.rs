@@ -20,6 +20,7 @@ mod inputs;
 mod jobs;
 mod labels;
 mod microphones;
+mod misuse;
 mod nearest;
 mod output_file;
 mod output_folder;
@@ -44,15 +45,25 @@ mod vehicles;
 mod wav;
 mod weigh;
 
-use args::{Arguments, Command};
-use clap::Parser;
+use args::Command;
 use failure::Failure;
+use std::ffi::OsString;
 use std::process::ExitCode;
 use terminal::Terminal;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
     let mut terminal = Terminal::new();
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let arguments = match misuse::typed_arguments(&words) {
+        Ok(arguments) => arguments,
+        Err(error) => match misuse::failure_of(&error, &words) {
+            Some(failure) => {
+                terminal.failure(&failure);
+                return failure.exit_code();
+            }
+            None => error.exit(),
+        },
+    };
     let ending = match &arguments.command {
         Command::Init(arguments) => init::run(arguments, &mut terminal),
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use hovertone::thrust::{Air, Gravity};
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 
-const SEE_HELP: &str = "see --help";
+const SEE_HELP: &str = "correct this flag; --help of the command has its unit";
 
 /// Local gravity.
 pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
@@ -30,7 +30,7 @@ pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
 /// Density of the air, where an argument says anything about it.
 pub(crate) fn air_density_kg_m3(air: &AirArguments, place: &PlaceArguments) -> Result<Option<f64>, Failure> {
     if let Some(diameter_m) = air.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
-        return Err(Failure::usage(format!("diameter_m = {diameter_m}, allowed 0.01 to 10"), SEE_HELP));
+        return Err(Failure::usage(format!("diameter_m = {diameter_m}, must be from 0.01 to 10"), SEE_HELP));
     }
     let said = Air {
         temperature_c: air.temperature_c,

@@ -1,5 +1,6 @@
 //! Progress of the analysis on stderr, if it is a terminal.
 
+use crate::terminal::width_of;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
 use std::time::Duration;
@@ -8,6 +9,10 @@ use std::time::Duration;
 const STEPS: u64 = 1000;
 const TICK: Duration = Duration::from_millis(120);
 const BAR: &str = "{msg} {wide_bar:.cyan/dim} {percent:>3} %  {eta} left";
+/// On a narrow terminal the words are cut, and the bar is left out.
+const NARROW_BAR: &str = "{wide_msg} {percent:>3} %";
+/// Columns that the words, the numbers and a bar of some length need.
+const BAR_WIDTH_MIN: usize = 72;
 
 /// One bar for all recordings.
 pub(crate) struct Progress {
@@ -19,10 +24,11 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar for the given number of recordings. It is hidden unless it is wanted and stderr is a terminal.
     pub(crate) fn new(verb: &str, recording_count: usize, is_wanted: bool) -> Self {
+        let is_narrow = width_of(&io::stderr()).is_some_and(|width| width < BAR_WIDTH_MIN);
         let is_seen = is_wanted && io::stderr().is_terminal();
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
         let bar = ProgressBar::with_draw_target(Some(STEPS * recording_count as u64), target);
-        if let Ok(style) = ProgressStyle::with_template(BAR) {
+        if let Ok(style) = ProgressStyle::with_template(if is_narrow { NARROW_BAR } else { BAR }) {
             bar.set_style(style);
         }
         let things = if recording_count == 1 { "recording" } else { "recordings" };

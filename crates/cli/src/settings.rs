@@ -109,9 +109,12 @@ fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRo
         rotor_count: arguments.rotors.or(of_vehicle.rotor_count),
         ..of_vehicle
     };
-    known
-        .check()
-        .map_err(|error| Failure::usage(error.to_string(), "give metres, kilograms and a number of rotors"))?;
+    known.check().map_err(|error| {
+        Failure::usage(
+            error.to_string(),
+            "give the diameter in metres, the mass in kilograms, and the number of rotors",
+        )
+    })?;
     vehicle.map_or(Ok(()), |vehicle| vehicle.check_flown(arguments.rotors, arguments.mass_kg))?;
     Ok(known)
 }

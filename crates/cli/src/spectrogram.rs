@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
     progress.finish();
     check_tips_heard(&arguments.known, &records)?;
     let ending = ending_of(&records);
-    terminal.notes(&records.iter().collect::<Vec<_>>());
+    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     let [job] = &jobs;
     let Some(record) = records.first().filter(|record| !record.has_failed()) else { return Ok(ending) };
     let drawing = drawing_of(job, record, hearing, None)?;

@@ -38,18 +38,18 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     }
     let records: Vec<SpeedRecord> = heard.into_iter().map(|heard| heard.record).collect();
     check_tips_heard(&arguments.known, &records)?;
+    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     if arguments.json {
         for record in &records {
             terminal.data(&(speed_json(record).map_err(Failure::internal)? + "\n"))?;
         }
     } else {
-        terminal.data(&speed_table(&records, terminal.fold_width()))?;
+        terminal.text(&speed_table(&records, terminal.fold_width()))?;
         if let Some(table) = condition_table(&records, terminal.fold_width()) {
-            terminal.data(&format!("\n{table}"))?;
+            terminal.text(&format!("\n{table}"))?;
         }
     }
     terminal.flush()?;
-    terminal.notes(&records.iter().collect::<Vec<_>>());
     if let Some(path) = plan.track {
         plan.outputs.write(&path, track_csv(&records).map_err(Failure::internal)?)?;
     }

@@ -3,7 +3,8 @@
 use crate::failure::Failure;
 use anstream::AutoStream;
 use hovertone_report::{
-    Notice, SpeedRecord, cuts_in_words, folded_warnings, own_notices, own_reason, printable, wrapped,
+    Notice, SpeedRecord, counted, cuts_in_words, folded, folded_warnings, own_notices, own_reason, printable,
+    warning_count, wrapped,
 };
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
 
@@ -59,6 +60,11 @@ impl Terminal {
         self.out.write_all(text.as_bytes()).map_err(stdout_failure)
     }
 
+    /// Writes text for people to stdout. On a terminal, lines that are too long are wrapped.
+    pub(crate) fn text(&mut self, text: &str) -> Result<(), Failure> {
+        self.data(&folded(text, self.fold_width()))
+    }
+
     /// Flushes the data before any message about it.
     pub(crate) fn flush(&mut self) -> Result<(), Failure> {
         self.out.flush().map_err(stdout_failure)
@@ -66,6 +72,10 @@ impl Terminal {
 
     /// Writes a line for people. A failure to write it is ignored, since nobody could read the message about it.
     pub(crate) fn say(&mut self, line: &str) {
+        self.line(&folded(line, self.err_width));
+    }
+
+    fn line(&mut self, line: &str) {
         let _ = writeln!(self.err, "{line}");
     }
 
@@ -78,7 +88,7 @@ impl Terminal {
             None => vec![words.to_owned()],
         };
         let text = lines.join(&format!("\n{hanging}"));
-        self.say(&format!("{indent}{colour}{label}{RESET} {text}"));
+        self.line(&format!("{indent}{colour}{label}{RESET} {text}"));
     }
 
     /// A message with its hint: on a terminal the hint stands below, elsewhere all of it is one line for programs.
@@ -114,12 +124,25 @@ impl Terminal {
 
     /// A line above messages.
     pub(crate) fn heading(&mut self, words: &str) {
-        self.say(&format!("{BOLD}{words}{RESET}"));
+        self.line(&format!("{BOLD}{}{RESET}", folded(words, self.err_width)));
     }
 
     /// A warning with its hint.
     pub(crate) fn warning(&mut self, notice: &Notice, indent: &str) {
         self.with_hint(indent, WARNING, &printable(&notice.text), &notice.hint);
+    }
+
+    /// The number of warnings, where there is one. They stand above the answer that they weaken.
+    pub(crate) fn warning_count(&mut self, count: usize) {
+        if count > 0 {
+            self.heading(&counted(count, "warning"));
+        }
+    }
+
+    /// The number of warnings about recordings, and all messages about them, above their speeds.
+    pub(crate) fn counted_notes(&mut self, records: &[&SpeedRecord]) {
+        self.warning_count(warnings_about(records));
+        self.notes(records);
     }
 
     /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several
@@ -163,7 +186,13 @@ impl Terminal {
     }
 }
 
-fn width_of(stream: &impl IsTerminal) -> Option<usize> {
+/// Number of warnings about recordings. A file that failed has an error, and counts as none.
+pub(crate) fn warnings_about(records: &[&SpeedRecord]) -> usize {
+    warning_count(records) - records.iter().filter(|record| record.has_failed()).count()
+}
+
+/// Columns of a terminal; `None` where the stream is none.
+pub(crate) fn width_of(stream: &impl IsTerminal) -> Option<usize> {
     let size = stream.is_terminal().then(terminal_size::terminal_size).flatten();
     size.map(|(width, _)| usize::from(width.0))
 }

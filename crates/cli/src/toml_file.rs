@@ -36,8 +36,8 @@ impl<'a> TomlFile<'a> {
         see_example: &'static str,
     ) -> Result<Self, Failure> {
         let bytes = read_bytes(path, &format!("the {kind}"))?;
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let what = format!("the {kind} is not text: {}", error.utf8_error());
+        let text = String::from_utf8(bytes).map_err(|_| {
+            let what = format!("this file is not text, so it cannot be the {kind}");
             Failure::failed(what, format!("give the TOML file, not a {mistaken_for}"), path)
         })?;
         Ok(Self { path, kind, see_example, text })

@@ -21,15 +21,15 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
+    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     if arguments.json {
         for record in &records {
             terminal.data(&(tones_json(record).map_err(Failure::internal)? + "\n"))?;
         }
     } else {
         let blocks: Vec<String> = records.iter().map(|record| tones_text(record, terminal.fold_width())).collect();
-        terminal.data(&blocks.join("\n"))?;
+        terminal.text(&blocks.join("\n"))?;
     }
     terminal.flush()?;
-    terminal.notes(&records.iter().collect::<Vec<_>>());
     Ok(ending_of(&records))
 }

@@ -21,13 +21,13 @@ pub(crate) fn run(arguments: &VehiclesArguments, terminal: &mut Terminal) -> Res
         terminal.data(&vehicles_json(&known_vehicles()?).map_err(Failure::internal)?)?;
         return Ok(Ending::Done);
     }
-    terminal.data(&vehicles_text(presets(), terminal.width()))?;
+    terminal.text(&vehicles_text(presets(), terminal.width()))?;
     match place().filter(|_| !own.is_empty()) {
         Some(place) => {
-            terminal.data(&format!("Your own, in {}:\n\n", printable(&place.display().to_string())))?;
-            terminal.data(&vehicles_text(own, terminal.width()))?;
+            terminal.text(&format!("Your own, in {}:\n\n", printable(&place.display().to_string())))?;
+            terminal.text(&vehicles_text(own, terminal.width()))?;
         }
-        None => terminal.data("Your own: none; `hovertone vehicles --help` shows how to add one\n")?,
+        None => terminal.text("Your own: none; `hovertone vehicles --help` shows how to add one\n")?,
     }
     Ok(Ending::Done)
 }

@@ -42,16 +42,20 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
     let scale = plan.scale_for(&records);
     refuse_different_loads(&scale, &hovers, &names)?;
-    if let Some(weighed) = scale.weigh(&hovers) {
+    let weighed = scale.weigh(&hovers);
+    if let Some(weighed) = &weighed {
         let model_kg = model_mass_kg(arguments)?;
         let checked = weighed.check().and_then(|()| model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
-        let text =
-            if arguments.json { weighed_json(&weighed).map_err(Failure::internal)? } else { weighed_text(&weighed) };
-        terminal.data(&text)?;
-        terminal.flush()?;
     }
-    terminal.notes(&records.iter().collect::<Vec<_>>());
+    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
+    if let Some(weighed) = &weighed {
+        if arguments.json {
+            terminal.data(&weighed_json(weighed).map_err(Failure::internal)?)?;
+        } else {
+            terminal.text(&weighed_text(weighed))?;
+        }
+    }
     Ok(ending_of(&records))
 }
 

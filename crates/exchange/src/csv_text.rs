@@ -6,6 +6,12 @@ use csv::StringRecord;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvError {
+    /// Nothing in it.
+    #[error("this file is empty, and a table is needed")]
+    Empty,
+    /// JSON.
+    #[error("this file is JSON, and a table is needed")]
+    Json,
     /// No CSV with a header.
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
@@ -35,7 +41,7 @@ impl CsvError {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::NotCsv(_) | Self::Empty | Self::Json => "give a CSV file whose first line names the columns",
             Self::RaggedRow { .. } => {
                 "complete or remove the row; a decimal comma needs semicolons or quotes: 3,5 is two cells"
             }
@@ -58,6 +64,12 @@ impl<'a> CsvText<'a> {
     /// ("3,5"). Lines that begin with # are skipped.
     pub(crate) fn open(text: &'a str) -> Result<Self, CsvError> {
         let text = text.trim_start_matches('\u{feff}');
+        if text.trim().is_empty() {
+            return Err(CsvError::Empty);
+        }
+        if text.trim_start().starts_with(['{', '[']) {
+            return Err(CsvError::Json);
+        }
         let first_line = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
         // with equal counts the last candidate wins
         let delimiter = [b'\t', b';', b',']

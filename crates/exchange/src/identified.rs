@@ -3,6 +3,7 @@
 use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 use serde::Deserialize;
 use serde_json::Value;
+use serde_json::error::Category;
 
 /// A rotor with its measured thrust constant, and its vehicle.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +79,7 @@ impl IdentifiedRotor {
 #[non_exhaustive]
 pub enum ResultsError {
     /// Not JSON.
-    #[error("this is no results.json: {0}")]
+    #[error("this is no results.json: {}", json_fault(.0))]
     NotJson(#[from] serde_json::Error),
     /// JSON without the fields of a result.
     #[error("this is no results.json of `hovertone identify`: {what} is missing")]
@@ -100,6 +101,12 @@ pub enum ResultsError {
         /// The names.
         names: String,
     },
+    /// A group is wanted, and there are none.
+    #[error("these results have no groups, so \"{name}\" is none of them")]
+    NoGroups {
+        /// The wanted name.
+        name: String,
+    },
     /// The result has no constant.
     #[error("nothing was identified in these results: no recording had a rotor tone")]
     NothingIdentified,
@@ -111,6 +118,16 @@ pub enum ResultsError {
         /// Its value.
         value: f64,
     },
+}
+
+/// Why a text is not the wanted JSON, without the words of the parser.
+pub(crate) fn json_fault(error: &serde_json::Error) -> String {
+    match (error.classify(), error.line(), error.column()) {
+        (Category::Eof, 1, 0) => "the file is empty".to_owned(),
+        (Category::Eof, line, _) => format!("the file ends too early, on line {line}"),
+        (Category::Data, ..) => "a value is missing or has another type".to_owned(),
+        (_, line, column) => format!("it is not JSON from line {line}, column {column}"),
+    }
 }
 
 #[derive(Deserialize)]
@@ -127,20 +144,24 @@ fn rotors_std_share(results: &Value) -> f64 {
 }
 
 /// Name of a group of a table: its words, or else the name of its file.
-fn name_of_group(results: &Value) -> &str {
+fn name_of_group(results: &Value) -> Option<&str> {
     let text = |field: &str| results.get(field).and_then(Value::as_str).filter(|name| !name.is_empty());
-    text("group").or(text("file")).unwrap_or("?")
+    text("group").or(text("file"))
 }
 
 /// The results of the group with this name; without a name the only results.
 fn one_of(document: Value, group: Option<&str>) -> Result<Value, ResultsError> {
     let all = match document.get("groups").and_then(Value::as_array) {
+        Some(groups) if groups.is_empty() => return Err(ResultsError::Missing { what: "a group" }),
         Some(groups) => groups.clone(),
+        None if group.is_some() && name_of_group(&document).is_none() => {
+            return Err(ResultsError::NoGroups { name: group.unwrap_or_default().to_owned() });
+        }
         None => vec![document],
     };
-    let names = || all.iter().map(name_of_group).collect::<Vec<_>>().join(", ");
+    let names = || all.iter().filter_map(name_of_group).collect::<Vec<_>>().join(", ");
     let named: Vec<&Value> =
-        all.iter().filter(|results| group.is_none_or(|group| name_of_group(results) == group)).collect();
+        all.iter().filter(|results| group.is_none_or(|group| name_of_group(results) == Some(group))).collect();
     match (named.as_slice(), group) {
         ([one], _) => Ok((*one).clone()),
         ([], Some(name)) => Err(ResultsError::NoSuchGroup { name: name.to_owned(), names: names() }),

@@ -11,6 +11,9 @@ use hovertone_thrust::{
 /// Contributions below this share of the constant have no line for people; the JSON has all of them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
+/// A law with a larger probability has most of it.
+const MOST: f64 = 0.5;
+
 /// Laws and budget of the table of one method; empty without a fit.
 pub fn adequacy_text(table: &ThrustTable, width: Option<usize>) -> String {
     let (Some(fit), Some(budget)) = (&table.fit, &table.budget) else { return String::new() };
@@ -50,7 +53,7 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
             .map_or(DASH.to_owned(), |known| format!("{:.1}", 100.0 * known.probability))
     };
     let mut row = |law: ForceLaw, cells: [String; 3]| {
-        let mark = if law == fit.preferred && fit.laws.len() > 1 { " (preferred)" } else { "" };
+        let mark = if preferred_law(fit) == Some(law) { " (preferred)" } else { "" };
         let [constant, intercept, exponent] = cells;
         text.push(vec![format!("{}{mark}", law.formula()), constant, intercept, exponent, probability(law)]);
     };
@@ -66,11 +69,23 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
     text
 }
 
-/// The preferred law with all its numbers, ready for use, where it is not the square law; else empty. The forces are those of the fit: of
-/// all rotors that share a force.
+/// The law that the evidence prefers and that has most of the probability; `None` where there is none, or nothing to choose from.
+fn preferred_law(fit: &SquareLawFit) -> Option<ForceLaw> {
+    let has_most = |law: ForceLaw| fit.laws.iter().any(|known| known.law == law && known.probability > MOST);
+    Some(fit.preferred).filter(|law| fit.laws.len() > 1 && has_most(*law))
+}
+
+/// The preferred law with all its numbers, ready for use, where it is not the square law; that no law is preferred; else empty. The forces
+/// are those of the fit: of all rotors that share a force.
 pub fn preferred_text(fit: &SquareLawFit) -> String {
-    match (fit.preferred, fit.with_intercept, fit.power_law) {
-        (ForceLaw::SquareWithIntercept, Some(law), _) => {
+    match (preferred_law(fit), fit.with_intercept, fit.power_law) {
+        (None, ..) if fit.laws.len() > 1 => {
+            format!(
+                "no law is preferred: none is clearly the most probable; C_f is that of {}\n",
+                ForceLaw::Square.formula()
+            )
+        }
+        (Some(ForceLaw::SquareWithIntercept), Some(law), _) => {
             let constant = law.thrust_constant_n_s2;
             let unit = PowerOfTen::of([constant.value]);
             let std = constant.std_uncertainty.map(|std| unit.scale(std));
@@ -81,7 +96,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
                 unit.unit(CONSTANT_UNIT),
             )
         }
-        (ForceLaw::Power, _, Some(law)) => format!(
+        (Some(ForceLaw::Power), _, Some(law)) => format!(
             "preferred law: F = F_ref (ω/ω_ref)^p, F_ref = {} N, ω_ref = {} rad/s, p = {}\n",
             significant(law.reference_force_n, 5),
             significant(law.reference_rad_s, 5),

@@ -41,6 +41,23 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
+/// Lines that are wider than `width` columns, wrapped at their spaces; the rest of a line stands below its first word, two columns further in.
+/// Without a width, and where lines are narrow enough, the text stays as it is.
+pub fn folded(text: &str, width: Option<usize>) -> String {
+    let Some(width) = width else { return text.to_owned() };
+    let of_line = |line: &str| {
+        if width_of(line) <= width {
+            return line.to_owned();
+        }
+        let indent = &line[..line.len() - line.trim_start().len()];
+        let hanging = format!("{indent}  ");
+        // the first line has two columns more than the others, which are not used
+        let lines = wrapped(line, width.saturating_sub(width_of(&hanging)));
+        format!("{indent}{}", lines.join(&format!("\n{hanging}")))
+    };
+    text.split('\n').map(of_line).collect::<Vec<_>>().join("\n")
+}
+
 /// The folder that all names share, with its last separator; empty where they share none, or for a single name.
 pub(crate) fn shared_folder<'a>(names: &[&'a str]) -> &'a str {
     let [first, others @ ..] = names else { return "" };
@@ -72,6 +89,13 @@ mod tests {
         assert_eq!(wrapped("one two three", 7), ["one two", "three"]);
         assert_eq!(wrapped("unbreakable a", 3), ["unbreakable", "a"]);
         assert!(wrapped(" ", 10).is_empty());
+    }
+
+    #[test]
+    fn long_lines_are_folded_and_short_ones_stay() {
+        let text = "a  table\n  one two three four\n";
+        assert_eq!(folded(text, Some(14)), "a  table\n  one two\n    three four\n");
+        assert_eq!((folded(text, None), folded(text, Some(20))), (text.to_owned(), text.to_owned()));
     }
 
     #[test]

@@ -7,6 +7,8 @@ use std::iter::zip;
 
 /// Text between two columns.
 const GAP: &str = "  ";
+/// Fewest columns of the screen for the first column.
+const FIRST_WIDTH_MIN: usize = 8;
 /// Fewest columns of the screen for words that are wrapped.
 const WORDS_WIDTH_MIN: usize = 20;
 
@@ -15,7 +17,7 @@ const WORDS_WIDTH_MIN: usize = 20;
 /// A table that is wider than `width` columns of the screen is folded: each part has the first column and as many others as fit. Words in the
 /// last column of a part are wrapped.
 pub fn table_text(table: &TextTable, width: Option<usize>) -> String {
-    let table = Shown::of(table);
+    let table = Shown::of(table).narrowed(width);
     let parts = width.map_or_else(|| vec![(1..table.heads.len()).collect()], |width| table.parts(width));
     let texts: Vec<String> =
         parts.iter().enumerate().map(|(index, others)| table.part(others, width, index == 0)).collect();
@@ -64,6 +66,21 @@ impl Shown {
             Head { title, unit, is_number: column.is_number(), width }
         };
         Self { heads: table.columns().iter().enumerate().map(head).collect(), rows }
+    }
+
+    /// With a first column of at most half the width, where it leaves no room for another column beside it. Its longer cells then stand on
+    /// lines of their own.
+    fn narrowed(mut self, width: Option<usize>) -> Self {
+        let Some(width) = width else { return self };
+        let last = self.heads.len().saturating_sub(1);
+        let least = |(index, head): (usize, &Head)| {
+            if index == last && !head.is_number { head.width.min(WORDS_WIDTH_MIN) } else { head.width }
+        };
+        let widest = self.heads.iter().enumerate().skip(1).map(least).max().unwrap_or(0);
+        if let Some(first) = self.heads.first_mut().filter(|first| first.width + GAP.len() + widest > width) {
+            first.width = first.width.min(width.saturating_sub(GAP.len() + widest).max(FIRST_WIDTH_MIN));
+        }
+        self
     }
 
     /// For each part, its columns beside the first.
@@ -117,14 +134,26 @@ impl Shown {
             Some(width) => wrapped(words, width.saturating_sub(indent).max(WORDS_WIDTH_MIN)),
             None => vec![words.to_owned()],
         };
-        let space = " ".repeat(indent.saturating_sub(width_of(first)));
+        let is_long = width_of(first) + GAP.len() > indent;
+        let space = if is_long { format!("\n{}", " ".repeat(indent)) } else { " ".repeat(indent - width_of(first)) };
         let text = lines.join(&format!("\n{}", " ".repeat(indent)));
         format!("{}\n", format!("{first}{space}{text}").trim_end())
     }
 }
 
-/// A line of padded cells. Words in the last column are wrapped to `last_width`.
+/// A line of padded cells. A first cell that is wider than its column stands on a line of its own above the others.
 fn line<'a>(columns: &[(usize, &Head)], cell: impl Fn(usize) -> &'a str, last_width: Option<usize>) -> String {
+    match columns.first() {
+        Some((first, head)) if width_of(cell(*first)) > head.width => {
+            let others = |index: usize| if index == *first { "" } else { cell(index) };
+            format!("{}\n{}", cell(*first), padded_line(columns, others, last_width))
+        }
+        _ => padded_line(columns, cell, last_width),
+    }
+}
+
+/// A line of padded cells. Words in the last column are wrapped to `last_width`.
+fn padded_line<'a>(columns: &[(usize, &Head)], cell: impl Fn(usize) -> &'a str, last_width: Option<usize>) -> String {
     let padded = |(index, head): &(usize, &Head)| {
         let (text, space) = (cell(*index), " ".repeat(head.width.saturating_sub(width_of(cell(*index)))));
         if head.is_number { format!("{space}{text}") } else { format!("{text}{space}") }
@@ -202,6 +231,22 @@ a.wav          six words that say why
 long name.wav  short
 ";
         assert_eq!(table_text(&table(), Some(38)), folded);
+    }
+
+    #[test]
+    fn a_long_first_cell_stands_alone_where_it_leaves_no_room() {
+        let mut table = TextTable::new(vec![Column::words("file"), Column::numbers("speed", "rev/s")]);
+        table.push(vec!["a/very/long/name/of/a.wav".to_owned(), "60.17 ± 0.12".to_owned()]);
+        table.push_words("b.wav".to_owned(), "no rotor tone".to_owned());
+        let expected = "\
+file             speed
+                 rev/s
+──────────────────────
+a/very/long/name/of/a.wav
+          60.17 ± 0.12
+b.wav     no rotor tone
+";
+        assert_eq!(table_text(&table, Some(22)), expected);
     }
 
     #[test]

@@ -8,8 +8,10 @@ use std::fmt::Write;
 const UNKNOWN: &str = "not known";
 /// Text for direct drive, or for a gear without a source; a preset does not distinguish them.
 const NO_GEAR: &str = "none known";
-/// Fewest columns of a source on a line, however narrow the terminal is.
+/// Fewest columns of a source beside its number.
 const SOURCE_WIDTH_MIN: usize = 30;
+/// Columns before a source below its number.
+const SOURCE_INDENT: usize = 4;
 
 /// All presets for people, in lines of at most `width` characters where possible.
 pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
@@ -19,7 +21,10 @@ pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
     let name_width = all().map(|row| width_of(row.name)).max().unwrap_or(0);
     let value_width = all().map(|row| width_of(&row.value)).max().unwrap_or(0);
     let indent = 2 + name_width + 2 + value_width + 2;
-    let source_width = width.saturating_sub(indent).max(SOURCE_WIDTH_MIN);
+    // on a narrow terminal a source stands below its number
+    let is_below = width.saturating_sub(indent) < SOURCE_WIDTH_MIN;
+    let indent = if is_below { SOURCE_INDENT } else { indent };
+    let source_width = width.saturating_sub(indent);
     let mut text = String::new();
     for (vehicle, rows) in vehicles.iter().zip(&rows) {
         // writing to a string does not fail
@@ -28,9 +33,10 @@ pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
             let space = |text: &str, width: usize| " ".repeat(width.saturating_sub(width_of(text)));
             let head = format!("  {name}{}  {value}{}", space(name, name_width), space(value, value_width));
             let sources = wrapped(source, source_width);
-            let first = sources.first().map_or("", String::as_str);
+            let beside = usize::from(!is_below && !sources.is_empty());
+            let first = sources.iter().take(beside).map(String::as_str).collect::<String>();
             let _ = writeln!(text, "{}", format!("{head}  {first}").trim_end());
-            for line in sources.iter().skip(1) {
+            for line in sources.iter().skip(beside) {
                 let _ = writeln!(text, "{:indent$}{line}", "");
             }
         }
@@ -94,6 +100,15 @@ mod tests {
         assert!((90..=100).contains(&longest), "{longest}");
         let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(words.contains("tooth counts derived"), "{words}");
+    }
+
+    #[test]
+    fn on_a_narrow_terminal_nothing_is_wider_and_nothing_is_lost() {
+        let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        let text = vehicles_text(presets(), 50);
+        let unbreakable = words(&text).iter().map(|word| width_of(word)).max().unwrap();
+        assert!(text.lines().all(|line| width_of(line) <= 50.max(SOURCE_INDENT + unbreakable)), "{text}");
+        assert_eq!(words(&text), words(&vehicles_text(presets(), 100)));
     }
 
     #[test]

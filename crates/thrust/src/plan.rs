@@ -83,7 +83,7 @@ pub enum PlanError {
     },
     /// No number of flights reaches the wanted uncertainty.
     #[error(
-        "no number of flights brings the uncertainty below {:.2} % (k = 2): what remains is the {}",
+        "no number of flights brings the uncertainty below {:.2} % (k = 2): that remains because of: {}",
         100.0 * .best_share, .largest.title()
     )]
     OutOfReach {

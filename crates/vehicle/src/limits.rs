@@ -53,7 +53,7 @@ pub fn loudest_rotor_share(rotor_spread_share: f64, rotor_count: u32) -> f64 {
 #[non_exhaustive]
 pub enum ConfigError {
     /// A number outside its limits.
-    #[error("{name} = {value}, allowed {min} to {max}")]
+    #[error("{name} = {value}, must be from {min} to {max}")]
     OutOfRange {
         /// Name of the setting, as in files and flags.
         name: &'static str,

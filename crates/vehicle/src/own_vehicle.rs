@@ -88,17 +88,17 @@ impl OwnVehicle {
         let of_mass = KnownRotor { mass_kg: self.mass_kg, ..KnownRotor::default() };
         let of_rotors = KnownRotor { rotor_count: Some(self.rotors), ..KnownRotor::default() };
         if of_rotors.check().is_err() {
-            return refuse("rotors", f64::from(self.rotors), "allowed 1 to 64");
+            return refuse("rotors", f64::from(self.rotors), "must be from 1 to 64");
         }
         match (self.blades, self.propeller_diameter_m, self.mass_kg, self.shaft_speed_rev_s) {
             (Some(blades), ..) if !BLADES_ALLOWED.contains(&blades) => {
-                refuse("blades", f64::from(blades), "allowed 1 to 20")
+                refuse("blades", f64::from(blades), "must be from 1 to 20")
             }
             (_, Some(diameter_m), ..) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
-                refuse("propeller_diameter_m", diameter_m, "allowed 0.01 to 10: it is in metres")
+                refuse("propeller_diameter_m", diameter_m, "must be from 0.01 to 10: it is in metres")
             }
             (.., Some(mass_kg), _) if of_mass.check().is_err() => {
-                refuse("mass_kg", mass_kg, "allowed 0.001 to 10000: it is in kilograms")
+                refuse("mass_kg", mass_kg, "must be from 0.001 to 10000: it is in kilograms")
             }
             (.., Some((low, high))) if !(low > 0.0 && low < high && high.is_finite()) => {
                 refuse("shaft_speed_rev_s", low, "must be above 0, and below the second number")

@@ -12,6 +12,10 @@ const PLAIN: [(&str, &[&str]); 4] = [
     ("crates/page/templates", &["html", "js"]),
     ("crates/report/src", &["schema.json"]),
 ];
+/// Files that are text as a whole, at the root.
+const AT_ROOT: [&str; 1] = [README];
+/// The first text that a user reads.
+pub(super) const README: &str = "README.md";
 /// The list of the forbidden words has all of them.
 const GLOSSARY: &str = "docs/glossary.md";
 /// Comments of this folder are the help of the command line.
@@ -57,6 +61,10 @@ pub(super) fn texts(root: &Path, tree: &Tree) -> Result<Vec<Text>, String> {
         if all.len() == before {
             return Err(format!("{folder} has no text"));
         }
+    }
+    for path in AT_ROOT {
+        let content = fs::read_to_string(root.join(path)).map_err(|error| format!("{path}: {error}"))?;
+        all.push(Text { path: path.to_owned(), line: 1, content });
     }
     Ok(all)
 }

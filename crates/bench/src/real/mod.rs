@@ -27,6 +27,7 @@ mod prototype;
 mod reliability;
 mod rotors_told;
 mod rows;
+pub(crate) mod saying_more;
 mod semi_real;
 pub(crate) mod sensitivity;
 mod tables;

@@ -1,5 +1,6 @@
 //! The true speed of each rotor at every instant, where a table has it.
 
+use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::path::Path;
 
@@ -40,6 +41,31 @@ impl TruthTrack {
     pub(super) fn read(path: &Path) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
         Self::from_csv(&text).ok_or_else(|| format!("{}: no table of speeds", path.display()))
+    }
+
+    /// Reads the truth of a simulated flight, whose columns of speeds are `speed_1_rad_s`, ….
+    pub(super) fn read_flight(path: &Path) -> Result<Self, String> {
+        let text = fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        Self::from_flight(&text).ok_or_else(|| format!("{}: no table of a flight", path.display()))
+    }
+
+    fn from_flight(text: &str) -> Option<Self> {
+        let heads: Vec<&str> = text.lines().next()?.split(',').collect();
+        let time = heads.iter().position(|head| *head == "time_s")?;
+        let is_speed = |head: &str| head.starts_with("speed_") && head.ends_with("_rad_s");
+        let speeds: Vec<usize> = (0..heads.len()).filter(|&column| is_speed(heads[column])).collect();
+        let row = |line: &str| {
+            let cells: Vec<&str> = line.split(',').collect();
+            let number = |column: usize| cells.get(column)?.trim().parse::<f64>().ok();
+            let speeds = speeds.iter().map(|&column| Some(RotorSpeed::from_rad_s(number(column)?).rev_s()));
+            Some(TruthRow { time_s: number(time)?, speeds_rev_s: speeds.collect::<Option<_>>()? })
+        };
+        let rows: Vec<TruthRow> = text.lines().skip(1).map(row).collect::<Option<_>>()?;
+        (!rows.is_empty() && !speeds.is_empty()).then_some(Self { rows })
+    }
+
+    pub(super) fn rotor_count(&self) -> usize {
+        self.rows.first().map_or(0, |row| row.speeds_rev_s.len())
     }
 
     fn from_csv(text: &str) -> Option<Self> {
@@ -96,6 +122,15 @@ mod tests {
         assert_eq!(track.over(1.2, 1.5).means_rev_s, [12.0, 20.0], "no row: all rows");
         let square = track.over(1.0, 1.0).mean_square_rad2_s2 / std::f64::consts::TAU.powi(2);
         assert!((square - 272.0).abs() < 1e-9, "{square}");
+    }
+
+    #[test]
+    fn the_speeds_of_a_flight_are_found_among_its_columns() {
+        let text = "time_s,voltage_1_v,speed_1_rad_s,speed_2_rad_s,x_m\n0,11,6.283185307179586,12.566370614359172,0\n";
+        let track = TruthTrack::from_flight(text).unwrap();
+        assert_eq!(track.rotor_count(), 2);
+        assert!((track.over(0.0, 1.0).mean_rev_s() - 1.5).abs() < 1e-12);
+        assert!(TruthTrack::from_flight("time_s,x_m\n0,1\n").is_none());
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Arguments of `calibrate`.
 
-use super::groups::{HearingArguments, ToneArguments, time_s, typed_path};
+use super::groups::{HearingArguments, ToneArguments, time_s, typed_path, whole_number};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -35,24 +35,18 @@ pub(crate) struct CalibrateArguments {
     )]
     pub(crate) tachometer_rpm: Option<String>,
     /// Frequency of the tone: of a signal generator; or of the rotor's tone, with --blades, --gear, --order or --vehicle
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true, help_heading = "The known speed")]
+    #[arg(long, value_name = "HZ", help_heading = "The known speed")]
     pub(crate) true_hz: Option<f64>,
     /// Standard uncertainty of the known speed, in millionths [default: by the last digit of --tachometer-rpm; 0 for --true-hz]
-    #[arg(long, value_name = "PPM", allow_negative_numbers = true, help_heading = "The known speed")]
+    #[arg(long, value_name = "PPM", help_heading = "The known speed")]
     pub(crate) known_std_ppm: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
     /// Rotors that turn: 1, since the known speed is that of one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64), help_heading = "Which tone")]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64), help_heading = "Which tone")]
     pub(crate) rotors: Option<u32>,
     /// How far the recorder's clock may be off, in millionths
-    #[arg(
-        long,
-        value_name = "PPM",
-        default_value_t = 50.0,
-        allow_negative_numbers = true,
-        help_heading = "How it is analysed"
-    )]
+    #[arg(long, value_name = "PPM", default_value_t = 50.0, help_heading = "How it is analysed")]
     pub(crate) clock_ppm: f64,
     /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]

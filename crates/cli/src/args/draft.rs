@@ -1,6 +1,6 @@
 //! Arguments that describe an experiment in place of its file: of `init` and `identify`.
 
-use super::groups::gear;
+use super::groups::{gear, whole_number};
 use super::thrust::PlaceArguments;
 use clap::Args;
 use hovertone_vehicle::Gear;
@@ -23,16 +23,16 @@ pub(crate) struct DraftArguments {
     #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: Option<String>,
     /// Blades of each propeller
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
     pub(crate) blades: Option<u32>,
     /// Teeth of the motor's pinion and the rotor's wheel
     #[arg(long, value_name = "P:W", value_parser = gear)]
     pub(crate) gear: Option<Gear>,
     /// Rotors that carry it [default: the vehicle's]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64))]
     pub(crate) rotors: Option<u32>,
     /// Diameter of a propeller, from tip to tip: it settles the octave [default: the vehicle's]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     pub(crate) diameter_m: Option<f64>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,

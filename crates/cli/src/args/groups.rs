@@ -6,19 +6,22 @@ use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
 use hovertone::experiment::time_s_from_text;
 use hovertone::speed::Method;
 use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Gear};
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+use std::str::FromStr;
 
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Which tone")]
 pub(crate) struct ToneArguments {
     /// Blades of each propeller: the tone is the blade pass
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
     pub(crate) blades: Option<u32>,
     /// Teeth of the motor's pinion and the rotor's wheel (the wheel alone will do): the tone is the gear mesh
     #[arg(long, value_name = "P:W", value_parser = gear)]
     pub(crate) gear: Option<Gear>,
     /// Lines per turn of the shaft, of whichever tone
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     pub(crate) order: Option<f64>,
     /// A known vehicle: its gear mesh or blade pass (see `hovertone vehicles`)
     #[arg(long, value_name = "NAME")]
@@ -27,7 +30,7 @@ pub(crate) struct ToneArguments {
     #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
     pub(crate) band: Option<(f64, f64)>,
     /// Harmonics to follow, the tone itself counted [default: 3]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) harmonics: Option<u32>,
 }
 
@@ -35,13 +38,13 @@ pub(crate) struct ToneArguments {
 #[command(next_help_heading = "Known facts about the vehicle")]
 pub(crate) struct KnownArguments {
     /// Diameter of a propeller: tips faster than Mach 0.6 are ruled out
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     pub(crate) diameter_m: Option<f64>,
     /// Mass as flown: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG")]
     pub(crate) mass_kg: Option<f64>,
     /// Rotors that carry it: with two or more, they are separated [default: one, or four where others are heard beside it]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) rotors: Option<u32>,
 }
 
@@ -55,16 +58,16 @@ pub(crate) struct AnalysisArguments {
     #[arg(long, value_parser = method_parser())]
     pub(crate) method: Option<Method>,
     /// How far the recorder's clock may be off, in millionths [default: 50]
-    #[arg(long, value_name = "PPM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PPM")]
     pub(crate) clock_ppm: Option<f64>,
     /// Show the lines of each rotor's shaft against its blade pass: imbalance, unlike blades (not diagnosed)
     #[arg(long)]
     pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
-    #[arg(long, value_name = "M/S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M/S")]
     pub(crate) radial_speed_m_s_max: Option<f64>,
     /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m; say 0 for a bench [default: 0.5]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     pub(crate) drift_m_max: Option<f64>,
     /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
@@ -73,13 +76,13 @@ pub(crate) struct AnalysisArguments {
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) to: Option<f64>,
     /// Length of a frame of the paper's methods in seconds; the clearest of 0.0125 to 0.4 where not given
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    #[arg(long, value_name = "S")]
     pub(crate) window_s: Option<f64>,
     /// Step between frames as a share of their length [default: 0.5]
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE")]
     pub(crate) hop_share: Option<f64>,
     /// Share of a frame's peak that takes part in the Gaussian [default: 0.8]
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE")]
     pub(crate) gaussian_threshold_share: Option<f64>,
 }
 
@@ -93,7 +96,7 @@ pub(crate) struct HearingArguments {
     #[arg(long, value_name = "N", value_parser = from_one)]
     pub(crate) channel: Option<usize>,
     /// Correction of the recorder's clock in millionths, as `hovertone calibrate` prints it [default: 0]
-    #[arg(long, value_name = "PPM", allow_negative_numbers = true, value_parser = clock_correction)]
+    #[arg(long, value_name = "PPM", value_parser = clock_correction)]
     pub(crate) clock_correction_ppm: Option<f64>,
     /// Show no progress bar (there is none anyway when stderr is not a terminal)
     #[arg(long)]
@@ -123,17 +126,32 @@ pub(crate) fn time_s(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "write seconds, such as 62.5, or minutes and seconds, such as 1:02.5".to_owned())
 }
 
+/// A whole number in a range.
+pub(crate) fn whole_number<T: FromStr + Display + PartialOrd + Clone>(
+    allowed: RangeInclusive<T>,
+) -> impl Fn(&str) -> Result<T, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| allowed.contains(number));
+        number.ok_or_else(|| format!("must be a whole number from {} to {}", allowed.start(), allowed.end()))
+    }
+}
+
 fn clock_correction(text: &str) -> Result<f64, String> {
     let limit = CLOCK_CORRECTION_PPM_MAX;
     let ppm = finite(text).filter(|ppm| ppm.abs() <= limit);
-    ppm.ok_or_else(|| format!("a number from -{limit} to {limit} is needed: no clock is further off"))
+    ppm.ok_or_else(|| format!("must be a number from -{limit} to {limit}: no clock is further off"))
+}
+
+/// A whole number, whose range the analysis checks.
+fn whole(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "must be a whole number, 1 or more".to_owned())
 }
 
 fn from_one(text: &str) -> Result<usize, String> {
     match text.parse() {
-        Ok(0) => Err("it is counted from 1".to_owned()),
+        Ok(0) => Err("must be 1 or more: it is counted from 1".to_owned()),
         Ok(number) => Ok(number),
-        Err(_) => Err("a whole number is needed, counted from 1".to_owned()),
+        Err(_) => Err("must be a whole number, counted from 1".to_owned()),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Arguments of `spectrogram`.
 
-use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, typed_path};
+use super::groups::{
+    AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, typed_path, whole_number,
+};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -26,7 +28,7 @@ pub(crate) struct SpectrogramArguments {
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
     /// Dots per inch of a PNG
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u16).range(50..=1200), help_heading = "Output")]
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole_number(50u16..=1200), help_heading = "Output")]
     pub(crate) dpi: u16,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,

@@ -1,7 +1,7 @@
 //! Arguments of the commands about forces: identify, fit, weigh, export, compare.
 
 use super::draft::{DraftArguments, MASS_HELP};
-use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path};
+use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path, whole_number};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
@@ -111,7 +111,7 @@ pub(crate) struct FitArguments {
     #[arg(long)]
     pub(crate) json: bool,
     /// Rotors that share the thrust of a row, or carry its mass [default: 1; 4 with --plan]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=64))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64))]
     pub(crate) rotors: Option<u32>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
@@ -125,13 +125,13 @@ pub(crate) struct FitArguments {
 #[command(next_help_heading = "Where it was flown")]
 pub(crate) struct PlaceArguments {
     /// Local gravity [default: standard gravity]
-    #[arg(long, value_name = "M/S2", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M/S2")]
     pub(crate) gravity_m_s2: Option<f64>,
     /// Latitude, for gravity
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true, conflicts_with = "gravity_m_s2")]
+    #[arg(long, value_name = "DEG", conflicts_with = "gravity_m_s2")]
     pub(crate) latitude_deg: Option<f64>,
     /// Height above the sea, for gravity and air
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     pub(crate) height_m: Option<f64>,
 }
 
@@ -139,16 +139,16 @@ pub(crate) struct PlaceArguments {
 #[command(next_help_heading = "Air and propeller, for C_T and the figure of merit")]
 pub(crate) struct AirArguments {
     /// Diameter of a propeller
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     pub(crate) diameter_m: Option<f64>,
     /// Temperature of the air [default: of the standard atmosphere at --height-m]
-    #[arg(long, value_name = "C", allow_negative_numbers = true)]
+    #[arg(long, value_name = "C")]
     pub(crate) temperature_c: Option<f64>,
     /// Pressure at the place [default: of the standard atmosphere at --height-m]
-    #[arg(long, value_name = "HPA", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HPA")]
     pub(crate) pressure_hpa: Option<f64>,
     /// Relative humidity [default: 0]
-    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PERCENT")]
     pub(crate) humidity_percent: Option<f64>,
 }
 
@@ -159,22 +159,22 @@ pub(crate) struct PlanArguments {
     #[arg(long, conflicts_with = "tables", requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
-    #[arg(long, value_name = "SHARE", default_value_t = 0.025, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.025)]
     pub(crate) wanted_share: f64,
     /// Mass of the vehicle, ready to fly
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG")]
     pub(crate) mass_kg: Option<f64>,
     /// The most that it may carry beside itself [default: a quarter of its mass]
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG")]
     pub(crate) added_mass_kg: Option<f64>,
     /// Standard uncertainty of a weighing
-    #[arg(long, value_name = "KG", default_value_t = 0.0005, allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG", default_value_t = 0.0005)]
     pub(crate) mass_std_kg: f64,
     /// Spread of the speed in a hover, over its mean; the paper's flights have 0.0123
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0123, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0123)]
     pub(crate) speed_spread_share: f64,
     /// How long the speed remembers itself
-    #[arg(long, value_name = "S", default_value_t = 0.3, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = 0.3)]
     pub(crate) correlation_s: f64,
     /// The rotors are separated, or heard as a group: not one tone is used for all (docs/budget.md)
     #[arg(long)]
@@ -202,19 +202,19 @@ pub(crate) struct WeighArguments {
     #[command(flatten)]
     pub(crate) of: GroupArguments,
     /// Thrust constant of the whole vehicle, N/(rad/s)²
-    #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_n_s2: Option<f64>,
     /// Its standard uncertainty
-    #[arg(long, value_name = "N_S2", conflicts_with = "constant", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_std_n_s2: Option<f64>,
     /// Rotors that carry it [default: from the results, or from --vehicle]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=12))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=12))]
     pub(crate) rotors: Option<u32>,
     /// Mass of the vehicle without payload [default: that of the results]
-    #[arg(long, value_name = "KG", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG")]
     pub(crate) mass_kg: Option<f64>,
     /// Standard uncertainty of that mass
-    #[arg(long, value_name = "KG", default_value_t = 0.0005, allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG", default_value_t = 0.0005)]
     pub(crate) mass_std_kg: f64,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
@@ -270,16 +270,16 @@ pub(crate) struct ExportArguments {
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
     /// Torque of a rotor over its squared speed, if it was measured: N m/(rad/s)²
-    #[arg(long, value_name = "X", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X")]
     pub(crate) torque_constant_n_m_s2: Option<f64>,
     /// Command (0 to 1) at which it hovers, for N/command²
-    #[arg(long, value_name = "U", allow_negative_numbers = true)]
+    #[arg(long, value_name = "U")]
     pub(crate) hover_command: Option<f64>,
     /// Diameter of a propeller [default: that of the results]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M")]
     pub(crate) diameter_m: Option<f64>,
     /// Density of the air [default: that of the results]
-    #[arg(long, value_name = "KG/M3", allow_negative_numbers = true)]
+    #[arg(long, value_name = "KG/M3")]
     pub(crate) air_density_kg_m3: Option<f64>,
 }
 

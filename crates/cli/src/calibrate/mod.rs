@@ -8,7 +8,7 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
 use crate::settings::config_of;
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, warnings_about};
 use crate::vehicles::preset;
 use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words};
 use hovertone::calibration::Judgement;
@@ -63,28 +63,30 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
     progress.finish();
     let comparison = heard.speed.map(|speed| Comparison::of(speed, plan.reference)).transpose()?;
     let judgement = comparison.as_ref().map(|comparison| comparison.check.judgement(arguments.clock_ppm));
+    say_notes(&heard, &job.name, plan.notice.as_ref(), terminal);
     if arguments.json {
         let text = as_json(&job.name, heard.status, heard.reason.as_deref(), comparison.as_ref(), arguments);
         terminal.data(&(text + "\n"))?;
     } else if let Some(comparison) = &comparison {
-        terminal.data(&in_words(&job.name, comparison, arguments))?;
+        terminal.text(&in_words(&job.name, comparison, arguments))?;
     }
     terminal.flush()?;
-    say_notes(&heard, &job.name, plan.notice.as_ref(), terminal);
     Ok(if judgement == Some(Judgement::Passes) { heard.ending } else { heard.ending.max(Ending::Incomplete) })
 }
 
 fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut Terminal) {
+    let records: Vec<&SpeedRecord> = heard.record.iter().collect();
+    terminal.warning_count(usize::from(notice.is_some()) + heard.notices.len() + warnings_about(&records));
     if let Some(notice) = notice {
         terminal.warning(notice, "");
     }
-    if let Some(record) = &heard.record {
-        return terminal.notes(&[record]);
+    heard.notices.iter().for_each(|notice| terminal.warning(notice, ""));
+    if !records.is_empty() {
+        return terminal.notes(&records);
     }
     if let Some(reason) = &heard.reason {
         terminal.error(&Notice::new(format!("{name}: {reason}"), ""));
     }
-    heard.notices.iter().for_each(|notice| terminal.warning(notice, ""));
 }
 
 /// The speed of a rotor, as `hovertone speed` hears it.

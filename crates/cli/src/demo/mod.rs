@@ -49,7 +49,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     }
     text += &format!("{LOADS_FOOTNOTE}\n\n{TRUTH_TITLE}\n{}", table_text(&against_truth, width));
     identified.say_notes(terminal);
-    terminal.data(&(text + "\n" + &identified.summary(width) + FOOTNOTE + "\n" + &identified.quote()))?;
+    terminal.text(&(text + "\n" + &identified.summary(width) + FOOTNOTE + "\n" + &identified.quote()))?;
     terminal.flush()?;
     let extras = Extras {
         compared: &compared,
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
         command: &typed_command(),
     };
     identified.write(folder, &extras)?;
-    terminal.data(&page_line(&folder.place(PAGE)))?;
+    terminal.text(&page_line(&folder.place(PAGE)))?;
     Ok(identified.ending())
 }
 

@@ -44,12 +44,12 @@ pub(super) fn run(
         method: arguments.method.unwrap_or(experiment.config.method).name(),
         loads,
     };
-    terminal.data(&planned_experiment_text(&plan, terminal.fold_width()))?;
+    terminal.text(&planned_experiment_text(&plan, terminal.fold_width()))?;
     terminal.flush()?;
     let faults = faults_of(&plan, &missing, arguments.data_root.as_deref().unwrap_or(&source.folder));
     faults.iter().for_each(|fault| terminal.error(fault));
     wishes_of(experiment).iter().for_each(|wish| terminal.warning(wish, ""));
-    terminal.data(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
+    terminal.text(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
     Ok(if faults.is_empty() { Ending::Done } else { Ending::FilesFailed })
 }
 

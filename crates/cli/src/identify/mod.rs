@@ -70,12 +70,12 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     if arguments.json {
         terminal.data(&results_json(&identified.identification()).map_err(Failure::internal)?)?;
     } else {
-        terminal.data(&identified.headline())?;
+        terminal.text(&identified.headline())?;
         if arguments.verbose {
-            terminal.data(&identified.tables_in_words(terminal.fold_width()))?;
+            terminal.text(&identified.tables_in_words(terminal.fold_width()))?;
         }
-        terminal.data(&identified.model_in_words())?;
-        terminal.data(&identified.quote())?;
+        terminal.text(&identified.model_in_words())?;
+        terminal.text(&identified.quote())?;
     }
     terminal.flush()?;
     let page = match &folder {
@@ -90,7 +90,7 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
         None => "page: none; -o DIR writes it, with results.json, tables and figures\n".to_owned(),
     };
     if !arguments.json {
-        terminal.data(&page)?;
+        terminal.text(&page)?;
     }
     Ok(identified.ending())
 }

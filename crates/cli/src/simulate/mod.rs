@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Res
     truth_json::begin(&folder)?;
     let truth = write(flown, &source, &folder, !arguments.no_progress)?;
     truth_json::write(&folder, &source, &truth)?;
-    terminal.data(&simulated_flight_table(&summary_of(&source, &truth), terminal.fold_width()))?;
+    terminal.text(&simulated_flight_table(&summary_of(&source, &truth), terminal.fold_width()))?;
     terminal.flush()?;
     terminal.say(&format!("written: {SOUND}, {TABLE}, {}\n  {}", truth_json::NAME, folder.path().display()));
     Ok(Ending::Done)

@@ -44,8 +44,14 @@ fn a_warning_is_one_line_with_its_advice() {
     let table = folder.path().join("a.csv");
     fs::write(&table, "rpm,mass_g,mass_std_g\n3600,413,1\n").unwrap();
     let run = hovertone(&["fit", text(&table)]).ends_with(0);
-    assert!(!lines(&run).is_empty());
-    for line in lines(&run) {
+    let said = lines(&run);
+    let [count, warnings @ ..] = said.as_slice() else { panic!("no warning") };
+    assert_eq!(
+        *count,
+        if warnings.len() == 1 { "1 warning".to_owned() } else { format!("{} warnings", warnings.len()) }
+    );
+    assert!(!warnings.is_empty());
+    for line in warnings {
         assert!(line.starts_with("warning: ") && line.contains(" (hint: "), "{line}");
     }
 }
@@ -113,4 +119,101 @@ fn names_of_loads_cannot_move_the_cursor() {
     assert!(run.stderr.contains("load \"l\\u{1b}[2J1\" does not fit"), "{}", run.stderr);
     let verdict = run.stdout.lines().find(|line| line.starts_with("verdict: ")).unwrap();
     assert!(verdict.contains("not fit") && verdict.contains("l\\u{1b}[2J1"), "{verdict}");
+}
+
+/// A value that no flag takes, a word too many, a negative number: one line, and our own words.
+#[test]
+fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
+    for (arguments, said) in [
+        ("speed a.wav --mass-kg -1", "error: mass_kg = -1, must be from 0.001 to 10000 (hint: "),
+        ("speed a.wav --blades -1", "error: --blades -1: must be a whole number from 1 to 20 (hint: "),
+        ("speed a.wav --rotors -1", "error: --rotors -1: must be a whole number, 1 or more (hint: "),
+        ("speed a.wav --harmonics -1", "error: --harmonics -1: must be a whole number, 1 or more (hint: "),
+        ("speed a.wav --channel -1", "error: --channel -1: must be a whole number, counted from 1 (hint: "),
+        ("fit --plan --mass-kg -1", "error: vehicle_mass_kg = -1"),
+        ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 64 (hint: "),
+        ("identify --vehicle ardrone --mass -1 a.wav", "error: --mass -1: "),
+        ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav is negative"),
+        ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
+        ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
+        ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
+        ("sped a.wav", "error: there is no command \"sped\" (hint: did you mean speed?)"),
+        ("export a.json", "error: this is missing: --to <FORMAT> (hint: "),
+    ] {
+        let run = hovertone(&arguments.split(' ').collect::<Vec<_>>()).ends_with(2);
+        let all = lines(&run);
+        assert!(all.len() == 1 && all[0].starts_with(said) && all[0].ends_with(')'), "{arguments}:\n{}", run.stderr);
+        assert!(run.stdout.is_empty(), "{arguments}");
+    }
+}
+
+#[test]
+fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, content: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, content).unwrap();
+        path.display().to_string()
+    };
+    let (json, empty) = (write("a.json", b"{\"thrust_constant_per_rotor_n_s2\": 1}"), write("e.csv", b""));
+    let results = write(
+        "r.json",
+        b"{\"thrust_constant_per_rotor_n_s2\": {\"value\": 1e-6}, \"rotor_count\": 1, \"methods\": {}}",
+    );
+    let (broken, sound) = (write("b.json", b"{\"a\": "), write("r.wav", &[255, 254, 0, 1]));
+    for (arguments, code, said) in [
+        (vec!["fit", &json], 2, "this file is JSON, and a table is needed"),
+        (vec!["fit", &empty], 2, "this file is empty, and a table is needed"),
+        (vec!["export", &results, "--into", &results], 2, "this JSON is no model of a simulator"),
+        (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
+        (vec!["export", &empty, "--to", "gazebo"], 1, "the file is empty"),
+        (vec!["export", &broken, "--to", "gazebo"], 1, "the file ends too early, on line 1"),
+        (vec!["export", &sound, "--to", "gazebo"], 1, "this file is not text, so it cannot be the results"),
+    ] {
+        let run = hovertone(&arguments).ends_with(code);
+        assert_eq!(lines(&run).len(), 1, "{}", run.stderr);
+        assert!(run.stderr.contains(said), "{said}:\n{}", run.stderr);
+        for word in ["EOF", "column 0", "missing field", "?)", ": ?"] {
+            assert!(!run.stderr.contains(word), "{word}:\n{}", run.stderr);
+        }
+    }
+}
+
+/// Both streams as a terminal shows them.
+#[cfg(unix)]
+#[test]
+fn what_weakens_an_answer_stands_on_top_counted() {
+    let folder = tempfile::tempdir().unwrap();
+    let (table, sound) = (folder.path().join("a.csv"), folder.path().join("a.wav"));
+    fs::write(&table, "rpm,mass_g,mass_std_g\n3600,413,1\n").unwrap();
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), 3.0));
+    for (arguments, answer) in [
+        (vec!["fit", text(&table)], "C_f, one rotor"),
+        (vec!["speed", "--vehicle", "ardrone", text(&sound)], "rev/s  "),
+        (vec!["weigh", text(&sound), "--vehicle", "ardrone", "--constant-n-s2", "2.831e-5"], "mass: "),
+    ] {
+        let both = std::process::Command::new("sh")
+            .args(["-c", "\"$0\" \"$@\" 2>&1", env!("CARGO_BIN_EXE_hovertone")])
+            .args(&arguments)
+            .output()
+            .unwrap();
+        let said = String::from_utf8(both.stdout).unwrap();
+        let count = said.lines().next().unwrap();
+        let number: usize = count.split(' ').next().unwrap().parse().unwrap_or_else(|_| panic!("{said}"));
+        assert!(count == "1 warning" || count.ends_with(" warnings"), "{said}");
+        let (above, _) = said.split_once(answer).unwrap_or_else(|| panic!("{said}"));
+        assert_eq!(above.matches("warning: ").count(), number, "{said}");
+        assert_eq!(said.matches("warning: ").count(), number, "below the answer: {said}");
+    }
+}
+
+/// The square law is kept, since no other is ten times as probable; but it has little of the probability itself.
+#[test]
+fn a_law_without_most_of_the_probability_is_not_preferred() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("a.csv");
+    fs::write(&table, "rpm,thrust_g\n1000,5\n2000,21\n3000,52\n4000,90\n5000,140\n").unwrap();
+    let said = hovertone(&["fit", text(&table)]).ends_with(0).stdout;
+    assert!(!said.contains("(preferred)"), "{said}");
+    assert!(said.contains("no law is preferred: none is clearly the most probable; C_f is that of F = C ω²"), "{said}");
 }

@@ -173,7 +173,7 @@ fn tips_faster_than_mach_0_6_are_refused_also_with_blades() {
     let table = folder.path().join("stand.csv");
     fs::write(&table, "rpm,thrust_n\n3000,0.701\n4000,1.249\n5000,1.952\n").unwrap();
     hovertone(&["fit", text(&table), "--diameter-m", "0.254"]).ends_with(0);
-    refused_with(&["fit", text(&table), "--diameter-m", "25.4"], &["allowed 0.01 to 10"]);
+    refused_with(&["fit", text(&table), "--diameter-m", "25.4"], &["from 0.01 to 10"]);
     refused_with(&["fit", text(&table), "--diameter-m", "2.54"], &["line 2", "diameter_m = 2.54", "Mach", "in metres"]);
 }
 
@@ -282,8 +282,8 @@ fn files_of_another_kind_are_named_for_what_they_are() {
     for (arguments, words) in [
         (vec!["fit", wav], ["413g.wav", "not text"]),
         (vec!["export", wav, "--to", "gazebo"], ["413g.wav", "not text"]),
-        (vec!["fit", place], ["this is a folder", "the table is a file"]),
-        (vec!["identify", place], ["this is a folder", "experiment file is a file"]),
+        (vec!["fit", place], ["this is a folder", "the table must be a file"]),
+        (vec!["identify", place], ["this is a folder", "experiment file must be a file"]),
         (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "check its name"]),
         (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "check its name"]),
     ] {

@@ -6,12 +6,13 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-const FEW: std::ops::RangeInclusive<u64> = 1..=4;
-const MANY: std::ops::RangeInclusive<u64> = 1..=100;
+/// `cargo run --release -p hovertone-bench -- saying-more` hears a hundred, and the semi-real recordings.
+const SEEDS: std::ops::RangeInclusive<u64> = 1..=4;
 const DURATION_S: f64 = 6.0;
 const SPREAD_SHARE: f64 = 0.01;
-/// An answer is right within this share: the mean of a hover changes by this much between its whole and the part that is used.
-const RIGHT_SHARE: f64 = 0.003;
+/// The true mean is that of the whole hover, and a part of it is heard: their means differ by this much.
+const TRUTH_SHARE: f64 = 0.003;
+const COVERAGE_FACTOR: f64 = 2.0;
 
 /// One way of hearing a recording.
 struct Heard {
@@ -25,7 +26,20 @@ struct Heard {
 
 impl Heard {
     fn is_right(&self) -> bool {
-        self.error_share.is_some_and(|error| error.abs() <= RIGHT_SHARE)
+        self.error_share.is_some_and(|error| error.abs() <= TRUTH_SHARE)
+    }
+
+    /// Is the error of `more` at most this error and the ± that was stated with it, and `more` right where this is?
+    fn is_no_better_than(&self, more: &Heard) -> bool {
+        if self.is_right() && !more.is_right() {
+            return false;
+        }
+        match (self.error_share, more.error_share) {
+            (Some(less), Some(error)) => {
+                error.abs() <= less.abs() + (COVERAGE_FACTOR * self.std_share).max(TRUTH_SHARE)
+            }
+            (less, _) => less.is_none(),
+        }
     }
 }
 
@@ -66,7 +80,8 @@ fn heard_in_all_ways(folder: &Path, seed: u64) -> Vec<Heard> {
     ways.into_iter().map(of_way).collect()
 }
 
-/// The ways in which saying more makes it worse: a right answer becomes a wrong one or none.
+/// The ways in which saying more makes it worse: a right answer becomes a wrong one or none, or the error grows by more than the ± stated
+/// without it.
 fn worse(seeds: impl Iterator<Item = u64>) -> Vec<String> {
     let folder = tempfile::tempdir().unwrap();
     let (mut found, mut right) = (Vec::new(), 0);
@@ -81,10 +96,9 @@ fn worse(seeds: impl Iterator<Item = u64>) -> Vec<String> {
                 Some(error) => format!("{:+.3} % (u {:.3} %)", 100.0 * error, 100.0 * heard.std_share),
                 None => heard.status.clone(),
             };
-            println!("seed {seed}: {} {}, {} {}", alone.what, of(&alone), more.what, of(&more));
-            if alone.is_right() && !more.is_right() {
-                found.push(format!("seed {seed}: {} {}, {} {}", alone.what, of(&alone), more.what, of(&more)));
-            }
+            let line = format!("seed {seed}: {} {}, {} {}", alone.what, of(&alone), more.what, of(&more));
+            println!("{line}");
+            found.extend((!alone.is_no_better_than(&more)).then_some(line));
         }
     }
     assert!(right > 0, "no recording is heard right by its blades alone: nothing was compared");
@@ -92,14 +106,7 @@ fn worse(seeds: impl Iterator<Item = u64>) -> Vec<String> {
 }
 
 #[test]
-fn saying_more_never_makes_a_speed_worse() {
-    let found = worse(FEW);
-    assert!(found.is_empty(), "{}", found.join("\n"));
-}
-
-#[test]
-#[ignore = "exam: a hundred flights, each heard in up to five ways"]
-fn saying_more_never_makes_a_speed_worse_in_a_hundred_flights() {
-    let found = worse(MANY);
+fn saying_more_never_makes_an_error_larger() {
+    let found = worse(SEEDS);
     assert!(found.is_empty(), "{}", found.join("\n"));
 }

@@ -150,6 +150,9 @@ pub enum ModelError {
         "the file has no thrust constant of a known simulator (looked for motorConstant, motor_constant, kf, k_eta, thrust_map, C_T, rpm2thrust)"
     )]
     Unknown,
+    /// JSON with a constant, but not the export of this project.
+    #[error("this JSON is no model of a simulator; it may be the results of hovertone")]
+    NoExport,
     /// An invalid file.
     #[error("it cannot be read as {format}: {reason}")]
     Broken {

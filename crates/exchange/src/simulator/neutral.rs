@@ -3,10 +3,11 @@
 use super::flightmare::number_of;
 use super::header::{commented, missing_torque, number};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
-use crate::identified::IdentifiedRotor;
+use crate::identified::{IdentifiedRotor, json_fault};
 use crate::units::ConstantUnits;
 use saphyr::{LoadableYamlNode, Yaml};
 use serde::{Deserialize, Serialize};
+use serde_json::error::Category;
 
 #[derive(Serialize, Deserialize)]
 struct Neutral {
@@ -87,7 +88,10 @@ pub(super) fn write_yaml(rotor: &IdentifiedRotor) -> String {
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     if text.trim_start().starts_with('{') {
-        let broken = |error: serde_json::Error| ModelError::Broken { format: "JSON", reason: error.to_string() };
+        let broken = |error: serde_json::Error| match error.classify() {
+            Category::Data => ModelError::NoExport,
+            _ => ModelError::Broken { format: "JSON", reason: json_fault(&error) },
+        };
         let all: Neutral = serde_json::from_str(text).map_err(broken)?;
         return Ok(SimulatorModel {
             rotor_count: Some(all.rotor_count),

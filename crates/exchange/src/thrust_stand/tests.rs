@@ -51,7 +51,7 @@ fn what_means_nothing_is_refused_with_its_line() {
         ("a,thrust_n\n1,2\n", ["speed", "a, thrust_n"]),
         ("rpm,thrust_n\n0,0\n", ["nothing", "fit"]),
         ("rpm,thrust_n\n", ["nothing", "fit"]),
-        ("", ["speed", "columns"]),
+        ("", ["empty", "a table is needed"]),
     ] {
         let message = table_from_csv(text).unwrap_err().to_string();
         assert!(words.iter().all(|word| message.contains(word)), "{text:?}: {message}");

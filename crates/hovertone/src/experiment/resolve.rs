@@ -91,7 +91,11 @@ impl ExperimentFile {
         let own_diameter_m = self.vehicle.propeller_diameter_m;
         if let Some(value) = own_diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
             let name = "vehicle.propeller_diameter_m".to_owned();
-            return Err(ExperimentError::OutOfRange { name, value, must_be: "allowed 0.01 to 10: it is in metres" });
+            return Err(ExperimentError::OutOfRange {
+                name,
+                value,
+                must_be: "must be from 0.01 to 10: it is in metres",
+            });
         }
         let config = self.resolve_config(known, rotor_count)?;
         if self.loads.is_empty() {
@@ -361,7 +365,7 @@ fn check_model(model: &VehicleModel) -> Result<(), ExperimentError> {
     match (model.mass_kg, model.propeller_diameter_m, model.rotor_count) {
         (Some(mass_kg), ..) if !is_positive(mass_kg) => refuse("mass_kg", mass_kg, "must be a number above 0"),
         (_, Some(diameter_m), _) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
-            refuse("propeller_diameter_m", diameter_m, "allowed 0.01 to 10")
+            refuse("propeller_diameter_m", diameter_m, "must be from 0.01 to 10")
         }
         (.., Some(0)) => refuse("rotors", 0.0, "must be at least 1"),
         _ => Ok(()),

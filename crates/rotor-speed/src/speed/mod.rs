@@ -14,7 +14,9 @@ pub(crate) use separated::mean_track;
 pub use settings::BudgetConfig;
 
 use crate::ridge::RidgeConfig;
-use hovertone_analysis::{HarmonicSpeed, Method, Peak, Ridge, Span, SpeedEstimate, TrackPoint, Warning};
+use hovertone_analysis::{
+    HarmonicSpeed, Method, Peak, Ridge, Span, SpeedEstimate, TrackPoint, Warning, percent_in_words,
+};
 use hovertone_signal::statistics::{mean, median, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
 
@@ -84,7 +86,7 @@ impl<'a> HarmonicWeights<'a> {
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
-                    format!("its tone is in only {:.0} % of the frames", 100.0 * ridge.point_share())
+                    format!("its tone is in only {} of the frames", percent_in_words(ridge.point_share()))
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     let (percent, how) =

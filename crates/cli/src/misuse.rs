@@ -1,0 +1,206 @@
+//! A command line that has no meaning: one line says what is wrong and what to do.
+
+use crate::args::Arguments;
+use crate::failure::Failure;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Arg, Command, CommandFactory, FromArgMatches};
+use std::error::Error as _;
+use std::ffi::OsString;
+use std::num::{ParseFloatError, ParseIntError};
+
+/// The command line as typed.
+///
+/// # Errors
+/// It has no meaning, or it asks for help or for the version.
+pub(crate) fn typed_arguments(words: &[OsString]) -> Result<Arguments, clap::Error> {
+    let mut matches = with_negative_numbers(Arguments::command()).try_get_matches_from(words)?;
+    Arguments::from_arg_matches_mut(&mut matches)
+}
+
+/// A negative number is the value of the flag before it and no flag, so that our own message can say what the value must be.
+fn with_negative_numbers(command: Command) -> Command {
+    let allowed = |argument: Arg| {
+        let takes_value = argument.get_action().takes_values() && !argument.is_positional();
+        if takes_value { argument.allow_negative_numbers(true) } else { argument }
+    };
+    command.mut_subcommands(|command| command.mut_args(allowed))
+}
+
+/// The failure of a command line; `None` where it asks for help or for the version, which are no failures.
+pub(crate) fn failure_of(error: &clap::Error, words: &[OsString]) -> Option<Failure> {
+    if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return None;
+    }
+    let Misuse { what, hint } = Misuse::of(error, words);
+    Some(Failure::usage(what, hint.unwrap_or_else(|| see_help(words))))
+}
+
+struct Misuse {
+    what: String,
+    /// Absent where the help is the best advice.
+    hint: Option<String>,
+}
+
+impl Misuse {
+    fn of(error: &clap::Error, words: &[OsString]) -> Self {
+        let text = |kind: ContextKind| error.get(kind).map(all_words).unwrap_or_default();
+        let (name, value) = (flag_of(&text(ContextKind::InvalidArg)), text(ContextKind::InvalidValue));
+        let known = text(ContextKind::ValidValue);
+        match error.kind() {
+            ErrorKind::InvalidValue if value.is_empty() => {
+                let hint = if known.is_empty() { None } else { Some(format!("give one of: {known}")) };
+                Self { what: format!("{name} has no value"), hint }
+            }
+            ErrorKind::InvalidValue => Self {
+                what: format!("{name} {value}: there is no such value"),
+                hint: Some(format!("give one of: {known}")),
+            },
+            ErrorKind::ValueValidation => Self { what: format!("{name} {value}: {}", reason_of(error)), hint: None },
+            ErrorKind::UnknownArgument => Self::of_unknown(&name, error, words),
+            ErrorKind::InvalidSubcommand => Self {
+                what: format!("there is no command \"{}\"", text(ContextKind::InvalidSubcommand)),
+                hint: suggestion(error, ContextKind::SuggestedSubcommand),
+            },
+            ErrorKind::ArgumentConflict => {
+                let other = flag_of(&text(ContextKind::PriorArg));
+                if name == other || other.is_empty() {
+                    let hint = Some("give it once".to_owned());
+                    return Self { what: format!("{name} is given more than once"), hint };
+                }
+                let hint = Some("leave one of them out".to_owned());
+                Self { what: format!("{name} cannot be used with {other}"), hint }
+            }
+            ErrorKind::MissingRequiredArgument => {
+                Self { what: format!("this is missing: {}", text(ContextKind::InvalidArg)), hint: None }
+            }
+            ErrorKind::TooFewValues | ErrorKind::TooManyValues | ErrorKind::WrongNumberOfValues => {
+                Self { what: format!("{name} has too many or too few values"), hint: None }
+            }
+            ErrorKind::InvalidUtf8 => {
+                let hint = Some("only names of files may have other letters".to_owned());
+                Self { what: "a word of the command is no text in UTF-8".to_owned(), hint }
+            }
+            _ => Self { what: first_line(error), hint: None },
+        }
+    }
+
+    /// A word that is neither a flag nor a value.
+    fn of_unknown(name: &str, error: &clap::Error, words: &[OsString]) -> Self {
+        let is_negative = |word: &str| {
+            word.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
+        };
+        let negative =
+            words.iter().filter_map(|word| word.to_str()).find(|word| is_negative(word) && word.starts_with(name));
+        if let Some(word) = negative {
+            let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();
+            return Self { what: format!("{word} is negative, and no value here may be"), hint: Some(hint) };
+        }
+        let what = if name.starts_with('-') {
+            format!("there is no flag {name}")
+        } else {
+            format!("\"{name}\" is one word too many")
+        };
+        Self { what, hint: suggestion(error, ContextKind::SuggestedArg) }
+    }
+}
+
+/// "did you mean --force?"
+fn suggestion(error: &clap::Error, kind: ContextKind) -> Option<String> {
+    let first = match error.get(kind)? {
+        ContextValue::Strings(all) => all.first()?.clone(),
+        one => all_words(one),
+    };
+    Some(format!("did you mean {first}?"))
+}
+
+/// Why a value is refused.
+fn reason_of(error: &clap::Error) -> String {
+    match error.source() {
+        Some(source) if source.is::<ParseFloatError>() => "a number is needed, such as 0.25".to_owned(),
+        Some(source) if source.is::<ParseIntError>() => "a whole number is needed".to_owned(),
+        Some(source) => source.to_string(),
+        None => "this value has no meaning here".to_owned(),
+    }
+}
+
+/// "--mass-kg" of "--mass-kg <KG>"; a name of a file stays.
+fn flag_of(argument: &str) -> String {
+    if argument.starts_with('-') { argument.split([' ', '=', '[']).next().unwrap_or_default() } else { argument }
+        .to_owned()
+}
+
+/// The words of a context, joined by commas.
+fn all_words(value: &ContextValue) -> String {
+    match value {
+        ContextValue::Strings(all) => all.join(", "),
+        one => one.to_string(),
+    }
+}
+
+fn first_line(error: &clap::Error) -> String {
+    let text = error.to_string();
+    text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned()
+}
+
+fn see_help(words: &[OsString]) -> String {
+    let commands = Arguments::command();
+    let named =
+        words.iter().skip(1).filter_map(|word| word.to_str()).find(|word| commands.find_subcommand(word).is_some());
+    named.map_or_else(|| "see `hovertone --help`".to_owned(), |name| format!("see `hovertone {name} --help`"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(line: &str) -> String {
+        let words: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+        let error = typed_arguments(&words).unwrap_err();
+        match failure_of(&error, &words) {
+            Some(Failure::Usage { what, hint, .. }) => format!("{what} ({hint})"),
+            _ => panic!("{line} is no wrong use"),
+        }
+    }
+
+    #[test]
+    fn each_misuse_is_one_line_with_the_reason_and_the_advice() {
+        for (line, expected) in [
+            ("hovertone speed a.wav --method guess", "--method guess: there is no such value (give one of: "),
+            ("hovertone speed a.wav --blades", "--blades has no value (see `hovertone speed --help`)"),
+            (
+                "hovertone speed a.wav --blades -1",
+                "--blades -1: must be a whole number from 1 to 20 (see `hovertone speed --help`)",
+            ),
+            (
+                "hovertone speed a.wav --blades two",
+                "--blades two: must be a whole number from 1 to 20 (see `hovertone speed --help`)",
+            ),
+            (
+                "hovertone speed a.wav --mass-kg heavy",
+                "--mass-kg heavy: a number is needed, such as 0.25 (see `hovertone speed --help`)",
+            ),
+            ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
+            ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
+            ("hovertone speed", "this is missing: <FILE>... (see `hovertone speed --help`)"),
+            ("hovertone demo extra", "\"extra\" is one word too many (see `hovertone demo --help`)"),
+            ("hovertone identify a.toml --check --json", "--check cannot be used with --json (leave one of them out)"),
+            ("hovertone speed a.wav --blades 2 --blades 3", "--blades is given more than once (give it once)"),
+            (
+                "hovertone identify --mass -0.4=a.mov",
+                "-0.4=a.mov is negative, and no value here may be (write the value",
+            ),
+            ("hovertone speed a.wav --gear -8:69", "-8:69 is negative, and no value here may be (write the value"),
+        ] {
+            let line_said = said(line);
+            assert!(line_said.starts_with(expected) && !line_said.contains('\n'), "{line}: {line_said}");
+        }
+    }
+
+    #[test]
+    fn help_and_version_are_no_failures() {
+        for line in ["hovertone --help", "hovertone speed --help", "hovertone --version", "hovertone"] {
+            let words: Vec<OsString> = line.split(' ').map(OsString::from).collect();
+            assert!(failure_of(&typed_arguments(&words).unwrap_err(), &words).is_none(), "{line}");
+        }
+    }
+}
