@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct EvidenceConfig {
-    /// Smallest median over frames of the votes for the path of a rotor, in nats.
+    /// Smallest median over frames of the votes for the path of a rotor, in nats. The path is the best of many, so that machines reach 1.1 nats.
     pub votes_nats_min: f64,
     /// Smallest evidence of the levels for a rotor in each look, against levels of nothing, in nats: odds of 99 to 1.
     pub levels_nats_min: f64,
@@ -31,7 +31,7 @@ pub struct EvidenceConfig {
 impl Default for EvidenceConfig {
     fn default() -> Self {
         Self {
-            votes_nats_min: 1.0,
+            votes_nats_min: 1.4,
             levels_nats_min: 4.6,
             own_lines_nats_min: 3.0,
             companion_nats_min: 18.4,

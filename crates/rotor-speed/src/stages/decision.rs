@@ -75,7 +75,7 @@ fn why_no_rotor(
     if candidates.is_heard {
         return Ok(not_held_or_hum());
     }
-    if candidates.is_named && evidence_is_against(surveyed, speed_rev_s, config) {
+    if candidates.is_named && evidence_is_too_small(surveyed, speed_rev_s, config) {
         return Ok(Some(NoTone::NoSeries));
     }
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
@@ -92,15 +92,15 @@ fn why_no_rotor(
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
-/// Whether the levels of all orders speak against a rotor at this speed, where they can be compared: where a single line is followed, others
-/// need not sound.
-fn evidence_is_against(surveyed: &Surveyed, speed_rev_s: f64, config: &Config) -> bool {
+/// Whether the levels of all orders are too little evidence for a rotor at this speed, where they can be compared: where a single line is
+/// followed, others need not sound.
+fn evidence_is_too_small(surveyed: &Surveyed, speed_rev_s: f64, config: &Config) -> bool {
     let blades = blades_of_tone(&config.tone).filter(|_| config.tone.harmonics > 1);
     let heard = surveyed.excess.as_ref().zip(blades);
     let nats = heard.and_then(|(looks, blades)| {
         nats_near(looks, speed_rev_s, &OwnPropeller { blades, prior: &config.evidence.levels })
     });
-    nats.is_some_and(|nats| nats < 0.0)
+    nats.is_some_and(|nats| nats < config.evidence.levels_nats_min)
 }
 
 /// Tests in one pass whether lines between the assumed ones sound as well, so that a slower shaft explains them better: the comb cannot
