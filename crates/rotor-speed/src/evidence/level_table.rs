@@ -22,7 +22,7 @@ pub(super) fn level_db(level: f64) -> f64 {
 
 /// Bits of the fraction of a number that choose its level: powers within 1/256, or 0.02 dB, have one level. *Numeric.*
 const FRACTION_BITS: u32 = 8;
-/// Bits of the fraction that are left out.
+/// Bits of the fraction that are left out. *Numeric.*
 const LEFT_OUT_BITS: u32 = f32::MANTISSA_DIGITS - 1 - FRACTION_BITS;
 /// Lowest power in the table: below −30 dB, as a power of 2 whose number begins the table. *Numeric.*
 const POWER_MIN: f32 = 0.000_976_562_5;

@@ -93,14 +93,15 @@ fn why_no_rotor(
 }
 
 /// Whether the levels of all orders are too little evidence for a rotor at this speed, where they can be compared: where a single line is
-/// followed, others need not sound.
+/// followed, others need not sound. Who gives a band says that a tone is in it; then evidence against it alone refutes it.
 fn evidence_is_too_small(surveyed: &Surveyed, speed_rev_s: f64, config: &Config) -> bool {
     let blades = blades_of_tone(&config.tone).filter(|_| config.tone.harmonics > 1);
     let heard = surveyed.excess.as_ref().zip(blades);
     let nats = heard.and_then(|(looks, blades)| {
         nats_near(looks, speed_rev_s, &OwnPropeller { blades, prior: &config.evidence.levels })
     });
-    nats.is_some_and(|nats| nats < config.evidence.levels_nats_min)
+    let nats_min = if config.tone.band_hz.is_some() { 0.0 } else { config.evidence.levels_nats_min };
+    nats.is_some_and(|nats| nats < nats_min)
 }
 
 /// Tests in one pass whether lines between the assumed ones sound as well, so that a slower shaft explains them better: the comb cannot

@@ -123,7 +123,7 @@ impl SurveyBuilder {
         let hum = mains_hum(&fine, fine_hz_max);
         let rows_with_hum = hum.is_some().then(|| rows.clone());
         if let Some(hum) = &hum {
-            rows.iter_mut().for_each(|row| hum.remove_from(&mut row.narrow_power, bin_hz));
+            rows.iter_mut().for_each(|row| hum.remove_from(&mut row.power, bin_hz));
         }
         Survey { rows, bin_hz, rows_with_hum, fine, fine_hz_max, hum }
     }
@@ -185,7 +185,7 @@ mod tests {
             lengths().collect::<Vec<_>>()
         );
         // one second of a sine of half of full scale, under windows that spread it over 1.5 bins
-        let energy: f64 = survey.rows.iter().map(|row| row.power().iter().sum::<f64>() * row.span.length_s()).sum();
+        let energy: f64 = survey.rows.iter().map(|row| row.power.iter().sum::<f64>() * row.span.length_s()).sum();
         assert!((energy / (1.5 * 0.25) - 1.0).abs() < 0.05, "{energy}");
     }
 }

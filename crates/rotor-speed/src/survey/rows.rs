@@ -12,22 +12,16 @@ const OVERLAPPING_FRAMES_MAX: u32 = 20;
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) span: Span,
-    /// Mean power of each bin; the sum over the frames while the row is built. In half the memory of the numbers that are calculated
-    /// with, since most of the memory of a survey is here.
-    pub(crate) narrow_power: Vec<f32>,
+    /// Mean power of each bin; the sum over the frames while the row is built.
+    pub(crate) power: Vec<f64>,
     frame_count: u32,
 }
 
 impl Row {
-    /// Mean power of each bin.
-    pub(crate) fn power(&self) -> Vec<f64> {
-        self.narrow_power.iter().copied().map(f64::from).collect()
-    }
-
     /// Level of the power above 60 Hz, dB re a sine of full scale.
     pub(crate) fn level_db(&self, bin_hz: f64) -> f64 {
-        let first = ((LEVEL_HZ_MIN / bin_hz).ceil() as usize).min(self.narrow_power.len());
-        power_db(self.narrow_power[first..].iter().copied().map(f64::from).sum())
+        let first = ((LEVEL_HZ_MIN / bin_hz).ceil() as usize).min(self.power.len());
+        power_db(self.power[first..].iter().sum())
     }
 }
 
@@ -48,9 +42,9 @@ impl Rows {
 /// Mean power spectrum of rows. `None` without rows.
 pub(super) fn mean_power<'a>(rows: impl Iterator<Item = &'a Row> + Clone) -> Option<Vec<f64>> {
     let count = rows.clone().count();
-    let mut sum = vec![0.0; rows.clone().next()?.narrow_power.len()];
+    let mut sum = vec![0.0; rows.clone().next()?.power.len()];
     for row in rows {
-        sum.iter_mut().zip(&row.narrow_power).for_each(|(sum, &power)| *sum += f64::from(power) / count as f64);
+        sum.iter_mut().zip(&row.power).for_each(|(sum, power)| *sum += power / count as f64);
     }
     Some(sum)
 }
@@ -96,7 +90,7 @@ impl RowsBuilder {
             let to_s = frame.centre_s + *hop_s / 2.0;
             match rows.last_mut().filter(|row| row.frame_count < *frames_per_row) {
                 Some(row) => {
-                    row.narrow_power.iter_mut().zip(frame.power).for_each(|(sum, &power)| *sum += power as f32);
+                    row.power.iter_mut().zip(frame.power).for_each(|(sum, power)| *sum += power);
                     row.frame_count += 1;
                     row.span.to_s = to_s;
                 }
@@ -106,8 +100,7 @@ impl RowsBuilder {
                         *frames_per_row *= 2;
                     }
                     let from_s = rows.last().map_or(*start_s, |row| row.span.to_s);
-                    let narrow_power = frame.power.iter().map(|&power| power as f32).collect();
-                    rows.push(Row { span: Span { from_s, to_s }, narrow_power, frame_count: 1 });
+                    rows.push(Row { span: Span { from_s, to_s }, power: frame.power.to_vec(), frame_count: 1 });
                 }
             }
         });
@@ -124,7 +117,7 @@ impl RowsBuilder {
         let bin_hz = self.stft.bin_hz();
         let mut rows = self.rows;
         for row in &mut rows {
-            row.narrow_power.iter_mut().for_each(|sum| *sum /= row.frame_count as f32);
+            row.power.iter_mut().for_each(|sum| *sum /= f64::from(row.frame_count));
         }
         // the last half frame belongs to the last row
         if let Some(last) = rows.last_mut() {
@@ -140,7 +133,7 @@ fn merge_pairs(rows: &mut Vec<Row>) {
     for (index, row) in rows.drain(..).enumerate() {
         match merged.last_mut().filter(|_| index % 2 == 1) {
             Some(before) => {
-                before.narrow_power.iter_mut().zip(&row.narrow_power).for_each(|(sum, power)| *sum += power);
+                before.power.iter_mut().zip(&row.power).for_each(|(sum, power)| *sum += power);
                 before.frame_count += row.frame_count;
                 before.span.to_s = row.span.to_s;
             }

@@ -143,12 +143,12 @@ impl CombMap {
         let comb = Comb::for_tone(tone);
         let count = ((high / low).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
         let speeds_rev_s: Vec<f64> = (0..count).map(|i| low * (GRID_STEP_SHARE * i as f64).exp()).collect();
-        let mut pooled_db = vec![0.0; survey.rows.first().map_or(0, |row| row.narrow_power.len())];
+        let mut pooled_db = vec![0.0; survey.rows.first().map_or(0, |row| row.power.len())];
         let scores_db = survey
             .rows
             .iter()
             .map(|row| {
-                let whitened = whitened_db(&row.power());
+                let whitened = whitened_db(&row.power);
                 pooled_db.iter_mut().zip(&whitened).for_each(|(sum, level)| *sum += level / survey.rows.len() as f64);
                 speeds_rev_s.iter().map(|&speed| comb.score_db(&whitened, survey.bin_hz, speed)).collect()
             })

@@ -15,7 +15,7 @@ pub(crate) struct LevelRow<'a> {
     pub(crate) span: Span,
     level_db: Vec<f32>,
     /// The spectrum, in whose peaks the frequency of a line is measured: levels are cut.
-    power: &'a [f32],
+    power: &'a [f64],
 }
 
 /// Levels over the floor of a recording, row by row.
@@ -31,11 +31,10 @@ impl<'a> LevelRows<'a> {
         let rows = survey.rows_with_hum();
         let step = rows.len().div_ceil(rows_max.max(1)).max(1);
         let rows = rows.iter().step_by(step).map(|row| {
-            let power = row.power();
-            let mut level_db: Vec<f32> = whitened_db(&power).into_iter().map(|level| level as f32).collect();
-            level_skirts(&power, &mut level_db);
+            let mut level_db: Vec<f32> = whitened_db(&row.power).into_iter().map(|level| level as f32).collect();
+            level_skirts(&row.power, &mut level_db);
             level_db.iter_mut().for_each(|level| *level = level.min(LEVEL_DB_MAX));
-            LevelRow { span: row.span, level_db, power: &row.narrow_power }
+            LevelRow { span: row.span, level_db, power: &row.power }
         });
         Self { rows: rows.collect(), bin_hz: survey.bin_hz }
     }
@@ -83,8 +82,7 @@ impl LevelRow<'_> {
         let bins = self.power.get(first..=last)?;
         let (index, _) = bins.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         let at = first + index;
-        let [before, top, after] = [self.power[at - 1], self.power[at], *self.power.get(at + 1)?].map(f64::from);
-        let offset = hann_peak_offset_bins(before, top, after)?;
+        let offset = hann_peak_offset_bins(self.power[at - 1], self.power[at], *self.power.get(at + 1)?)?;
         Some((at as f64 + offset, f64::from(*self.level_db.get(at)?)))
     }
 
