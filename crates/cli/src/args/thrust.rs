@@ -64,7 +64,7 @@ pub(crate) struct IdentifyArguments {
     /// Only name the work, the files that were found, and the missing ones: nothing is analysed
     #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
-    /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of earlier results
+    /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of an earlier run of this experiment
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
