@@ -15,7 +15,7 @@ use hovertone::thrust::{
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
-use hovertone_vehicle::{Estimate, RotorSpeed, check_tips};
+use hovertone_vehicle::{Estimate, KnownRotor, RotorSpeed, check_tips};
 use std::path::Path;
 
 /// Most multirotors safely carry a quarter of their mass.
@@ -231,6 +231,13 @@ fn plan_campaign(
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
     let asked = &arguments.plan;
+    let rotor_count = arguments.rotors.unwrap_or(ROTORS_OF_MOST);
+    let flown = KnownRotor {
+        diameter_m: arguments.air.diameter_m,
+        mass_kg: Some(mass_kg),
+        rotor_count: Some(rotor_count),
+        ..KnownRotor::default()
+    };
     let wish = PlanWish {
         wanted_share: asked.wanted_share,
         vehicle_mass_kg: mass_kg,
@@ -243,7 +250,7 @@ fn plan_campaign(
         settings: ThrustSettings {
             follows_loudest: !asked.rotors_separated,
             propeller_diameter_m: arguments.air.diameter_m,
-            ..ThrustSettings::for_rotors(arguments.rotors.unwrap_or(ROTORS_OF_MOST))
+            ..ThrustSettings::for_rotors(rotor_count)
         },
     };
     let plan = flight_plan(&wish).map_err(|error| {
@@ -256,6 +263,7 @@ fn plan_campaign(
         };
         Failure::usage(error.to_string(), hint)
     })?;
+    flown.check_hover()?;
     if arguments.json {
         terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
     } else {

@@ -11,6 +11,7 @@ mod spectrogram;
 mod speed;
 mod thrust;
 mod tones;
+mod units;
 mod vehicles;
 
 pub(crate) use calibrate::CalibrateArguments;
@@ -26,6 +27,7 @@ pub(crate) use thrust::{
     AirArguments, CompareArguments, ExportArguments, FitArguments, IdentifyArguments, PlaceArguments, WeighArguments,
 };
 pub(crate) use tones::TonesArguments;
+pub(crate) use units::length_m;
 pub(crate) use vehicles::VehiclesArguments;
 
 use clap::{Parser, Subcommand};

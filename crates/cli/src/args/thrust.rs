@@ -2,6 +2,7 @@
 
 use super::draft::{DraftArguments, MASS_HELP};
 use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path, whole_number};
+use super::units::{length_m, mass_kg};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
@@ -138,8 +139,8 @@ pub(crate) struct PlaceArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Air and propeller, for C_T and the figure of merit")]
 pub(crate) struct AirArguments {
-    /// Diameter of a propeller
-    #[arg(long, value_name = "M")]
+    /// Diameter of a propeller, in m or as 8in
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Temperature of the air [default: of the standard atmosphere at --height-m]
     #[arg(long, value_name = "C")]
@@ -162,13 +163,13 @@ pub(crate) struct PlanArguments {
     #[arg(long, value_name = "SHARE", default_value_t = 0.025)]
     pub(crate) wanted_share: f64,
     /// Mass of the vehicle, ready to fly
-    #[arg(long, value_name = "KG")]
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// The most that it may carry beside itself [default: a quarter of its mass]
-    #[arg(long, value_name = "KG")]
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) added_mass_kg: Option<f64>,
     /// Standard uncertainty of a weighing
-    #[arg(long, value_name = "KG", default_value_t = 0.0005)]
+    #[arg(long, value_name = "KG", default_value = "0.0005", value_parser = mass_kg)]
     pub(crate) mass_std_kg: f64,
     /// Spread of the speed in a hover, over its mean; the paper's flights have 0.0123
     #[arg(long, value_name = "SHARE", default_value_t = 0.0123)]
@@ -211,11 +212,11 @@ pub(crate) struct WeighArguments {
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=12))]
     pub(crate) rotors: Option<u32>,
     /// Mass of the vehicle without payload [default: that of the results]
-    #[arg(long, value_name = "KG")]
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Standard uncertainty of that mass
-    #[arg(long, value_name = "KG", default_value_t = 0.0005)]
-    pub(crate) mass_std_kg: f64,
+    /// Standard uncertainty of that mass [default: 0.0005]
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
+    pub(crate) mass_std_kg: Option<f64>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
     #[command(flatten)]

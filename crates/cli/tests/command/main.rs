@@ -6,6 +6,7 @@
 mod calibrate;
 mod chromium;
 mod codecs;
+mod contradictions;
 mod demo;
 mod examples;
 mod folded;
@@ -29,6 +30,7 @@ mod roundtrip;
 mod saying_more;
 mod shell;
 mod simulate;
+mod slips;
 mod spectrogram;
 mod speed;
 mod start;
