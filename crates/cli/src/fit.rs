@@ -34,8 +34,13 @@ struct Plan {
 /// Fits all tables, or plans a campaign.
 pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let gravity = gravity_of(&arguments.place)?;
-    if let Some(mass_kg) = arguments.plan.mass_kg.filter(|_| arguments.plan.plan) {
-        return plan_campaign(arguments, mass_kg, gravity, terminal);
+    match (arguments.plan.mass_kg, arguments.plan.plan) {
+        (Some(mass_kg), true) => return plan_campaign(arguments, mass_kg, gravity, terminal),
+        (Some(mass_kg), false) => {
+            let what = format!("mass_kg = {mass_kg} belongs to --plan, and a table has its own forces");
+            return Err(Failure::usage(what, "leave it out, or give --plan without a table"));
+        }
+        (None, _) => {}
     }
     let plan = Plan {
         gravity,
@@ -264,6 +269,7 @@ fn plan_campaign(
         Failure::usage(error.to_string(), hint)
     })?;
     flown.check_hover()?;
+    air_density_kg_m3(&arguments.air, &arguments.place)?;
     if arguments.json {
         terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
     } else {

@@ -15,9 +15,14 @@ use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
-use hovertone_vehicle::{BLADES_MAX, Ending as EstimateEnding, Estimate, Order, RotorSpeed, SaidOfVehicle, is_swamped};
+use hovertone_vehicle::{
+    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, is_swamped,
+};
+use std::ops::RangeInclusive;
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
+/// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
+const CONSTANT_N_S2: RangeInclusive<f64> = 1e-11..=10.0;
 /// Standard uncertainty of a kitchen scale that shows whole grams.
 const MASS_STD_KG: f64 = 0.0005;
 
@@ -128,11 +133,12 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         (None, Some(constant_n_s2)) => estimate(constant_n_s2, arguments.constant_std_n_s2),
         (None, None) => return Err(Failure::usage("no thrust constant is given", SEE_HELP)),
     };
+    let gravity_of_place = gravity_of(&arguments.place)?;
     let is_place_said = arguments.place.gravity_m_s2.or(arguments.place.latitude_deg).is_some();
     let gravity = match results {
         // gravity cancels where the constant comes from a weight and the hover is at the same place
         Some(rotor) if !is_place_said && rotor.mass_kg.is_some() => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
-        _ => gravity_of(&arguments.place)?,
+        _ => gravity_of_place,
     };
     let mass_kg = arguments.mass_kg.or_else(|| results?.mass_kg);
     if let (Some(std_kg), None) = (arguments.mass_std_kg, mass_kg) {
@@ -225,6 +231,18 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
         if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
             return must_be(name, value, "a number above 0");
         }
+    }
+    if let Some(constant_n_s2) = arguments.constant_n_s2.filter(|constant_n_s2| !CONSTANT_N_S2.contains(constant_n_s2))
+    {
+        let what =
+            format!("constant_n_s2 = {constant_n_s2:e}, and no multirotor has a constant outside 1e-11 to 10 N s²");
+        return Err(Failure::usage(what, "give N/(rad/s)², of the whole vehicle; the AR.Drone has 2.83e-5"));
+    }
+    let of_mass = KnownRotor { mass_kg: arguments.mass_kg, ..KnownRotor::default() };
+    of_mass.check().map_err(|error| Failure::usage(error.to_string(), "masses are in kilograms"))?;
+    if let (Some(height_m), None) = (arguments.place.height_m, arguments.place.latitude_deg) {
+        let what = format!("height_m = {height_m} alone does not tell gravity");
+        return Err(Failure::usage(what, "also give --latitude-deg, or leave --height-m out"));
     }
     let stds = [("constant_std_n_s2", arguments.constant_std_n_s2), ("mass_std_kg", arguments.mass_std_kg)];
     for (name, value) in stds {

@@ -52,8 +52,8 @@ Examples:
 
 Exit codes:
   0  done
-  1  a file could not be read or written
-  2  wrong use
+  1  a file or folder is not there, is of another kind, or cannot be read or written
+  2  wrong use: a flag or a number in a file has no meaning, or a file that exists would be replaced
   3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early,
      a calibration that does not pass
 

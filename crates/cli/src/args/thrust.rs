@@ -160,25 +160,25 @@ pub(crate) struct PlanArguments {
     #[arg(long, conflicts_with = "tables", requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
-    #[arg(long, value_name = "SHARE", default_value_t = 0.025)]
+    #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.025)]
     pub(crate) wanted_share: f64,
     /// Mass of the vehicle, ready to fly
-    #[arg(long, value_name = "KG", value_parser = mass_kg)]
+    #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// The most that it may carry beside itself [default: a quarter of its mass]
-    #[arg(long, value_name = "KG", value_parser = mass_kg)]
+    #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) added_mass_kg: Option<f64>,
     /// Standard uncertainty of a weighing
-    #[arg(long, value_name = "KG", default_value = "0.0005", value_parser = mass_kg)]
+    #[arg(long, requires = "plan", value_name = "KG", default_value = "0.0005", value_parser = mass_kg)]
     pub(crate) mass_std_kg: f64,
     /// Spread of the speed in a hover, over its mean; the paper's flights have 0.0123
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0123)]
+    #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.0123)]
     pub(crate) speed_spread_share: f64,
     /// How long the speed remembers itself
-    #[arg(long, value_name = "S", default_value_t = 0.3)]
+    #[arg(long, requires = "plan", value_name = "S", default_value_t = 0.3)]
     pub(crate) correlation_s: f64,
     /// The rotors are separated, or heard as a group: not one tone is used for all (docs/budget.md)
-    #[arg(long)]
+    #[arg(long, requires = "plan")]
     pub(crate) rotors_separated: bool,
 }
 

@@ -44,7 +44,7 @@ fn a_band_outside_of_all_rotors_is_refused_without_a_vehicle() {
 }
 
 /// Results of the AR.Drone, as far as `weigh` reads them.
-fn results_of_four_rotors(folder: &Path) -> PathBuf {
+pub(crate) fn results_of_four_rotors(folder: &Path) -> PathBuf {
     let path = folder.join("results.json");
     let tone = "{\"order\":69,\"harmonics\":3,\"blades\":2,\"band_half_width_share\":0.1,\"speed_rad_s_min\":84,\"speed_rad_s_max\":754}";
     let written = format!(

@@ -91,3 +91,15 @@ fn a_vehicle_of_the_users_can_fly() {
         assert!(!folder.path().join("hovertone").exists());
     }
 }
+
+#[test]
+fn a_known_speed_is_that_of_a_rotor() {
+    for rpm in ["0.000000001", "3.6", "1e9"] {
+        refused_with(
+            &["calibrate", "a.wav", "--blades", "2", "--tachometer-rpm", rpm],
+            &["tachometer_rpm", "60 to 90000"],
+        );
+    }
+    refused_with(&["calibrate", "a.wav", "--true-hz", "1e9"], &["true_hz", "1 to 192000"]);
+    refused_with(&["fit", "a.csv", "--mass-kg", "413"], &["mass_kg = 413", "--plan"]);
+}
