@@ -23,13 +23,12 @@ struct Unit {
 /// A length in metres: `0.2`, `200mm`, `8in`.
 pub(crate) fn length_m(text: &str) -> Result<f64, String> {
     let text = text.replace('"', "in").to_lowercase();
-    with_unit(&text, &LENGTHS_M)
-        .ok_or_else(|| "write a length with its unit, such as 200mm or 8in, or in metres".to_owned())
+    with_unit(&text, &LENGTHS_M).ok_or_else(|| "a length is needed, such as 200mm or 8in, or 0.2 in metres".to_owned())
 }
 
 /// A mass in kilograms: `0.413`, `413g`.
 pub(crate) fn mass_kg(text: &str) -> Result<f64, String> {
-    with_unit(text, &MASSES_KG).ok_or_else(|| "write a mass with its unit, such as 413g, or in kilograms".to_owned())
+    with_unit(text, &MASSES_KG).ok_or_else(|| "a mass is needed, such as 413g, or 0.413 in kilograms".to_owned())
 }
 
 fn with_unit(text: &str, units: &[Unit]) -> Option<f64> {
