@@ -36,9 +36,9 @@ impl From<Contradiction> for Failure {
 /// Reason why a run was impossible: what happened and why, what to do, and which file.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or a file of the user has no meaning.
+    /// The command line or a file of the user has no meaning, or the run would replace a file.
     Usage { what: String, hint: String, path: Option<PathBuf> },
-    /// A file could not be read or written.
+    /// A file or folder is not there, is of another kind, or cannot be read or written.
     Failed { what: String, hint: String, path: Option<PathBuf> },
     /// The reader of stdout closed it.
     StdoutClosed,

@@ -15,7 +15,7 @@ use hovertone::thrust::{
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
-use hovertone_vehicle::{Estimate, RotorSpeed, check_tips};
+use hovertone_vehicle::{Estimate, KnownRotor, RotorSpeed, check_tips};
 use std::path::Path;
 
 /// Most multirotors safely carry a quarter of their mass.
@@ -34,8 +34,13 @@ struct Plan {
 /// Fits all tables, or plans a campaign.
 pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let gravity = gravity_of(&arguments.place)?;
-    if let Some(mass_kg) = arguments.plan.mass_kg.filter(|_| arguments.plan.plan) {
-        return plan_campaign(arguments, mass_kg, gravity, terminal);
+    match (arguments.plan.mass_kg, arguments.plan.plan) {
+        (Some(mass_kg), true) => return plan_campaign(arguments, mass_kg, gravity, terminal),
+        (Some(mass_kg), false) => {
+            let what = format!("mass_kg = {mass_kg} belongs to --plan, and a table has its own forces");
+            return Err(Failure::usage(what, "leave it out, or give --plan without a table"));
+        }
+        (None, _) => {}
     }
     let plan = Plan {
         gravity,
@@ -231,6 +236,13 @@ fn plan_campaign(
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
     let asked = &arguments.plan;
+    let rotor_count = arguments.rotors.unwrap_or(ROTORS_OF_MOST);
+    let flown = KnownRotor {
+        diameter_m: arguments.air.diameter_m,
+        mass_kg: Some(mass_kg),
+        rotor_count: Some(rotor_count),
+        ..KnownRotor::default()
+    };
     let wish = PlanWish {
         wanted_share: asked.wanted_share,
         vehicle_mass_kg: mass_kg,
@@ -243,7 +255,7 @@ fn plan_campaign(
         settings: ThrustSettings {
             follows_loudest: !asked.rotors_separated,
             propeller_diameter_m: arguments.air.diameter_m,
-            ..ThrustSettings::for_rotors(arguments.rotors.unwrap_or(ROTORS_OF_MOST))
+            ..ThrustSettings::for_rotors(rotor_count)
         },
     };
     let plan = flight_plan(&wish).map_err(|error| {
@@ -256,6 +268,8 @@ fn plan_campaign(
         };
         Failure::usage(error.to_string(), hint)
     })?;
+    flown.check_hover()?;
+    air_density_kg_m3(&arguments.air, &arguments.place)?;
     if arguments.json {
         terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
     } else {

@@ -176,8 +176,12 @@ mod tests {
                 "--blades two: must be a whole number from 1 to 20 (see `hovertone speed --help`)",
             ),
             (
+                "hovertone speed a.wav --window-s long",
+                "--window-s long: a number is needed, such as 0.25 (see `hovertone speed --help`)",
+            ),
+            (
                 "hovertone speed a.wav --mass-kg heavy",
-                "--mass-kg heavy: a number is needed, such as 0.25 (see `hovertone speed --help`)",
+                "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (see `hovertone speed --help`)",
             ),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),

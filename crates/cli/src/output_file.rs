@@ -1,9 +1,10 @@
 //! A file that is written beside its place and then renamed: an interrupt leaves the old file or the new one, never half of it.
 
 use crate::failure::Failure;
+use crate::file_list::FileList;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Last part of the name of a file that is not finished.
@@ -18,6 +19,14 @@ pub(crate) struct OutputFile {
     /// The file beside it; absent for a terminal, a pipe or another device, which is written directly.
     unfinished: Option<PathBuf>,
     file: File,
+    /// Its entry in the list of its folder.
+    entry: Option<Entry>,
+}
+
+/// A list of files, and a name for it.
+struct Entry {
+    list: FileList,
+    name: String,
 }
 
 impl OutputFile {
@@ -33,7 +42,7 @@ impl OutputFile {
         }
         if old.as_ref().is_some_and(|old| !old.is_file()) {
             let file = File::options().write(true).open(place)?;
-            return Ok(Self { place: place.to_owned(), target: place.to_owned(), unfinished: None, file });
+            return Ok(Self { place: place.to_owned(), target: place.to_owned(), unfinished: None, file, entry: None });
         }
         if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
             return Err(io::Error::new(io::ErrorKind::PermissionDenied, "this file is protected against writing"));
@@ -43,11 +52,17 @@ impl OutputFile {
         remove_unfinished(&target);
         let unfinished = beside(&target, &format!(".{}{UNFINISHED}", std::process::id()))?;
         let file = File::options().write(true).create_new(true).open(&unfinished)?;
-        let begun = Self { place: place.to_owned(), target, unfinished: Some(unfinished), file };
+        let begun = Self { place: place.to_owned(), target, unfinished: Some(unfinished), file, entry: None };
         if let Some(old) = old {
             begun.file.set_permissions(old.permissions())?;
         }
         Ok(begun)
+    }
+
+    /// The same file, which is put into a list of files when it is finished.
+    pub(crate) fn listed(mut self, list: FileList, name: String) -> Self {
+        self.entry = Some(Entry { list, name });
+        self
     }
 
     /// A handle for writing; all handles share one position.
@@ -62,15 +77,26 @@ impl OutputFile {
 
     /// Puts the finished file into its place.
     pub(crate) fn keep(mut self) -> Result<(), Failure> {
-        match self.unfinished.take() {
-            Some(unfinished) => fs::rename(&unfinished, &self.target).map_err(|error| {
-                // a failure to remove it leaves a file that the next run removes
-                let _ = fs::remove_file(&unfinished);
-                Failure::cannot_write(&error, &self.place)
-            }),
-            None => Ok(()),
-        }
+        let Some(unfinished) = self.unfinished.take() else { return Ok(()) };
+        // the list comes first: after an interrupt it may name a file that is not there, but no file lacks its name
+        let add = |entry: &Entry| append(&entry.list.place(), &FileList::line(&entry.name, &unfinished)?);
+        let listed = self.entry.as_ref().map_or(Ok(()), add);
+        listed.and_then(|()| fs::rename(&unfinished, &self.target)).map_err(|error| {
+            // a failure to remove it leaves a file that the next run removes
+            let _ = fs::remove_file(&unfinished);
+            Failure::cannot_write(&error, &self.place)
+        })
     }
+}
+
+/// Adds a line to a file that this run began.
+fn append(place: &Path, line: &str) -> io::Result<()> {
+    File::options().append(true).open(place)?.write_all(line.as_bytes())
+}
+
+/// Whether an interrupted run left a file of this name.
+pub(crate) fn is_left_unfinished(name: &OsStr) -> bool {
+    name.as_encoded_bytes().ends_with(UNFINISHED.as_bytes())
 }
 
 impl Drop for OutputFile {

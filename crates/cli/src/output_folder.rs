@@ -1,70 +1,72 @@
 //! Folders that a command writes: the check before the work, and the files in them.
 
 use crate::failure::Failure;
-use crate::output_file::OutputFile;
-use crate::outputs::{Outputs, write_whole};
+use crate::file_list::FileList;
+use crate::output_file::{OutputFile, is_left_unfinished};
+use crate::outputs::{Outputs, refused, write_whole};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// How the folder of a command is known again.
-pub(crate) struct FolderKind {
-    /// What the command leaves there, in messages.
-    pub(crate) name: &'static str,
-    /// A file that is always there …
-    pub(crate) marked: &'static str,
-    /// … and its beginning.
-    pub(crate) mark: &'static str,
-    /// The files that the command writes, as far as they can be named before its work.
-    pub(crate) files: &'static [&'static str],
+/// What a run leaves in its folder.
+pub(crate) struct FolderContent<'a> {
+    /// What it is, in messages.
+    pub(crate) name: &'a str,
+    /// Words that tell the run from runs on other inputs: a later run with the same words may replace its files.
+    pub(crate) run: &'a str,
+    /// The files, as far as they can be named before the work.
+    pub(crate) files: &'a [&'a str],
 }
 
-/// A folder that was checked. Files of an earlier run in it are replaced, files that the run reads never are.
+/// A folder that was checked. Unchanged files of an earlier run of the same kind are replaced; files that a person changed, or that the run
+/// reads, never are without --force.
 pub(crate) struct OutputFolder {
     path: PathBuf,
     outputs: Outputs,
-    /// Whether an earlier run of the same command wrote it.
-    is_own: bool,
+    list: FileList,
 }
 
 impl OutputFolder {
-    /// Makes the folder. A folder with files is refused unless an earlier run of the same command wrote it, or the user uses --force.
-    pub(crate) fn prepare(path: &Path, outputs: Outputs, kind: &FolderKind) -> Result<Self, Failure> {
-        let is_empty = match fs::read_dir(path) {
-            Ok(mut entries) => entries.next().is_none(),
-            Err(_) if path.exists() => {
-                return Err(Failure::failed("this is no folder that can be read", "choose another with -o DIR", path));
-            }
-            Err(_) => true,
-        };
-        let is_own = fs::read_to_string(path.join(kind.marked)).is_ok_and(|text| text.starts_with(kind.mark));
-        if !is_empty && !outputs.may_replace() && !is_own {
-            return Err(Failure::Usage {
-                what: format!(
-                    "this folder is not empty, and its content is not an earlier {}: nothing was written",
-                    kind.name
-                ),
-                hint: "choose a new folder with -o DIR, or use --force to write there: files of the same names are \
-                       replaced, all others stay"
-                    .to_owned(),
-                path: Some(path.to_owned()),
-            });
+    /// Makes the folder. A folder with files is refused unless an earlier run of the same kind wrote it and nobody changed them, or the
+    /// user uses --force.
+    pub(crate) fn prepare(path: &Path, outputs: Outputs, content: &FolderContent<'_>) -> Result<Self, Failure> {
+        let folder = Self { path: path.to_owned(), outputs, list: FileList::of(path, content.run) };
+        if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
+            let what = format!(
+                "this folder is not empty, and its content was changed or is not of an earlier run for the same {}: nothing was written",
+                content.name
+            );
+            let hint = "choose a new folder with -o DIR, or use --force to write there: files of the same names are \
+                        replaced, all others stay";
+            return Err(refused(&what, hint, path));
         }
-        let folder = Self { path: path.to_owned(), outputs, is_own };
-        kind.files.iter().try_for_each(|name| folder.outputs.refuse_input(&path.join(name)))?;
+        for name in content.files.iter().map(|name| (*name).to_owned()).chain(folder.list.names()) {
+            let place = folder.place(&name);
+            folder.outputs.refuse_input(&place)?;
+            if folder.outputs.would_lose(&place) && !folder.list.has_unchanged(&name) {
+                let what = "this file was changed, or is none that hovertone wrote: nothing was written";
+                return Err(refused(what, "choose a new folder with -o DIR, or use --force to replace it", &place));
+            }
+        }
         fs::create_dir_all(path).map_err(|error| Failure::cannot_write(&error, path))?;
         // a folder without the right to write is refused now, and not after the work
-        folder.outputs.create_over(&path.join(kind.marked))?;
+        write_whole(folder.outputs.create_over(&folder.list.place())?, folder.list.beginning().as_bytes())?;
         Ok(folder)
+    }
+
+    /// Whether nothing is in the folder but what an interrupt may have left, or there is no folder yet.
+    fn is_empty(&self) -> Result<bool, Failure> {
+        match fs::read_dir(&self.path) {
+            Ok(entries) => Ok(entries.filter_map(Result::ok).all(|entry| is_left_unfinished(&entry.file_name()))),
+            Err(_) if self.path.exists() => {
+                Err(Failure::failed("this is no folder that can be read", "choose another with -o DIR", &self.path))
+            }
+            Err(_) => Ok(true),
+        }
     }
 
     /// Path of the folder.
     pub(crate) fn path(&self) -> &Path {
         &self.path
-    }
-
-    /// Whether an earlier run of the same command wrote the folder.
-    pub(crate) fn is_own(&self) -> bool {
-        self.is_own
     }
 
     /// Path of a file in the folder.
@@ -78,7 +80,9 @@ impl OutputFolder {
         if let Some(folder) = place.parent() {
             fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
         }
-        self.outputs.create_over(&place)
+        let is_unchanged = self.list.has_unchanged(name);
+        let output = if is_unchanged { self.outputs.create_over(&place) } else { self.outputs.create(&place) }?;
+        Ok(output.listed(self.list.clone(), name.to_owned()))
     }
 
     /// Writes a whole file.

@@ -37,16 +37,21 @@ impl Outputs {
     }
 
     /// Begins a file.
-    fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
+    pub(crate) fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
         self.refuse_input(place)?;
-        if !self.may_replace && has_content(place) {
+        if self.would_lose(place) {
             let what = "this file exists already: it was not replaced";
             return Err(refused(what, "choose another name, or use --force to replace it", place));
         }
         OutputFile::create(place)
     }
 
-    /// Begins a file in a folder that was checked as a whole.
+    /// Whether a file is there that may not be replaced.
+    pub(crate) fn would_lose(&self, place: &Path) -> bool {
+        !self.may_replace && has_content(place)
+    }
+
+    /// Begins a file in the place of one that hovertone wrote.
     pub(crate) fn create_over(&self, place: &Path) -> Result<OutputFile, Failure> {
         self.refuse_input(place)?;
         OutputFile::create(place)
@@ -73,7 +78,7 @@ pub(crate) fn written(place: &Path) -> String {
     format!("written: {}", printable(&place.display().to_string()))
 }
 
-fn refused(what: &str, hint: &str, place: &Path) -> Failure {
+pub(crate) fn refused(what: &str, hint: &str, place: &Path) -> Failure {
     Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(place.to_owned()) }
 }
 

@@ -1,5 +1,7 @@
 //! Recordings in a folder, known by their endings: what `init` offers, and what a message about a missing file names.
 
+use crate::files::{files_of, home_expanded};
+use crate::inputs::is_stdin;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,6 +34,16 @@ pub(crate) fn groups_in(folder: &Path) -> Vec<RecordingGroup> {
         RecordingGroup { pattern: folder.join(format!("*.{ending}")), files }
     };
     groups.into_iter().map(group).collect()
+}
+
+/// The names that a typed folder, file or pattern means: patterns of all recordings of a folder, else itself; none where no file is there.
+pub(crate) fn recordings_of(typed: &str, folder: &Path) -> Vec<String> {
+    let path = home_expanded(&folder.join(typed));
+    if path.is_dir() {
+        return groups_in(&path).iter().map(|group| group.pattern.to_string_lossy().replace('\\', "/")).collect();
+    }
+    let is_there = is_stdin(Path::new(typed)) || files_of(&path).iter().any(|file| file.is_file());
+    if is_there { vec![typed.to_owned()] } else { Vec::new() }
 }
 
 /// The recordings of all folders in a folder.

@@ -2,7 +2,7 @@
 
 use crate::drawing::{draw_all, trial_of};
 use crate::failure::Failure;
-use crate::output_folder::{FolderKind, OutputFolder};
+use crate::output_folder::OutputFolder;
 use crate::recording::{Hearing, Job};
 use hovertone::speed::Method;
 use hovertone_exchange::{SimulatorFormat, export_text, identified_from_results};
@@ -19,25 +19,20 @@ use rayon::prelude::*;
 const FIGURES: &str = "figures";
 /// The page that a person opens.
 pub(crate) const PAGE: &str = "report.html";
-const MARKED: &str = "results.schema.json";
+const SCHEMA: &str = "results.schema.json";
 
-/// The folder of `identify`.
-pub(crate) const RESULTS: FolderKind = FolderKind {
-    name: "folder of results",
-    marked: MARKED,
-    mark: "{\n \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n \"$id\": \"urn:hovertone:results:",
-    files: &[
-        MARKED,
-        "results.json",
-        "samples.csv",
-        "samples.parquet",
-        "loads.csv",
-        "loads.parquet",
-        "tables.md",
-        "tables.tex",
-        PAGE,
-    ],
-};
+/// The files of results, without the figures, whose names depend on the experiment.
+pub(crate) const RESULTS: [&str; 9] = [
+    SCHEMA,
+    "results.json",
+    "samples.csv",
+    "samples.parquet",
+    "loads.csv",
+    "loads.parquet",
+    "tables.md",
+    "tables.tex",
+    PAGE,
+];
 
 /// Content of the report beside the identification.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,9 +53,8 @@ pub(crate) fn write_report(
     extras: &Extras<'_>,
     folder: &OutputFolder,
 ) -> Result<(), Failure> {
-    // the file that marks the folder comes first, so that a later run may write here even after an interrupt
-    folder.write(MARKED, RESULTS_SCHEMA)?;
     // write the measured results before the drawing, which takes long
+    folder.write(SCHEMA, RESULTS_SCHEMA)?;
     let results = results_json(identification).map_err(Failure::internal)?;
     folder.write("results.json", &results)?;
     for table in [samples_data(identification.tables), loads_data(identification.tables)] {
@@ -132,14 +126,4 @@ fn write_figure(figure: &Figure, folder: &OutputFolder) -> Result<(), Failure> {
     folder.write(&format!("{FIGURES}/{}.svg", figure.name), &figure.svg)?;
     let png = figure_png(figure, DOTS_PER_INCH).map_err(Failure::internal)?;
     folder.write(&format!("{FIGURES}/{}.png", figure.name), png)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_schema_marks_a_folder_of_results() {
-        assert!(RESULTS_SCHEMA.starts_with(RESULTS.mark) && RESULTS.files.contains(&MARKED));
-    }
 }

@@ -6,7 +6,7 @@ use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
 use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
 use hovertone_report::SpeedRecord;
-use hovertone_vehicle::{Gear, Order, check_tips};
+use hovertone_vehicle::{Gear, Order, QuantityError, SaidOfVehicle, SearchedTone, check_tips};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
 pub(crate) fn config_of(
@@ -42,31 +42,43 @@ pub(crate) fn config_of(
     Ok((config, discovery))
 }
 
-/// The tone that the arguments name: `--order` has priority, then the gear, then the blades, then the vehicle. A known number of blades
-/// helps to find the tone of a gear. `None` where the tone has to be searched for.
+/// The tone that the arguments name: `--order` has priority, then the gear, then the blades, as given or as the vehicle has them. A known
+/// number of blades helps to find the tone of a gear. `None` where the tone has to be searched for.
 pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
+    let unusable = |error: QuantityError| Failure::usage(error.to_string(), "see `hovertone speed --help`");
     let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
     arguments.gear.map_or(Ok(()), Gear::check)?;
-    vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(arguments.blades, arguments.gear))?;
+    let order = arguments.order.map(Order::new).transpose().map_err(unusable)?;
+    let said = SaidOfVehicle { blades: arguments.blades, gear: arguments.gear, order, ..SaidOfVehicle::default() };
+    vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
     let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
-    let order = match (arguments.order, arguments.gear, arguments.blades, vehicle) {
-        (Some(lines_per_turn), ..) => Order::new(lines_per_turn),
-        (None, Some(gear), ..) => gear.mesh_order(),
-        (None, None, Some(blades), _) => Order::from_blades(blades),
-        (None, None, None, Some(vehicle)) => match vehicle.tone_order() {
-            Some(order) => Ok(order),
-            None => return Ok(None),
-        },
-        (None, None, None, None) => return Ok(None),
+    let gear = arguments.gear.or_else(|| Some(vehicle?.gear?.value));
+    let order = match (order, gear, blades) {
+        (Some(order), ..) => Ok(order),
+        (None, Some(gear), _) => gear.mesh_order(),
+        (None, None, Some(blades)) => Order::from_blades(blades),
+        (None, None, None) => return Ok(None),
     };
-    let order = order.map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
-    let tone = ToneConfig::of_order(order);
+    let tone = ToneConfig::of_order(order.map_err(unusable)?);
     let known = vehicle.and_then(|vehicle| vehicle.shaft_speed.as_ref());
-    let mut tone = known.map_or_else(|| tone.clone(), |known| tone.clone().within(&known.value));
-    tone.blades = blades;
-    tone.band_hz = arguments.band;
-    tone.harmonics = arguments.harmonics.unwrap_or(tone.harmonics);
+    let tone = known.map_or_else(|| tone.clone(), |known| tone.clone().within(&known.value));
+    let tone = ToneConfig {
+        blades,
+        band_hz: arguments.band,
+        harmonics: arguments.harmonics.unwrap_or(tone.harmonics),
+        ..tone
+    };
+    // an order alone may be that of another source, such as a signal generator
+    if gear.is_some() || blades.is_some() {
+        check_band(&tone)?;
+    }
     Ok(Some(tone))
+}
+
+/// Refuses a band in which the tone cannot lie.
+pub(crate) fn check_band(tone: &ToneConfig) -> Result<(), Failure> {
+    let &ToneConfig { band_hz, order, speed_min, speed_max, .. } = tone;
+    Ok(SearchedTone { band_hz, order, speed_min, speed_max }.check()?)
 }
 
 /// The part of a recording that the arguments name. A recording begins at 0 s.
@@ -115,6 +127,9 @@ fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRo
             "give the diameter in metres, the mass in kilograms, and the number of rotors",
         )
     })?;
-    vehicle.map_or(Ok(()), |vehicle| vehicle.check_flown(arguments.rotors, arguments.mass_kg))?;
+    let said = SaidOfVehicle { rotors: arguments.rotors, mass_kg: arguments.mass_kg, ..SaidOfVehicle::default() };
+    vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
+    // all rotors of a vehicle carry it, also where fewer of them turn on a bench
+    KnownRotor { rotor_count: of_vehicle.rotor_count.or(arguments.rotors), ..known }.check_hover()?;
     Ok(known)
 }

@@ -8,16 +8,23 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::place::gravity_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::settings::tone_of;
+use crate::settings::{check_band, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
-use hovertone_exchange::IdentifiedRotor;
+use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
-use hovertone_vehicle::{Ending as EstimateEnding, Estimate, Order, RotorSpeed};
+use hovertone_vehicle::{
+    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, is_swamped,
+};
+use std::ops::RangeInclusive;
 
 const SEE_HELP: &str = "see `hovertone weigh --help`";
+/// Thrust constants of vehicles, N s²: from one propeller of 10 mm to eight of 3 m, at any thrust coefficient.
+const CONSTANT_N_S2: RangeInclusive<f64> = 1e-11..=10.0;
+/// Standard uncertainty of a kitchen scale that shows whole grams.
+const MASS_STD_KG: f64 = 0.0005;
 
 /// The meaning of the arguments.
 struct Plan {
@@ -126,13 +133,19 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         (None, Some(constant_n_s2)) => estimate(constant_n_s2, arguments.constant_std_n_s2),
         (None, None) => return Err(Failure::usage("no thrust constant is given", SEE_HELP)),
     };
+    let gravity_of_place = gravity_of(&arguments.place)?;
     let is_place_said = arguments.place.gravity_m_s2.or(arguments.place.latitude_deg).is_some();
     let gravity = match results {
         // gravity cancels where the constant comes from a weight and the hover is at the same place
         Some(rotor) if !is_place_said && rotor.mass_kg.is_some() => Gravity { m_s2: rotor.gravity_m_s2, std_m_s2: 0.0 },
-        _ => gravity_of(&arguments.place)?,
+        _ => gravity_of_place,
     };
     let mass_kg = arguments.mass_kg.or_else(|| results?.mass_kg);
+    if let (Some(std_kg), None) = (arguments.mass_std_kg, mass_kg) {
+        let what = format!("mass_std_kg = {std_kg} belongs to a mass of the vehicle, and none is given");
+        return Err(Failure::usage(what, "give --mass-kg too, or leave --mass-std-kg out"));
+    }
+    let mass_std_kg = arguments.mass_std_kg.unwrap_or(MASS_STD_KG);
     let mut config = Config::for_tone(tone_to_hear(arguments, results)?);
     config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
     let method_of_constant = results
@@ -145,26 +158,38 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         trial_std_share: results.and_then(|rotor| rotor.trial_std_share),
         gravity_m_s2: gravity.m_s2,
         gravity_std_m_s2: gravity.std_m_s2,
-        vehicle_mass_kg: mass_kg.map(|mass_kg| estimate(mass_kg, Some(arguments.mass_std_kg))),
+        vehicle_mass_kg: mass_kg.map(|mass_kg| estimate(mass_kg, Some(mass_std_kg))),
         loudest_std_share: 0.0,
     };
+    check_stds(&scale)?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
     Ok(Plan { scale, config, method_of_constant, rotors_std_share })
 }
 
-/// Number of rotors of the weighed vehicle. The constant of a single rotor on a stand does not contain it.
+/// Number of rotors of the weighed vehicle. The constant of a single rotor on a stand does not contain it. All rotors of a vehicle carry it
+/// in a hover, so that two numbers must be equal.
 fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Option<u32>, Failure> {
-    let of_vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
-    let of_results = results.filter(|rotor| rotor.rotor_count > 1 || rotor.mass_kg.is_some());
-    let rotor_count = arguments
-        .rotors
-        .or(of_results.map(|rotor| rotor.rotor_count))
-        .or(of_vehicle.map(|vehicle| vehicle.rotor_count.value));
+    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let of_vehicle = vehicle.map(|vehicle| vehicle.rotor_count.value);
+    let of_results = vehicle_of(results).map(|rotor| rotor.rotor_count);
+    let said = arguments.rotors.map(|said| (said, "--rotors")).or(of_vehicle.map(|said| (said, "--vehicle")));
+    if let (Some((said, flag)), Some(known)) = (said, of_results)
+        && said != known
+    {
+        let what = format!("the constant is that of a vehicle with {known} rotors, and {flag} means {said}");
+        return Err(Failure::usage(what, format!("leave {flag} out, or give the results of this vehicle")));
+    }
+    let rotor_count = said.map(|(said, _)| said).or(of_results);
     if rotor_count.is_none() && results.is_some() {
         let what = "the constant is that of one rotor, and nothing says how many carry the vehicle";
         return Err(Failure::usage(what, "give --rotors, or --vehicle"));
     }
     Ok(rotor_count)
+}
+
+/// Results that are those of a vehicle, not of a single rotor on a stand.
+fn vehicle_of(results: Option<&IdentifiedRotor>) -> Option<&IdentifiedRotor> {
+    results.filter(|rotor| rotor.rotor_count > 1 || rotor.mass_kg.is_some())
 }
 
 /// Mass of the vehicle that the arguments name, where they give no other.
@@ -176,7 +201,13 @@ fn model_mass_kg(arguments: &WeighArguments) -> Result<Option<f64>, Failure> {
 /// Compares the vehicle that the arguments name with their own numbers and with the vehicle of the results.
 fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
     let Some(said) = arguments.tone.vehicle.as_deref().map(preset).transpose()? else { return Ok(()) };
-    said.check_flown(arguments.rotors, arguments.mass_kg)?;
+    let flown = SaidOfVehicle {
+        rotors: arguments.rotors,
+        is_hovering: true,
+        mass_kg: arguments.mass_kg,
+        ..SaidOfVehicle::default()
+    };
+    said.check_said(&flown)?;
     let all = known_vehicles()?;
     let measured = results.and_then(|rotor| all.iter().find(|vehicle| vehicle.name == rotor.vehicle_name));
     match measured.filter(|measured| measured.id != said.id) {
@@ -201,7 +232,19 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
             return must_be(name, value, "a number above 0");
         }
     }
-    let stds = [("constant_std_n_s2", arguments.constant_std_n_s2), ("mass_std_kg", Some(arguments.mass_std_kg))];
+    if let Some(constant_n_s2) = arguments.constant_n_s2.filter(|constant_n_s2| !CONSTANT_N_S2.contains(constant_n_s2))
+    {
+        let what =
+            format!("constant_n_s2 = {constant_n_s2:e}, and no multirotor has a constant outside 1e-11 to 10 N s²");
+        return Err(Failure::usage(what, "give N/(rad/s)², of the whole vehicle; the AR.Drone has 2.83e-5"));
+    }
+    let of_mass = KnownRotor { mass_kg: arguments.mass_kg, ..KnownRotor::default() };
+    of_mass.check().map_err(|error| Failure::usage(error.to_string(), "masses are in kilograms"))?;
+    if let (Some(height_m), None) = (arguments.place.height_m, arguments.place.latitude_deg) {
+        let what = format!("height_m = {height_m} alone does not tell gravity");
+        return Err(Failure::usage(what, "also give --latitude-deg, or leave --height-m out"));
+    }
+    let stds = [("constant_std_n_s2", arguments.constant_std_n_s2), ("mass_std_kg", arguments.mass_std_kg)];
     for (name, value) in stds {
         if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
             return must_be(name, value, "0 or more");
@@ -210,16 +253,37 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses standard uncertainties that say that nothing was measured.
+fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
+    let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
+    let refuse = |name: &str, estimate: Estimate, hint: &str| {
+        let std = estimate.std_uncertainty.unwrap_or(0.0);
+        let what = format!("{name} = {std}, and the number itself is {}: with k = 2 its ± reaches 0", estimate.value);
+        Err(Failure::usage(what, hint))
+    };
+    match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {
+        (constant, _) if is_swamped(&constant) => {
+            refuse("constant_std_n_s2", constant, "it is in N s², as the constant is: one percent of 2.8e-5 is 2.8e-7")
+        }
+        (_, Some(mass)) if is_swamped(&mass) => refuse("mass_std_kg", mass, "it is in kilograms: 0.5 g are 0.0005"),
+        _ => Ok(()),
+    }
+}
+
 /// The tone of the arguments, else the tone behind the results with the same settings.
 fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<ToneConfig, Failure> {
+    let heard = results.and_then(|rotor| rotor.tone);
     if let Some(tone) = tone_of(&arguments.tone)? {
+        if let Some(heard) = heard.filter(|_| arguments.tone.vehicle.is_none()) {
+            check_order(tone.order, &heard)?;
+        }
         return Ok(tone);
     }
-    let heard = results.and_then(|rotor| rotor.tone).ok_or_else(|| {
+    let heard = heard.ok_or_else(|| {
         Failure::usage("the tone of the rotor is not known", "give --vehicle, --blades, --gear or --order")
     })?;
     let order = Order::new(heard.order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
-    Ok(ToneConfig {
+    let tone = ToneConfig {
         harmonics: arguments.tone.harmonics.unwrap_or(heard.harmonics),
         blades: heard.blades,
         band_hz: arguments.tone.band,
@@ -227,5 +291,20 @@ fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -
         speed_min: RotorSpeed::from_rad_s(heard.speed_rad_s_min),
         speed_max: RotorSpeed::from_rad_s(heard.speed_rad_s_max),
         ..ToneConfig::of_order(order)
-    })
+    };
+    check_band(&tone)?;
+    Ok(tone)
+}
+
+/// Refuses an order that is neither that of the tone behind the constant nor that of the blade pass.
+fn check_order(said: Order, heard: &HeardTone) -> Result<(), Failure> {
+    let lines = said.lines_per_turn();
+    let may_be_blades = |lines: f64| heard.order > BLADES_MAX && lines <= BLADES_MAX && lines.fract() == 0.0;
+    let is_blade_pass = heard.blades.map_or(may_be_blades(lines), |blades| lines == f64::from(blades));
+    if lines == heard.order || is_blade_pass {
+        return Ok(());
+    }
+    let what =
+        format!("the constant was measured with the tone of order {}, and the arguments say {said}", heard.order);
+    Err(Failure::usage(what, "leave --order, --blades and --gear out: the results have them"))
 }

@@ -19,6 +19,8 @@ const TRIALS: [usize; 6] = [3, 4, 5, 8, 12, 20];
 const SECONDS: [f64; 5] = [5.0, 10.0, 20.0, 30.0, 60.0];
 /// Time of a flight beside the hover, s: take-off, landing and the change of the load. *Decision.*
 const OVERHEAD_S: f64 = 20.0;
+/// Longest correlation of a speed, s: that of the longest hover. *Decision.*
+const CORRELATION_S_MAX: f64 = 60.0;
 /// Largest wanted uncertainty and largest spread of a speed, as shares. Above it a percentage was meant. *Decision.*
 const SHARE_MAX: f64 = 0.5;
 /// Speed of the synthetic campaign without added mass, rad/s. Only relative speeds matter. *Numeric.*
@@ -115,6 +117,10 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         if !(value.is_finite() && value >= 0.0) {
             return Err(PlanError::OutOfRange { name, value, must_be: "0 or more" });
         }
+    }
+    if wish.correlation_time_s > CORRELATION_S_MAX {
+        let (name, value) = ("correlation_time_s", wish.correlation_time_s);
+        return Err(PlanError::OutOfRange { name, value, must_be: "at most 60, the length of the longest hover" });
     }
     for (name, value) in [("wanted_share", wish.wanted_share), ("speed_spread_share", wish.speed_spread_share)] {
         if value > SHARE_MAX {

@@ -1,10 +1,13 @@
 //! What a person says of a vehicle, against what is known of it and what can fly.
 
-use crate::{GRAMS_FACTOR, Gear, RotorSpeed, SOUND_M_S, Vehicle, are_masses_of_one_vehicle};
+use crate::{GRAMS_FACTOR, Gear, Order, RotorSpeed, SOUND_M_S};
 use std::f64::consts::PI;
 
 /// Largest Mach number of the blade tips of a multirotor in hover. Tips are kept slower for the sake of noise and efficiency. *Physics.*
 pub const TIP_MACH_MAX: f64 = 0.6;
+
+/// Slowest shaft speed of a multirotor in hover, rev/s. The largest multirotors' propellers make 30. *Physics.*
+pub(crate) const HOVER_REV_S_MIN: f64 = 10.0;
 
 /// Two statements of which one must be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -33,7 +36,35 @@ pub enum Contradiction {
         /// The given gear.
         said: Gear,
     },
-    /// More rotors than the vehicle has.
+    /// A tone that the vehicle does not have.
+    #[error("order = {said}, and the rotors of the vehicle \"{vehicle}\" have tones of order {known}")]
+    Order {
+        /// Name of the vehicle in files and flags.
+        vehicle: &'static str,
+        /// The order of its tone.
+        known: Order,
+        /// The given order.
+        said: Order,
+    },
+    /// A band in which the tone cannot lie.
+    #[error(
+        "band = {low_hz}:{high_hz} Hz: a tone of order {order} lies there at {:.1} to {:.1} rev/s, and the rotor is searched for from \
+         {rev_s_min:.1} to {rev_s_max:.1} rev/s",
+        .low_hz / .order.lines_per_turn(), .high_hz / .order.lines_per_turn()
+    )]
+    Band {
+        /// Lower edge.
+        low_hz: f64,
+        /// Upper edge.
+        high_hz: f64,
+        /// Order of the tone.
+        order: Order,
+        /// Slowest shaft speed.
+        rev_s_min: f64,
+        /// Fastest shaft speed.
+        rev_s_max: f64,
+    },
+    /// Another number of rotors than the vehicle has.
     #[error("rotors = {said}, and the vehicle \"{vehicle}\" has {known} rotors")]
     Rotors {
         /// Name of the vehicle in files and flags.
@@ -42,6 +73,37 @@ pub enum Contradiction {
         known: u32,
         /// The given number.
         said: u32,
+    },
+    /// A mass of hundreds of kilograms, and nothing else that would bear it out.
+    #[error(
+        "mass_kg = {0} is heavier than most multirotors, and no diameter of propellers is given that could carry it"
+    )]
+    HeavyWithoutDiameter(f64),
+    /// Propellers that are too small for the mass.
+    #[error(
+        "diameter_m = {diameter_m} and mass_kg = {mass_kg}: to carry this mass the blade tips would move at Mach {mach:.2}, and no \
+         multirotor passes Mach {TIP_MACH_MAX}"
+    )]
+    TooSmallToCarry {
+        /// Diameter of the propellers.
+        diameter_m: f64,
+        /// Mass as flown.
+        mass_kg: f64,
+        /// Mach number of the tips.
+        mach: f64,
+    },
+    /// Propellers that are too large for the mass.
+    #[error(
+        "diameter_m = {diameter_m} and mass_kg = {mass_kg}: such propellers would carry this mass at {rev_s:.1} rev/s, and no multirotor \
+         hovers below {HOVER_REV_S_MIN} rev/s"
+    )]
+    TooLargeToCarry {
+        /// Diameter of the propellers.
+        diameter_m: f64,
+        /// Mass as flown.
+        mass_kg: f64,
+        /// Fastest shaft speed in hover.
+        rev_s: f64,
     },
     /// A mass that is far from the vehicle's.
     #[error("mass_kg = {said_kg}, and the vehicle \"{vehicle}\" weighs {known_kg} kg")]
@@ -74,13 +136,31 @@ impl Contradiction {
     /// Advice to the user.
     pub fn hint(&self) -> String {
         match self {
-            Self::Blades { .. } => "leave out one of the two; another propeller than the usual one needs --blades \
-                                    without --vehicle"
+            Self::Blades { .. } => "leave out one of the two; with another propeller than the usual one give the blades \
+                                    without the name of the vehicle"
                 .to_owned(),
-            Self::Gear { .. } => "leave out one of the two; another gear than the usual one needs --gear without \
-                                  --vehicle"
+            Self::Gear { .. } => "leave out one of the two; with another gear than the usual one give the gear without \
+                                  the name of the vehicle"
                 .to_owned(),
-            Self::Rotors { .. } => "give the number of its rotors that turn".to_owned(),
+            Self::Order { .. } => "leave the order out; the multiples of a tone are its harmonics".to_owned(),
+            Self::Band { order, rev_s_min, rev_s_max, .. } => {
+                let edge_hz = |rev_s: f64| rev_s * order.lines_per_turn();
+                format!(
+                    "leave the band out, or give one within {:.0}:{:.0}; for another tone also give its order",
+                    edge_hz(*rev_s_min),
+                    edge_hz(*rev_s_max)
+                )
+            }
+            Self::Rotors { .. } => "give the number of its rotors that turn, which are all of them in a hover".to_owned(),
+            Self::HeavyWithoutDiameter(mass_kg) => format!(
+                "masses are in kilograms: {mass_kg} g are {}; if it is this heavy, also give the diameter of its propellers",
+                mass_kg / 1e3
+            ),
+            Self::TooSmallToCarry { .. } | Self::TooLargeToCarry { .. } => {
+                "check the diameter (from tip to tip, in metres: 10 inches are 0.254), the mass (in kilograms) and the number \
+                 of rotors"
+                    .to_owned()
+            }
             Self::Mass { known_kg, said_kg, .. } if GRAMS_FACTOR.contains(&(said_kg / known_kg)) => {
                 format!("masses are in kilograms: {said_kg} g are {}", said_kg / 1e3)
             }
@@ -105,45 +185,6 @@ impl Gear {
     }
 }
 
-impl Vehicle {
-    /// Compares blades and gear with those of the vehicle, where both are known. A pinion of one tooth means that only the wheel was said.
-    ///
-    /// # Errors
-    /// The first number that differs.
-    pub fn check_said(&self, blades: Option<u32>, gear: Option<Gear>) -> Result<(), Contradiction> {
-        let vehicle = self.id;
-        if let (Some(said), Some(known)) = (blades, self.blade_count.map(|blades| blades.value))
-            && said != known
-        {
-            return Err(Contradiction::Blades { vehicle, known, said });
-        }
-        if let (Some(said), Some(known)) = (gear, self.gear.map(|gear| gear.value)) {
-            let is_same_pinion = said.pinion == 1 || said.pinion == known.pinion;
-            if said.wheel != known.wheel || !is_same_pinion {
-                return Err(Contradiction::Gear { vehicle, known, said });
-            }
-        }
-        Ok(())
-    }
-
-    /// Compares a number of running rotors and a mass as flown with those of the vehicle. On a bench fewer rotors may run than it has.
-    ///
-    /// # Errors
-    /// More rotors than it has; a mass more than [`crate::MASS_FACTOR_MAX`] times larger or smaller than its own.
-    pub fn check_flown(&self, rotors: Option<u32>, mass_kg: Option<f64>) -> Result<(), Contradiction> {
-        let (vehicle, known) = (self.id, self.rotor_count.value);
-        if let Some(said) = rotors.filter(|&said| said > known) {
-            return Err(Contradiction::Rotors { vehicle, known, said });
-        }
-        if let (Some(said_kg), Some(known_kg)) = (mass_kg, self.mass_kg.map(|mass| mass.value))
-            && !are_masses_of_one_vehicle(said_kg, known_kg)
-        {
-            return Err(Contradiction::Mass { vehicle, known_kg, said_kg });
-        }
-        Ok(())
-    }
-}
-
 /// Checks that the blade tips of a propeller, π D n, stay below [`TIP_MACH_MAX`] in air of 20 °C.
 ///
 /// # Errors
@@ -157,43 +198,6 @@ pub fn check_tips(diameter_m: f64, speed: RotorSpeed) -> Result<(), Contradictio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::find_preset;
-
-    #[test]
-    fn a_vehicle_has_its_own_blades_and_gear() {
-        let vehicle = find_preset("ardrone").unwrap();
-        let known = Gear { pinion: 8, wheel: 69 };
-        vehicle.check_said(Some(2), Some(known)).unwrap();
-        vehicle.check_said(None, Some(Gear { pinion: 1, wheel: 69 })).unwrap();
-        assert_eq!(
-            vehicle.check_said(Some(3), None),
-            Err(Contradiction::Blades { vehicle: "ardrone", known: 2, said: 3 })
-        );
-        for said in [Gear { pinion: 1, wheel: 68 }, Gear { pinion: 9, wheel: 69 }] {
-            assert_eq!(
-                vehicle.check_said(Some(2), Some(said)),
-                Err(Contradiction::Gear { vehicle: "ardrone", known, said })
-            );
-        }
-        // nothing is known of the first Bebop's blades
-        find_preset("bebop").unwrap().check_said(Some(3), Some(known)).unwrap();
-    }
-
-    #[test]
-    fn a_vehicle_has_its_own_rotors_and_mass() {
-        let vehicle = find_preset("ardrone").unwrap();
-        for (rotors, mass_kg) in [(Some(1), None), (Some(4), Some(0.413)), (None, Some(0.6))] {
-            vehicle.check_flown(rotors, mass_kg).unwrap();
-        }
-        assert_eq!(
-            vehicle.check_flown(Some(6), None),
-            Err(Contradiction::Rotors { vehicle: "ardrone", known: 4, said: 6 })
-        );
-        let grams = vehicle.check_flown(None, Some(413.0)).unwrap_err();
-        assert!(grams.hint().ends_with("413 g are 0.413"), "{}", grams.hint());
-        let another = vehicle.check_flown(None, Some(0.04)).unwrap_err();
-        assert!(another.hint().contains("name of the vehicle"), "{}", another.hint());
-    }
 
     #[test]
     fn a_gear_slows_the_rotor_down() {

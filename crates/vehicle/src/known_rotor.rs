@@ -1,7 +1,12 @@
 //! The prior on the shaft speed: facts about a vehicle before its sound is analysed.
 
-use crate::{ConfigError, GRAVITY_STANDARD_M_S2, ShaftSpeedRange, Vehicle, check_range};
+use crate::contradiction::HOVER_REV_S_MIN;
+use crate::{
+    ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, SOUND_M_S, ShaftSpeedRange,
+    THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range,
+};
 use serde::Serialize;
+use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
 /// Diameters of multirotor propellers that are accepted as a prior, m. *Decision.*
@@ -10,6 +15,8 @@ const DIAMETER_M_ALLOWED: RangeInclusive<f64> = 0.01..=5.0;
 const MASS_KG_ALLOWED: RangeInclusive<f64> = 1e-3..=1e4;
 /// Numbers of rotors that are accepted as a prior. *Decision.*
 const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=64.0;
+/// Density of the air at sea level and 20 °C, kg/m³. *Physics.*
+const AIR_DENSITY_KG_M3: f64 = 1.2;
 
 /// Facts about a vehicle that exclude some shaft speeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -46,6 +53,38 @@ impl KnownRotor {
         Some(thrust_n / (air_density_kg_m3 * shaft_rev_s.powi(2) * diameter_m.powi(4)))
     }
 
+    /// Shaft speed of a hover at a thrust coefficient, rev/s.
+    fn hover_rev_s(mass_kg: f64, diameter_m: f64, rotors: f64, coefficient: f64) -> f64 {
+        let thrust_n = mass_kg * GRAVITY_STANDARD_M_S2 / rotors;
+        (thrust_n / (AIR_DENSITY_KG_M3 * coefficient * diameter_m.powi(4))).sqrt()
+    }
+
+    /// Checks that propellers of this diameter carry this mass with a possible thrust coefficient, neither with tips above
+    /// [`TIP_MACH_MAX`] nor too slowly. Where the number of rotors is not known, it may be any.
+    ///
+    /// # Errors
+    /// [`Contradiction::TooSmallToCarry`], [`Contradiction::TooLargeToCarry`], and [`Contradiction::HeavyWithoutDiameter`] for a mass that
+    /// only a diameter makes plausible.
+    pub fn check_hover(&self) -> Result<(), Contradiction> {
+        let Some(mass_kg) = self.mass_kg else { return Ok(()) };
+        let Some(diameter_m) = self.diameter_m else {
+            let is_heavy = mass_kg > MASS_ALONE_KG_MAX;
+            return if is_heavy { Err(Contradiction::HeavyWithoutDiameter(mass_kg)) } else { Ok(()) };
+        };
+        let rotors = self.rotor_count.map(f64::from);
+        let (most, fewest) = (rotors.unwrap_or(*ROTORS_ALLOWED.end()), rotors.unwrap_or(*ROTORS_ALLOWED.start()));
+        let slowest_rev_s = Self::hover_rev_s(mass_kg, diameter_m, most, *THRUST_COEFFICIENT.end());
+        let mach = PI * diameter_m * slowest_rev_s / SOUND_M_S;
+        if mach > TIP_MACH_MAX {
+            return Err(Contradiction::TooSmallToCarry { diameter_m, mass_kg, mach });
+        }
+        let rev_s = Self::hover_rev_s(mass_kg, diameter_m, fewest, *THRUST_COEFFICIENT.start());
+        if rev_s < HOVER_REV_S_MIN {
+            return Err(Contradiction::TooLargeToCarry { diameter_m, mass_kg, rev_s });
+        }
+        Ok(())
+    }
+
     /// Checks every number against its limits.
     ///
     /// # Errors
@@ -72,5 +111,36 @@ mod tests {
         let coefficient = known.hover_thrust_coefficient(60.0, 1.2).unwrap();
         assert!((coefficient - 0.980_665 / 6.912).abs() < 1e-12, "{coefficient}");
         assert_eq!(KnownRotor { mass_kg: None, ..known }.hover_thrust_coefficient(60.0, 1.2), None);
+    }
+    #[test]
+    fn propellers_carry_the_mass() {
+        let known =
+            KnownRotor { diameter_m: Some(0.2), mass_kg: Some(0.413), rotor_count: Some(4), ..KnownRotor::default() };
+        known.check_hover().unwrap();
+        let with = |diameter_m: f64, mass_kg: f64| KnownRotor {
+            diameter_m: Some(diameter_m),
+            mass_kg: Some(mass_kg),
+            ..known
+        };
+        // 1.0125 N over 1.2 kg/m³ · 0.25 · (20 mm)⁴: 4594 rev/s
+        let small = with(0.02, 0.413).check_hover().unwrap_err();
+        assert!(small.to_string().contains("Mach 0.84"), "{small}");
+        assert!(matches!(with(0.2, 413.0).check_hover(), Err(Contradiction::TooSmallToCarry { .. })));
+        assert!(matches!(with(8.0, 0.413).check_hover(), Err(Contradiction::TooLargeToCarry { .. })));
+        // with any number of rotors one of them would do
+        KnownRotor { rotor_count: None, ..with(0.02, 0.413) }.check_hover().unwrap();
+        assert!(KnownRotor { rotor_count: None, ..with(0.005, 0.413) }.check_hover().is_err());
+        let heavy = KnownRotor { diameter_m: None, ..with(0.2, 413.0) }.check_hover().unwrap_err();
+        assert!(heavy.hint().contains("413 g are 0.413"), "{}", heavy.hint());
+        // 360 kg on eight propellers of 1.6 m: there are such vehicles
+        KnownRotor { rotor_count: Some(8), ..with(1.6, 360.0) }.check_hover().unwrap();
+    }
+
+    #[test]
+    fn every_preset_can_fly() {
+        assert!(!crate::presets().is_empty());
+        for vehicle in crate::presets() {
+            KnownRotor::of_vehicle(vehicle).check_hover().unwrap();
+        }
     }
 }

@@ -12,6 +12,7 @@ mod known_rotor;
 mod limits;
 mod own_vehicle;
 mod presets;
+mod said;
 mod speed;
 mod vehicle;
 
@@ -26,10 +27,11 @@ pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;
 pub use limits::{
     BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, CLOCK_PPM, ConfigError, DRIFT_M_MAX, GRAMS_FACTOR, KNOWN_RANGE_MARGIN,
-    MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT,
-    are_masses_of_one_vehicle, check_range, loudest_rotor_share,
+    MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT,
+    are_masses_of_one_vehicle, check_range, is_swamped, loudest_rotor_share,
 };
 pub use own_vehicle::{OwnVehicle, OwnVehicleError};
 pub use presets::{find_preset, presets};
+pub use said::{SaidOfVehicle, SearchedTone};
 pub use speed::{Gear, Order, QuantityError, RotorSpeed};
 pub use vehicle::{ShaftSpeedRange, Sourced, Vehicle};

@@ -26,6 +26,9 @@ pub fn are_masses_of_one_vehicle(given_kg: f64, known_kg: f64) -> bool {
 /// Ratios of a given to an expected mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
 pub const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
 
+/// Largest mass that is accepted where neither a unit nor a diameter bears it out, kg: a larger number was read in grams. *Decision.*
+pub const MASS_ALONE_KG_MAX: f64 = 50.0;
+
 /// A shaft is searched for down to the known slowest speed divided by this factor, and up to the fastest times this factor. *Decision.*
 pub const KNOWN_RANGE_MARGIN: f64 = 1.5;
 
@@ -46,6 +49,11 @@ pub const CLOCK_CORRECTION_PPM_MAX: f64 = 2000.0;
 /// rotors with the relative standard deviation σ.
 pub fn loudest_rotor_share(rotor_spread_share: f64, rotor_count: u32) -> f64 {
     rotor_spread_share * (1.0 - 1.0 / f64::from(rotor_count.max(1))).sqrt()
+}
+
+/// Whether the expanded uncertainty (k = 2) of a positive quantity reaches zero: then nothing was measured, or the unit is wrong.
+pub fn is_swamped(value: f64, std_uncertainty: f64) -> bool {
+    2.0 * std_uncertainty > value
 }
 
 /// A setting out of range.

@@ -1,6 +1,8 @@
 //! A vehicle that a user describes in a file, beside the presets.
 
-use crate::{Contradiction, Gear, KnownRotor, PROPELLER_DIAMETER_M, ShaftSpeedRange, Sourced, Vehicle};
+use crate::{
+    Contradiction, Gear, KnownRotor, PROPELLER_DIAMETER_M, RotorSpeed, ShaftSpeedRange, Sourced, Vehicle, check_tips,
+};
 use serde::Deserialize;
 
 /// Most blades of a propeller that a file may state. *Physics.*
@@ -67,6 +69,7 @@ impl OwnVehicle {
             return Err(OwnVehicleError::Name { id: id.to_owned() });
         }
         self.check()?;
+        self.check_flight()?;
         let source: &'static str = self.source.clone().map_or(SOURCE, |source| source.leak());
         let shaft_speed =
             self.shaft_speed_rev_s.map(|(low, high)| ShaftSpeedRange { rev_s_low: low, rev_s_high: high });
@@ -80,6 +83,20 @@ impl OwnVehicle {
             mass_kg: self.mass_kg.map(|value| Sourced { value, source }),
             shaft_speed: shaft_speed.map(|value| Sourced { value, source }),
         })
+    }
+
+    /// Checks that the numbers together are those of a vehicle that flies.
+    fn check_flight(&self) -> Result<(), Contradiction> {
+        if let (Some(diameter_m), Some((_, high_rev_s))) = (self.propeller_diameter_m, self.shaft_speed_rev_s) {
+            check_tips(diameter_m, RotorSpeed::from_rev_s(high_rev_s))?;
+        }
+        let known = KnownRotor {
+            diameter_m: self.propeller_diameter_m,
+            mass_kg: self.mass_kg,
+            rotor_count: Some(self.rotors),
+            ..KnownRotor::default()
+        };
+        known.check_hover()
     }
 
     fn check(&self) -> Result<(), OwnVehicleError> {
@@ -148,6 +165,10 @@ mod tests {
             (OwnVehicle { mass_kg: Some(f64::NAN), ..own() }, "mass_kg"),
             (OwnVehicle { shaft_speed_rev_s: Some((200.0, 40.0)), ..own() }, "shaft_speed_rev_s"),
             (OwnVehicle { gear: Some(Gear { pinion: 69, wheel: 8 }), ..own() }, "swapped"),
+            (OwnVehicle { mass_kg: Some(250.0), ..own() }, "Mach"),
+            (OwnVehicle { mass_kg: Some(250.0), propeller_diameter_m: None, ..own() }, "heavier than most"),
+            (OwnVehicle { propeller_diameter_m: Some(2.0), mass_kg: None, ..own() }, "Mach 3.66"),
+            (OwnVehicle { propeller_diameter_m: Some(0.02), shaft_speed_rev_s: None, ..own() }, "Mach"),
         ] {
             let message = wrong.vehicle("hexa").unwrap_err().to_string();
             assert!(message.contains(said), "{message}");

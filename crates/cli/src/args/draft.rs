@@ -2,6 +2,7 @@
 
 use super::groups::{gear, whole_number};
 use super::thrust::PlaceArguments;
+use super::units::length_m;
 use clap::Args;
 use hovertone_vehicle::Gear;
 
@@ -31,8 +32,8 @@ pub(crate) struct DraftArguments {
     /// Rotors that carry it [default: the vehicle's]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, from tip to tip: it settles the octave [default: the vehicle's]
-    #[arg(long, value_name = "M")]
+    /// Diameter of a propeller, from tip to tip, in m or as 8in: it settles the octave [default: the vehicle's]
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,

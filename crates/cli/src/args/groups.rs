@@ -1,5 +1,6 @@
 //! Groups of arguments that several commands share, and the parsers of their values.
 
+use super::units::{length_m, mass_kg};
 use crate::files::home_expanded;
 use clap::Args;
 use clap::builder::{PathBufValueParser, PossibleValuesParser, TypedValueParser};
@@ -14,7 +15,7 @@ use std::str::FromStr;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Which tone")]
 pub(crate) struct ToneArguments {
-    /// Blades of each propeller: the tone is the blade pass
+    /// Blades of each propeller: without a gear, the tone is the blade pass
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
     pub(crate) blades: Option<u32>,
     /// Teeth of the motor's pinion and the rotor's wheel (the wheel alone will do): the tone is the gear mesh
@@ -37,11 +38,11 @@ pub(crate) struct ToneArguments {
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Known facts about the vehicle")]
 pub(crate) struct KnownArguments {
-    /// Diameter of a propeller: tips faster than Mach 0.6 are ruled out
-    #[arg(long, value_name = "M")]
+    /// Diameter of a propeller, in m or as 8in: tips faster than Mach 0.6 are ruled out
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
-    /// Mass as flown: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
-    #[arg(long, value_name = "KG")]
+    /// Mass as flown, in kg or as 413g: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// Rotors that carry it: with two or more, they are separated [default: one, or four where others are heard beside it]
     #[arg(long, value_name = "N", value_parser = whole)]

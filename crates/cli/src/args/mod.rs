@@ -11,6 +11,7 @@ mod spectrogram;
 mod speed;
 mod thrust;
 mod tones;
+mod units;
 mod vehicles;
 
 pub(crate) use calibrate::CalibrateArguments;
@@ -26,6 +27,7 @@ pub(crate) use thrust::{
     AirArguments, CompareArguments, ExportArguments, FitArguments, IdentifyArguments, PlaceArguments, WeighArguments,
 };
 pub(crate) use tones::TonesArguments;
+pub(crate) use units::length_m;
 pub(crate) use vehicles::VehiclesArguments;
 
 use clap::{Parser, Subcommand};
@@ -50,8 +52,8 @@ Examples:
 
 Exit codes:
   0  done
-  1  a file could not be read or written
-  2  wrong use
+  1  a file or folder is not there, is of another kind, or cannot be read or written
+  2  wrong use: a flag or a number in a file has no meaning, or a file that exists would be replaced
   3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early,
      a calibration that does not pass
 

@@ -69,7 +69,7 @@ pub(crate) struct SimulateArguments {
     /// The flight and the microphones
     #[arg(value_name = "SCENARIO.toml", value_parser = typed_path())]
     pub(crate) scenario: PathBuf,
-    /// Where to write: a folder that is empty, new, or of an earlier simulation
+    /// Where to write: a folder that is empty, new, or of an earlier run of this scenario
     #[arg(short, long, value_name = "DIR", default_value = "simulation", value_parser = typed_path())]
     pub(crate) output: PathBuf,
     #[command(flatten)]

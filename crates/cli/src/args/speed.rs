@@ -6,8 +6,8 @@ use clap::Args;
 use std::path::PathBuf;
 
 const SPEED_EXAMPLES: &str = "\
-Which tone is heard: --order wins, then --gear, then --blades, then --vehicle. Without any of them
-the tone is found by itself; where its blades cannot be heard, all readings are shown (exit code 3).
+Which tone is heard: --order wins, then the gear, then the blades, as given or as --vehicle has them.
+Without any of them the tone is found by itself; where its blades cannot be heard, all readings are shown (exit code 3).
 
 Examples:
   hovertone speed --blades 2 hover.mp4

@@ -2,6 +2,7 @@
 
 use super::draft::{DraftArguments, MASS_HELP};
 use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path, whole_number};
+use super::units::{length_m, mass_kg};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
@@ -64,7 +65,7 @@ pub(crate) struct IdentifyArguments {
     /// Only name the work, the files that were found, and the missing ones: nothing is analysed
     #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
-    /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of earlier results
+    /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of an earlier run of this experiment
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -138,8 +139,8 @@ pub(crate) struct PlaceArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Air and propeller, for C_T and the figure of merit")]
 pub(crate) struct AirArguments {
-    /// Diameter of a propeller
-    #[arg(long, value_name = "M")]
+    /// Diameter of a propeller, in m or as 8in
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Temperature of the air [default: of the standard atmosphere at --height-m]
     #[arg(long, value_name = "C")]
@@ -159,25 +160,25 @@ pub(crate) struct PlanArguments {
     #[arg(long, conflicts_with = "tables", requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
-    #[arg(long, value_name = "SHARE", default_value_t = 0.025)]
+    #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.025)]
     pub(crate) wanted_share: f64,
     /// Mass of the vehicle, ready to fly
-    #[arg(long, value_name = "KG")]
+    #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// The most that it may carry beside itself [default: a quarter of its mass]
-    #[arg(long, value_name = "KG")]
+    #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) added_mass_kg: Option<f64>,
     /// Standard uncertainty of a weighing
-    #[arg(long, value_name = "KG", default_value_t = 0.0005)]
+    #[arg(long, requires = "plan", value_name = "KG", default_value = "0.0005", value_parser = mass_kg)]
     pub(crate) mass_std_kg: f64,
     /// Spread of the speed in a hover, over its mean; the paper's flights have 0.0123
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0123)]
+    #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.0123)]
     pub(crate) speed_spread_share: f64,
     /// How long the speed remembers itself
-    #[arg(long, value_name = "S", default_value_t = 0.3)]
+    #[arg(long, requires = "plan", value_name = "S", default_value_t = 0.3)]
     pub(crate) correlation_s: f64,
     /// The rotors are separated, or heard as a group: not one tone is used for all (docs/budget.md)
-    #[arg(long)]
+    #[arg(long, requires = "plan")]
     pub(crate) rotors_separated: bool,
 }
 
@@ -211,11 +212,11 @@ pub(crate) struct WeighArguments {
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=12))]
     pub(crate) rotors: Option<u32>,
     /// Mass of the vehicle without payload [default: that of the results]
-    #[arg(long, value_name = "KG")]
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Standard uncertainty of that mass
-    #[arg(long, value_name = "KG", default_value_t = 0.0005)]
-    pub(crate) mass_std_kg: f64,
+    /// Standard uncertainty of that mass [default: 0.0005]
+    #[arg(long, value_name = "KG", value_parser = mass_kg)]
+    pub(crate) mass_std_kg: Option<f64>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,
     #[command(flatten)]

@@ -16,11 +16,15 @@ use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_report::{Notice, SpeedRecord};
 use hovertone_vehicle::{Order, RotorSpeed};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 const MILLION: f64 = 1e6;
 /// Half of the band around a tone of known frequency in which it is searched, as a share.
 const BAND_SHARE: f64 = 0.025;
+/// Speeds of rotors, rpm. The smallest racers' propellers make 40000.
+const TACHOMETER_RPM: RangeInclusive<f64> = 60.0..=90_000.0;
+/// Tones of recordings, Hz: up to half the largest sample rate of recorders.
+const TRUE_HZ: RangeInclusive<f64> = 1.0..=192_000.0;
 const SEE_HELP: &str = "see `hovertone calibrate --help`";
 
 /// The meaning of the arguments.
@@ -197,10 +201,21 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
     let stated = arguments.known_std_ppm.map(|ppm| ppm / MILLION);
     if let Some(typed) = &arguments.tachometer_rpm {
         let rpm = positive("tachometer_rpm", typed.trim().parse().ok())?;
+        refuse_outside("tachometer_rpm", rpm, TACHOMETER_RPM)?;
         // the last digit is rounded: half a unit of it is the limit of a rectangular distribution
         let decimals = typed.trim().split_once('.').map_or(0, |(_, decimals)| decimals.len().min(9) as i32);
         let rounded = 0.5 * 10f64.powi(-decimals) / 3f64.sqrt() / rpm;
         return Ok(Reference::Speed { rpm, std_share: stated.unwrap_or(rounded) });
     }
-    Ok(Reference::Tone { hz: positive("true_hz", arguments.true_hz)?, std_share: stated.unwrap_or(0.0) })
+    let hz = positive("true_hz", arguments.true_hz)?;
+    refuse_outside("true_hz", hz, TRUE_HZ)?;
+    Ok(Reference::Tone { hz, std_share: stated.unwrap_or(0.0) })
+}
+
+fn refuse_outside(name: &str, value: f64, allowed: RangeInclusive<f64>) -> Result<(), Failure> {
+    if allowed.contains(&value) {
+        return Ok(());
+    }
+    let what = format!("{name} = {value}, and it must be from {} to {}", allowed.start(), allowed.end());
+    Err(Failure::usage(what, "check its unit: of a tachometer rpm, of a tone Hz"))
 }

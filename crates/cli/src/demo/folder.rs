@@ -1,40 +1,27 @@
 //! The folder of a demo: its check, its experiment file, its truth.
 
-use super::render::{TrialTruth, folder_of_load};
+use super::render::{TrialTruth, folder_of_load, recording_of, trials};
 use crate::failure::Failure;
-use crate::output_folder::{FolderKind, OutputFolder};
+use crate::output_folder::{FolderContent, OutputFolder};
 use crate::outputs::Outputs;
+use crate::report_folder::RESULTS;
 use hovertone_sim::paper::{GRAVITY_M_S2, LOADS, ROTOR_COUNT, TONE_ORDER};
 use hovertone_vehicle::RotorSpeed;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-/// First words of every experiment file of a demo. A folder with such a file may be overwritten.
-const MARK: &str = "# Written by `hovertone demo`";
 const EXPERIMENT: &str = "experiment.toml";
+const TRUTH: &str = "truth.csv";
+const TRACKS: &str = "truth_tracks.csv";
 
-const KIND: FolderKind = FolderKind { name: "demo", marked: EXPERIMENT, mark: MARK, files: &[] };
-
-/// Makes the folder. A folder with other files than those of an earlier demo is refused, and so is one whose experiment file was changed.
+/// Makes the folder. A folder with other files than those of an earlier demo is refused, and so is one in which a file of the demo was
+/// changed, such as a recording that was replaced by the user's own.
 pub(super) fn prepare(path: &Path, force: bool) -> Result<OutputFolder, Failure> {
     let nothing: [&Path; 0] = [];
-    let folder = OutputFolder::prepare(path, Outputs::beside(nothing, force), &KIND)?;
-    let experiment = folder.place(EXPERIMENT);
-    if !force && fs::read_to_string(&experiment).is_ok_and(|text| !is_as_written(&text)) {
-        return Err(Failure::Usage {
-            what: "this experiment file was changed, or is of another version of hovertone: nothing was written"
-                .to_owned(),
-            hint: "choose a new folder with -o DIR, or use --force to replace it".to_owned(),
-            path: Some(experiment),
-        });
-    }
-    Ok(folder)
-}
-
-/// Whether an experiment file is as the demo of its seed writes it.
-fn is_as_written(text: &str) -> bool {
-    let seed = text.lines().next().and_then(|line| line.split_once("seed ")?.1.strip_suffix(")."));
-    seed.and_then(|seed| seed.parse().ok()).is_some_and(|seed| experiment_text(seed) == text)
+    let recordings: Vec<String> = trials().iter().map(|trial| recording_of(&trial.load, trial.number)).collect();
+    let own = [EXPERIMENT, TRUTH, TRACKS].into_iter().chain(recordings.iter().map(String::as_str));
+    let files: Vec<&str> = own.chain(RESULTS).collect();
+    let content = FolderContent { name: "demo", run: "demo", files: &files };
+    OutputFolder::prepare(path, Outputs::beside(nothing, force), &content)
 }
 
 /// Writes the experiment file and returns its path.
@@ -46,7 +33,7 @@ pub(super) fn write_experiment(folder: &OutputFolder, seed: u64) -> Result<PathB
 fn experiment_text(seed: u64) -> String {
     let vehicle_kg = LOADS[0].mass_kg;
     let mut text = format!(
-        "{MARK} (hovertone {version}, seed {seed}).
+        "# Written by `hovertone demo` (hovertone {version}, seed {seed}).
 # The experiment of Pizetta, Brandao, Pizziolo and Sarcinelli-Filho in simulated flight. truth.csv has the truth.
 
 [vehicle]
@@ -77,7 +64,7 @@ overlap = 0.4
 
 /// Writes `truth.csv` with a line for each trial, and `truth_tracks.csv` with the speed of every rotor at every row of the truth.
 pub(super) fn write_truth(folder: &OutputFolder, trials: &[TrialTruth]) -> Result<(), Failure> {
-    folder.write_csv("truth.csv", |writer| {
+    folder.write_csv(TRUTH, |writer| {
         let rotors = (1..=ROTOR_COUNT).map(|rotor| format!("rotor_{rotor}_mean_speed_rev_s"));
         let head = ["load", "trial", "recording", "seed", "mass_kg"].map(str::to_owned).into_iter().chain(rotors);
         writer.write_record(
@@ -91,7 +78,7 @@ pub(super) fn write_truth(folder: &OutputFolder, trials: &[TrialTruth]) -> Resul
             let mut line = vec![
                 trial.load.name.to_owned(),
                 trial.number.to_string(),
-                format!("{}/trial_{}.wav", folder_of_load(&trial.load), trial.number),
+                recording_of(&trial.load, trial.number),
                 trial.seed.to_string(),
                 trial.load.mass_kg.to_string(),
             ];
@@ -103,7 +90,7 @@ pub(super) fn write_truth(folder: &OutputFolder, trials: &[TrialTruth]) -> Resul
         }
         Ok(())
     })?;
-    folder.write_csv("truth_tracks.csv", |writer| {
+    folder.write_csv(TRACKS, |writer| {
         let rotors = (1..=ROTOR_COUNT).map(|rotor| format!("rotor_{rotor}_speed_rev_s"));
         writer.write_record(["load", "trial", "time_s"].map(str::to_owned).into_iter().chain(rotors))?;
         for trial in trials {
@@ -115,16 +102,4 @@ pub(super) fn write_truth(folder: &OutputFolder, trials: &[TrialTruth]) -> Resul
         }
         Ok(())
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_changed_experiment_file_is_seen() {
-        let text = experiment_text(7);
-        assert!(text.starts_with(MARK) && is_as_written(&text));
-        assert!(!is_as_written(&text.replace("0.413", "0.420")) && !is_as_written(&(text + "# my notes\n")));
-    }
 }

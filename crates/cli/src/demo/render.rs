@@ -33,27 +33,36 @@ pub(super) fn folder_of_load(load: &PaperLoad) -> String {
     load.name.replace(' ', "_")
 }
 
+/// Name of a recording in the folder of the demo.
+pub(super) fn recording_of(load: &PaperLoad, number: u32) -> String {
+    format!("{}/trial_{number}.wav", folder_of_load(load))
+}
+
+/// A trial that is to be flown.
+pub(super) struct Trial {
+    pub(super) load: PaperLoad,
+    /// Its number, counted from 1.
+    pub(super) number: u32,
+}
+
+/// All trials, in the order of loads.
+pub(super) fn trials() -> Vec<Trial> {
+    LOADS.iter().flat_map(|load| (1..=TRIAL_COUNT).map(|number| Trial { load: *load, number })).collect()
+}
+
 /// Simulates and writes all trials in parallel; the truths are in the order of loads and trials.
 pub(super) fn render_all(seed: u64, folder: &OutputFolder, shows_progress: bool) -> Result<Vec<TrialTruth>, Failure> {
-    let trials: Vec<(PaperLoad, u32)> =
-        LOADS.iter().flat_map(|load| (0..TRIAL_COUNT).map(|trial| (*load, trial))).collect();
+    let trials = trials();
     let progress = Progress::new("flying", trials.len(), shows_progress);
-    let rendered =
-        trials.par_iter().map(|&(load, trial)| render(seed, load, trial, folder, &mut progress.recording())).collect();
+    let rendered = trials.par_iter().map(|trial| render(seed, trial, folder, &mut progress.recording())).collect();
     progress.finish();
     rendered
 }
 
-fn render(
-    seed: u64,
-    load: PaperLoad,
-    trial: u32,
-    folder: &OutputFolder,
-    share: &mut Share<'_>,
-) -> Result<TrialTruth, Failure> {
-    let number = trial + 1;
-    let name = format!("{}/trial_{number}.wav", folder_of_load(&load));
-    let file = ScenarioFile::paper_trial(&load, trial, seed);
+fn render(seed: u64, trial: &Trial, folder: &OutputFolder, share: &mut Share<'_>) -> Result<TrialTruth, Failure> {
+    let &Trial { load, number } = trial;
+    let name = recording_of(&load, number);
+    let file = ScenarioFile::paper_trial(&load, number - 1, seed);
     let scenario = file.resolve(&BTreeMap::new()).map_err(Failure::internal)?;
     let mut wav = WavFile::create(
         folder.create(&name)?,

@@ -1,10 +1,9 @@
 //! Loads as typed: `--mass 0.413=no_hull/*.mov`, whether the shell expanded the pattern or not.
 
 use crate::failure::Failure;
+use hovertone_vehicle::MASS_ALONE_KG_MAX;
 use std::path::Path;
 
-/// Largest mass without a unit, kg. A larger number was read from a kitchen scale, in grams.
-const MASS_WITHOUT_UNIT_KG_MAX: f64 = 50.0;
 const GRAMS: f64 = 1e3;
 const HINT: &str =
     "write a mass in kg and its recordings, as in --mass '0.413=no_hull/*.mov'; or --mass 0.413 no_hull/*.mov";
@@ -79,7 +78,7 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
     })?;
     match unit_kg {
         Some(unit_kg) => Ok(rounded(value * unit_kg)),
-        None if value > MASS_WITHOUT_UNIT_KG_MAX => Err(format!(
+        None if value > MASS_ALONE_KG_MAX => Err(format!(
             "{value} kg is heavier than a multirotor for this method: write {value}g for grams, or {value}kg"
         )),
         None => Ok(value),

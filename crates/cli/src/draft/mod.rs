@@ -11,7 +11,7 @@ use crate::args::DraftArguments;
 use crate::failure::Failure;
 use crate::place::gravity_of;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
-use hovertone_vehicle::{Gear, Vehicle};
+use hovertone_vehicle::{Gear, KnownRotor, SaidOfVehicle, Vehicle};
 
 /// An experiment without its settings.
 #[derive(Clone, Debug, Default)]
@@ -39,15 +39,19 @@ impl Draft {
     pub(crate) fn from_arguments(arguments: &DraftArguments, vehicle: Option<&Vehicle>) -> Result<Self, Failure> {
         gravity_of(&arguments.place)?;
         arguments.gear.map_or(Ok(()), Gear::check)?;
-        vehicle.map_or(Ok(()), |vehicle| {
-            vehicle.check_said(arguments.blades, arguments.gear)?;
-            vehicle.check_flown(arguments.rotors, None)
-        })?;
+        let said = SaidOfVehicle {
+            blades: arguments.blades,
+            gear: arguments.gear,
+            rotors: arguments.rotors,
+            is_hovering: true,
+            ..SaidOfVehicle::default()
+        };
+        vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
         if let Some(diameter_m) = arguments.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
             let hint = "it is in metres, from tip to tip: 10 inches are 0.254";
             return Err(Failure::usage(format!("diameter_m = {diameter_m}, must be from 0.01 to 10"), hint));
         }
-        Ok(Self {
+        let draft = Self {
             preset: arguments.vehicle.clone(),
             rotors: arguments.rotors,
             blades: arguments.blades,
@@ -57,7 +61,21 @@ impl Draft {
             latitude_deg: arguments.place.latitude_deg,
             height_m: arguments.place.height_m,
             loads: loads_from_words(&arguments.mass)?,
-        })
+        };
+        draft.check_hovers(vehicle)?;
+        Ok(draft)
+    }
+
+    /// Refuses propellers that cannot carry the loads.
+    fn check_hovers(&self, vehicle: Option<&Vehicle>) -> Result<(), Failure> {
+        let of_vehicle = vehicle.map(KnownRotor::of_vehicle).unwrap_or_default();
+        let known = KnownRotor {
+            diameter_m: self.diameter_m.or(of_vehicle.diameter_m),
+            rotor_count: self.rotors.or(of_vehicle.rotor_count),
+            ..of_vehicle
+        };
+        let check = |load: &LoadDraft| KnownRotor { mass_kg: Some(load.mass_kg), ..known }.check_hover();
+        Ok(self.loads.iter().try_for_each(check)?)
     }
 
     /// The flags that are still needed before the draft describes an experiment.

@@ -33,10 +33,11 @@ pub(crate) struct ExperimentSource {
 }
 
 impl ExperimentSource {
-    /// The experiment file and the simulator's model that it names.
+    /// The experiment file, where it is one, and the simulator's model that it names.
     pub(crate) fn inputs(&self) -> Vec<PathBuf> {
         let model = self.experiment.model.as_ref().map(|model| self.folder.join(&model.file));
-        [self.path.clone()].into_iter().chain(model).collect()
+        let file = self.typed.is_none().then(|| self.path.clone());
+        file.into_iter().chain(model).collect()
     }
 
     /// Reads and resolves an experiment file.

@@ -12,8 +12,9 @@ use typed::{EXPERIMENT, TypedExperiment};
 use crate::args::HearingArguments;
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
+use crate::files::sha256_of_bytes;
 use crate::jobs::ending_of;
-use crate::output_folder::OutputFolder;
+use crate::output_folder::{FolderContent, OutputFolder};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, records_of};
@@ -59,7 +60,7 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     let recordings = jobs_of(&source, arguments.data_root.as_deref())?;
     let inputs = recordings.iter().map(|LoadJob { job, .. }| job.path.clone()).chain(source.inputs());
     let outputs = Outputs::beside(inputs, arguments.replace.force);
-    let prepare = |folder: &PathBuf| OutputFolder::prepare(folder, outputs, &RESULTS);
+    let prepare = |folder: &PathBuf| prepare_folder(folder, &source, outputs, arguments.data_root.as_deref());
     let folder = arguments.output.as_ref().map(prepare).transpose()?;
     let text_of_typed = match &folder {
         Some(folder) => source.text_for(folder.path(), arguments.data_root.as_deref())?,
@@ -93,6 +94,21 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
         terminal.text(&page)?;
     }
     Ok(identified.ending())
+}
+
+/// Makes the folder of results. It may hold those of an earlier run for the same experiment.
+fn prepare_folder(
+    folder: &Path,
+    source: &ExperimentSource,
+    outputs: Outputs,
+    data_root: Option<&Path>,
+) -> Result<OutputFolder, Failure> {
+    let root =
+        data_root.map_or(String::new(), |root| format!(" {}", sha256_of_bytes(root.as_os_str().as_encoded_bytes())));
+    let run = format!("identify {}{root}", source.fingerprint());
+    let of_typed = source.typed.as_ref().map(|_| EXPERIMENT);
+    let files: Vec<&str> = RESULTS.into_iter().chain(of_typed).collect();
+    OutputFolder::prepare(folder, outputs, &FolderContent { name: "experiment", run: &run, files: &files })
 }
 
 /// The last line to quote: where the page is.

@@ -47,6 +47,14 @@ impl TypedExperiment {
 }
 
 impl ExperimentSource {
+    /// A hash of the file, or of what the flags say of the experiment: it differs from experiment to experiment.
+    pub(crate) fn fingerprint(&self) -> String {
+        match &self.typed {
+            Some(typed) => sha256_of_bytes(typed.draft.experiment_text("", typed.vehicle).as_bytes()),
+            None => self.sha256.clone(),
+        }
+    }
+
     /// For a typed experiment: the text of the file in the folder of results that repeats it, whose hash the results get. Its recordings
     /// are named from there.
     pub(crate) fn text_for(&mut self, folder: &Path, data_root: Option<&Path>) -> Result<Option<String>, Failure> {

@@ -9,6 +9,7 @@ use crate::failure::{Ending, Failure};
 use crate::files::files_of;
 use crate::identify::ExperimentSource;
 use crate::outputs::{Outputs, written};
+use crate::recording_files::recordings_of;
 use crate::terminal::Terminal;
 use crate::typed::quoted;
 use crate::vehicles::preset;
@@ -23,7 +24,7 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let nothing: [&Path; 0] = [];
     Outputs::beside(nothing, arguments.replace.force).check(&arguments.output)?;
     let vehicle = arguments.draft.vehicle.as_deref().map(preset).transpose()?;
-    let draft = Draft::from_arguments(&arguments.draft, vehicle)?;
+    let draft = with_recordings(Draft::from_arguments(&arguments.draft, vehicle)?)?;
     let can_ask = io::stdin().is_terminal() && io::stderr().is_terminal();
     let draft = match draft.missing(vehicle) {
         missing if missing.is_empty() => draft,
@@ -49,6 +50,28 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     terminal.say(&format!("Look at what it would do: hovertone identify {name} --check"));
     terminal.say(&format!("Identify the constant:    hovertone identify {name} -o results"));
     Ok(Ending::Done)
+}
+
+/// The draft with patterns in place of folders. A name without a recording is refused, as `identify` would refuse it later.
+fn with_recordings(mut draft: Draft) -> Result<Draft, Failure> {
+    for load in &mut draft.loads {
+        let mut found = Vec::new();
+        for name in &load.recordings {
+            match recordings_of(name, Path::new("")) {
+                names if names.is_empty() => {
+                    let what = "no recording is there, or none that the pattern matches: nothing was written";
+                    return Err(Failure::failed(
+                        what,
+                        "correct the name: it counts from the current folder",
+                        Path::new(name),
+                    ));
+                }
+                names => found.extend(names),
+            }
+        }
+        load.recordings = found;
+    }
+    Ok(draft)
 }
 
 /// The text of the file. Its recordings count from its own folder.

@@ -1,16 +1,15 @@
 //! The questions of `hovertone init`, for what the flags leave out.
 
 use super::dialog::Dialog;
-use crate::args::gear;
+use crate::args::{gear, length_m};
 use crate::draft::{Draft, LoadDraft, mass_kg_from_text, mass_words, put_load};
 use crate::failure::Failure;
-use crate::files::files_of;
 use crate::nearest::nearest;
-use crate::recording_files::{RecordingGroup, groups_below, groups_in};
+use crate::recording_files::{RecordingGroup, groups_below, groups_in, recordings_of};
 use crate::vehicles::known_vehicles;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_report::{counted, printable, wrapped};
-use hovertone_vehicle::{Contradiction, Gear, Vehicle};
+use hovertone_vehicle::{Contradiction, Gear, SaidOfVehicle, Vehicle};
 use std::io::{BufRead, Write};
 use std::path::Path;
 
@@ -20,9 +19,6 @@ const ROTORS_OFFERED: u32 = 4;
 const WIDTH: usize = 80;
 const BLADES_MAX: u32 = 20;
 const ROTORS_MAX: u32 = 64;
-/// Units of a length, longest names first.
-const LENGTHS_M: [(&str, f64); 6] =
-    [("inches", 0.0254), ("inch", 0.0254), ("in", 0.0254), ("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
 
 /// Asks for everything that the draft lacks. Recordings are looked for in `folder`.
 pub(super) fn complete<R: BufRead, W: Write>(
@@ -53,7 +49,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
             "\nThe diameter of the propellers settles the octave: with the mass it tells how fast they must turn.",
         );
         draft.diameter_m =
-            dialog.ask("Diameter, from tip to tip, as 200mm, 8in or 0.2 (in m) [not known]:", length_m)?;
+            dialog.ask("Diameter, from tip to tip, as 200mm, 8in or 0.2 (in m) [not known]:", diameter_m)?;
     }
     if draft.loads.is_empty() {
         draft.loads = ask_loads(vehicle, folder, dialog)?;
@@ -137,21 +133,18 @@ fn offered(folder: &Path) -> Vec<Offer> {
 
 /// The names that a typed folder, file or pattern means; at least one file must be there.
 fn names_of(typed: &str, folder: &Path) -> Result<Vec<String>, String> {
-    let path = crate::files::home_expanded(&folder.join(typed));
-    if path.is_dir() {
-        let groups = groups_in(&path);
-        let names: Vec<String> =
-            groups.iter().map(|group| group.pattern.to_string_lossy().replace('\\', "/")).collect();
-        return if names.is_empty() { Err(format!("{typed} is a folder without recordings.")) } else { Ok(names) };
+    match recordings_of(typed, folder) {
+        names if !names.is_empty() => Ok(names),
+        _ if folder.join(typed).is_dir() => Err(format!("{typed} is a folder without recordings.")),
+        _ => Err(format!("No file matches {typed}.")),
     }
-    let count = files_of(&path).iter().filter(|file| file.is_file()).count();
-    if count == 0 { Err(format!("No file matches {typed}.")) } else { Ok(vec![typed.to_owned()]) }
 }
 
 fn optional_mass(answer: Option<&str>, vehicle: Option<&Vehicle>) -> Result<Option<f64>, String> {
     let Some(typed) = answer else { return Ok(None) };
     let mass_kg = mass_kg_from_text(typed)?;
-    match vehicle.map(|vehicle| vehicle.check_flown(None, Some(mass_kg))) {
+    let said = SaidOfVehicle { mass_kg: Some(mass_kg), ..SaidOfVehicle::default() };
+    match vehicle.map(|vehicle| vehicle.check_said(&said)) {
         Some(Err(Contradiction::Mass { known_kg, .. })) => {
             Err(format!("That is {}, and this vehicle weighs about {}.", mass_words(mass_kg), mass_words(known_kg)))
         }
@@ -175,13 +168,9 @@ fn gear_of(answer: Option<&str>) -> Result<Option<Gear>, String> {
 }
 
 /// A length with its unit; without one in metres.
-fn length_m(answer: Option<&str>) -> Result<Option<f64>, String> {
+fn diameter_m(answer: Option<&str>) -> Result<Option<f64>, String> {
     let Some(typed) = answer else { return Ok(None) };
-    let typed = typed.replace('"', "in").to_lowercase();
-    let with_unit = LENGTHS_M.iter().find_map(|(unit, length_m)| Some((typed.strip_suffix(unit)?, *length_m)));
-    let (number, unit_m) = with_unit.unwrap_or((&typed, 1.0));
-    let length = number.trim().parse::<f64>().ok().map(|number| (number * unit_m * 1e9).round() / 1e9);
-    match length.filter(|length_m| PROPELLER_DIAMETER_M.contains(length_m)) {
+    match length_m(typed).ok().filter(|length_m| PROPELLER_DIAMETER_M.contains(length_m)) {
         Some(length_m) => Ok(Some(length_m)),
         None => Err("A length from 10 mm to 10 m is needed, such as 200mm, 8in or 0.2.".to_owned()),
     }

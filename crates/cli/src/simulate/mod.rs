@@ -5,7 +5,7 @@ mod truth_json;
 
 use crate::args::SimulateArguments;
 use crate::failure::{Ending, Failure};
-use crate::output_folder::{FolderKind, OutputFolder, cannot_write_csv};
+use crate::output_folder::{FolderContent, OutputFolder, cannot_write_csv};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::terminal::Terminal;
@@ -22,21 +22,15 @@ use std::iter::zip;
 const STEPS_AT_ONCE: usize = 100;
 const SOUND: &str = "sound.wav";
 const TABLE: &str = "truth.csv";
-const KIND: FolderKind = FolderKind {
-    name: "simulation",
-    marked: truth_json::NAME,
-    mark: truth_json::MARK,
-    files: &[SOUND, TABLE, truth_json::NAME],
-};
 
 /// Simulates, writes the files, and prints a summary of the hovers.
 pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let source = ScenarioSource::read(&arguments.scenario, arguments.seed)?;
     let flown = ScenarioRun::new(source.scenario.clone()).map_err(|error| source.failure(&error))?;
     let outputs = Outputs::beside(source.inputs(), arguments.replace.force);
-    let folder = OutputFolder::prepare(&arguments.output, outputs, &KIND)?;
-    // mark the folder first, so that a later run recognises it even after a failure
-    truth_json::begin(&folder)?;
+    let run = format!("simulate {}", source.sha256);
+    let content = FolderContent { name: "scenario", run: &run, files: &[SOUND, TABLE, truth_json::NAME] };
+    let folder = OutputFolder::prepare(&arguments.output, outputs, &content)?;
     let truth = write(flown, &source, &folder, !arguments.no_progress)?;
     truth_json::write(&folder, &source, &truth)?;
     terminal.text(&simulated_flight_table(&summary_of(&source, &truth), terminal.fold_width()))?;

@@ -10,8 +10,6 @@ use serde::Serialize;
 
 /// Name of the file.
 pub(super) const NAME: &str = "truth.json";
-/// First words of every truth file. A folder with such a file may be overwritten.
-pub(super) const MARK: &str = "{\n  \"made_by\": \"hovertone simulate\"";
 
 #[derive(Serialize)]
 struct TruthFile<'a> {
@@ -36,14 +34,6 @@ struct Settings<'a> {
     sha256: &'a str,
     scenario: &'a ScenarioFile,
     vehicle: &'a FlightParameters,
-}
-
-/// Writes the mark alone, before there is a truth. The truth of an earlier simulation stays until the new one is finished.
-pub(super) fn begin(folder: &OutputFolder) -> Result<(), Failure> {
-    if folder.is_own() {
-        return Ok(());
-    }
-    folder.write(NAME, format!("{MARK},\n  \"ending\": \"unfinished\"\n}}\n"))
 }
 
 /// Writes the truth.

@@ -3,11 +3,14 @@
 // The lints know tests by their attribute, and what tests share has none.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
+mod absurd_numbers;
 mod calibrate;
 mod chromium;
 mod codecs;
+mod contradictions;
 mod demo;
 mod examples;
+mod exit_codes;
 mod folded;
 mod identify;
 mod into;
@@ -29,6 +32,7 @@ mod roundtrip;
 mod saying_more;
 mod shell;
 mod simulate;
+mod slips;
 mod spectrogram;
 mod speed;
 mod start;

@@ -201,32 +201,122 @@ fn an_interrupted_demo_leaves_no_half_file_and_runs_again() {
         let files = demo.join("no_hull").read_dir().into_iter().flatten();
         files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect()
     };
-    // begins a demo, kills it while it writes, and returns the ending of the names of what it left
-    let interrupted = |seed: &str| {
+    // begins a demo, kills it while it writes and, if wanted, has finished a recording; returns the ending of the names of what it left
+    let old = demo.join("no_hull/trial_1.wav");
+    let interrupted = |seed: &str, waits_for_recording: bool| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_hovertone"));
         command.args(["demo", "-o", text(&demo), "--seed", seed]).stdout(Stdio::null()).stderr(Stdio::null());
         let mut run = command.spawn().unwrap();
         let unfinished = format!(".{}.hovertone-unfinished", run.id());
         let is_writing = || names().iter().any(|name| name.ends_with(&unfinished));
+        let is_far_enough = || is_writing() && (!waits_for_recording || old.exists());
         let begun = Instant::now();
-        while !is_writing() && begun.elapsed() < Duration::from_secs(60) {
+        while !is_far_enough() && begun.elapsed() < Duration::from_secs(60) {
             assert!(run.try_wait().unwrap().is_none(), "the folder was refused");
             std::thread::sleep(Duration::from_millis(2));
         }
         run.kill().unwrap();
         run.wait().unwrap();
-        assert!(is_writing(), "it was not stopped while it wrote");
+        assert!(is_far_enough(), "it was not stopped while it wrote");
         unfinished
     };
-    let first = interrupted("1");
-    assert!(demo.join("experiment.toml").exists() && !demo.join("no_hull/trial_1.wav").exists());
+    let first = interrupted("1", false);
+    assert!(demo.join("experiment.toml").exists() && !old.exists());
+    interrupted("1", true);
     // a recording of an earlier demo stays whole
-    let old = demo.join("no_hull/trial_1.wav");
-    write_noise(&old, 1.0);
     let before = fs::read(&old).unwrap();
-    interrupted("2");
+    interrupted("2", false);
     assert_eq!(fs::read(&old).unwrap(), before);
     assert!(names().iter().all(|name| !name.ends_with(&first)), "{:?}", names());
+    // a recording of the user's in place of the demo's, or beside its others, is not replaced
+    for name in ["no_hull/trial_1.wav", "big_hull/trial_5.wav"] {
+        let own = demo.join(name);
+        let of_demo = fs::read(&own).ok();
+        fs::create_dir_all(own.parent().unwrap()).unwrap();
+        write_noise(&own, 1.0);
+        keeps(&own, &["demo", "-o", text(&demo), "--seed", "2"], &["trial_", "was changed", "-o DIR", "--force"]);
+        of_demo.map_or_else(|| fs::remove_file(&own), |of_demo| fs::write(&own, of_demo)).unwrap();
+    }
+    let experiment = demo.join("experiment.toml");
+    fs::write(&experiment, fs::read_to_string(&experiment).unwrap() + "# my notes\n").unwrap();
+    keeps(&experiment, &["demo", "-o", text(&demo)], &["experiment.toml", "was changed", "--force"]);
+}
+
+/// The files of a folder and their bytes.
+fn content_of(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+    let mut content: Vec<_> = files.map(|path| (path.clone(), fs::read(&path).unwrap())).collect();
+    content.sort();
+    content
+}
+
+/// Refused for these words, and everything in the folder is as before.
+fn keeps_all(folder: &Path, arguments: &[&str], words: &[&str]) {
+    let before = content_of(folder);
+    refused_with(arguments, words);
+    assert!(before == content_of(folder), "{arguments:?}");
+}
+
+#[test]
+fn results_of_another_experiment_are_replaced_only_by_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let experiment = silent_experiment(folder.path());
+    let out = folder.path().join("out");
+    let identify = ["identify", text(&experiment), "-o", text(&out)];
+    hovertone(&identify).ends_with(3);
+    let other = folder.path().join("other.toml");
+    fs::write(&other, fs::read_to_string(&experiment).unwrap().replace("\"a\"\n", "\"b\"\n")).unwrap();
+    keeps_all(&out, &["identify", text(&other), "-o", text(&out)], &["not empty", "same experiment", "--force"]);
+    // the same recordings and masses, typed, are another experiment: they leave experiment.toml
+    let mass = format!("413g={}", text(&folder.path().join("a.wav")));
+    let typed = ["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)];
+    keeps_all(&out, &typed, &["not empty", "same experiment"]);
+    // a table that a person changed
+    let table = out.join("tables.md");
+    fs::write(&table, "precious").unwrap();
+    keeps_all(&out, &identify, &["tables.md", "was changed", "--force"]);
+    fs::remove_file(&table).unwrap();
+    hovertone(&identify).ends_with(3);
+    // a file of the user's with the name of a figure, which no table of names has before the work
+    let figures = out.join("figures");
+    let drawn = content_of(&figures);
+    assert!(!drawn.is_empty());
+    fs::write(&drawn[0].0, "precious").unwrap();
+    keeps_all(&figures, &identify, &["was changed"]);
+    hovertone(&["identify", text(&other), "-o", text(&out), "--force"]).ends_with(3);
+    keeps_all(&out, &identify, &["same experiment"]);
+}
+
+#[test]
+fn an_experiment_file_that_was_changed_in_the_results_stays() {
+    let folder = tempfile::tempdir().unwrap();
+    write_noise(&folder.path().join("a.wav"), 1.0);
+    let (out, mass) = (folder.path().join("out"), format!("413g={}", text(&folder.path().join("a.wav"))));
+    let typed = |more: &'static [&'static str]| -> Vec<&str> {
+        [&["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)], more].concat()
+    };
+    hovertone(&typed(&[])).ends_with(3);
+    hovertone(&typed(&[])).ends_with(3);
+    keeps_all(&out, &typed(&["--rotors", "4"]), &["same experiment"]);
+    let experiment = out.join("experiment.toml");
+    fs::write(&experiment, fs::read_to_string(&experiment).unwrap() + "# my notes\n").unwrap();
+    keeps_all(&out, &typed(&[]), &["experiment.toml", "was changed", "--force"]);
+    hovertone(&typed(&["--force"])).ends_with(3);
+    assert!(!fs::read_to_string(&experiment).unwrap().contains("my notes"));
+}
+
+#[test]
+fn a_simulation_of_another_scenario_is_replaced_only_by_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let [one, other] = ["one.toml", "other.toml"].map(|name| folder.path().join(name));
+    fs::write(&one, "duration_s = 0.2\n").unwrap();
+    fs::write(&other, "duration_s = 0.3\n").unwrap();
+    let out = folder.path().join("out");
+    hovertone(&["simulate", text(&one), "-o", text(&out)]).ends_with(0);
+    keeps_all(&out, &["simulate", text(&other), "-o", text(&out)], &["same scenario", "--force"]);
+    fs::write(out.join("sound.wav"), "precious").unwrap();
+    keeps_all(&out, &["simulate", text(&one), "-o", text(&out)], &["sound.wav", "was changed"]);
+    hovertone(&["simulate", text(&other), "-o", text(&out), "--force"]).ends_with(0);
 }
 
 #[test]

@@ -1,12 +1,14 @@
 //! From tables of speed and thrust to speeds and forces in SI units: CSV of RCbenchmark, or any CSV with a header.
 
 mod column;
+mod plausible;
 #[cfg(test)]
 mod tests;
 
 use crate::csv_text::{CsvError, CsvText, line_of};
 use column::{Column, Quantity, columns_of};
 use csv::StringRecord;
+use plausible::MeasuredColumns;
 use std::f64::consts::TAU;
 
 /// Rows below this share of the fastest speed count as at rest: idling rotors and offsets of the scale.
@@ -115,7 +117,8 @@ pub enum TableError {
 /// Commas are decimal commas where a cell proves it ("3,5").
 ///
 /// # Errors
-/// No header, no speed, no force, a row that is too short or too long, a cell that is not a number, masses that are zero or negative, no usable row.
+/// No header, no speed, no force, a row that is too short or too long, a cell that is not a number, masses that are zero or negative,
+/// negative speeds, speeds and masses in another unit than that of the header, no usable row.
 pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let csv = CsvText::open(text)?;
     let records: Vec<StringRecord> = csv.records().collect::<Result<_, _>>()?;
@@ -136,6 +139,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
             rows.push(GroupedRow { group: reader.group(record), row });
         }
     }
+    plausible::check(&rows, MeasuredColumns { speed, force })?;
     let unit_missing = columns.iter().filter(|column| column.lacks_unit);
     let mut notes: Vec<String> = unit_missing
         .map(|column| format!("column \"{}\" is not used: it names no unit that is known", column.header))
@@ -251,9 +255,6 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
                 *thrust_n = -*thrust_n;
             }
         }
-    }
-    for GroupedRow { row, .. } in rows.iter_mut() {
-        row.speed_rad_s = row.speed_rad_s.abs();
     }
     let against = |row: &StandRow| thrust(row) <= 0.0 && row.speed_rad_s >= AT_REST_SHARE * fastest;
     for row in rows.iter().map(|of| &of.row).filter(|row| against(row)) {

@@ -49,6 +49,12 @@ fn what_means_nothing_is_refused_with_its_line() {
         ("rpm,thrust_n,thrust_std_n\n3610,1,-1\n", ["line 2", "0 or more"]),
         ("rpm,volts\n1,2\n", ["thrust", "rpm, volts"]),
         ("a,thrust_n\n1,2\n", ["speed", "a, thrust_n"]),
+        ("rpm,thrust_n\n3000,0.7\n-3610,1\n", ["line 3", "-3610, a speed must be 0 or more"]),
+        ("rpm,thrust_n\n-3000,0.7\n-3610,1\n", ["line 2", "0 or more"]),
+        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n", ["line 3", "3610, no rotor is faster than 1500 rev/s"]),
+        ("rpm,thrust_n\n50,0.7\n58,1\n", ["line 3", "or rev/s?"]),
+        ("rpm,mass_kg\n3610,413\n3742,444\n", ["line 3", "444, heavier than most multirotors: is this in grams"]),
+        ("rpm,mass_g\n3610,0.413\n3742,0.444\n", ["line 3", "0.444, no multirotor is lighter than 1 g"]),
         ("rpm,thrust_n\n0,0\n", ["nothing", "fit"]),
         ("rpm,thrust_n\n", ["nothing", "fit"]),
         ("", ["empty", "a table is needed"]),
@@ -89,6 +95,12 @@ fn a_column_of_scatter_is_never_the_thrust() {
     let table = table_from_csv("thrust_n_stddev,rpm,thrust_n\n0.02,1000,0.1\n0.02,2000,0.4\n").unwrap();
     assert_eq!(table.force_column, "thrust_n");
     assert_eq!(table.groups[0].rows[0].force_std, Some(0.02));
+}
+
+#[test]
+fn a_sensor_at_rest_may_show_less_than_nothing() {
+    let table = table_from_csv("rpm,thrust_n\n-3,0.0\n3000,0.7\n3610,1\n").unwrap();
+    assert_eq!(thrusts(&table), [0.7, 1.0]);
 }
 
 /// RCbenchmark's rows end before the columns of its comments, where these are empty.

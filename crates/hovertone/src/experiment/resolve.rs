@@ -1,18 +1,15 @@
 //! From the experiment file to a resolved experiment: preset and own numbers, gravity, the order of the tone, the force of each load.
 
+use super::limits::{check_hovers, check_model, missing, not_negative, on_earth, positive};
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
 use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
 use hovertone_vehicle::{
     CLOCK_CORRECTION_PPM_MAX, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M,
-    Vehicle, are_masses_of_one_vehicle, check_range, presets,
+    SaidOfVehicle, SearchedTone, Vehicle, are_masses_of_one_vehicle, check_range, is_swamped, presets,
 };
 
-/// Smallest gravity, m/s². On the highest equatorial mountain it is 9.764. *Physics.*
-const GRAVITY_M_S2_MIN: f64 = 9.70;
-/// Largest gravity, m/s². At the poles it is 9.832. *Physics.*
-const GRAVITY_M_S2_MAX: f64 = 9.90;
 /// Default standard uncertainty of a mass, kg: a kitchen scale that shows whole grams. *Decision.*
 const MASS_STD_KG: f64 = 0.0005;
 /// Latitude of a pole, degrees. *Physics.*
@@ -88,6 +85,8 @@ impl ExperimentFile {
         let rotor_count =
             rotor_count.ok_or_else(|| missing("the number of rotors", "write vehicle.rotors, or a vehicle.preset"))?;
         positive("vehicle.rotors", f64::from(rotor_count))?;
+        self.vehicle.gear.map_or(Ok(()), Gear::check)?;
+        preset.map_or(Ok(()), |preset| self.check_said(preset))?;
         let own_diameter_m = self.vehicle.propeller_diameter_m;
         if let Some(value) = own_diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
             let name = "vehicle.propeller_diameter_m".to_owned();
@@ -103,7 +102,8 @@ impl ExperimentFile {
         }
         self.check_names()?;
         let loads =
-            self.loads.iter().map(|load| self.resolve_load(load, known, rotor_count)).collect::<Result<_, _>>()?;
+            self.loads.iter().map(|load| self.resolve_load(load, known, rotor_count)).collect::<Result<Vec<_>, _>>()?;
+        check_hovers(&loads, &config.known)?;
         // the height of the place also gives the pressure, where the file has none
         let air = self.air.map(|air| Air { height_m: air.height_m.or(self.vehicle.height_m), ..air });
         if let Some(air) = air {
@@ -127,6 +127,24 @@ impl ExperimentFile {
             loads,
             model,
         })
+    }
+
+    /// Compares the file's own numbers with those of its preset. A model has priority over the preset in its number of rotors, and the mass
+    /// is compared with that of either.
+    fn check_said(&self, preset: &Vehicle) -> Result<(), ExperimentError> {
+        let order = match self.tone.order {
+            OrderSetting::Lines(order) => Some(order),
+            OrderSetting::Auto => None,
+        };
+        let said = SaidOfVehicle {
+            blades: self.vehicle.blades,
+            gear: self.vehicle.gear,
+            order,
+            rotors: self.vehicle.rotors.filter(|_| self.vehicle.model.is_none()),
+            is_hovering: self.loads.iter().any(|load| load.thrust_n.is_none()),
+            mass_kg: None,
+        };
+        Ok(preset.check_said(&said)?)
     }
 
     /// The settings of the analysis. The diameter of the propellers is part of the prior on the shaft speed.
@@ -163,7 +181,6 @@ impl ExperimentFile {
     fn resolve_tone(&self, preset: Option<&Vehicle>) -> Result<ToneConfig, ExperimentError> {
         let blades = self.vehicle.blades.or_else(|| preset.and_then(|preset| Some(preset.blade_count.as_ref()?.value)));
         let gear = self.vehicle.gear.or_else(|| preset.and_then(|preset| Some(preset.gear.as_ref()?.value)));
-        gear.map_or(Ok(()), Gear::check)?;
         let order = match (self.tone.order, gear, blades) {
             (OrderSetting::Lines(order), ..) => order,
             (OrderSetting::Auto, Some(gear), _) => gear.mesh_order()?,
@@ -175,13 +192,16 @@ impl ExperimentFile {
         let known = preset.and_then(|preset| Some(preset.shaft_speed.as_ref()?.value));
         let defaults = ToneConfig::of_order(order);
         let defaults = known.map_or_else(|| defaults.clone(), |known| defaults.clone().within(&known));
-        Ok(ToneConfig {
+        let tone = ToneConfig {
             harmonics: self.tone.harmonics.unwrap_or(defaults.harmonics),
             blades,
             band_hz: self.tone.band_hz,
             band_half_width_share: self.tone.band_half_width_share.unwrap_or(defaults.band_half_width_share),
             ..defaults
-        })
+        };
+        let ToneConfig { band_hz, order, speed_min, speed_max, .. } = tone;
+        SearchedTone { band_hz, order, speed_min, speed_max }.check()?;
+        Ok(tone)
     }
 
     fn resolve_load(
@@ -270,6 +290,13 @@ impl ExperimentFile {
             }
         };
         positive("vehicle.mass_kg", mass_kg)?;
+        if is_swamped(mass_kg, self.mass_std_kg()?) {
+            return Err(ExperimentError::OutOfRange {
+                name: "vehicle.mass_std_kg".to_owned(),
+                value: self.mass_std_kg()?,
+                must_be: "is more than half the mass; masses are in kg, and 0.5 g are 0.0005",
+            });
+        }
         if let Some(known_kg) = known.mass_kg()
             && !are_masses_of_one_vehicle(mass_kg, known_kg)
         {
@@ -321,53 +348,5 @@ impl ExperimentFile {
     /// Standard uncertainty of a thrust that was read from the same scale.
     fn scale_std_n(&self) -> Result<f64, ExperimentError> {
         Ok(self.mass_std_kg()? * GRAVITY_STANDARD_M_S2)
-    }
-}
-
-fn on_earth(gravity_m_s2: f64) -> Result<f64, ExperimentError> {
-    if (GRAVITY_M_S2_MIN..=GRAVITY_M_S2_MAX).contains(&gravity_m_s2) {
-        Ok(gravity_m_s2)
-    } else {
-        Err(ExperimentError::OutOfRange {
-            name: "vehicle.gravity_m_s2".to_owned(),
-            value: gravity_m_s2,
-            must_be: "is found nowhere on Earth: 9.70 to 9.90",
-        })
-    }
-}
-
-fn missing(what: &str, hint: &'static str) -> ExperimentError {
-    ExperimentError::Missing { what: what.to_owned(), hint }
-}
-
-fn positive(name: &str, value: f64) -> Result<f64, ExperimentError> {
-    if value.is_finite() && value > 0.0 {
-        Ok(value)
-    } else {
-        Err(ExperimentError::OutOfRange { name: name.to_owned(), value, must_be: "must be a number above 0" })
-    }
-}
-
-fn not_negative(name: &str, value: f64) -> Result<f64, ExperimentError> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(value)
-    } else {
-        Err(ExperimentError::OutOfRange { name: name.to_owned(), value, must_be: "must be 0 or more" })
-    }
-}
-
-/// Refuses a model with numbers out of range.
-fn check_model(model: &VehicleModel) -> Result<(), ExperimentError> {
-    let is_positive = |value: f64| value.is_finite() && value > 0.0;
-    let refuse = |name: &str, value: f64, must_be| {
-        Err(ExperimentError::OutOfRange { name: format!("{name} of the model {:?}", model.file), value, must_be })
-    };
-    match (model.mass_kg, model.propeller_diameter_m, model.rotor_count) {
-        (Some(mass_kg), ..) if !is_positive(mass_kg) => refuse("mass_kg", mass_kg, "must be a number above 0"),
-        (_, Some(diameter_m), _) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
-            refuse("propeller_diameter_m", diameter_m, "must be from 0.01 to 10")
-        }
-        (.., Some(0)) => refuse("rotors", 0.0, "must be at least 1"),
-        _ => Ok(()),
     }
 }

@@ -1,0 +1,70 @@
+//! Every flag with a number, of every command, as its help lists them: what no recording, rotor or place has is refused.
+
+use crate::contradictions::results_of_four_rotors;
+use crate::testkit::{hovertone, hovertone_with, write_noise};
+use std::fs;
+
+/// Names of values that are numbers, in the help.
+const NUMBERS: [&str; 17] = [
+    "N", "X", "M", "KG", "PPM", "M/S", "S", "SHARE", "DEG", "M/S2", "C", "HPA", "PERCENT", "N_S2", "HZ", "RPM", "TIME",
+];
+const ABSURD: [&str; 3] = ["nan", "1000000000", "-1000000000"];
+/// Any seed has a meaning; a track, a channel or a time may be in a recording, which this test does not read.
+const MEANINGFUL: [&str; 5] = ["--seed", "--audio-track", "--channel", "--from", "--to"];
+/// Commands that end before they hear anything: the recording or the table is not there.
+const COMMANDS: [&str; 13] = [
+    "speed nowhere.wav --blades 2",
+    "speed nowhere.wav --vehicle ardrone",
+    "tones nowhere.wav",
+    "spectrogram nowhere.wav --blades 2 -o x.png",
+    "identify missing.toml",
+    "identify --vehicle ardrone --mass 413g=nowhere.wav",
+    "init --vehicle ardrone --mass 413g=a.wav -o new.toml --force",
+    "calibrate nowhere.wav --blades 2 --true-hz 400",
+    "calibrate nowhere.wav --blades 2 --tachometer-rpm 3600",
+    "fit nowhere.csv",
+    "fit --plan --mass-kg 0.413 --diameter-m 0.2",
+    "weigh nowhere.wav --constant results.json --mass-kg 0.413 --latitude-deg 50",
+    "weigh nowhere.wav --vehicle ardrone --constant-n-s2 2.83e-5 --mass-kg 0.413",
+];
+
+/// The flags of a command whose values are numbers.
+fn flags_with_numbers(command: &str) -> Vec<String> {
+    let help = hovertone(&[command, "--help"]).ends_with(0).stdout;
+    let flag = |line: &str| {
+        let (flag, value) = line[line.find("--")?..].split_once(" <")?;
+        let is_flag = !flag.contains(' ') && line.trim_start().starts_with('-');
+        let is_number = NUMBERS.contains(&value.split_once('>')?.0);
+        (is_flag && is_number && !MEANINGFUL.contains(&flag)).then(|| flag.to_owned())
+    };
+    help.lines().filter_map(flag).collect()
+}
+
+#[test]
+fn absurd_numbers_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    write_noise(&folder.path().join("a.wav"), 0.5);
+    results_of_four_rotors(folder.path());
+    let experiment = "[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\nrecordings = [\"nowhere.wav\"]\n";
+    fs::write(folder.path().join("missing.toml"), experiment).unwrap();
+    let (mut wrong, mut tried) = (Vec::new(), 0);
+    for command in COMMANDS {
+        let words: Vec<&str> = command.split(' ').collect();
+        let run = |arguments: &[&str]| hovertone_with(arguments, |command| command.current_dir(folder.path()));
+        assert_ne!(run(&words).code, 2, "{command}: {}", run(&words).stderr);
+        for flag in flags_with_numbers(words[0]) {
+            let said = words.iter().position(|word| *word == flag);
+            let others =
+                words.iter().enumerate().filter(|(index, _)| said.is_none_or(|at| !(at..=at + 1).contains(index)));
+            let others: Vec<&str> = others.map(|(_, word)| *word).collect();
+            for value in ABSURD {
+                let ended = run(&[&others[..], &[format!("{flag}={value}").as_str()]].concat());
+                tried += 1;
+                if ended.code != 2 || !ended.stdout.is_empty() {
+                    wrong.push(format!("{command} {flag}={value} ends with {}: {}", ended.code, ended.stderr.trim()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty() && tried > 300, "of {tried}:\n{}", wrong.join("\n"));
+}

@@ -1,0 +1,118 @@
+//! What contradicts a known vehicle, or the results of one, is refused: on the command line and in a file alike.
+
+use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover};
+use hovertone_vehicle::{RotorSpeed, find_preset};
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+#[test]
+fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let experiment = folder.path().join("experiment.toml");
+    for (flags, vehicle, tone, words) in [
+        (&["--blades", "3"][..], "blades = 3", "", ["blades = 3", "have 2 blades"]),
+        (&["--gear", "8:68"], "gear = { pinion = 8, wheel = 68 }", "", ["gear = 8:68", "is 8:69"]),
+        (&["--order", "46"], "", "order = 46", ["order = 46", "tones of order 69"]),
+        (&["--order", "4"], "", "order = 4", ["order = 4", "harmonics"]),
+        (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["at 1.4 to 1.9 rev/s", "920:8280"]),
+        (&["--rotors", "6"], "rotors = 6", "", ["rotors = 6", "has 4 rotors"]),
+        (&["--diameter-m", "0.02"], "propeller_diameter_m = 0.02", "", ["diameter_m = 0.02", "Mach 0.84"]),
+        (&["--diameter-m", "4"], "propeller_diameter_m = 4.0", "", ["diameter_m = 4", "at 0.3 rev/s"]),
+    ] {
+        refused_with(&[&["speed", "a.wav", "--vehicle", "ardrone"], flags].concat(), &words);
+        let load = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
+        fs::write(&experiment, format!("[vehicle]\npreset = \"ardrone\"\n{vehicle}\n[tone]\n{tone}\n{load}")).unwrap();
+        refused_with(&["identify", text(&experiment)], &[&words[..], &["experiment.toml"]].concat());
+    }
+    for command in ["identify", "init"] {
+        let flown = [command, "--vehicle", "ardrone", "--mass", "413g=a.wav"];
+        refused_with(&[&flown[..], &["--rotors", "2"]].concat(), &["rotors = 2", "all of them in a hover"]);
+        refused_with(&[&flown[..], &["--diameter-m", "0.02"]].concat(), &["diameter_m = 0.02", "Mach 0.84"]);
+    }
+}
+
+#[test]
+fn a_band_outside_of_all_rotors_is_refused_without_a_vehicle() {
+    refused_with(&["speed", "a.wav", "--gear", "8:69", "--band", "100:130"], &["order 69", "1.4 to 1.9 rev/s"]);
+    refused_with(&["speed", "a.wav", "--mass-kg", "413"], &["mass_kg = 413", "413 g are 0.413"]);
+    let plan = ["fit", "--plan", "--mass-kg", "413"];
+    refused_with(&plan, &["mass_kg = 413", "413 g are 0.413"]);
+    refused_with(&[&plan[..], &["--diameter-m", "0.2"]].concat(), &["mass_kg = 413", "Mach"]);
+    hovertone(&["fit", "--plan", "--mass-kg", "360", "--diameter-m", "1.6", "--rotors", "8", "--wanted-share", "0.2"])
+        .ends_with(0);
+}
+
+/// Results of the AR.Drone, as far as `weigh` reads them.
+pub(crate) fn results_of_four_rotors(folder: &Path) -> PathBuf {
+    let path = folder.join("results.json");
+    let tone = "{\"order\":69,\"harmonics\":3,\"blades\":2,\"band_half_width_share\":0.1,\"speed_rad_s_min\":84,\"speed_rad_s_max\":754}";
+    let written = format!(
+        "{{\"thrust_constant_per_rotor_n_s2\":{{\"value\":7.075e-6}},\
+         \"settings\":{{\"experiment\":{{\"vehicle_name\":\"own vehicle\",\"rotor_count\":4,\"config\":{{\"tone\":{tone}}}}}}}}}"
+    );
+    fs::write(&path, written).unwrap();
+    path
+}
+
+#[test]
+fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = results_of_four_rotors(folder.path());
+    let wav = folder.path().join("hover.wav");
+    write_hover(&wav, steady_hover("ardrone", RotorSpeed::from_rev_s(58.7), 3.0));
+    let weigh = ["weigh", text(&wav), "--constant", text(&results)];
+    for (more, words) in [
+        (&["--rotors", "8"][..], ["with 4 rotors", "--rotors means 8", "leave --rotors out"]),
+        (&["--rotors", "2"], ["with 4 rotors", "--rotors means 2", "leave --rotors out"]),
+        (&["--order", "46"], ["tone of order 69", "say 46", "leave --order"]),
+        (&["--blades", "3"], ["tone of order 69", "say 3", "leave --order"]),
+    ] {
+        refused_with(&[&weigh[..], more].concat(), &words);
+    }
+    let mass_kg = |more: &[&str]| -> f64 {
+        let run = hovertone(&[&weigh[..], more, &["--json"]].concat()).ends_with(0);
+        let weighed: Value = serde_json::from_str(&run.stdout).unwrap();
+        weighed["mass_kg"]["value"].as_f64().unwrap()
+    };
+    let alone = mass_kg(&[]);
+    for more in [&["--rotors", "4"][..], &["--order", "69"], &["--blades", "2"], &["--vehicle", "ardrone"]] {
+        assert!((mass_kg(more) / alone - 1.0).abs() < 2e-3, "{more:?}");
+    }
+    let by_constant = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--vehicle", "ardrone"];
+    refused_with(&[&by_constant[..], &["--rotors", "8"]].concat(), &["rotors = 8", "has 4 rotors"]);
+    refused_with(&[&by_constant[..], &["--order", "46"]].concat(), &["order = 46", "tones of order 69"]);
+}
+
+/// What the vehicle has already changes no digit: speed, ± and budget.
+#[test]
+fn saying_what_the_vehicle_has_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = folder.path().join("hover.wav");
+    let mut settings = steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), 3.0);
+    for (rotor, rev_s) in settings.rotors.iter_mut().zip([59.2, 59.8, 60.3, 60.9]) {
+        *rotor = hovertone_sim::prescribed::RotorSound::steady(RotorSpeed::from_rev_s(rev_s));
+    }
+    write_hover(&wav, settings);
+    let vehicle = find_preset("ardrone").unwrap();
+    let mass_kg = vehicle.mass_kg.unwrap().value.to_string();
+    let heard = |more: &[&str]| {
+        let run = hovertone(&[&["speed", "--json", text(&wav), "--vehicle", "ardrone"], more].concat());
+        let mut line = run.json_lines().remove(0);
+        line.as_object_mut().unwrap().remove("settings").unwrap();
+        line
+    };
+    let alone = heard(&[]);
+    assert!(alone["combined_std_uncertainty_rev_s"].as_f64().unwrap() > 0.0, "{alone}");
+    for more in [
+        &["--blades", "2"][..],
+        &["--gear", "8:69"],
+        &["--gear", "69", "--blades", "2"],
+        &["--order", "69"],
+        &["--rotors", "4"],
+        &["--mass-kg", &mass_kg],
+        &["--blades", "2", "--rotors", "4", "--mass-kg", &mass_kg],
+    ] {
+        assert_eq!(heard(more), alone, "{more:?}");
+    }
+}

@@ -1,0 +1,89 @@
+//! One rule for all commands: 1 where a file or folder is not there or cannot be used, 2 for wrong use, which includes an output that would be
+//! lost.
+
+use crate::testkit::{hovertone, hovertone_with, write_noise};
+use std::fs;
+
+/// Words of a command, its exit code, and a word of its message.
+const CASES: [(&str, i32, &str); 37] = [
+    // what is read is not there, or of another kind
+    ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
+    ("speed *.mov --blades 2", 1, "no file matches"),
+    ("speed empty --blades 2", 1, "a folder"),
+    ("tones nowhere.wav", 1, "nowhere.wav"),
+    ("spectrogram nowhere.wav --blades 2 -o x.png", 1, "nowhere.wav"),
+    ("calibrate nowhere.wav --true-hz 400", 1, "nowhere.wav"),
+    ("weigh nowhere.wav --vehicle ardrone --constant-n-s2 2.8e-5", 1, "nowhere.wav"),
+    ("weigh a.wav --constant nowhere.json", 1, "nowhere.json"),
+    ("identify nowhere.toml", 1, "nowhere.toml"),
+    ("identify empty", 1, "a folder"),
+    ("identify missing.toml", 1, "nowhere.wav"),
+    ("identify missing.toml --check", 1, "nowhere.wav"),
+    ("identify good.toml --data-root nowhere", 1, "no such folder"),
+    ("identify --vehicle ardrone --mass 413g=nowhere.wav", 1, "nowhere.wav"),
+    ("init --vehicle ardrone --mass 413g=nowhere.wav -o new.toml", 1, "nowhere.wav"),
+    ("init --vehicle ardrone --mass 413g=empty -o new.toml", 1, "empty"),
+    ("fit nowhere.csv", 1, "nowhere.csv"),
+    ("fit a.wav", 1, "not text"),
+    ("export nowhere.json --to gazebo", 1, "nowhere.json"),
+    ("compare nowhere.json model.sdf", 1, "nowhere.json"),
+    ("simulate nowhere.toml", 1, "nowhere.toml"),
+    ("vehicles --add nowhere.toml", 1, "nowhere.toml"),
+    // what would be written cannot be
+    ("identify good.toml -o a.wav", 1, "no folder"),
+    ("demo -o a.wav", 1, "no folder"),
+    ("simulate flight.toml -o a.wav", 1, "no folder"),
+    ("speed a.wav --blades 2 --track nowhere/x.csv", 1, "nowhere/x.csv"),
+    ("spectrogram a.wav --blades 2 -o nowhere/x.png", 1, "nowhere/x.png"),
+    ("init --vehicle ardrone --mass 413g=a.wav -o nowhere/x.toml", 1, "nowhere/x.toml"),
+    // what would be written would replace something
+    ("identify good.toml -o full", 2, "not empty"),
+    ("demo -o full", 2, "not empty"),
+    ("simulate flight.toml -o full", 2, "not empty"),
+    ("speed a.wav --blades 2 --track full/notes.csv", 2, "exists already"),
+    ("spectrogram a.wav --blades 2 -o full/notes.png", 2, "exists already"),
+    ("init --vehicle ardrone --mass 413g=a.wav -o good.toml", 2, "exists already"),
+    ("speed a.wav --blades 2 --track a.wav --force", 2, "same command reads it"),
+    // what was typed, or stands in a file, has no meaning
+    ("speed a.wav --blades 0", 2, "--blades"),
+    ("identify broken.toml", 2, "mas_kg"),
+];
+
+#[test]
+fn every_command_ends_by_one_rule() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    write_noise(&at("a.wav"), 0.5);
+    fs::create_dir(at("empty")).unwrap();
+    fs::create_dir(at("full")).unwrap();
+    let load =
+        |name: &str| format!("[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\nrecordings = [\"{name}\"]\n");
+    for (name, content) in [
+        ("full/notes.csv", "precious".to_owned()),
+        ("full/notes.png", "precious".to_owned()),
+        ("good.toml", load("a.wav")),
+        ("missing.toml", load("nowhere.wav")),
+        ("broken.toml", load("a.wav").replace("[[load]]", "mas_kg = 0.4\n[[load]]")),
+        ("flight.toml", "duration_s = 0.2\n".to_owned()),
+        ("model.sdf", String::new()),
+    ] {
+        fs::write(at(name), content).unwrap();
+    }
+    let mut wrong = Vec::new();
+    for (words, code, said) in CASES {
+        let arguments: Vec<&str> = words.split(' ').collect();
+        let run = hovertone_with(&arguments, |command| command.current_dir(folder.path()));
+        if run.code != code || !run.stderr.contains(said) {
+            wrong.push(format!("{words}: {} in place of {code}, {said:?}: {}", run.code, run.stderr));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_help_has_the_rule() {
+    let help = hovertone(&["--help"]).ends_with(0).stdout;
+    for words in ["0  done", "1  a file or folder is not there", "2  wrong use", "would be replaced", "3  done, but"] {
+        assert!(help.contains(words), "{words}: {help}");
+    }
+}

@@ -1,0 +1,105 @@
+//! Slips of units and names: each is taken as meant where a unit is typed, and refused with the plausible slip where none is.
+
+use crate::testkit::{hovertone, hovertone_with, refused_with, text, write_noise};
+use std::fs;
+
+#[test]
+fn init_by_flags_writes_what_identify_can_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    for (name, duration_s) in [("no_hull/a.wav", 0.5), ("no_hull/b.wav", 0.6), ("big/c.wav", 0.7)] {
+        fs::create_dir_all(at(name).parent().unwrap()).unwrap();
+        write_noise(&at(name), duration_s);
+    }
+    fs::create_dir(at("empty")).unwrap();
+    let init = |more: &[&str]| {
+        let arguments = [&["init", "--vehicle", "ardrone", "--mass", "413g=no_hull"], more].concat();
+        hovertone_with(&arguments, |command| command.current_dir(folder.path()))
+    };
+    for name in ["nowhere.wav", "empty", "big/*.mov"] {
+        let refused = init(&["--mass", &format!("444g={name}")]).ends_with(1);
+        assert!(
+            refused.stderr.contains(name) && refused.stderr.contains("no recording is there"),
+            "{}",
+            refused.stderr
+        );
+        assert!(!at("experiment.toml").exists());
+    }
+    init(&["--mass", "444g=big/c.wav", "--diameter-m", "8in"]).ends_with(0);
+    let written = fs::read_to_string(at("experiment.toml")).unwrap();
+    for words in ["\"no_hull/*.wav\"", "\"big/c.wav\"", "propeller_diameter_m = 0.2032"] {
+        assert!(written.contains(words), "{words}: {written}");
+    }
+    hovertone(&["identify", text(&at("experiment.toml")), "--check"]).ends_with(0);
+}
+
+#[test]
+fn lengths_and_masses_are_typed_with_their_units() {
+    let plan =
+        |more: &[&str]| hovertone(&[&["fit", "--plan", "--wanted-share", "0.1"], more].concat()).ends_with(0).stdout;
+    let plain = plan(&["--mass-kg", "0.413", "--diameter-m", "0.2", "--mass-std-kg", "0.001"]);
+    assert_eq!(plan(&["--mass-kg", "413g", "--diameter-m", "200mm", "--mass-std-kg", "1g"]), plain);
+    refused_with(&["speed", "a.wav", "--rotors", "4", "--mass-kg", "413g", "--diameter-m", "0.5in"], &["Mach"]);
+    let refused = hovertone(&["speed", "a.wav", "--diameter-m", "8ft"]).ends_with(2);
+    assert!(refused.stderr.contains("8in"), "{}", refused.stderr);
+}
+
+#[test]
+fn a_standard_uncertainty_is_smaller_than_its_number() {
+    let weigh = ["weigh", "a.wav", "--vehicle", "ardrone", "--constant-n-s2", "2.83e-5"];
+    for (more, words) in [
+        (&["--mass-kg", "0.413", "--mass-std-kg", "413"][..], ["mass_std_kg = 413", "0.5 g are 0.0005"]),
+        (&["--mass-std-kg", "413"], ["mass_std_kg = 413", "give --mass-kg"]),
+        (&["--constant-std-n-s2", "1"], ["constant_std_n_s2 = 1", "2.8e-7"]),
+        (&["--constant-std-n-s2", "2e-5"], ["constant_std_n_s2 = 0.00002", "± reaches 0"]),
+    ] {
+        refused_with(&[&weigh[..], more].concat(), &words);
+    }
+}
+
+#[test]
+fn a_table_in_another_unit_than_its_header_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    for (rows, words) in [
+        ("rpm,thrust_n\n3000,0.7\n-3610,1\n4000,1.3\n", ["line 3", "-3610, a speed must be 0 or more"]),
+        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["line 4", "or rpm?"]),
+        ("rpm,mass_kg\n3610,413\n3742,444\n3820,462\n", ["line 4", "in grams"]),
+        ("rpm,mass_g\n3610,0.413\n3742,0.444\n3820,0.462\n", ["line 4", "in kilograms"]),
+    ] {
+        fs::write(&table, rows).unwrap();
+        refused_with(&["fit", text(&table)], &[&words[..], &["stand.csv"]].concat());
+    }
+}
+
+#[test]
+fn a_vehicle_of_the_users_can_fly() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("my.toml");
+    for (numbers, words) in [
+        ("propeller_diameter_m = 0.127\nmass_kg = 250.0", ["[my-drone]", "mass_kg = 250"]),
+        ("mass_kg = 250.0", ["heavier than most", "250 g are 0.25"]),
+        ("propeller_diameter_m = 1.27\nshaft_speed_rev_s = [60.0, 400.0]", ["diameter_m = 1.27", "Mach 0.6"]),
+        ("propeller_diameter_m = 0.02\nmass_kg = 0.413", ["diameter_m = 0.02", "Mach 0.84"]),
+    ] {
+        fs::write(&file, format!("[my-drone]\nrotors = 4\nblades = 2\n{numbers}\n")).unwrap();
+        let run = hovertone_with(&["vehicles", "--add", text(&file)], |command| {
+            command.env("XDG_CONFIG_HOME", folder.path())
+        });
+        let run = run.ends_with(2);
+        words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word}: {}", run.stderr));
+        assert!(!folder.path().join("hovertone").exists());
+    }
+}
+
+#[test]
+fn a_known_speed_is_that_of_a_rotor() {
+    for rpm in ["0.000000001", "3.6", "1e9"] {
+        refused_with(
+            &["calibrate", "a.wav", "--blades", "2", "--tachometer-rpm", rpm],
+            &["tachometer_rpm", "60 to 90000"],
+        );
+    }
+    refused_with(&["calibrate", "a.wav", "--true-hz", "1e9"], &["true_hz", "1 to 192000"]);
+    refused_with(&["fit", "a.csv", "--mass-kg", "413"], &["mass_kg = 413", "--plan"]);
+}
