@@ -16,7 +16,8 @@
 //! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of both looks add. In some recordings the
 //!    levels deceive; there they count for a tenth.
 //! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own.
-//! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none; in a given band, below 0.
+//! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
+//!    in a given band, below 0.
 //!
 //! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels, its lines stand apart
 //! in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 7.8 nats a frame more.
