@@ -3,6 +3,7 @@
 
 use crate::workspace::cargo;
 use crate::workspace::target;
+use hovertone::thrust::COVERAGE_FACTOR;
 use hovertone_sim::scenario::ScenarioFile;
 use serde_json::Value;
 use std::fs;
@@ -20,7 +21,6 @@ const SPREAD_SHARE: f64 = 0.01;
 const GROSS_SHARE: f64 = 0.05;
 /// What the issue asks for.
 const WITHIN_WANTED: usize = 90;
-const COVERAGE_FACTOR: f64 = 2.0;
 
 /// What came back by one method.
 struct Answer {

@@ -6,7 +6,7 @@ use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
 use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
 use hovertone_report::SpeedRecord;
-use hovertone_vehicle::{Gear, Order, QuantityError, SaidOfVehicle, SearchedTone, check_tips};
+use hovertone_vehicle::{Gear, Order, QuantityError, SaidOfVehicle, check_tips};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
 pub(crate) fn config_of(
@@ -70,15 +70,9 @@ pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, F
     };
     // an order alone may be that of another source, such as a signal generator
     if gear.is_some() || blades.is_some() {
-        check_band(&tone)?;
+        tone.check_band()?;
     }
     Ok(Some(tone))
-}
-
-/// Refuses a band in which the tone cannot lie.
-pub(crate) fn check_band(tone: &ToneConfig) -> Result<(), Failure> {
-    let &ToneConfig { band_hz, order, speed_min, speed_max, .. } = tone;
-    Ok(SearchedTone { band_hz, order, speed_min, speed_max }.check()?)
 }
 
 /// The part of a recording that the arguments name. A recording begins at 0 s.

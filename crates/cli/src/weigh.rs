@@ -8,7 +8,7 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::place::gravity_of;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::settings::{check_band, tone_of};
+use crate::settings::tone_of;
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
@@ -292,7 +292,7 @@ fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -
         speed_max: RotorSpeed::from_rad_s(heard.speed_rad_s_max),
         ..ToneConfig::of_order(order)
     };
-    check_band(&tone)?;
+    tone.check_band()?;
     Ok(tone)
 }
 

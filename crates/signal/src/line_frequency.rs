@@ -76,7 +76,7 @@ pub fn line_frequency(
     Ok(strongest(series, rate_hz, reach_hz).and_then(|peak| {
         // a sine of amplitude A has the mean square A²/2
         let is_heard = peak.amplitude.powi(2) / 2.0 > OF_ALL_SOUND_MIN * squares / count;
-        let left = offsets_hz(&steps(series, rate_hz, peak.offset_hz)).filter(|_| is_heard)?;
+        let left = is_heard.then(|| steps(series, rate_hz, peak.offset_hz)).and_then(|steps| offsets_hz(&steps))?;
         let hz = centre_hz + peak.offset_hz + mean(&left)?;
         Some(LineFrequency { hz, std_uncertainty_hz: std_uncertainty_of_mean(&left)?.max(STD_SHARE_MIN * hz) })
     }))

@@ -31,7 +31,7 @@ pub use air::{
     Air, Gravity, ThrustCoefficients, TorqueReading, figure_of_merit, gravity_m_s2, is_plausible_merit,
     thrust_constant_n_s2, torque_constant_n_m_s2,
 };
-pub use budget::{BudgetInput, BudgetLine, COVERAGE_FACTOR, UncertaintyBudget};
+pub use budget::{BudgetInput, BudgetLine, UncertaintyBudget};
 pub use campaign::TrialBootstrap;
 pub use drift::{Drift, DriftKind, row_drifts};
 pub use fit::{thrust_from_loads, warnings_of_points};
@@ -43,6 +43,7 @@ pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, NoScatter, PointNoise, PointVerdict,
     PowerLaw, SquareLawFit, square_law_fit,
 };
+pub use statistics::COVERAGE_FACTOR;
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 pub use warning::{ThrustWarning, p_value_text};

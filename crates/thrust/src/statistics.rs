@@ -2,8 +2,8 @@
 
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-/// Standard uncertainties of the expanded uncertainty, as the coverage factor of a budget (k = 2). *Decision.*
-const COVERAGE_STDS: f64 = 2.0;
+/// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
+pub const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Arithmetic mean; `None` without values.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
@@ -40,10 +40,10 @@ pub(crate) fn two_sided_chance(stds: f64, degrees_of_freedom: Option<f64>) -> Op
 /// a normal distribution: the quantile of Student's t for 95.45 %, over 2 (JCGM 100:2008, table G.2). 6.98 for one degree of freedom,
 /// 1.43 for four, 1 for many.
 pub(crate) fn student_factor(degrees_of_freedom: f64) -> f64 {
-    let covered = Normal::new(0.0, 1.0).map(|normal| normal.cdf(COVERAGE_STDS));
+    let covered = Normal::new(0.0, 1.0).map(|normal| normal.cdf(COVERAGE_FACTOR));
     let student = StudentsT::new(0.0, 1.0, degrees_of_freedom);
     match (covered, student) {
-        (Ok(covered), Ok(student)) => student.inverse_cdf(covered) / COVERAGE_STDS,
+        (Ok(covered), Ok(student)) => student.inverse_cdf(covered) / COVERAGE_FACTOR,
         _ => f64::INFINITY,
     }
 }

@@ -1,8 +1,8 @@
 //! Warnings about a thrust constant, each with a hint. They are values; nothing here prints.
 
-use crate::budget::COVERAGE_FACTOR;
 use crate::drift::{Drift, DriftKind};
 use crate::square_law::{ForceLaw, LoadRange};
+use crate::statistics::COVERAGE_FACTOR;
 use serde::Serialize;
 use std::fmt;
 

@@ -6,6 +6,7 @@ use super::sound::{Colour, Noise, Rotor, SAMPLE_RATE_HZ, Turning, mean_rev_s, re
 use super::track::median;
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, RotorsConfig, SpeedAnalysis, ToneConfig, speed_from_source};
+use hovertone::thrust::COVERAGE_FACTOR;
 use hovertone_sim::prescribed::Line;
 use hovertone_vehicle::Order;
 use rand::{RngExt, SeedableRng};
@@ -17,8 +18,6 @@ pub(super) const METHODS: [Method; 3] = [Method::Harmonic, Method::MaximumTrace,
 const SPEED_REV_S: std::ops::Range<f64> = 50.0..70.0;
 /// An answer further off than this many bounds is an outlier: it found something else.
 const OUTLIER_BOUNDS: f64 = 20.0;
-/// What a stated uncertainty is multiplied with to hold 95 %.
-const COVERAGE_FACTOR: f64 = 2.0;
 /// Median of |x| of a normal x of standard deviation 1.
 const MEDIAN_STDS: f64 = 0.674_489_75;
 const WANDER: Turning = Turning::Wandering { std_share: 0.004, time_constant_s: 0.8 };

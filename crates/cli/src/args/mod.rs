@@ -27,7 +27,7 @@ pub(crate) use thrust::{
     AirArguments, CompareArguments, ExportArguments, FitArguments, IdentifyArguments, PlaceArguments, WeighArguments,
 };
 pub(crate) use tones::TonesArguments;
-pub(crate) use units::length_m;
+pub(crate) use units::{Typed, length_m, rounded, typed_mass_kg};
 pub(crate) use vehicles::VehiclesArguments;
 
 use clap::{Parser, Subcommand};

@@ -11,34 +11,53 @@ const LENGTHS_M: [Unit; 6] = [
 ];
 /// Units of a mass, longest names first.
 const MASSES_KG: [Unit; 2] = [Unit { name: "kg", si: 1.0 }, Unit { name: "g", si: 1e-3 }];
-/// The last digits of binary arithmetic are cut off.
-const DECIMALS: f64 = 1e9;
-
 struct Unit {
     name: &'static str,
     /// SI units in it.
     si: f64,
 }
 
+/// A number as typed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Typed {
+    /// Its value in SI units.
+    pub(crate) si: f64,
+    /// Whether a unit stands behind it.
+    pub(crate) has_unit: bool,
+}
+
 /// A length in metres: `0.2`, `200mm`, `8in`.
 pub(crate) fn length_m(text: &str) -> Result<f64, String> {
     let text = text.replace('"', "in").to_lowercase();
-    with_unit(&text, &LENGTHS_M).ok_or_else(|| "a length is needed, such as 200mm or 8in, or 0.2 in metres".to_owned())
+    let typed = with_unit(&text, &LENGTHS_M).map(|typed| typed.si);
+    typed.ok_or_else(|| "a length is needed, such as 200mm or 8in, or 0.2 in metres".to_owned())
 }
 
 /// A mass in kilograms: `0.413`, `413g`.
 pub(crate) fn mass_kg(text: &str) -> Result<f64, String> {
-    with_unit(text, &MASSES_KG).ok_or_else(|| "a mass is needed, such as 413g, or 0.413 in kilograms".to_owned())
+    typed_mass_kg(text)
+        .map(|typed| typed.si)
+        .ok_or_else(|| "a mass is needed, such as 413g, or 0.413 in kilograms".to_owned())
 }
 
-fn with_unit(text: &str, units: &[Unit]) -> Option<f64> {
+/// A mass with its unit, or without one in kilograms.
+pub(crate) fn typed_mass_kg(text: &str) -> Option<Typed> {
+    with_unit(text, &MASSES_KG)
+}
+
+fn with_unit(text: &str, units: &[Unit]) -> Option<Typed> {
     let text = text.trim();
-    let suffixed =
-        units.iter().find_map(|unit| Some((text.strip_suffix(unit.name)?.trim().parse::<f64>().ok()?, unit.si)));
-    match suffixed {
-        Some((number, si)) => Some((number * si * DECIMALS).round() / DECIMALS),
-        None => text.parse().ok(),
-    }
+    let suffixed = units.iter().find_map(|unit| {
+        let number = text.strip_suffix(unit.name)?.trim().parse::<f64>().ok()?;
+        Some(Typed { si: rounded(number * unit.si), has_unit: true })
+    });
+    suffixed.or_else(|| Some(Typed { si: text.parse().ok()?, has_unit: false }))
+}
+
+/// Without the last digits of binary arithmetic.
+pub(crate) fn rounded(value: f64) -> f64 {
+    const DECIMALS: f64 = 1e9;
+    (value * DECIMALS).round() / DECIMALS
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Loads as typed: `--mass 0.413=no_hull/*.mov`, whether the shell expanded the pattern or not.
 
+use crate::args::{Typed, rounded, typed_mass_kg};
 use crate::failure::Failure;
 use hovertone_vehicle::MASS_ALONE_KG_MAX;
 use std::path::Path;
@@ -66,34 +67,22 @@ pub(crate) fn put_load(loads: &mut Vec<LoadDraft>, new: LoadDraft) {
 /// A mass as typed: `0.413`, `0.413kg`, `413g`.
 pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
     let text = text.trim();
-    let (number, unit_kg) = match (text.strip_suffix("kg"), text.strip_suffix('g')) {
-        (Some(number), _) => (number, Some(1.0)),
-        (None, Some(number)) => (number, Some(1.0 / GRAMS)),
-        (None, None) => (text, None),
-    };
-    let number = number.trim();
-    let value = number.parse::<f64>().ok().filter(|value| value.is_finite() && *value > 0.0).ok_or_else(|| {
-        let point = if number.contains(',') { "; the decimal sign is a point" } else { "" };
+    let is_positive = |typed: &Typed| typed.si.is_finite() && typed.si > 0.0;
+    let Typed { si: mass_kg, has_unit } = typed_mass_kg(text).filter(is_positive).ok_or_else(|| {
+        let point = if text.contains(',') { "; the decimal sign is a point" } else { "" };
         format!("\"{text}\" is no mass: write kilograms, such as 0.413, or grams, such as 413g{point}")
     })?;
-    match unit_kg {
-        Some(unit_kg) => Ok(rounded(value * unit_kg)),
-        None if value > MASS_ALONE_KG_MAX => Err(format!(
-            "{value} kg is heavier than a multirotor for this method: write {value}g for grams, or {value}kg"
-        )),
-        None => Ok(value),
+    if !has_unit && mass_kg > MASS_ALONE_KG_MAX {
+        return Err(format!(
+            "{mass_kg} kg is heavier than a multirotor for this method: write {mass_kg}g for grams, or {mass_kg}kg"
+        ));
     }
+    Ok(mass_kg)
 }
 
 /// A mass for people: grams, without an exponent.
 pub(crate) fn mass_words(mass_kg: f64) -> String {
     format!("{} g", rounded(mass_kg * GRAMS))
-}
-
-/// Without the last digits of binary arithmetic.
-pub(super) fn rounded(value: f64) -> f64 {
-    const DECIMALS: f64 = 1e9;
-    (value * DECIMALS).round() / DECIMALS
 }
 
 fn is_mass(word: &str) -> bool {

@@ -1,7 +1,8 @@
 //! A draft as the commented text of an experiment file.
 
-use super::masses::{mass_words, rounded};
+use super::masses::mass_words;
 use super::{Draft, LoadDraft};
+use crate::args::rounded;
 use crate::files::is_pattern;
 use hovertone_vehicle::Vehicle;
 use std::path::Path;

@@ -7,7 +7,7 @@ use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
 use hovertone_vehicle::{
     CLOCK_CORRECTION_PPM_MAX, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M,
-    SaidOfVehicle, SearchedTone, Vehicle, are_masses_of_one_vehicle, check_range, is_swamped, presets,
+    SaidOfVehicle, Vehicle, are_masses_of_one_vehicle, check_range, is_swamped, presets,
 };
 
 /// Default standard uncertainty of a mass, kg: a kitchen scale that shows whole grams. *Decision.*
@@ -199,8 +199,7 @@ impl ExperimentFile {
             band_half_width_share: self.tone.band_half_width_share.unwrap_or(defaults.band_half_width_share),
             ..defaults
         };
-        let ToneConfig { band_hz, order, speed_min, speed_max, .. } = tone;
-        SearchedTone { band_hz, order, speed_min, speed_max }.check()?;
+        tone.check_band()?;
         Ok(tone)
     }
 

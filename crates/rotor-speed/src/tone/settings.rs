@@ -1,6 +1,9 @@
 //! Which tone of the rotor is followed, and where it is looked for.
 
-use hovertone_vehicle::{BLADES_MAX, ConfigError, KNOWN_RANGE_MARGIN, Order, RotorSpeed, ShaftSpeedRange, check_range};
+use hovertone_vehicle::{
+    BLADES_MAX, ConfigError, Contradiction, KNOWN_RANGE_MARGIN, Order, RotorSpeed, SearchedTone, ShaftSpeedRange,
+    check_range,
+};
 use serde::Serialize;
 
 /// Which tone of the rotor is followed, and where it is looked for.
@@ -54,6 +57,15 @@ impl ToneConfig {
             speed_max: RotorSpeed::from_rev_s(known.rev_s_high * KNOWN_RANGE_MARGIN),
             ..self
         }
+    }
+
+    /// Refuses a band in which the tone cannot lie.
+    ///
+    /// # Errors
+    /// [`Contradiction::Band`].
+    pub fn check_band(&self) -> Result<(), Contradiction> {
+        let &Self { band_hz, order, speed_min, speed_max, .. } = self;
+        SearchedTone { band_hz, order, speed_min, speed_max }.check()
     }
 
     pub(crate) fn check(&self) -> Result<(), ConfigError> {

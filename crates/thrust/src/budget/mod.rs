@@ -6,12 +6,9 @@ use crate::force::Force;
 use crate::regression::Agreement;
 use crate::settings::{ThrustSettings, UncertaintyInputs};
 use crate::square_law::{LawAgreement, PointNoise, SquareLawFit, covering_factor};
-use crate::statistics::mean;
+use crate::statistics::{COVERAGE_FACTOR, mean};
 use hovertone_vehicle::SOUND_M_S;
 use serde::Serialize;
-
-/// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
-pub const COVERAGE_FACTOR: f64 = 2.0;
 
 /// Inputs of a thrust constant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -1,10 +1,10 @@
 //! Two answers about one recording, one with a fact more than the other.
 
 use super::subject::Ways;
+use hovertone::thrust::COVERAGE_FACTOR;
 
 /// An answer further off is wrong.
 const WRONG_SHARE: f64 = 0.01;
-const COVERAGE_FACTOR: f64 = 2.0;
 
 /// A mean speed against the truth, as shares of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
