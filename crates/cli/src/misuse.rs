@@ -123,7 +123,7 @@ fn reason_of(error: &clap::Error) -> String {
     }
 }
 
-/// "--mass-kg" of "--mass-kg <KG>"; a name of a file stays.
+/// `--mass-kg` of `--mass-kg <KG>`; a name of a file stays.
 fn flag_of(argument: &str) -> String {
     if argument.starts_with('-') { argument.split([' ', '=', '[']).next().unwrap_or_default() } else { argument }
         .to_owned()
