@@ -9,19 +9,19 @@ use hovertone_analysis::{
 use hovertone_signal::statistics::{mean, std};
 
 /// Frame lengths whose share of lines differs by less than this are equally clear, and the longest, which resolves most,
-/// is taken. Where rotors part or wander, lines get fewer with length, so that clarity itself keeps frames short.
+/// is taken. Where rotors part or wander, lines get fewer with length, so that clarity itself keeps frames short. *Decision.*
 const EQUALLY_CLEAR_SHARE: f64 = 0.01;
-/// One-sided 95 % of a normal distribution.
+/// One-sided 95 % of a normal distribution. *Numeric.*
 const CONFIDENCE_STDS: f64 = 1.645;
-/// A ridge on the edge of its band in more frames than this is not in its band.
+/// A ridge on the edge of its band in more frames than this is not in its band. *Decision.*
 const EDGE_SHARE: f64 = 0.2;
-/// More gaps than this are said.
+/// More gaps than this are said. *Decision.*
 const GAP_SHARE: f64 = 0.3;
-/// A spread of twice the paper's (1.2 to 1.3 %) means more than one line.
+/// A spread of twice the paper's (1.2 to 1.3 %) means more than one line. *Decision.*
 const SPREAD_SHARE: f64 = 0.025;
-/// A sample of fewer frames has a mean that one bad frame spoils.
+/// A sample of fewer frames has a mean that one bad frame spoils. *Decision.*
 const FEW_FRAMES: usize = 8;
-/// Another speed is worth a warning when it lasts this share of the hover.
+/// Another speed is worth a warning when it lasts this share of the hover. *Decision.*
 const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
 
 /// The ridges of the frame length that shows lines in most frames; among those equally clear, of the longest.

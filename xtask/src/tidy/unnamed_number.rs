@@ -182,7 +182,7 @@ mod tests {
         let count = |path: &str| check(&Tree::of(&[(path, "fn f() -> f64 { 0.3 }")])).len();
         assert_eq!(count("crates/figures/src/a.rs"), 0);
         assert_eq!(count("crates/thrust/tests/a.rs"), 0);
-        assert_eq!(count("crates/rotor-speed/src/detection.rs"), 0);
+        assert_eq!(count("crates/rotor-speed/src/rotors/pace.rs"), 0);
         assert_eq!(count("crates/rotor-speed/src/pipeline.rs"), 1);
     }
 

@@ -73,7 +73,7 @@ impl LineCollector {
         let speeds_rev_s: Vec<f64> = tracks.iter().map(mean_rev_s).collect();
         let fastest_rev_s = speeds_rev_s.iter().copied().fold(0.0, f64::max);
         let slowest_rev_s = speeds_rev_s.iter().copied().fold(fastest_rev_s, f64::min);
-        let bands = lines_between_speeds((slowest_rev_s, fastest_rev_s), tone, sample_rate_hz);
+        let bands = lines_between_speeds(&(slowest_rev_s..=fastest_rev_s), tone, sample_rate_hz);
         let orders: Vec<f64> = bands.iter().map(|band| band.order).collect();
         let sounding = with_sidebands(&orders, tone);
         // a block is halved until its length times the order is short enough

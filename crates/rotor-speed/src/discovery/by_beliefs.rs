@@ -33,8 +33,7 @@ impl Believed {
     pub(super) fn of(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config, discovery: &Discovery) -> Option<Self> {
         let propeller = |(blades, share): (u32, f64)| {
             let tone = ToneConfig { order: Order::from_blades(blades).ok()?, ..config.tone.clone() };
-            let (low, high) = search_range_rev_s(&tone, sample_rate_hz).ok()?;
-            Some(WantedPropeller { blades, share, speeds_rev_s: low..=high })
+            Some(WantedPropeller { blades, share, speeds_rev_s: search_range_rev_s(&tone, sample_rate_hz).ok()? })
         };
         let propellers = match discovery.known.blade_count {
             Some(blades) => propeller((blades, 1.0)).into_iter().collect(),

@@ -41,13 +41,13 @@ impl Candidates {
     ) -> Result<Self, Error> {
         let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
         Ok(Self {
-            map: CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s),
+            map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
             leading_rev_s: speed_rev_s,
             beliefs: None,
             is_heard: true,
             is_named: true,
             are_several: false,
-            rev_s_min: search_rev_s.0,
+            rev_s_min: *search_rev_s.start(),
         })
     }
 
@@ -130,8 +130,8 @@ pub(crate) fn candidates_from_survey(
 ) -> Result<Candidates, Stop> {
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     surveyed.check(config)?;
-    let map = CombMap::from_survey(&surveyed.survey, &config.tone, search_rev_s);
-    let beliefs = beliefs_of(surveyed, search_rev_s.0..=search_rev_s.1, config).map_err(Silence::because)?;
+    let map = CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s);
+    let beliefs = beliefs_of(surveyed, search_rev_s.clone(), config).map_err(Silence::because)?;
     let believed_rev_s = beliefs.as_ref().and_then(Beliefs::hover_rev_s);
     let leading_rev_s = believed_rev_s.or_else(|| map.leading_speed_rev_s());
     match leading_rev_s {
@@ -142,7 +142,7 @@ pub(crate) fn candidates_from_survey(
             is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,
-            rev_s_min: search_rev_s.0,
+            rev_s_min: *search_rev_s.start(),
         }),
         None => Err(Silence::because(or_mains_hum(NoTone::NoSeries, &surveyed.survey)).into()),
     }

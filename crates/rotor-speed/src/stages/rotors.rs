@@ -9,6 +9,7 @@ use crate::tone::{blades_of_tone, lines_between_speeds, lines_worth_hearing};
 use hovertone_analysis::Hover;
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
+use std::ops::RangeInclusive;
 
 /// Separates the rotors in two passes: the first finds their speeds in a wide band, the second follows each rotor.
 pub(crate) fn rotors_from_hover(
@@ -19,17 +20,18 @@ pub(crate) fn rotors_from_hover(
     config: &Config,
 ) -> Result<RotorTracks, Error> {
     let sample_rate_hz = passes.sample_rate_hz();
-    let lines_in = |limits_rev_s: (f64, f64)| {
-        lines_worth_hearing(lines_between_speeds(limits_rev_s, &config.tone, sample_rate_hz), &surveyed.survey)
+    let lines_in = |speeds_rev_s: RangeInclusive<f64>| {
+        lines_worth_hearing(lines_between_speeds(&speeds_rev_s, &config.tone, sample_rate_hz), &surveyed.survey)
     };
     let order = config.tone.order.lines_per_turn();
     let mesh_order = (order > BLADES_MAX).then_some(order);
     let share = config.rotors.band_half_width_share;
-    let wide = lines_in((speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share)));
+    let wide = lines_in(speed_rev_s * (1.0 - share)..=speed_rev_s * (1.0 + share));
     let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
     passes.listen(&hover.spans_s(), &mut scout)?;
     let rough = scout.finish();
-    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
+    let (low_rev_s, high_rev_s) = rough.band_rev_s();
+    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(low_rev_s..=high_rev_s), mesh_order, rough);
     passes.listen(&hover.spans_s(), &mut tracer)?;
     Ok(tracer.finish())
 }

@@ -5,29 +5,30 @@ use crate::tone::ToneConfig;
 use hovertone_analysis::{Band, Warning};
 use hovertone_signal::channels::ChannelBand;
 use hovertone_vehicle::BLADES_MAX;
+use std::ops::RangeInclusive;
 
-/// Sound above this share of half the sample rate is inside the recorder's own filter.
+/// Sound above this share of half the sample rate is inside the recorder's own filter. *Physics.*
 const USABLE_NYQUIST_SHARE: f64 = 0.98;
 
-/// Harmonics between which other lines are looked for.
+/// Harmonics between which other lines are looked for. *Decision.*
 const BETWEEN_LINES: u32 = 8;
-/// A steady rotor is looked for again so near to where it was found.
+/// A steady rotor is looked for again so near to where it was found. *Decision.*
 const STEADY_SHARE: f64 = 0.003;
 
 /// Shaft speeds to look for, in turns per second: the given band's or the configured ones, as far as a recording of that
 /// rate can hold their tone.
-pub(crate) fn search_range_rev_s(tone: &ToneConfig, sample_rate_hz: f64) -> Result<(f64, f64), Error> {
+pub(crate) fn search_range_rev_s(tone: &ToneConfig, sample_rate_hz: f64) -> Result<RangeInclusive<f64>, Error> {
     let order = tone.order.lines_per_turn();
     let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
     if let Some((low_hz, high_hz)) = tone.band_hz {
         if high_hz > hz_max {
             return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
         }
-        return Ok((low_hz / order, high_hz / order));
+        return Ok(low_hz / order..=high_hz / order);
     }
     let low = tone.speed_min.rev_s();
     let high = tone.speed_max.rev_s().min(hz_max / (1.0 + tone.band_half_width_share) / order);
-    if low < high { Ok((low, high)) } else { Err(Error::ToneAboveNyquist { order: tone.order, sample_rate_hz }) }
+    if low < high { Ok(low..=high) } else { Err(Error::ToneAboveNyquist { order: tone.order, sample_rate_hz }) }
 }
 
 /// The bands around a shaft speed, as many harmonics as the recording can hold.
@@ -66,14 +67,14 @@ pub(crate) fn bands_around(
 pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: f64) -> Vec<ChannelBand> {
     let order = tone.order.lines_per_turn();
     let share = tone.band_half_width_share;
-    let found_rev_s = (speed_rev_s * (1.0 - share), speed_rev_s * (1.0 + share));
-    let speeds_rev_s = tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| (low_hz / order, high_hz / order));
-    lines_between_speeds(speeds_rev_s, tone, sample_rate_hz)
+    let found_rev_s = speed_rev_s * (1.0 - share)..=speed_rev_s * (1.0 + share);
+    let speeds_rev_s = tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| low_hz / order..=high_hz / order);
+    lines_between_speeds(&speeds_rev_s, tone, sample_rate_hz)
 }
 
-/// The same lines, for shafts between two speeds.
+/// The same lines, for shafts in a range of speeds.
 pub fn lines_between_speeds(
-    (low_rev_s, high_rev_s): (f64, f64),
+    speeds_rev_s: &RangeInclusive<f64>,
     tone: &ToneConfig,
     sample_rate_hz: f64,
 ) -> Vec<ChannelBand> {
@@ -89,12 +90,12 @@ pub fn lines_between_speeds(
     orders.dedup();
     orders
         .into_iter()
-        .filter(|order| order * high_rev_s <= hz_max)
+        .filter(|order| order * speeds_rev_s.end() <= hz_max)
         .map(|order| ChannelBand {
             order,
             is_first: order == tone.order.lines_per_turn() || blades == Some(order),
-            band_hz_low: order * low_rev_s,
-            band_hz_high: order * high_rev_s,
+            band_hz_low: order * speeds_rev_s.start(),
+            band_hz_high: order * speeds_rev_s.end(),
             noise_fall_db: 0.0,
         })
         .collect()

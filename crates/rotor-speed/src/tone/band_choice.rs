@@ -4,16 +4,17 @@ use crate::survey::Survey;
 use hovertone_analysis::{Band, NoTone, Warning};
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::spectrogram::{band_limit_hz, power_db};
+use std::ops::RangeInclusive;
 
-/// A band whose middle is nearer than this share to where the recording ends loses rotors on that side.
+/// A band whose middle is nearer than this share to where the recording ends loses rotors on that side. *Decision.*
 const LIMIT_MARGIN_SHARE: f64 = 0.02;
-/// Hum this much weaker (as a ratio of power) than the strongest other line of a band does not pull its ridge.
+/// Hum this much weaker (as a ratio of power) than the strongest other line of a band does not pull its ridge. *Decision.*
 const HUM_POWER_SHARE_MAX: f64 = 0.1;
-/// A line of hum this far beyond the edge of a band still shows its side lobes inside: four cells of the longest frames.
+/// A line of hum this far beyond the edge of a band still shows its side lobes inside: four cells of the longest frames. *Numeric.*
 const HUM_REACH_HZ: f64 = 10.0;
-/// One band that is left where hum took others is no witness.
+/// One band that is left where hum took others is no witness. *Decision.*
 const BANDS_BESIDE_HUM_MIN: usize = 2;
-/// Bins on either side of a line of hum that are its own.
+/// Bins on either side of a line of hum that are its own. *Numeric.*
 const HUM_HALF_BINS: f64 = 3.0;
 
 /// Range of frequencies below and above the middle of a band in which its noise is measured, as a share of the middle. *Decision.*
@@ -40,7 +41,7 @@ pub(crate) fn bands_worth_following(
     let mut is_cut = false;
     for band in bands {
         let beyond_hz = limit_hz.filter(|limit_hz| middle_hz(&band) * (1.0 + LIMIT_MARGIN_SHARE) > *limit_hz);
-        let hum_hz = loud_hum_in((band.band_hz_low, band.band_hz_high), survey, &fine_power);
+        let hum_hz = loud_hum_in(band.band_hz_low..=band.band_hz_high, survey, &fine_power);
         match (beyond_hz, hum_hz) {
             (Some(limit_hz), _) => {
                 if !is_cut {
@@ -74,9 +75,9 @@ pub(crate) fn lines_worth_hearing(lines: Vec<ChannelBand>, survey: &Survey) -> V
     lines
         .into_iter()
         .filter(|line| (line.band_hz_low + line.band_hz_high) / 2.0 * (1.0 + LIMIT_MARGIN_SHARE) <= limit_hz)
-        .filter(|line| loud_hum_in((line.band_hz_low, line.band_hz_high), survey, &fine_power).is_none())
+        .filter(|line| loud_hum_in(line.band_hz_low..=line.band_hz_high, survey, &fine_power).is_none())
         .map(|line| ChannelBand {
-            noise_fall_db: noise_fall_db(&power, survey.bin_hz, (line.band_hz_low, line.band_hz_high)),
+            noise_fall_db: noise_fall_db(&power, survey.bin_hz, line.band_hz_low..=line.band_hz_high),
             ..line
         })
         .collect()
@@ -86,7 +87,8 @@ pub(crate) fn lines_worth_hearing(lines: Vec<ChannelBand>, survey: &Survey) -> V
 /// it.
 ///
 /// The noise is a low quantile of the bins in a wide range of frequencies, in which lines fill a small part.
-fn noise_fall_db(power: &[f64], bin_hz: f64, (low_hz, high_hz): (f64, f64)) -> f64 {
+fn noise_fall_db(power: &[f64], bin_hz: f64, band_hz: RangeInclusive<f64>) -> f64 {
+    let (low_hz, high_hz) = band_hz.into_inner();
     let floor_db = |from_hz: f64, to_hz: f64| {
         let bins = (from_hz / bin_hz).ceil() as usize..(to_hz / bin_hz).floor() as usize;
         let mut sorted = power.get(bins).filter(|bins| bins.len() >= FLOOR_BINS_MIN)?.to_vec();
@@ -102,17 +104,18 @@ fn noise_fall_db(power: &[f64], bin_hz: f64, (low_hz, high_hz): (f64, f64)) -> f
 }
 
 /// A line of hum in or beside a band that is not much weaker than what else is there, and the mains' frequency.
-fn loud_hum_in((low_hz, high_hz): (f64, f64), survey: &Survey, fine_power: &[f64]) -> Option<(f64, f64)> {
+fn loud_hum_in(band_hz: RangeInclusive<f64>, survey: &Survey, fine_power: &[f64]) -> Option<(f64, f64)> {
     let hum = survey.hum.as_ref()?;
-    let line_hz = hum.line_in(low_hz - HUM_REACH_HZ, high_hz + HUM_REACH_HZ)?;
-    let loudest = loudest_without(fine_power, survey.fine.bin_hz, (low_hz, high_hz), &hum.lines_hz);
+    let line_hz = hum.line_in(band_hz.start() - HUM_REACH_HZ, band_hz.end() + HUM_REACH_HZ)?;
+    let loudest = loudest_without(fine_power, survey.fine.bin_hz, band_hz, &hum.lines_hz);
     let place = (line_hz / survey.fine.bin_hz).round() as usize;
     let is_loud = fine_power.get(place).is_some_and(|hum| *hum > HUM_POWER_SHARE_MAX * loudest);
     is_loud.then_some((line_hz, hum.mains_hz))
 }
 
 /// Power of the loudest bin of a band that is not a line of hum.
-fn loudest_without(power: &[f64], bin_hz: f64, (low_hz, high_hz): (f64, f64), lines_hz: &[f64]) -> f64 {
+fn loudest_without(power: &[f64], bin_hz: f64, band_hz: RangeInclusive<f64>, lines_hz: &[f64]) -> f64 {
+    let (low_hz, high_hz) = band_hz.into_inner();
     let bins = (low_hz / bin_hz).ceil() as usize..=(high_hz / bin_hz).floor() as usize;
     bins.filter(|&bin| lines_hz.iter().all(|hz| (hz / bin_hz - bin as f64).abs() > HUM_HALF_BINS))
         .filter_map(|bin| power.get(bin))
@@ -136,9 +139,9 @@ mod tests {
         }
         let (low_hz, high_hz) = (1900.0f64, 2100.0f64);
         let expected_db = 40.0 * (high_hz / low_hz).log10();
-        let fall_db = noise_fall_db(&power, bin_hz, (low_hz, high_hz));
+        let fall_db = noise_fall_db(&power, bin_hz, low_hz..=high_hz);
         assert!((fall_db - expected_db).abs() < 0.1 * expected_db, "{fall_db} {expected_db}");
         // too few bins
-        assert_eq!(noise_fall_db(&power, bin_hz, (95.0, 105.0)), 0.0);
+        assert_eq!(noise_fall_db(&power, bin_hz, 95.0..=105.0), 0.0);
     }
 }

@@ -5,36 +5,37 @@ use crate::tone::ToneConfig;
 use hovertone_signal::spectrogram::whitened_db;
 use hovertone_signal::statistics::mean;
 use hovertone_vehicle::BLADES_MAX;
+use std::ops::RangeInclusive;
 
-/// Distance of neighbouring speeds on the search grid, as a share.
+/// Distance of neighbouring speeds on the search grid, as a share. *Numeric.*
 const GRID_STEP_SHARE: f64 = 0.003;
-/// A line counts up to this level, so that one strong line does not outweigh a series.
+/// A line counts up to this level, so that one strong line does not outweigh a series. *Decision.*
 const LEVEL_DB_MAX: f64 = 40.0;
-/// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors.
+/// Harmonics of the blade pass that are looked at: as many as stand out of the noise of small multirotors. *Decision.*
 const BLADE_PASS_HARMONICS: u32 = 8;
-/// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already.
+/// Harmonics of the gear mesh that are looked at: the third of the AR.Drone's is at 12 kHz already. *Decision.*
 const GEAR_MESH_HARMONICS: u32 = 3;
-/// Speeds this near count as the same when rows are pooled: a hover wanders.
+/// Speeds this near count as the same when rows are pooled: a hover wanders. *Decision.*
 const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
 /// Every other (or third …) line stronger by this on average means that the lines between are shaft lines, and the blade
 /// pass is twice (or three times …) higher. True series of small multirotors recorded so far show at most 2 dB; halved ones
-/// 6 dB once and 8 dB or more in all other cases. Levels that scatter by 4 dB from line to line reach 7 dB once in 150.
+/// 6 dB once and 8 dB or more in all other cases. Levels that scatter by 4 dB from line to line reach 7 dB once in 150. *Decision.*
 const ALTERNATION_DB: f64 = 7.0;
-/// Lines between that are weaker by less than this on average belong to the same series.
+/// Lines between that are weaker by less than this on average belong to the same series. *Decision.*
 const SERIES_DB: f64 = 3.0;
-/// Lines between must stand this far over the floor to be lines at all.
+/// Lines between must stand this far over the floor to be lines at all. *Decision.*
 const BETWEEN_DB_MIN: f64 = 6.0;
-/// How many lines of a series are looked at for that.
+/// How many lines of a series are looked at for that. *Decision.*
 const ALTERNATION_HARMONICS: u32 = 9;
 
-/// Speeds this near belong to rotors of one vehicle, and are no runner-up of each other.
+/// Speeds this near belong to rotors of one vehicle, and are no runner-up of each other. *Decision.*
 const SAME_VEHICLE_SHARE: f64 = 0.25;
 
-/// Speeds of a row whose comb reaches this share of the best one's stand out of it.
+/// Speeds of a row whose comb reaches this share of the best one's stand out of it. *Decision.*
 const OUTSTANDING_SHARE: f64 = 0.5;
-/// The line of a gear mesh that stands this far over the floor is heard; this much is much stronger or weaker.
+/// The line of a gear mesh that stands this far over the floor is heard; this much is much stronger or weaker. *Decision.*
 const MESH_DB_MIN: f64 = 6.0;
-/// Lines of a series are looked for within this share, and a bin.
+/// Lines of a series are looked for within this share, and a bin. *Decision.*
 const LINE_HALF_WIDTH_SHARE: f64 = 0.015;
 
 /// A line that a rotor is expected to make.
@@ -74,7 +75,7 @@ impl Comb {
         if !is_blade_pass {
             teeth.extend(series(order, GEAR_MESH_HARMONICS));
             // a mesh at twice its frequency would have its own first line halfway; a codec that cuts the third makes that likely
-            gaps.extend([0.5, 1.5].map(|k: f64| Tooth { order: k * order, weight: (k + 0.5).powf(-0.5) }));
+            gaps.extend([1.0, 2.0].map(|k: f64| Tooth { order: (k - 0.5) * order, weight: k.powf(-0.5) }));
         }
         Self { teeth, gaps, blades, mesh_order: (!is_blade_pass).then_some(order) }
     }
@@ -138,9 +139,10 @@ pub(crate) struct CombMap {
 }
 
 impl CombMap {
-    /// Scores every speed from `low` to `high` in every row.
-    pub(crate) fn from_survey(survey: &Survey, tone: &ToneConfig, (low, high): (f64, f64)) -> Self {
+    /// Scores every speed of the range in every row.
+    pub(crate) fn from_survey(survey: &Survey, tone: &ToneConfig, search_rev_s: &RangeInclusive<f64>) -> Self {
         let comb = Comb::for_tone(tone);
+        let (&low, &high) = (search_rev_s.start(), search_rev_s.end());
         let count = ((high / low).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
         let speeds_rev_s: Vec<f64> = (0..count).map(|i| low * (GRID_STEP_SHARE * i as f64).exp()).collect();
         let mut pooled_db = vec![0.0; survey.rows.first().map_or(0, |row| row.power.len())];
@@ -322,7 +324,7 @@ mod tests {
             .collect();
         let mut builder = SurveyBuilder::new(SurveySettings::default(), rate, 0.0);
         builder.push(&samples);
-        CombMap::from_survey(&builder.finish(3.0), tone, (15.0, 280.0))
+        CombMap::from_survey(&builder.finish(3.0), tone, &(15.0..=280.0))
     }
 
     #[test]

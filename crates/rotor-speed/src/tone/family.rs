@@ -11,12 +11,13 @@ use crate::tone::DiscoveryConfig;
 use hovertone_analysis::{Remark, SeenHarmonic, Span, ToneFamily};
 use hovertone_vehicle::KnownRotor;
 
-/// A fundamental that turns out to be a fraction of the true one is multiplied this often at most.
+/// A fundamental that turns out to be a fraction of the true one is multiplied this often at most. *Numeric.*
 const LOOKS_MAX: usize = 3;
-/// Fundamentals this near those of the mains, or of its full wave, are said to be so.
+/// Fundamentals this near those of the mains, or of its full wave, are said to be so. *Physics.*
 const MAINS_HZ: [f64; 4] = [50.0, 60.0, 100.0, 120.0];
+/// How near, as a share. *Decision.*
 const MAINS_SHARE: f64 = 0.004;
-/// A family that sounds for less than this share of the time is a beep or a call.
+/// A family that sounds for less than this share of the time is a beep or a call. *Decision.*
 const BRIEF_SHARE: f64 = 0.25;
 
 /// The families of a recording, strongest first, up to one that is enough.

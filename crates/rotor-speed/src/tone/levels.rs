@@ -6,7 +6,7 @@ use hovertone_analysis::Span;
 use hovertone_signal::peak::hann_peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
 
-/// Levels are cut here, so that one line cannot outweigh a series.
+/// Levels are cut here, so that one line cannot outweigh a series. *Decision.*
 const LEVEL_DB_MAX: f32 = 60.0;
 
 /// One stretch of sound.

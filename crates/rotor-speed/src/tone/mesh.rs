@@ -8,13 +8,13 @@ use hovertone_analysis::{Meaning, Reading};
 use hovertone_signal::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed, presets};
 
-/// Harmonics of the mesh that are looked at.
+/// Harmonics of the mesh that are looked at. *Decision.*
 const MESH_HARMONICS: u32 = 3;
-/// The mesh lies this near its place, as a share: the shaft speed is known to this.
+/// The mesh lies this near its place, as a share: the shaft speed is known to this. *Decision.*
 const HALF_WIDTH_SHARE: f64 = 0.004;
-/// Places beside it, as shares of its order, for comparison: off its ±1 and ±2 shaft sidebands at 1.45 and 2.9 %.
+/// Places beside it, as shares of its order, for comparison: off its ±1 and ±2 shaft sidebands at 1.45 and 2.9 %. *Numeric.*
 const BESIDE_SHARES: [f64; 8] = [-0.075, -0.055, -0.04, -0.022, 0.022, 0.04, 0.055, 0.075];
-/// Belief in a blade pass grows by this when the mesh of its shaft is heard: a chance line there is one in a hundred.
+/// Belief in a blade pass grows by this when the mesh of its shaft is heard: a chance line there is one in a hundred. *Decision.*
 const MESH_GAIN: f64 = 100.0;
 
 /// Level of the mesh over the places beside it, and the scatter of those, in dB; `None` beyond the recording.

@@ -1,12 +1,10 @@
 //! Tone families: which shaft speed explains the lines, and the band of each harmonic.
 
-mod agreement;
 mod band;
 mod band_choice;
 mod comb;
 mod discovery_config;
 mod family;
-mod foreign_series;
 mod levels;
 mod mesh;
 mod pattern;
@@ -16,14 +14,12 @@ mod series;
 mod settings;
 mod skirts;
 
-pub(crate) use agreement::families_agree;
 pub use band::lines_between_speeds;
 pub(crate) use band::{bands_around, lines_and_between, lines_around, search_range_rev_s};
 pub(crate) use band_choice::{bands_worth_following, lines_worth_hearing};
 pub(crate) use comb::CombMap;
 pub use discovery_config::DiscoveryConfig;
 pub(crate) use family::families_from_surveys;
-pub(crate) use foreign_series::foreign_series;
 pub(crate) use pattern::BLADES;
 pub(crate) use reading::{normalise, rule_out};
 pub(crate) use settings::blades_of_tone;

@@ -4,25 +4,26 @@ use super::profile::{ORDERS, OrderProfile, PLACES};
 use crate::tone::DiscoveryConfig;
 use hovertone_signal::statistics::{mean, median};
 
-/// Numbers of blades that are considered.
+/// Numbers of blades that are considered. *Decision.*
 pub(crate) const BLADES: [u32; 5] = [2, 3, 4, 5, 6];
-/// Lines between the harmonics are looked for up to this order: further up, rotors of unlike speed cross each other.
+/// Lines between the harmonics are looked for up to this order: further up, rotors of unlike speed cross each other. *Decision.*
 const BETWEEN_ORDERS: f64 = 4.5;
-/// Two of so many lines make a series without its fundamental.
+/// Two of so many lines make a series without its fundamental. *Decision.*
 const LOW_LINES: usize = 4;
-/// Thirds, fourths (and halves with them) and fifths of the fundamental are looked at up to this order.
+/// Thirds, fourths (and halves with them) and fifths of the fundamental are looked at up to this order. *Decision.*
 const FRACTION_ORDERS: usize = 4;
-/// One faint line there can be anything, but one this far over the floor leaves the pattern in doubt.
+/// One faint line there can be anything, but one this far over the floor leaves the pattern in doubt. *Decision.*
 const FRACTION_LINE_DB: f64 = 10.0;
+/// Smallest number of such lines, each fainter than that, which leave it in doubt. *Decision.*
 const FRACTION_LINES_MIN: usize = 2;
 /// Lines must stand out of the floor's lower quarter by this many standard deviations: the highest of three places does
-/// by 1.5 on average.
+/// by 1.5 on average. *Decision.*
 const LINE_STDS: f64 = 4.5;
-/// When fewer of the lines between sound than this, the series is a faster one.
+/// When fewer of the lines between sound than this, the series is a faster one. *Decision.*
 const BETWEEN_SHARE_OF_FASTER: f64 = 0.34;
-/// The contrast is that of the first strong lines: further up all lines sink into the noise and are alike.
+/// The contrast is that of the first strong lines: further up all lines sink into the noise and are alike. *Decision.*
 const CONTRAST_LINES_MAX: usize = 5;
-/// Share of the strong lines that must stand over all lines beside them.
+/// Share of the strong lines that must stand over all lines beside them. *Decision.*
 pub(crate) const OVER_NEIGHBOURS_SHARE: f64 = 0.75;
 
 /// What a series of lines looks like.

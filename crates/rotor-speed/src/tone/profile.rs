@@ -4,24 +4,26 @@ use super::levels::LevelRows;
 use super::series::Series;
 use hovertone_signal::statistics::{mean, median};
 
-/// Places to an order: 60 is divided by 2, 3, 4, 5 and 6, so that the lines of a shaft with as many blades fall on places.
+/// Places to an order: 60 is divided by 2, 3, 4, 5 and 6, so that the lines of a shaft with as many blades fall on places. *Numeric.*
 pub(crate) const PLACES: usize = 60;
-/// Harmonics of the series that the profile covers.
+/// Harmonics of the series that the profile covers. *Decision.*
 pub(crate) const ORDERS: usize = 18;
-/// A line may lie this share beside its place: the fundamental is known to this.
+/// A line may lie this share beside its place: the fundamental is known to this. *Decision.*
 const TOLERANCE_SHARE: f64 = 0.0015;
 /// The floor is the lower quarter of what lies within this many places: lines of six blades, as wide as they get, fill
-/// less than the rest.
+/// less than the rest. *Numeric.*
 const FLOOR_HALF_WIDTH: usize = 45;
+/// Share of the places below the floor. *Numeric.*
 const FLOOR_SHARE: f64 = 0.25;
-/// The scatter is that between this share and the quarter, which a normal distribution has 0.607 standard deviations apart.
+/// The scatter is that between this share and the quarter, which a normal distribution has 0.607 standard deviations apart. *Numeric.*
 const SCATTER_SHARE: f64 = 0.1;
+/// Standard deviations from the first of these shares to the second. *Numeric.*
 const STDS_BETWEEN: f64 = 0.607;
-/// Below this the window's own skirt at 0 Hz sounds.
+/// Below this the window's own skirt at 0 Hz sounds. *Numeric.*
 const QUIET_PLACE_MIN: usize = 8;
-/// A line between harmonics stands over both its sides by this, else it is the skirt of one of them.
+/// A line between harmonics stands over both its sides by this, else it is the skirt of one of them. *Decision.*
 const PEAK_DB: f64 = 2.0;
-/// Where its sides are, beside the tolerance.
+/// Where its sides are, beside the tolerance. *Numeric.*
 const SIDE_PLACES: [usize; 3] = [2, 3, 4];
 
 /// Mean level over the floor at every sixtieth of an order.

@@ -6,21 +6,21 @@ use hovertone_analysis::{Meaning, Reading};
 use hovertone_vehicle::{Gear, KNOWN_RANGE_MARGIN, KnownRotor, Order, RotorSpeed};
 use std::f64::consts::PI;
 
-/// Readings whose shaft speeds differ by less than this share are one speed.
+/// Readings whose shaft speeds differ by less than this share are one speed. *Decision.*
 const SAME_SPEED_SHARE: f64 = 0.005;
-/// Slowest and fastest shaft of any multirotor, turns per second, with room on either side.
+/// Slowest and fastest shaft of any multirotor, turns per second, with room on either side. *Decision.*
 const SHAFT_REV_S: (f64, f64) = (8.0, 900.0);
-/// Lines that lie between the harmonics leave the reading as shaft lines at least this likely, however weak the pattern …
+/// Lines that lie between the harmonics leave the reading as shaft lines at least this likely, however weak the pattern. *Decision.*
 const SHAFT_LIKELIHOOD_MIN: f64 = 0.05;
-/// … and any series this: shaft lines as strong as the blade pass are rare, not impossible.
+/// Any series leaves it at least this likely: shaft lines as strong as the blade pass are rare, not impossible. *Decision.*
 const PLAIN_LIKELIHOOD_MIN: f64 = 0.025;
-/// What one line that stands out is worth, or several that mostly do not: it is a loud harmonic far more often.
+/// What one line that stands out is worth, or several that mostly do not: it is a loud harmonic far more often. *Decision.*
 const WEAK_LIKELIHOOD: f64 = 0.1;
-/// What a pattern that is not shown well is worth at most.
+/// What a pattern that is not shown well is worth at most. *Decision.*
 const OPEN_LIKELIHOOD: f64 = 0.5;
-/// Readings that together are rarer than this are not all that the sound can be.
+/// Readings that together are rarer than this are not all that the sound can be. *Decision.*
 const RARE_SHARE: f64 = 0.1;
-/// How common a gear mesh is as the lowest line of a family, beside blade passes.
+/// How common a gear mesh is as the lowest line of a family, beside blade passes. *Decision.*
 const MESH_SHARE: f64 = 0.03;
 
 /// All readings of a family, most plausible first.

@@ -4,27 +4,31 @@ use super::levels::{LevelRow, LevelRows};
 use crate::tone::DiscoveryConfig;
 use hovertone_signal::statistics::median;
 
-/// Distance of neighbouring fundamentals on the search grid, as a share.
+/// Distance of neighbouring fundamentals on the search grid, as a share. *Numeric.*
 const GRID_STEP_SHARE: f64 = 0.003;
-/// Lines that a series is recognised by, each counting less than the one before.
+/// Lines that a series is recognised by, each counting less than the one before. *Decision.*
 const SERIES_LINES: u32 = 8;
-/// Places between lines, at half orders, where a series has none.
+/// Places between lines, at half orders, where a series has none. *Decision.*
 const GAP_COUNT: u32 = 4;
-/// In the scan a line counts up to this level, so that one strong line does not outweigh a series.
+/// In the scan a line counts up to this level, so that one strong line does not outweigh a series. *Decision.*
 const SCAN_LEVEL_DB_MAX: f32 = 40.0;
-/// A row is looked through this near the fundamental of the whole: rotors in flight change their speed by this.
+/// A row is looked through this near the fundamental of the whole: rotors in flight change their speed by this. *Decision.*
 const ROW_HALF_WIDTH_SHARE: f64 = 0.08;
-/// Speeds this near count as the same when rows are pooled: a hover wanders.
+/// Speeds this near count as the same when rows are pooled: a hover wanders. *Decision.*
 const POOL_HALF_WIDTH_SHARE: f64 = 0.012;
-/// A row has the family when it scores this share of what its typical rows do.
+/// A row has the family when it scores this share of what its typical rows do. *Decision.*
 const PRESENT_SCORE_SHARE: f64 = 0.5;
-/// Where the peak of a harmonic is looked for beside its expected place, as a share.
+/// Where the peak of a harmonic is looked for beside its expected place, as a share. *Decision.*
 const REFINE_HALF_WIDTH_SHARE: f64 = 0.012;
-/// Peaks lower than this do not take part in the refinement of a fundamental.
+/// Peaks lower than this do not take part in the refinement of a fundamental. *Decision.*
 const REFINE_LEVEL_DB_MIN: f64 = 6.0;
-/// Lines that are taken away after a family was found, and how wide.
+/// Fundamentals end at this share of the highest frequency: the last bins have no floor above them. *Numeric.*
+const HZ_MAX_SHARE: f64 = 0.9;
+/// Lines that are taken away after a family was found. *Numeric.*
 const MASKED_LINES: u32 = 40;
+/// Half width of what is taken away around each line, as a share. *Decision.*
 const MASK_HALF_WIDTH_SHARE: f64 = 0.025;
+/// The same in bins, at least. *Numeric.*
 const MASK_HALF_WIDTH_BINS: f64 = 3.0;
 
 /// A series of lines over time.
@@ -39,7 +43,7 @@ pub(crate) struct Series {
 impl Series {
     /// The strongest series of the rows; `None` where none scores enough in any row.
     pub(crate) fn strongest(levels: &LevelRows<'_>, config: &DiscoveryConfig) -> Option<Self> {
-        let hz_max = config.fundamental_hz_max.min(0.9 * levels.hz_max());
+        let hz_max = config.fundamental_hz_max.min(HZ_MAX_SHARE * levels.hz_max());
         if hz_max <= config.fundamental_hz_min || levels.rows.is_empty() {
             return None;
         }

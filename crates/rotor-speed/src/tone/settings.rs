@@ -6,6 +6,13 @@ use hovertone_vehicle::{
 };
 use serde::Serialize;
 
+/// Half width of a found band, as a share. *Decision.*
+const BAND_HALF_WIDTH_SHARE: f64 = 0.08;
+/// Slowest shaft that is looked for: below the 30 rev/s of the largest multirotors' propellers. *Decision.*
+const SLOWEST_REV_S: f64 = 15.0;
+/// Fastest shaft that is looked for: above the 670 rev/s of the smallest racers' propellers. *Decision.*
+const FASTEST_REV_S: f64 = 800.0;
+
 /// Which tone of the rotor is followed, and where it is looked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToneConfig {
@@ -43,9 +50,9 @@ impl ToneConfig {
             gear_mesh_lines: 3,
             blades: None,
             band_hz: None,
-            band_half_width_share: 0.08,
-            speed_min: RotorSpeed::from_rev_s(15.0), // below the 30 rev/s of the largest multirotors' propellers
-            speed_max: RotorSpeed::from_rev_s(800.0), // above the 670 rev/s of the smallest racers' propellers
+            band_half_width_share: BAND_HALF_WIDTH_SHARE,
+            speed_min: RotorSpeed::from_rev_s(SLOWEST_REV_S),
+            speed_max: RotorSpeed::from_rev_s(FASTEST_REV_S),
         }
     }
 

@@ -31,13 +31,13 @@ pub(super) fn level_skirts(power: &[f64], level_db: &mut [f32]) {
         }
     }
     // further away the range is what limits
-    let reach = ((10f64.powf((RANGE_DB + MARGIN_DB) / 20.0) / PI).cbrt() + 1.0) as usize;
+    let reach = ((10f64.powf((RANGE_DB + MARGIN_DB) / 10.0).sqrt() / PI).cbrt() + 1.0) as usize;
     for line in &lines {
         let middle = line.place.round() as usize;
         let around = middle.saturating_sub(reach)..=(middle + reach).min(level_db.len() - 1);
         for bin in around.filter(|&bin| (bin as f64 - line.place).abs() >= MAIN_LOBE_BINS) {
             let x = (bin as f64 - line.place).abs();
-            let below_db = 20.0 * (PI * x * (x * x - 1.0)).log10();
+            let below_db = power_db((PI * x * (x * x - 1.0)).powi(2));
             if level_db[bin] > 0.0 && power_db(power[bin]) < line.db - below_db + MARGIN_DB {
                 level_db[bin] = 0.0;
             }
