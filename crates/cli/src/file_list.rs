@@ -1,10 +1,14 @@
 //! The list of the files that a run wrote into its folder, with their hashes: by it a later run knows which of them nobody changed.
 
+use crate::failure::Failure;
 use crate::files::sha256_of_file;
+use crate::output_file::OutputFile;
+use crate::outputs::write_whole;
 use std::collections::BTreeSet;
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Name of the list. `sha256sum --check` reads it.
 const NAME: &str = "files.sha256";
@@ -15,12 +19,13 @@ pub(crate) struct FileList {
     folder: PathBuf,
     /// First line, which names the run.
     head: String,
+    turn: Arc<Mutex<()>>,
 }
 
 impl FileList {
     /// The list in a folder of a run, which the words tell from all others.
     pub(crate) fn of(folder: &Path, run: &str) -> Self {
-        Self { folder: folder.to_owned(), head: format!("# hovertone {run}") }
+        Self { folder: folder.to_owned(), head: format!("# hovertone {run}"), turn: Arc::default() }
     }
 
     /// Path of the list.
@@ -45,16 +50,45 @@ impl FileList {
         text.lines().filter_map(listed).any(|file| file.name == name && file.sha256 == sha256)
     }
 
-    /// The text with which this run begins: with the files of earlier runs of the same kind.
+    /// The text with which this run begins: one line for each file of earlier runs of the same kind that is still there.
     pub(crate) fn beginning(&self) -> String {
-        let kept = self.text();
-        let kept = if self.is_of_same_run() { kept.trim_end() } else { &self.head };
-        format!("{kept}\n")
+        let mut kept = format!("{}\n", self.head);
+        if self.is_of_same_run() {
+            let text = self.text();
+            kept.extend(self.names().iter().filter_map(|name| self.line_of_earlier_run(&text, name)));
+        }
+        kept
     }
 
-    /// The line for a file with the content of another.
-    pub(crate) fn line(name: &str, content: &Path) -> io::Result<String> {
-        Ok(format!("{}  {name}\n", sha256_of_file(content)?))
+    /// The line that is kept for a file: after an interrupt there are two, for the file before and after.
+    fn line_of_earlier_run(&self, text: &str, name: &str) -> Option<String> {
+        let sha256 = sha256_of_file(&self.folder.join(name)).ok()?;
+        let lines = || text.lines().filter_map(listed).filter(|file| file.name == name);
+        let kept = lines().find(|file| file.sha256 == sha256).or_else(|| lines().last())?;
+        Some(kept.line())
+    }
+
+    /// Adds the line of a file with the content of another. The lines of its earlier content stay until [`FileList::drop_earlier`].
+    pub(crate) fn add(&self, name: &str, content: &Path) -> io::Result<()> {
+        let line = Listed { sha256: &sha256_of_file(content)?, name }.line();
+        let _alone = self.turn();
+        File::options().append(true).open(self.place())?.write_all(line.as_bytes())
+    }
+
+    /// Drops all lines of a file but its last one.
+    pub(crate) fn drop_earlier(&self, name: &str) -> Result<(), Failure> {
+        let _alone = self.turn();
+        let text = self.text();
+        let is_of_file = |line: &str| listed(line).is_some_and(|file| file.name == name);
+        let (of_file, others): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| is_of_file(line));
+        let (Some(last), 2..) = (of_file.last(), of_file.len()) else { return Ok(()) };
+        let kept: String = others.iter().chain([last]).map(|line| format!("{line}\n")).collect();
+        write_whole(OutputFile::create(&self.place())?, kept.as_bytes())
+    }
+
+    /// The files of a run are written in parallel, and the list by one of them at a time.
+    fn turn(&self) -> MutexGuard<'_, ()> {
+        self.turn.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The text of the list; empty where there is none.
@@ -67,6 +101,12 @@ impl FileList {
 struct Listed<'a> {
     sha256: &'a str,
     name: &'a str,
+}
+
+impl Listed<'_> {
+    fn line(&self) -> String {
+        format!("{}  {}\n", self.sha256, self.name)
+    }
 }
 
 fn listed(line: &str) -> Option<Listed<'_>> {
@@ -87,11 +127,37 @@ mod tests {
         let file = folder.path().join("a b.csv");
         fs::write(&file, "old").unwrap();
         assert!(!list.has_unchanged("a b.csv"), "it is not listed");
-        fs::write(list.place(), list.beginning() + &FileList::line("a b.csv", &file).unwrap()).unwrap();
+        list.add("a b.csv", &file).unwrap();
         assert!(list.has_unchanged("a b.csv") && list.is_of_same_run());
         fs::write(&file, "changed").unwrap();
         assert!(!list.has_unchanged("a b.csv"));
         assert_eq!(list.names().into_iter().collect::<Vec<_>>(), ["a b.csv"]);
         assert!(!FileList::of(folder.path(), "identify abd").is_of_same_run());
+    }
+
+    #[test]
+    fn a_file_has_one_line_and_after_an_interrupt_that_of_its_content() {
+        let folder = tempfile::tempdir().unwrap();
+        let list = FileList::of(folder.path(), "identify abc");
+        fs::write(list.place(), list.beginning()).unwrap();
+        let write = |name: &str, content: &str| {
+            fs::write(folder.path().join(name), content).unwrap();
+            list.add(name, &folder.path().join(name)).unwrap();
+        };
+        write("a.csv", "first");
+        write("b.csv", "other");
+        write("a.csv", "second");
+        list.drop_earlier("a.csv").unwrap();
+        let once = list.text();
+        assert_eq!(once.lines().count(), 3, "{once}");
+        assert!(list.has_unchanged("a.csv") && list.has_unchanged("b.csv"));
+        // an interrupt before the new file came into its place, and a file that is gone
+        let new = folder.path().join("new");
+        fs::write(&new, "third").unwrap();
+        list.add("a.csv", &new).unwrap();
+        fs::remove_file(folder.path().join("b.csv")).unwrap();
+        fs::write(list.place(), list.beginning()).unwrap();
+        assert!(list.has_unchanged("a.csv"));
+        assert_eq!(list.text().lines().count(), 2, "{}", list.text());
     }
 }

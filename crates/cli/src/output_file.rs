@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::file_list::FileList;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Last part of the name of a file that is not finished.
@@ -79,19 +79,15 @@ impl OutputFile {
     pub(crate) fn keep(mut self) -> Result<(), Failure> {
         let Some(unfinished) = self.unfinished.take() else { return Ok(()) };
         // the list comes first: after an interrupt it may name a file that is not there, but no file lacks its name
-        let add = |entry: &Entry| append(&entry.list.place(), &FileList::line(&entry.name, &unfinished)?);
+        let add = |entry: &Entry| entry.list.add(&entry.name, &unfinished);
         let listed = self.entry.as_ref().map_or(Ok(()), add);
         listed.and_then(|()| fs::rename(&unfinished, &self.target)).map_err(|error| {
             // a failure to remove it leaves a file that the next run removes
             let _ = fs::remove_file(&unfinished);
             Failure::cannot_write(&error, &self.place)
-        })
+        })?;
+        self.entry.as_ref().map_or(Ok(()), |entry| entry.list.drop_earlier(&entry.name))
     }
-}
-
-/// Adds a line to a file that this run began.
-fn append(place: &Path, line: &str) -> io::Result<()> {
-    File::options().append(true).open(place)?.write_all(line.as_bytes())
 }
 
 /// Whether an interrupted run left a file of this name.

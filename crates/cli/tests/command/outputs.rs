@@ -2,6 +2,7 @@
 
 use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover, write_noise};
 use hovertone_vehicle::RotorSpeed;
+use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -141,6 +142,21 @@ fn silent_experiment(folder: &Path) -> PathBuf {
     path
 }
 
+/// Names of the files in `files.sha256`, which `sha256sum --check` would find right, each once.
+fn checked_list(folder: &Path) -> Vec<String> {
+    let text = fs::read_to_string(folder.join("files.sha256")).unwrap();
+    let mut names = Vec::new();
+    for line in text.lines().filter(|line| !line.starts_with('#')) {
+        let (sha256, name) = line.split_once("  ").unwrap();
+        let digest = Sha256::digest(fs::read(folder.join(name)).unwrap());
+        assert_eq!(digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>(), sha256, "{name}");
+        names.push(name.to_owned());
+    }
+    names.sort();
+    assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "a file has two lines: {text}");
+    names
+}
+
 #[test]
 fn results_go_into_a_new_folder_or_one_of_results() {
     let folder = tempfile::tempdir().unwrap();
@@ -155,8 +171,11 @@ fn results_go_into_a_new_folder_or_one_of_results() {
     refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["not empty"]);
     let out = folder.path().join("out");
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
+    let listed = checked_list(&out);
+    assert!(listed.iter().any(|name| name == "results.json") && listed.iter().any(|name| name.starts_with("figures/")));
     fs::write(out.join("notes.txt"), "precious").unwrap();
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
+    assert_eq!(checked_list(&out), listed);
     assert_eq!(fs::read_to_string(out.join("notes.txt")).unwrap(), "precious");
     hovertone(&["identify", text(&experiment), "-o", text(&thesis), "--force"]).ends_with(3);
     assert!(fs::read_to_string(thesis.join("results.json")).unwrap().starts_with('{'));
@@ -302,6 +321,7 @@ fn an_experiment_file_that_was_changed_in_the_results_stays() {
     fs::write(&experiment, fs::read_to_string(&experiment).unwrap() + "# my notes\n").unwrap();
     keeps_all(&out, &typed(&[]), &["experiment.toml", "was changed", "--force"]);
     hovertone(&typed(&["--force"])).ends_with(3);
+    assert!(checked_list(&out).contains(&"experiment.toml".to_owned()));
     assert!(!fs::read_to_string(&experiment).unwrap().contains("my notes"));
 }
 
