@@ -67,8 +67,8 @@ pub(crate) struct AnalysisArguments {
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
     #[arg(long, value_name = "M/S")]
     pub(crate) radial_speed_m_s_max: Option<f64>,
-    /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m; say 0 for a bench [default: 0.5]
-    #[arg(long, value_name = "M")]
+    /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m or as 30cm; say 0 for a bench [default: 0.5]
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) drift_m_max: Option<f64>,
     /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]

@@ -132,7 +132,7 @@ pub(crate) struct PlaceArguments {
     #[arg(long, value_name = "DEG", conflicts_with = "gravity_m_s2")]
     pub(crate) latitude_deg: Option<f64>,
     /// Height above the sea, for gravity and air
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) height_m: Option<f64>,
 }
 
@@ -276,8 +276,8 @@ pub(crate) struct ExportArguments {
     /// Command (0 to 1) at which it hovers, for N/command²
     #[arg(long, value_name = "U")]
     pub(crate) hover_command: Option<f64>,
-    /// Diameter of a propeller [default: that of the results]
-    #[arg(long, value_name = "M")]
+    /// Diameter of a propeller, in m or as 8in [default: that of the results]
+    #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Density of the air [default: that of the results]
     #[arg(long, value_name = "KG/M3")]

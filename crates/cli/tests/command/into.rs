@@ -25,6 +25,15 @@ fn export(results: &Path, words: &[&str]) -> Run {
 }
 
 #[test]
+fn the_diameter_of_an_export_may_have_a_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let airsim =
+        |diameter: &str| export(&results, &["--to", "airsim", "--air-density-kg-m3", "1.2", "--diameter-m", diameter]);
+    assert_eq!(airsim("8in").ends_with(0).stdout, airsim("0.2032").ends_with(0).stdout);
+}
+
+#[test]
 fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
     let folder = tempfile::tempdir().unwrap();
     let results = write_results(folder.path());

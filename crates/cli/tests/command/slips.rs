@@ -39,7 +39,12 @@ fn lengths_and_masses_are_typed_with_their_units() {
         |more: &[&str]| hovertone(&[&["fit", "--plan", "--wanted-share", "0.1"], more].concat()).ends_with(0).stdout;
     let plain = plan(&["--mass-kg", "0.413", "--diameter-m", "0.2", "--mass-std-kg", "0.001"]);
     assert_eq!(plan(&["--mass-kg", "413g", "--diameter-m", "200mm", "--mass-std-kg", "1g"]), plain);
+    assert_eq!(
+        plan(&["--mass-kg", "413g", "--latitude-deg", "50", "--height-m", "800m"]),
+        plan(&["--mass-kg", "413g", "--latitude-deg", "50", "--height-m", "800"])
+    );
     refused_with(&["speed", "a.wav", "--rotors", "4", "--mass-kg", "413g", "--diameter-m", "0.5in"], &["Mach"]);
+    refused_with(&["speed", "a.wav", "--blades", "2", "--drift-m-max=-30cm"], &["drift_m_max = -0.3"]);
     let refused = hovertone(&["speed", "a.wav", "--diameter-m", "8ft"]).ends_with(2);
     assert!(refused.stderr.contains("8in"), "{}", refused.stderr);
 }
