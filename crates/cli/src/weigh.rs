@@ -162,6 +162,7 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         loudest_std_share: 0.0,
     };
     check_stds(&scale)?;
+    scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
     Ok(Plan { scale, config, method_of_constant, rotors_std_share })
 }

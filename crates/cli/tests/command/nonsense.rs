@@ -21,7 +21,12 @@ fn a_mass_in_grams_is_a_slip_that_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let wav = hover(folder.path(), 0.413);
     let weigh = ["weigh", text(&wav), "--constant-n-s2", "2.83e-5", "--gear", "8:69", "--rotors", "4", "--mass-kg"];
-    refused_with(&[&weigh[..], &["413"]].concat(), &["carries 41", "alone weighs 413000 g", "--mass-kg 0.413"]);
+    let heavy = ["mass_kg = 413", "alone would hover at", "rev/s", "--mass-kg 0.413"];
+    refused_with(&[&weigh[..], &["413"]].concat(), &heavy);
+    // before anything is heard: the recording is not there
+    let absent = ["weigh", "absent.wav", "--constant-n-s2", "2.83e-5", "--gear", "8:69", "--rotors", "4"];
+    refused_with(&[&absent[..], &["--mass-kg", "413"]].concat(), &heavy);
+    refused_with(&[&weigh[..], &["50"]].concat(), &["carries 41", "alone weighs 50000 g", "--mass-kg 0.05"]);
     refused_with(&[&weigh[..], &["0.01"]].concat(), &["more than ten times the vehicle's 10 g", "check the mass"]);
     refused_with(&[&weigh[..], &["-0.413"]].concat(), &["mass_kg = -0.413", "above 0"]);
     hovertone(&[&weigh[..], &["0.413"]].concat()).ends_with(0);
