@@ -13,6 +13,8 @@ const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
 /// A law with a larger probability has most of it.
 const MOST: f64 = 0.5;
+/// Parameters of the largest compared law: more points tell whether it is needed.
+const LAW_PARAMETERS: usize = 2;
 
 /// Laws and budget of the table of one method; empty without a fit.
 pub fn adequacy_text(table: &ThrustTable, width: Option<usize>) -> String {
@@ -75,7 +77,7 @@ fn preferred_law(fit: &SquareLawFit) -> Option<ForceLaw> {
     Some(fit.preferred).filter(|law| fit.laws.len() > 1 && has_most(*law))
 }
 
-/// The preferred law with all its numbers, ready for use, where it is not the square law; that no law is preferred; else empty. The forces
+/// The preferred law with all its numbers, ready for use, where it is not the square law; that no law is preferred, or compared; else empty. The forces
 /// are those of the fit: of all rotors that share a force.
 pub fn preferred_text(fit: &SquareLawFit) -> String {
     match (preferred_law(fit), fit.with_intercept, fit.power_law) {
@@ -101,6 +103,10 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
             significant(law.reference_force_n, 5),
             significant(law.reference_rad_s, 5),
             with_uncertainty(law.exponent.value, law.exponent.std_uncertainty),
+        ),
+        _ if fit.laws.len() <= 1 && fit.points.len() > LAW_PARAMETERS => format!(
+            "no other law is compared with {}: the forces are too close together for a choice\n",
+            ForceLaw::Square.formula()
         ),
         _ => String::new(),
     }

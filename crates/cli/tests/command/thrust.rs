@@ -113,6 +113,15 @@ fn bad_tables_are_refused_or_flagged() {
     let equal = run("rpm,mass_g\n3600,413\n3610,413\n3605,413\n").ends_with(0).json_lines().remove(0);
     assert!(equal["notices"].to_string().contains("all 3 loads are equal"), "{equal}");
     assert!(equal["fit"]["with_intercept"].is_null() && equal["fit"]["power_law"].is_null(), "{equal}");
+    // three rows that are nearly one
+    for rows in ["rpm,thrust_n\n3600,1.00\n3601,1.002\n3602,0.999\n", "rpm,thrust_n\n3600,1\n3620,1.012\n3640,1.021\n"]
+    {
+        let near = run(rows).ends_with(0).json_lines().remove(0);
+        assert!(near["fit"]["with_intercept"].is_null() && near["fit"]["power_law"].is_null(), "{near}");
+        let said = hovertone(&["fit", text(&path)]).ends_with(0);
+        assert!(said.stdout.contains("no other law is compared") && !said.stdout.contains("F₀ + C"), "{}", said.stdout);
+        assert!(said.stderr.contains("load") && said.stderr.contains("hint: "), "{}", said.stderr);
+    }
     // half of the rows are four times too heavy, and nobody knows which half
     let halves = run("rpm,mass_g\n3600,413\n3610,416\n3700,1744\n3710,1755\n").ends_with(0).json_lines().remove(0);
     assert!(halves["notices"].to_string().contains("nothing tells which half is right"), "{halves}");

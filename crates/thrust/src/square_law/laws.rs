@@ -84,11 +84,27 @@ impl InterceptLaw {
     }
 }
 
+impl InterceptLaw {
+    /// Whether the points tell the intercept better than its prior does.
+    pub(super) fn is_told_by(&self, points: &[&ForcePoint]) -> bool {
+        self.intercept_n.std_uncertainty.is_none_or(|std_n| std_n <= intercept_prior_std_n(points))
+    }
+}
+
 impl PowerLaw {
+    /// Whether the points tell the exponent better than its prior does.
+    pub(super) fn is_told(&self) -> bool {
+        self.exponent.std_uncertainty.is_none_or(|std| std <= EXPONENT_PRIOR_STD)
+    }
+
     /// With the uncertainty of the exponent times a factor.
     pub(super) fn widened(self, factor: f64) -> Self {
         Self { exponent: widened(self.exponent, factor), ..self }
     }
+}
+
+fn intercept_prior_std_n(points: &[&ForcePoint]) -> f64 {
+    INTERCEPT_PRIOR_SHARE * points.iter().map(|point| point.force_n).sum::<f64>() / points.len() as f64
 }
 
 fn widened(estimate: Estimate, factor: f64) -> Estimate {
@@ -146,13 +162,12 @@ pub(super) fn law_probabilities(
         // two points without uncertainties: every law with two parameters goes through both
         return Vec::new();
     }
-    let mean_n = points.iter().map(|point| point.force_n).sum::<f64>() / points.len() as f64;
     let of = |estimate: Estimate, prior: ParameterPrior| {
         let std = estimate.std_uncertainty.filter(|std| *std > 0.0)?;
         Some(log_evidence_ratio(estimate.value, std, prior, noise_freedom))
     };
     let intercept = with_intercept
-        .and_then(|law| of(law.intercept_n, ParameterPrior { null: 0.0, std: INTERCEPT_PRIOR_SHARE * mean_n }));
+        .and_then(|law| of(law.intercept_n, ParameterPrior { null: 0.0, std: intercept_prior_std_n(points) }));
     let power =
         power_law.and_then(|law| of(law.exponent, ParameterPrior { null: SQUARE_EXPONENT, std: EXPONENT_PRIOR_STD }));
     let ratios = [(ForceLaw::Square, Some(0.0)), (ForceLaw::SquareWithIntercept, intercept), (ForceLaw::Power, power)];

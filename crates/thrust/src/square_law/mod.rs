@@ -50,7 +50,8 @@ pub struct SquareLawFit {
     pub(crate) noise: PointNoise,
     /// Weight of each point: C is the mean of the constants of the points with these weights. 0 for points that are left out.
     pub(crate) shares: Vec<f64>,
-    /// The law with an intercept; absent where all speeds are equal, and, without uncertainties, with two points or equal forces.
+    /// The law with an intercept; absent where the points do not tell it: all speeds are equal or nearly so, or, without uncertainties, there
+    /// are two points or equal forces.
     pub with_intercept: Option<InterceptLaw>,
     /// The force as a power of the speed; absent in the same cases.
     pub power_law: Option<PowerLaw>,
@@ -120,10 +121,12 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
     // equal forces lie on a law without a slope, and again nothing tells its ±
     let has_freedom = has_freedom && (!noise.is_by_residuals() || are_different(&kept));
     let (with_intercept, line) = intercept_law(&kept, noise).filter(|_| has_freedom).unzip();
-    let power_law = power_law(&kept, noise).filter(|_| has_freedom);
-    let laws = law_probabilities(&kept, with_intercept.as_ref(), power_law.as_ref(), noise);
     // the evidence knows Student's distribution; a ± needs its factor
     let few = if noise.is_by_residuals() { student_factor(kept.len() as f64 - 2.0) } else { 1.0 };
+    // points that tell less of a law than is known before the measurement tell nothing: loads that are nearly equal
+    let with_intercept = with_intercept.filter(|law| law.widened(few).is_told_by(&kept));
+    let power_law = power_law(&kept, noise).filter(|law| has_freedom && law.widened(few).is_told());
+    let laws = law_probabilities(&kept, with_intercept.as_ref(), power_law.as_ref(), noise);
     let largest_n = kept.iter().map(|point| point.force_n).fold(0.0, f64::max);
     let residuals = || kept.iter().map(|p| (p.force_n - fit.slope * p.speed_square_rad2_s2).abs());
     let squares: f64 = residuals().map(|residual| residual.powi(2)).sum();
