@@ -64,7 +64,7 @@ impl FileList {
     fn line_of_earlier_run(&self, text: &str, name: &str) -> Option<String> {
         let sha256 = sha256_of_file(&self.folder.join(name)).ok()?;
         let lines = || text.lines().filter_map(listed).filter(|file| file.name == name);
-        let kept = lines().find(|file| file.sha256 == sha256).or_else(|| lines().last())?;
+        let kept = lines().find(|file| file.sha256 == sha256).or_else(|| lines().next_back())?;
         Some(kept.line())
     }
 

@@ -40,6 +40,7 @@ mod speed;
 mod spin_up;
 mod terminal;
 mod toml_file;
+mod toml_words;
 mod tones;
 mod typed;
 mod vehicles;

@@ -2,18 +2,10 @@
 
 use crate::failure::Failure;
 use crate::inputs::read_bytes;
-use crate::nearest::nearest;
+use crate::toml_words::{PlainFault, in_plain_words};
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// Words of the parser and their replacements for people.
-const TYPES: [(&str, &str); 4] = [
-    ("expected f64", "expected a number"),
-    ("expected u32", "expected a whole number"),
-    ("expected u64", "expected a whole number"),
-    ("a sequence", "a list [...]"),
-];
 
 /// A file that was read but not parsed.
 pub(crate) struct TomlFile<'a> {
@@ -56,21 +48,12 @@ impl<'a> TomlFile<'a> {
 
 /// The faulty line with a mark under the fault, and the nearest name for a misspelt one.
 fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
-    let (message, kind) = (error.message(), file.kind);
-    let (what, hint) = match unknown_name(message) {
-        Some((what, key, known)) => {
-            let list = known.join(", ");
-            let hint = match nearest(key, known.iter().copied()) {
-                Some(name) => format!("did you mean \"{name}\"? Known here: {list}"),
-                None => format!("known here: {list}"),
-            };
-            (format!("the {kind} has an unknown {what} \"{key}\""), hint)
-        }
-        None => {
-            let message = message.trim_end().replace('\n', " ");
-            let message = TYPES.iter().fold(message, |text, (rust, words)| text.replace(rust, words));
-            (format!("the {kind} has a fault: {message}"), file.see_example.to_owned())
-        }
+    let PlainFault { what, hint } = in_plain_words(error.message());
+    let what = format!("the {} {what}", file.kind);
+    let hint = match hint {
+        Some(hint) if error.message().starts_with("unknown") => hint,
+        Some(hint) => format!("{hint}; {}", file.see_example),
+        None => file.see_example.to_owned(),
     };
     let Some(place) = error.span().map(|span| Place::of(span, &file.text)) else {
         return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
@@ -78,16 +61,6 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let what = format!("{what}\n{}", place.underlined());
     let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));
     Failure::Usage { what, hint, path: Some(path) }
-}
-
-/// Kind, name and known names of an unknown item, from "unknown field `a`, expected one of `b`, `c`", or "variant".
-fn unknown_name(message: &str) -> Option<(&'static str, &str, Vec<&str>)> {
-    let (what, list) = match message.strip_prefix("unknown field ") {
-        Some(list) => ("key", list),
-        None => ("value", message.strip_prefix("unknown variant ")?),
-    };
-    let mut quoted = list.split('`').skip(1).step_by(2);
-    Some((what, quoted.next()?, quoted.collect()))
 }
 
 /// A position in a text, with line and column counted from 1.
@@ -127,14 +100,5 @@ mod tests {
         assert_eq!(place.underlined(), "    |\n  2 |   mas_kg = 1\n    |   ^^^^^^");
         let end = Place::of(23..23, text);
         assert_eq!((end.line_number, end.line), (3, ""));
-    }
-
-    #[test]
-    fn the_known_keys_are_read_from_the_parsers_message() {
-        let message = "unknown field `mas_kg`, expected one of `mass_kg`, `rotors`";
-        assert_eq!(unknown_name(message), Some(("key", "mas_kg", vec!["mass_kg", "rotors"])));
-        let message = "unknown variant `hoover`, expected one of `hover`, `land`";
-        assert_eq!(unknown_name(message), Some(("value", "hoover", vec!["hover", "land"])));
-        assert_eq!(unknown_name("invalid type"), None);
     }
 }

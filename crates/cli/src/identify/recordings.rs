@@ -11,7 +11,7 @@ use hovertone::experiment::ExperimentLoad;
 use std::path::{Path, PathBuf};
 
 /// Most names in the list of missing recordings.
-const NAMES_MAX: usize = 8;
+const NAMES_MAX: usize = 3;
 
 /// A recording of a load.
 pub(crate) struct LoadJob {
@@ -103,19 +103,17 @@ fn name_of(path: &Path, root: &Path) -> String {
 }
 
 fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Path, is_root_given: bool) -> Failure {
-    let listed =
-        missing.iter().take(NAMES_MAX).map(|Missing { load, name }| format!("{name} of load \"{}\"", load.name));
-    let mut list = listed.collect::<Vec<_>>().join("\n  ");
+    let listed = missing.iter().take(NAMES_MAX).map(|Missing { load, name }| {
+        let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!(" ({nearby})"));
+        format!("{name} of load \"{}\"{nearby}", load.name)
+    });
+    let mut list = listed.collect::<Vec<_>>().join(", ");
     if missing.len() > NAMES_MAX {
-        list += &format!("\n  and {} more", missing.len() - NAMES_MAX);
+        list += &format!(" and {} more (--check lists all)", missing.len() - NAMES_MAX);
     }
-    let shown_root = if root.as_os_str().is_empty() { Path::new(".") } else { root };
-    let of = if source.typed.is_some() { "the command line" } else { &source.name };
-    let what = format!("no file matches these recordings of {of}:\n  {list}\nlooked in");
-    let what = format!("{what} {}", shown_root.display());
+    let folder = if root.as_os_str().is_empty() { "this folder".to_owned() } else { root.display().to_string() };
     let notes = if source.has_notes { "; the notes at the top of the file may say where they come from" } else { "" };
-    let nearby: Vec<String> = missing.iter().filter_map(|Missing { name, .. }| nearby(&place_of(name, root))).collect();
-    let what = nearby.iter().fold(what, |what, nearby| format!("{what}\n{nearby}"));
+    let what = format!("no file in {folder} matches {list}");
     let hint = if source.typed.is_some() {
         "correct the names: they count from the current folder, or from --data-root".to_owned()
     } else if is_root_given {
@@ -135,5 +133,5 @@ pub(super) fn nearby(pattern: &Path) -> Option<String> {
     let groups = groups_in(folder);
     let shown: Vec<String> =
         groups.iter().map(|group| format!("{} ({})", group.pattern.display(), group.files.len())).collect();
-    (!shown.is_empty()).then(|| format!("there is: {}", shown.join(", ")))
+    (!shown.is_empty()).then(|| format!("there is {}", shown.join(", ")))
 }

@@ -19,7 +19,10 @@ fn a_refusal_is_one_line_with_the_file_first_and_the_advice_last() {
     };
     let (missing, table, results) =
         (folder.path().join("none.csv"), write("a.csv", "rpm,volts\n1,2\n"), write("r.json", "{}"));
+    let load = |name: &str| format!("[[load]]\nname = \"{name}\"\nrecordings = [\"{name}/*.mov\"]\n");
+    let experiment = write("e.toml", &format!("[vehicle]\npreset = \"ardrone\"\n{}{}", load("big"), load("small")));
     for (arguments, file, code) in [
+        (vec!["identify", text(&experiment)], Some(&experiment), 1),
         (vec!["fit", text(&missing)], Some(&missing), 1),
         (vec!["fit", text(&table)], Some(&table), 2),
         (vec!["export", text(&results), "--to", "gazebo"], Some(&results), 1),
@@ -36,6 +39,56 @@ fn a_refusal_is_one_line_with_the_file_first_and_the_advice_last() {
     }
     let run = hovertone(&["speed", "--vehicle", "ardrone", text(&missing)]).ends_with(1);
     assert!(lines(&run)[0].starts_with(&format!("error: {}: ", missing.display())), "{}", run.stderr);
+}
+
+/// The words of the parser do not reach the user: the fault, and what is needed.
+#[test]
+fn faults_of_a_file_are_told_in_plain_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("x.toml");
+    let said = |command: &[&str], content: &str| {
+        fs::write(&file, content).unwrap();
+        let run = hovertone(&[command, &[text(&file)]].concat()).ends_with(2);
+        for word in
+            ["field", "struct ", "variant", "invalid", "f64", "u32", "expected", "sequence", "map", "tuple", "array"]
+        {
+            assert!(!run.stderr.contains(word), "{word}: {}", run.stderr);
+        }
+        run.stderr
+    };
+    let vehicle = "[vehicle]\npreset = \"ardrone\"\n";
+    for (command, content, words) in [
+        (
+            "identify",
+            "[[load]]\nname = \"a\"\n".to_owned(),
+            ["the experiment file lacks \"recordings\"", "hint: add \"recordings\""],
+        ),
+        ("identify", format!("{vehicle}[[load]]\nrecordings = [\"a\"]\n"), ["lacks \"name\"", "identify --help"]),
+        (
+            "identify",
+            format!("{vehicle}mass_kg = \"0.4\"\n"),
+            ["has \"0.4\" where a number is needed", "write a number"],
+        ),
+        ("identify", format!("{vehicle}mass_kg = 0,4\n"), ["more than one key", "decimals have a point"]),
+        ("identify", format!("{vehicle}rotors = 4.5\n"), ["has 4.5 where a whole number", "or more"]),
+        ("identify", format!("{vehicle}gear = 8\n"), ["has 8 where a table", "{ key = value"]),
+        ("identify", format!("{vehicle}[load]\nname = \"a\"\n"), ["one table where a list", "[[load]]"]),
+        ("identify", format!("{vehicle}mas_kg = 1\n"), ["unknown key \"mas_kg\"", "did you mean \"mass_kg\""]),
+        ("simulate", "[[microphone]]\n".to_owned(), ["the scenario file lacks \"position_m\"", "simulate --help"]),
+        (
+            "simulate",
+            "[[microphone]]\nposition_m = [1, 2]\n".to_owned(),
+            ["a list of 2 where a list of 3 numbers", "docs/formats.md"],
+        ),
+        (
+            "vehicles --add",
+            "[x]\nblades = 2\n".to_owned(),
+            ["the file of vehicles lacks \"rotors\"", "vehicles --help"],
+        ),
+    ] {
+        let stderr = said(&command.split(' ').collect::<Vec<_>>(), &content);
+        words.iter().for_each(|word| assert!(stderr.contains(word), "{word}:\n{stderr}"));
+    }
 }
 
 #[test]

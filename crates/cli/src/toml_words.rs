@@ -1,0 +1,149 @@
+//! From the messages of the TOML parser to plain words: the fault, and what to do.
+
+use crate::nearest::nearest;
+
+/// A fault of a file in plain words.
+#[derive(Debug, PartialEq)]
+pub(crate) struct PlainFault {
+    /// What is wrong, after "the experiment file ".
+    pub(crate) what: String,
+    /// What to do, where it follows from the fault.
+    pub(crate) hint: Option<String>,
+}
+
+impl PlainFault {
+    fn new(what: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { what: what.into(), hint: Some(hint.into()) }
+    }
+}
+
+/// The fault that a message of the parser tells. A message of an unknown kind keeps its words.
+pub(crate) fn in_plain_words(message: &str) -> PlainFault {
+    let message = message.trim_end().replace('\n', " ");
+    unknown_name(&message)
+        .or_else(|| missing_name(&message))
+        .or_else(|| wrong_value(&message))
+        .or_else(|| syntax(&message))
+        .unwrap_or(PlainFault { what: format!("has a fault: {message}"), hint: None })
+}
+
+/// From "unknown field `a`, expected one of `b`, `c`", or "variant", to the nearest known name.
+fn unknown_name(message: &str) -> Option<PlainFault> {
+    let (kind, list) = match message.strip_prefix("unknown field ") {
+        Some(list) => ("key", list),
+        None => ("value", message.strip_prefix("unknown variant ")?),
+    };
+    let mut quoted = list.split('`').skip(1).step_by(2);
+    let (name, known) = (quoted.next()?, quoted.collect::<Vec<_>>());
+    let list = known.join(", ");
+    let hint = match nearest(name, known) {
+        Some(nearest) => format!("did you mean \"{nearest}\"? Known here: {list}"),
+        None => format!("known here: {list}"),
+    };
+    Some(PlainFault::new(format!("has an unknown {kind} \"{name}\""), hint))
+}
+
+/// From "missing field `a`".
+fn missing_name(message: &str) -> Option<PlainFault> {
+    let name = message.strip_prefix("missing field `")?.strip_suffix('`')?;
+    Some(PlainFault::new(format!("lacks \"{name}\""), format!("add \"{name}\"")))
+}
+
+/// From "invalid type: integer `3`, expected a string", "invalid value: …" and "invalid length 2, expected …".
+fn wrong_value(message: &str) -> Option<PlainFault> {
+    let (found, expected) = message.strip_prefix("invalid ")?.split_once(", expected ")?;
+    let found = match found.split_once(": ") {
+        Some((_, "map")) if expected == "a sequence" => {
+            let what = "has one table where a list of tables is needed";
+            return Some(PlainFault::new(what, "write its name in double brackets, such as [[load]]"));
+        }
+        Some((_, found)) => shown(found),
+        None => format!("a list of {}", found.strip_prefix("length ")?),
+    };
+    let wanted = wanted(expected);
+    Some(PlainFault::new(format!("has {found} where {wanted} is needed"), format!("write {wanted}")))
+}
+
+/// A value without the name of its type: "integer `3`" is 3.
+fn shown(found: &str) -> String {
+    match found {
+        "map" => return "a table".to_owned(),
+        "sequence" => return "a list".to_owned(),
+        _ => {}
+    }
+    let value = found.strip_prefix("string ").or_else(|| found.split_once('`')?.1.strip_suffix('`'));
+    value.unwrap_or(found).to_owned()
+}
+
+/// The type that the parser expects, for people.
+fn wanted(expected: &str) -> String {
+    let length = |text: &str| text.rsplit(' ').next().unwrap_or_default().to_owned();
+    match expected {
+        "a string" => "text in quotes".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "a sequence" => "a list [...]".to_owned(),
+        "f64" | "f32" => "a number".to_owned(),
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more,".to_owned(),
+        _ if expected.starts_with("struct ") => "a table { key = value, ... }".to_owned(),
+        _ if expected.starts_with("an array of length") || expected.starts_with("a tuple of size") => {
+            format!("a list of {} numbers", length(expected))
+        }
+        _ => expected.to_owned(),
+    }
+}
+
+/// Faults of the text itself.
+fn syntax(message: &str) -> Option<PlainFault> {
+    let is = |start: &str| message.starts_with(start);
+    if is("duplicate key") {
+        return Some(PlainFault::new("has this name twice", "leave one of the two out"));
+    }
+    if is("string values must be quoted") {
+        return Some(PlainFault::new("has text without quotes", "write it as \"text\""));
+    }
+    if let Some((what, needed)) = message.split_once(", expected ").filter(|(_, needed)| !needed.contains(", ")) {
+        return Some(PlainFault::new(
+            format!("has a fault: {what}"),
+            format!("{} is needed here", needed.replace('`', "")),
+        ));
+    }
+    let is_more = is("unexpected key or value, expected newline");
+    is_more.then(|| {
+        PlainFault::new(
+            "has more than one key with one value on this line",
+            "decimals have a point, as 0.4; one key a line",
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_known_keys_are_read_from_the_parsers_message() {
+        let key = in_plain_words("unknown field `mas_kg`, expected one of `mass_kg`, `rotors`");
+        assert_eq!(key.what, "has an unknown key \"mas_kg\"");
+        assert!(key.hint.unwrap().contains("did you mean \"mass_kg\"? Known here: mass_kg, rotors"));
+        let value = in_plain_words("unknown variant `hoover`, expected one of `hover`, `land`");
+        assert_eq!(value.what, "has an unknown value \"hoover\"");
+    }
+
+    #[test]
+    fn the_parsers_types_have_plain_names() {
+        for (message, what) in [
+            ("missing field `vehicle`\n", "lacks \"vehicle\""),
+            ("invalid type: integer `3`, expected a string", "has 3 where text in quotes is needed"),
+            ("invalid type: string \"0.4\", expected f64", "has \"0.4\" where a number is needed"),
+            ("invalid type: floating point `4.5`, expected u32", "has 4.5 where a whole number, 0 or more, is needed"),
+            ("invalid type: integer `8`, expected struct Gear", "has 8 where a table { key = value, ... } is needed"),
+            ("invalid length 2, expected an array of length 3", "has a list of 2 where a list of 3 numbers is needed"),
+            ("invalid type: map, expected a sequence", "has one table where a list of tables is needed"),
+            ("duplicate key", "has this name twice"),
+            ("unclosed table, expected `]`", "has a fault: unclosed table"),
+            ("a number of lines per turn, or \"auto\"", "has a fault: a number of lines per turn, or \"auto\""),
+        ] {
+            assert_eq!(in_plain_words(message).what, what, "{message}");
+        }
+    }
+}
