@@ -19,7 +19,7 @@ const DURATION_S: f64 = 10.0;
 const SPREAD_SHARE: f64 = 0.01;
 /// More than this is a gross failure.
 const GROSS_SHARE: f64 = 0.05;
-/// What the issue asks for.
+/// Scenarios whose constant must come back within its ±.
 const WITHIN_WANTED: usize = 90;
 
 /// What came back by one method.

@@ -3,11 +3,11 @@
 use crate::args::{Arguments, CompletionsArguments, ManArguments};
 use crate::failure::{Ending, Failure};
 use crate::nearest::nearest;
+use crate::output_folder::{FolderContent, OutputFolder};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -54,14 +54,13 @@ fn subcommand<'a>(program: &'a Command, name: &str) -> Result<&'a Command, Failu
 }
 
 fn write_all(program: &Command, folder: &Path, force: bool, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
     let nothing: [&Path; 0] = [];
-    let outputs = Outputs::beside(nothing, force);
+    let content = FolderContent { name: "man pages", run: "man", files: &[] };
+    let folder = OutputFolder::prepare(folder, Outputs::beside(nothing, force), &content)?;
     for command in [program].into_iter().chain(program.get_subcommands()) {
-        let name = command.get_display_name().unwrap_or_else(|| command.get_name());
-        let place = folder.join(format!("{name}.1"));
-        outputs.write(&place, page(command)?)?;
-        terminal.say(&written(&place));
+        let name = format!("{}.1", command.get_display_name().unwrap_or_else(|| command.get_name()));
+        folder.write(&name, page(command)?)?;
+        terminal.say(&written(&folder.place(&name)));
     }
     Ok(Ending::Done)
 }

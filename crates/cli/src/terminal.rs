@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use anstream::AutoStream;
 use hovertone_report::{
-    Notice, SpeedRecord, counted, cuts_in_words, folded, folded_warnings, own_notices, own_reason, printable,
+    Notice, SpeedRecord, counted, folded, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, printable,
     warning_count, wrapped,
 };
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
@@ -148,13 +148,12 @@ impl Terminal {
     /// Messages about recordings beside their speeds: cuts, warnings, reasons for missing speeds. A message that holds for several
     /// recordings is written once.
     pub(crate) fn notes(&mut self, records: &[&SpeedRecord]) {
-        let folded = folded_warnings(records);
+        let (folded, folded_cuts) = (folded_warnings(records), folded_cuts(records));
         let mut is_first = true;
         for record in records {
             let notices = own_notices(record, &folded);
             let reason = own_reason(record, &folded);
-            let cuts = record.analysis().and_then(|analysis| cuts_in_words(&analysis.hover.cuts));
-            let cuts = cuts.filter(|_| record.reason().is_none());
+            let cuts = own_cuts(record, &folded_cuts);
             if reason.is_none() && cuts.is_none() && notices.is_empty() {
                 continue;
             }
@@ -179,6 +178,9 @@ impl Terminal {
             for notice in notices {
                 self.warning(notice, "  ");
             }
+        }
+        for kind in &folded_cuts {
+            self.labelled("", "cut:", PLAIN, &printable(&kind.notice.text));
         }
         for kind in &folded {
             self.warning(&kind.notice, "");

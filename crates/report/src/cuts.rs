@@ -1,11 +1,21 @@
 //! The cuts of a recording on one line.
 
 use hovertone_analysis::{Cut, CutReason, Span};
+use std::collections::BTreeSet;
 
 /// Most stretches on the line; the others are summed up.
 const STRETCHES_MAX: usize = 6;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
+
+/// "4.4 s each: handling noise, silence": the sum and the reasons, by which recordings are alike; `None` where nothing was cut.
+pub(crate) fn cut_in_short(cuts: &[Cut]) -> Option<String> {
+    let stretches = joined(cuts);
+    let reasons: BTreeSet<&str> = stretches.iter().map(|(_, reason)| in_words(*reason)).collect();
+    let sum_s: f64 = stretches.iter().map(|(span, _)| span.length_s()).sum();
+    let reasons = reasons.into_iter().collect::<Vec<_>>().join(", ");
+    (!stretches.is_empty()).then(|| format!("{sum_s:.1} s each: {reasons}"))
+}
 
 /// "0.0–1.6 s (silence), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
 pub fn cuts_in_words(cuts: &[Cut]) -> Option<String> {

@@ -1,5 +1,6 @@
 //! Warnings about recordings, folded: a kind of warning that several recordings have is one line with their names.
 
+use crate::cuts::{cut_in_short, cuts_in_words};
 use crate::names::short_names;
 use crate::notice::Notice;
 use crate::recording::SpeedRecord;
@@ -75,6 +76,31 @@ pub fn warning_count(records: &[&SpeedRecord]) -> usize {
 /// The warnings of a recording that could be read.
 fn told_notices(record: &SpeedRecord) -> Vec<Notice> {
     if record.has_failed() { Vec::new() } else { record.notices.clone() }
+}
+
+/// The cuts that several recordings have for the same reasons, as lines of their own; where they lie is in the columns of used times.
+pub fn folded_cuts(records: &[&SpeedRecord]) -> Vec<FoldedWarning> {
+    if records.len() < RECORDINGS_MIN {
+        return Vec::new();
+    }
+    let files: Vec<&str> = records.iter().map(|record| record.file.as_str()).collect();
+    kinds_of(
+        &records.iter().map(|record| cut_of(record).into_iter().collect()).collect::<Vec<_>>(),
+        &short_names(&files),
+    )
+}
+
+/// The cuts of one recording in words, where they are not folded.
+pub fn own_cuts(record: &SpeedRecord, folded: &[FoldedWarning]) -> Option<String> {
+    let cut = cut_of(record)?;
+    let cuts = cuts_in_words(&record.analysis()?.hover.cuts);
+    cuts.filter(|_| !folded.iter().any(|kind| kind.has(&cut)))
+}
+
+/// What was cut from a recording with a speed.
+fn cut_of(record: &SpeedRecord) -> Option<Notice> {
+    let analysis = record.analysis().filter(|_| record.reason().is_none())?;
+    Some(Notice::new(cut_in_short(&analysis.hover.cuts)?, ""))
 }
 
 /// The reason for a missing speed of a recording that could be read.

@@ -59,7 +59,9 @@ pub use decision::{DecisionWords, decision_in_words};
 pub use fitted_table::{FittedTable, fitted_table_text, fitted_tables_json};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
-pub use folded_warnings::{FoldedWarning, distinct_notices, folded_warnings, own_notices, own_reason, warning_count};
+pub use folded_warnings::{
+    FoldedWarning, distinct_notices, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, warning_count,
+};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use names::short_names;
 pub use notice::Notice;

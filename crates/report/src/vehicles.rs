@@ -28,7 +28,8 @@ pub fn vehicles_text(vehicles: &[Vehicle], width: usize) -> String {
     let mut text = String::new();
     for (vehicle, rows) in vehicles.iter().zip(&rows) {
         // writing to a string does not fail
-        let _ = writeln!(text, "{:id_width$}  {}", vehicle.id, vehicle.name);
+        let name = wrapped(vehicle.name, width.saturating_sub(id_width + 2)).join(&format!("\n{:id_width$}  ", ""));
+        let _ = writeln!(text, "{:id_width$}  {name}", vehicle.id);
         for Row { name, value, source } in rows {
             let space = |text: &str, width: usize| " ".repeat(width.saturating_sub(width_of(text)));
             let head = format!("  {name}{}  {value}{}", space(name, name_width), space(value, value_width));
@@ -105,10 +106,11 @@ mod tests {
     #[test]
     fn on_a_narrow_terminal_nothing_is_wider_and_nothing_is_lost() {
         let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
-        let text = vehicles_text(presets(), 50);
-        let unbreakable = words(&text).iter().map(|word| width_of(word)).max().unwrap();
-        assert!(text.lines().all(|line| width_of(line) <= 50.max(SOURCE_INDENT + unbreakable)), "{text}");
-        assert_eq!(words(&text), words(&vehicles_text(presets(), 100)));
+        for width in [50, 80] {
+            let text = vehicles_text(presets(), width);
+            assert!(text.lines().all(|line| width_of(line) <= width), "{width}:\n{text}");
+            assert_eq!(words(&text), words(&vehicles_text(presets(), 100)));
+        }
     }
 
     #[test]

@@ -98,7 +98,7 @@ static PRESETS: [Vehicle; 11] = [
         mass_kg: sourced(
             0.5,
             "20 Minutes, test of the Bebop 2, 20 November 2015: 500 g; the same in iff-gsc/LADAC-Examples-Data, \
-             LADAC_params/Bebop2/control/indiCeBody_params_bebop2.m",
+             indiCeBody_params_bebop2.m in LADAC_params/Bebop2/control",
         ),
         shaft_speed: None,
     },

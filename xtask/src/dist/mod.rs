@@ -88,8 +88,11 @@ fn describe(program: &Path, folder: &Path) -> Result<(), String> {
     for (shell, name) in COMPLETIONS {
         write(&completions.join(name), &output_of(Command::new(program).args(["completions", shell]))?)?;
     }
-    output_of(Command::new(program).args(["man", "-o"]).arg(folder.join("man")))?;
-    Ok(())
+    let pages = folder.join("man");
+    output_of(Command::new(program).args(["man", "-o"]).arg(&pages))?;
+    // the release has one list of all its files
+    let list = pages.join("files.sha256");
+    std::fs::remove_file(&list).map_err(|error| format!("{}: {error}", list.display()))
 }
 
 /// A packed folder. The same files give the same bytes.

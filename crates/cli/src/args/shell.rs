@@ -37,7 +37,7 @@ pub(crate) struct ManArguments {
     /// A command, such as speed [default: the program]
     #[arg(value_name = "COMMAND", conflicts_with = "output")]
     pub(crate) command: Option<String>,
-    /// Write all pages there, as hovertone.1 and hovertone-COMMAND.1
+    /// Write all pages there, as hovertone.1 and hovertone-COMMAND.1: a folder that is empty, new, or of earlier pages
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// What the issue asks for, in every load by both methods.
+/// Largest error of the constant, in every load by both methods.
 const ERROR_SHARE_MAX: f64 = 0.005;
 /// Largest page of the demo, with the sound of all recordings.
 const PAGE_BYTES_MAX: usize = 4_000_000;

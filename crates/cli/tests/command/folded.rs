@@ -64,6 +64,28 @@ fn a_warning_of_most_recordings_is_one_line_with_the_exceptions() {
     assert_counted(&run, &page, lines);
 }
 
+/// What is cut from recordings for the same reasons is one line; of two recordings each has its own, with the times.
+#[test]
+fn cuts_of_several_recordings_are_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let names: Vec<String> = (0..3u32)
+        .map(|number| {
+            let path = folder.path().join(format!("{number}.wav"));
+            write_rotor(&path, 100.0, 2.0 + 0.5 * f64::from(number), 3.0, number);
+            text(&path).to_owned()
+        })
+        .collect();
+    let speed = |names: &[String]| {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        hovertone(&[&["speed", "--blades", "2", "--rotors", "1"], &names[..]].concat()).ends_with(0).stderr
+    };
+    let three = speed(&names);
+    assert_eq!(three.matches("cut").count(), 1, "{three}");
+    assert!(three.contains("s each: silence (in all 3 recordings)"), "{three}");
+    let two = speed(&names[..2]);
+    assert_eq!(two.matches("  cut 0.0–").count(), 2, "{two}");
+}
+
 /// A recording is not "without warnings" below a warning of all recordings.
 #[test]
 fn a_warning_of_all_recordings_is_contradicted_by_none() {

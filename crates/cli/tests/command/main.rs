@@ -24,6 +24,7 @@ mod one_number;
 mod outputs;
 mod own_vehicles;
 mod page;
+mod progress;
 mod reading;
 mod real_recordings;
 mod report;

@@ -48,6 +48,13 @@ fn man_pages_of_the_program_and_of_every_command() {
     assert!(page("hovertone-speed.1").contains("\n  hovertone speed \\-\\-blades 2 hover.mp4\n"));
     assert!(page("hovertone.1").contains("hovertone\\-speed"), "the program's page names the pages of its commands");
     assert_eq!(hovertone(&["man", "speed"]).ends_with(0).stdout, page("hovertone-speed.1"));
-    assert!(hovertone(&["man", "-o", text(&pages)]).ends_with(2).stderr.contains("--force"));
+    // unchanged pages are replaced, and nothing else is
+    hovertone(&["man", "-o", text(&pages)]).ends_with(0);
+    fs::write(pages.join("hovertone.1"), "precious").unwrap();
+    refused_with(&["man", "-o", text(&pages)], &["hovertone.1", "was changed", "--force"]);
+    assert_eq!(page("hovertone.1"), "precious");
+    fs::write(folder.path().join("notes.txt"), "precious").unwrap();
+    refused_with(&["man", "-o", text(folder.path())], &["not empty", "same man pages", "--force"]);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
     refused_with(&["man", "spead"], &["did you mean \"speed\""]);
 }
