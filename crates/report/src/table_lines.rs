@@ -19,8 +19,10 @@ const WORDS_WIDTH_MIN: usize = 20;
 pub fn table_text(table: &TextTable, width: Option<usize>) -> String {
     let table = Shown::of(table).narrowed(width);
     let parts = width.map_or_else(|| vec![(1..table.heads.len()).collect()], |width| table.parts(width));
-    let texts: Vec<String> =
-        parts.iter().enumerate().map(|(index, others)| table.part(others, width, index == 0)).collect();
+    // rows of words stand in the first part alone
+    let has_cells = table.rows.iter().any(|row| matches!(row, Row::Cells(_)));
+    let shown = parts.iter().enumerate().filter(|(index, _)| *index == 0 || has_cells);
+    let texts: Vec<String> = shown.map(|(index, others)| table.part(others, width, index == 0)).collect();
     texts.join("\n")
 }
 
@@ -231,6 +233,14 @@ a.wav          six words that say why
 long name.wav  short
 ";
         assert_eq!(table_text(&table(), Some(38)), folded);
+    }
+
+    #[test]
+    fn a_part_without_a_cell_is_left_out() {
+        let mut table = TextTable::new(table().columns().to_vec());
+        table.push_words("b.wav".to_owned(), "no rotor tone".to_owned());
+        let text = table_text(&table, Some(20));
+        assert!(text.ends_with("no rotor tone\n") && text.matches("file").count() == 1, "{text}");
     }
 
     #[test]
