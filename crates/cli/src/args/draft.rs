@@ -12,6 +12,7 @@ pub(crate) const MASS_HELP: &str = "\
   --mass '0.413=no_hull/*.mov'    hovertone expands the pattern; the quotes keep the shell from it
   --mass 0.413 no_hull/*.mov      the shell expands it; all files up to the next flag belong to it
   --mass 413g=a.mov --mass 413g=b.mov
+A folder stands for the recordings in it: --mass 413g=no_hull.
 bash leaves 0.413=no_hull/*.mov without quotes as it is, which works; zsh and fish need the quotes.";
 
 #[derive(Args, Debug)]

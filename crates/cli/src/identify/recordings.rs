@@ -68,7 +68,7 @@ pub(super) fn found_recordings<'a>(
             let is_piped = is_stdin(Path::new(name));
             let files: Vec<PathBuf> = match is_piped {
                 true => vec![recording_of_stdin()?],
-                false => files_of(&place_of(name, root)).into_iter().filter(|file| file.is_file()).collect(),
+                false => files_at(&place_of(name, root)),
             };
             if files.is_empty() {
                 missing.push(Missing { load, name });
@@ -90,6 +90,14 @@ pub(super) fn found_recordings<'a>(
         }
     }
     Ok(FoundRecordings { jobs, missing })
+}
+
+/// The files of a name or pattern; of a folder, its recordings.
+fn files_at(place: &Path) -> Vec<PathBuf> {
+    if place.is_dir() {
+        return groups_in(place).into_iter().flat_map(|group| group.files).collect();
+    }
+    files_of(place).into_iter().filter(|file| file.is_file()).collect()
 }
 
 /// The place that a name or pattern means, from the folder of the recordings.

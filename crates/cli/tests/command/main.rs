@@ -19,6 +19,7 @@ mod lighthouse;
 mod messages;
 mod microphones;
 mod movie;
+mod newcomer;
 mod nonsense;
 mod one_number;
 mod outputs;

@@ -127,6 +127,9 @@ fn a_check_says_what_it_would_do_and_what_is_missing() {
     for said in ["settles the octave", "gravity", "1 load", "--latitude-deg"] {
         assert!(ready.stderr.contains(said), "{said}:\n{}", ready.stderr);
     }
+    // a folder stands for its recordings
+    let folder_ready = run_in(at, &[&words[..6], &["--mass", "0.413=a"]].concat()).ends_with(0);
+    assert!(folder_ready.stdout.contains("a/1.WAV"), "{}", folder_ready.stdout);
     let more = ["--mass", "0.5=a/*.wav", "--mass", "0.6=broken.wav", "-o", "out"];
     let missing = run_in(at, &[&words[..], &more[..]].concat()).ends_with(1);
     for said in ["no file matches a/*.wav", "a/*.WAV (1)", "broken.wav: "] {
