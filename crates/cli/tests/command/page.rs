@@ -53,6 +53,8 @@ pub(crate) fn fits_phone_screen_and_paper(browser: &mut Browser, opened: &str) {
         browser.draw();
         let faults = browser.value(&format!("({LAYOUT})({{ width: {width}, isPrint: {is_print} }})"));
         assert_eq!(faults, Value::Array(Vec::new()), "{width} px, {medium}, {scheme}");
+        let broken = browser.text("getComputedStyle(document.querySelector('#bibtex')).breakInside");
+        assert_eq!(broken == "avoid", is_print, "the lines to cite are on one page: {broken}");
     }
     browser.value("dispatchEvent(new Event('afterprint'))");
     browser.screen(SCREEN);
@@ -138,6 +140,9 @@ fn recordings_are_a_short_table_on_a_phone(browser: &mut Browser) {
     // three lines of a long name
     assert!(table[0].as_f64().unwrap() < 80.0, "a row is {} px high", table[0]);
     assert_eq!(table[1], 0, "the table is wider than the phone");
+    let files = browser
+        .value("Math.max(...[...document.querySelector('table.files').tBodies[0].rows].map(row => row.offsetHeight))");
+    assert!(files.as_f64().unwrap() < 80.0, "a row of the files is {files} px high");
     let row = browser.text("document.querySelector('table.recordings tbody tr').innerText");
     assert!(row.contains("payload number") && row.contains(".wav") && row.contains(" ± "), "{row}");
     browser.screen(SCREEN);
