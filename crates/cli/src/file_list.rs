@@ -1,12 +1,9 @@
 //! The list of the files that a run wrote into its folder, with their hashes: by it a later run knows which of them nobody changed.
 
-use crate::failure::Failure;
 use crate::files::sha256_of_file;
-use crate::output_file::OutputFile;
-use crate::outputs::write_whole;
 use std::collections::BTreeSet;
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -68,26 +65,22 @@ impl FileList {
         Some(kept.line())
     }
 
-    /// Adds the line of a file with the content of another. The lines of its earlier content stay until [`FileList::drop_earlier`].
-    pub(crate) fn add(&self, name: &str, content: &Path) -> io::Result<()> {
-        let line = Listed { sha256: &sha256_of_file(content)?, name }.line();
-        let _alone = self.turn();
-        File::options().append(true).open(self.place())?.write_all(line.as_bytes())
+    /// The line for a file with the content of another.
+    pub(crate) fn line(name: &str, content: &Path) -> io::Result<String> {
+        Ok(Listed { sha256: &sha256_of_file(content)?, name }.line())
     }
 
-    /// Drops all lines of a file but its last one.
-    pub(crate) fn drop_earlier(&self, name: &str) -> Result<(), Failure> {
-        let _alone = self.turn();
+    /// The text with the last line of a file alone; `None` where it has no more.
+    pub(crate) fn without_earlier(&self, name: &str) -> Option<String> {
         let text = self.text();
         let is_of_file = |line: &str| listed(line).is_some_and(|file| file.name == name);
         let (of_file, others): (Vec<&str>, Vec<&str>) = text.lines().partition(|line| is_of_file(line));
-        let (Some(last), 2..) = (of_file.last(), of_file.len()) else { return Ok(()) };
-        let kept: String = others.iter().chain([last]).map(|line| format!("{line}\n")).collect();
-        write_whole(OutputFile::create(&self.place())?, kept.as_bytes())
+        let last = of_file.last().filter(|_| of_file.len() > 1)?;
+        Some(others.iter().chain([last]).map(|line| format!("{line}\n")).collect())
     }
 
     /// The files of a run are written in parallel, and the list by one of them at a time.
-    fn turn(&self) -> MutexGuard<'_, ()> {
+    pub(crate) fn turn(&self) -> MutexGuard<'_, ()> {
         self.turn.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -127,7 +120,7 @@ mod tests {
         let file = folder.path().join("a b.csv");
         fs::write(&file, "old").unwrap();
         assert!(!list.has_unchanged("a b.csv"), "it is not listed");
-        list.add("a b.csv", &file).unwrap();
+        fs::write(list.place(), list.beginning() + &FileList::line("a b.csv", &file).unwrap()).unwrap();
         assert!(list.has_unchanged("a b.csv") && list.is_of_same_run());
         fs::write(&file, "changed").unwrap();
         assert!(!list.has_unchanged("a b.csv"));
@@ -141,20 +134,21 @@ mod tests {
         let list = FileList::of(folder.path(), "identify abc");
         fs::write(list.place(), list.beginning()).unwrap();
         let write = |name: &str, content: &str| {
-            fs::write(folder.path().join(name), content).unwrap();
-            list.add(name, &folder.path().join(name)).unwrap();
+            let file = folder.path().join(name);
+            fs::write(&file, content).unwrap();
+            fs::write(list.place(), list.text() + &FileList::line(name, &file).unwrap()).unwrap();
         };
         write("a.csv", "first");
         write("b.csv", "other");
+        assert_eq!(list.without_earlier("a.csv"), None);
         write("a.csv", "second");
-        list.drop_earlier("a.csv").unwrap();
-        let once = list.text();
-        assert_eq!(once.lines().count(), 3, "{once}");
+        fs::write(list.place(), list.without_earlier("a.csv").unwrap()).unwrap();
+        assert_eq!(list.text().lines().count(), 3, "{}", list.text());
         assert!(list.has_unchanged("a.csv") && list.has_unchanged("b.csv"));
         // an interrupt before the new file came into its place, and a file that is gone
         let new = folder.path().join("new");
         fs::write(&new, "third").unwrap();
-        list.add("a.csv", &new).unwrap();
+        fs::write(list.place(), list.text() + &FileList::line("a.csv", &new).unwrap()).unwrap();
         fs::remove_file(folder.path().join("b.csv")).unwrap();
         fs::write(list.place(), list.beginning()).unwrap();
         assert!(list.has_unchanged("a.csv"));

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::file_list::FileList;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Last part of the name of a file that is not finished.
@@ -79,14 +79,31 @@ impl OutputFile {
     pub(crate) fn keep(mut self) -> Result<(), Failure> {
         let Some(unfinished) = self.unfinished.take() else { return Ok(()) };
         // the list comes first: after an interrupt it may name a file that is not there, but no file lacks its name
-        let add = |entry: &Entry| entry.list.add(&entry.name, &unfinished);
-        let listed = self.entry.as_ref().map_or(Ok(()), add);
+        let listed = self.entry.as_ref().map_or(Ok(()), |entry| entry.add(&unfinished));
         listed.and_then(|()| fs::rename(&unfinished, &self.target)).map_err(|error| {
             // a failure to remove it leaves a file that the next run removes
             let _ = fs::remove_file(&unfinished);
             Failure::cannot_write(&error, &self.place)
         })?;
-        self.entry.as_ref().map_or(Ok(()), |entry| entry.list.drop_earlier(&entry.name))
+        self.entry.as_ref().map_or(Ok(()), Entry::drop_earlier)
+    }
+}
+
+impl Entry {
+    /// Adds the line of the file with this content. Those of its earlier content stay until [`Entry::drop_earlier`].
+    fn add(&self, content: &Path) -> io::Result<()> {
+        let line = FileList::line(&self.name, content)?;
+        let _alone = self.list.turn();
+        File::options().append(true).open(self.list.place())?.write_all(line.as_bytes())
+    }
+
+    /// Drops the lines of the earlier content.
+    fn drop_earlier(&self) -> Result<(), Failure> {
+        let _alone = self.list.turn();
+        let Some(text) = self.list.without_earlier(&self.name) else { return Ok(()) };
+        let (place, output) = (self.list.place(), OutputFile::create(&self.list.place())?);
+        output.handle()?.write_all(text.as_bytes()).map_err(|error| Failure::cannot_write(&error, &place))?;
+        output.keep()
     }
 }
 
@@ -136,7 +153,6 @@ fn is_unfinished(name: &OsStr, begin: &OsStr) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::Write;
 
     fn names_in(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();

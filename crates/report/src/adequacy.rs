@@ -77,8 +77,8 @@ fn preferred_law(fit: &SquareLawFit) -> Option<ForceLaw> {
     Some(fit.preferred).filter(|law| fit.laws.len() > 1 && has_most(*law))
 }
 
-/// The preferred law with all its numbers, ready for use, where it is not the square law; that no law is preferred, or compared; else empty. The forces
-/// are those of the fit: of all rotors that share a force.
+/// The preferred law with all its numbers, ready for use, where it is not the square law; that no law is preferred, or compared; else empty.
+/// The forces are those of the fit: of all rotors that share a force.
 pub fn preferred_text(fit: &SquareLawFit) -> String {
     match (preferred_law(fit), fit.with_intercept, fit.power_law) {
         (None, ..) if fit.laws.len() > 1 => {
