@@ -219,7 +219,7 @@ impl fmt::Display for ThrustWarning {
             Self::OneRecordingEach { .. } => f.write_str(
                 "each load has one recording: the ± comes from the scatter of the loads about one law, so that the law is not tested",
             ),
-            Self::EqualLoads { count } => write!(f, "all {count} loads are equal"),
+            Self::EqualLoads { count } => write!(f, "all {count} loads are equal, or nearly so"),
             Self::NarrowLoadRange(range) => {
                 let open = format!("±{:.1} % of the force (k = 2)", 100.0 * COVERAGE_FACTOR * range.intercept_std_share);
                 match range.force_ratio_needed {
