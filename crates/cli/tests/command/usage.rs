@@ -54,7 +54,7 @@ fn an_unknown_key_is_underlined_and_has_a_nearest_name() {
     write("[vehicle]\npreset = \"ardrone\"\n[[lode]]\nname = \"a\"\n");
     refuses(&["identify", text(&path)], &["did you mean \"load\""]);
     write("[vehicle]\npreset = \"ardrone\"\nmass_kg = \"heavy\"\n");
-    refuses(&["identify", text(&path)], &["expected a number", "3 | mass_kg"]);
+    refuses(&["identify", text(&path)], &["has \"heavy\" where a number is needed", "3 | mass_kg"]);
     let load = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n";
     write(&format!("[vehicle]\npreset = \"ardrone\"\n{load}{load}"));
     refuses(&["identify", text(&path)], &["load number 2", "\"a\""]);
