@@ -69,6 +69,11 @@ pub enum Warning {
         /// Whether the mean of all rotors is still known.
         has_mean: bool,
     },
+    /// The number of rotors is not known, so that the line of one may stand for several.
+    RotorCountUnknown {
+        /// Standard deviation of the speeds of the others about their mean, as a share, that the ± contains.
+        spread_share: f64,
+    },
     /// The ridge jumps between lines.
     SeveralLines {
         /// Relative standard deviation of the ridge.
@@ -102,6 +107,7 @@ impl Warning {
                 "the mean speed is still valid, with a larger uncertainty; to separate more rotors, place the microphone nearer and \
                  keep the high frequencies"
             }
+            Self::RotorCountUnknown { .. } => "say --rotors 1 if one rotor turns, or how many do",
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds, and the result follows the loudest; a narrower --band follows one line"
             }
@@ -144,6 +150,11 @@ impl fmt::Display for Warning {
                 write!(f, "the {of} rotors could not be separated: one tone is used for all of them")
             }
             Self::RotorsNotApart { resolved, of, .. } => write!(f, "separated rotors: {resolved} of {of}"),
+            Self::RotorCountUnknown { spread_share } => write!(
+                f,
+                "the number of rotors is not known: the ± contains others that turn faster or slower, with a standard deviation of {:.1} %",
+                100.0 * spread_share
+            ),
             Self::SeveralLines { spread_share } => {
                 write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
             }

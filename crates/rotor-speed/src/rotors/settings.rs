@@ -31,6 +31,12 @@ impl RotorsConfig {
         Self { count: SEVERAL, ..self }
     }
 
+    /// Rotors for which one line may stand. A line that keeps its phase is that of one rotor; otherwise others may turn beside it, too near to be
+    /// heard by themselves, where their number is not known.
+    pub(crate) fn count_of_one_line(&self, keeps_phase: bool) -> u32 {
+        if self.is_count_known || keeps_phase { self.count } else { self.count.max(SEVERAL) }
+    }
+
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("rotors", f64::from(self.count), 1.0, 12.0)?;
         check_range("rotors.band_half_width_share", self.band_half_width_share, 0.005, 0.3)
