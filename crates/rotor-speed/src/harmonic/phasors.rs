@@ -14,11 +14,11 @@ pub(crate) fn small_turn(angle: f64) -> Complex<f64> {
         return Complex::from_polar(1.0, angle);
     }
     let x2 = angle * angle;
-    // Taylor series in Horner form
-    let (c2, c3, c4) = (3.0 * 4.0, 5.0 * 6.0, 7.0 * 8.0);
-    let (s2, s3, s4) = (4.0 * 5.0, 6.0 * 7.0, 8.0 * 9.0);
-    let cosine = 1.0 - x2 / 2.0 * (1.0 - x2 / c2 * (1.0 - x2 / c3 * (1.0 - x2 / c4)));
-    let sine = angle * (1.0 - x2 / 6.0 * (1.0 - x2 / s2 * (1.0 - x2 / s3 * (1.0 - x2 / s4))));
+    // Taylor series in Horner form; factors, because a division takes several times as long
+    const C: [f64; 4] = [1.0 / 2.0, 1.0 / (3.0 * 4.0), 1.0 / (5.0 * 6.0), 1.0 / (7.0 * 8.0)];
+    const S: [f64; 4] = [1.0 / 6.0, 1.0 / (4.0 * 5.0), 1.0 / (6.0 * 7.0), 1.0 / (8.0 * 9.0)];
+    let cosine = 1.0 - x2 * C[0] * (1.0 - x2 * C[1] * (1.0 - x2 * C[2] * (1.0 - x2 * C[3])));
+    let sine = angle * (1.0 - x2 * S[0] * (1.0 - x2 * S[1] * (1.0 - x2 * S[2] * (1.0 - x2 * S[3]))));
     Complex::new(cosine, sine)
 }
 

@@ -107,13 +107,23 @@ pub(crate) struct HarmonicTrack {
 }
 
 impl HarmonicTrack {
+    /// The blocks that overlap a span of time, or all blocks without one.
+    pub(crate) fn blocks_in(&self, span: Option<&Span>) -> &[HarmonicBlock] {
+        let Some(span) = span else { return &self.blocks };
+        let from = self.blocks.partition_point(|block| block.span.to_s <= span.from_s);
+        let to = self.blocks.partition_point(|block| block.span.from_s < span.to_s);
+        self.blocks.get(from..to).unwrap_or_default()
+    }
+
     /// The speed at each of these times; between the blocks that of the nearest one. `None` where no block is heard.
     pub(crate) fn speeds_at(&self, times_s: &[f64]) -> Option<Vec<f64>> {
+        let heard: Vec<&HarmonicBlock> = self.blocks.iter().filter(|block| block.is_heard).collect();
         let distance_s =
             |block: &HarmonicBlock, time_s: f64| (time_s - time_s.clamp(block.span.from_s, block.span.to_s)).abs();
         let speed_at = |&time_s: &f64| {
-            let heard = self.blocks.iter().filter(|block| block.is_heard);
-            let nearest = heard.min_by(|a, b| distance_s(a, time_s).total_cmp(&distance_s(b, time_s)))?;
+            let after = heard.partition_point(|block| block.span.to_s < time_s);
+            let near = heard[after.saturating_sub(1)..].iter().take(2);
+            let nearest = near.min_by(|a, b| distance_s(a, time_s).total_cmp(&distance_s(b, time_s)))?;
             Some(nearest.speed_at(time_s.clamp(nearest.span.from_s, nearest.span.to_s)))
         };
         times_s.iter().map(speed_at).collect()

@@ -32,7 +32,7 @@ impl HarmonicTrack {
     /// - For several rotors at once, the uncertainty is at least the one of their mean with unknown loudness.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
         let parts: Vec<Part> = self
-            .blocks
+            .blocks_in(span)
             .iter()
             .filter(|block| block.is_heard)
             .map(|block| Part { block, span: span.map_or(block.span, |span| block.span.overlap(*span)) })
@@ -84,7 +84,8 @@ impl HarmonicTrack {
     fn is_edge(&self, time_s: f64) -> bool {
         let is_here = |border_s: f64| (border_s - time_s).abs() < SAME_TIME_S;
         let touches = |block: &&HarmonicBlock| is_here(block.span.from_s) || is_here(block.span.to_s);
-        self.blocks.iter().filter(touches).count() == 1
+        let near = Span { from_s: time_s - SAME_TIME_S, to_s: time_s + SAME_TIME_S };
+        self.blocks_in(Some(&near)).iter().filter(touches).count() == 1
     }
 
     /// The speed at every step of the track, without points in gaps: the mean of the block around the time and of the block between it and
@@ -94,7 +95,7 @@ impl HarmonicTrack {
         let is_wanted = |block: &&HarmonicBlock| {
             block.is_heard && span.is_none_or(|span| block.span.overlap(*span).length_s() > 0.0)
         };
-        let blocks: Vec<&HarmonicBlock> = self.blocks.iter().filter(is_wanted).collect();
+        let blocks: Vec<&HarmonicBlock> = self.blocks_in(span).iter().filter(is_wanted).collect();
         let disagreement_rev_s = self.disagreement_rev_s(&blocks);
         blocks
             .iter()

@@ -169,7 +169,7 @@ impl RotorTracks {
     /// The rotors that are heard for most of a span of time, alone or together with others.
     fn heard(&self, span: Option<&Span>) -> impl Iterator<Item = &RotorTrack> {
         self.rotors.iter().filter(move |rotor| {
-            let blocks = rotor.track.blocks.iter().filter(|block| block.is_heard).map(|block| &block.span);
+            let blocks = rotor.track.blocks_in(span).iter().filter(|block| block.is_heard).map(|block| &block.span);
             let is_apart = !self.are_one_group && self.is_resolved(rotor, span);
             self.share_of(blocks, span) >= RESOLVED_SHARE_MIN
                 && (is_apart || self.share_of(&rotor.lost, span) <= LOST_SHARE_MAX)
@@ -232,7 +232,7 @@ impl HarmonicTrack {
     /// a straight line of speed is `n² + γ² T² / 12`. `None` where no block is heard.
     fn mean_square_rad2_s2(&self, span: Option<&Span>) -> Option<f64> {
         let (mut total, mut total_s) = (0.0, 0.0);
-        for block in self.blocks.iter().filter(|block| block.is_heard) {
+        for block in self.blocks_in(span).iter().filter(|block| block.is_heard) {
             let part = span.map_or(block.span, |span| block.span.overlap(*span));
             let length_s = part.length_s();
             if length_s > 0.0 {
