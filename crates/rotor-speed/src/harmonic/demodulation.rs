@@ -105,46 +105,41 @@ impl<'a> LinePhasors<'a> {
         self.tick += 1;
     }
 
-    /// Hands out the phasors of the next tick.
-    pub(crate) fn take_tick(&mut self, mut on_phasor: impl FnMut(Complex<f64>)) {
+    /// Hands out the phasors of the next tick with their numbers.
+    pub(crate) fn take_tick(&mut self, mut on_phasor: impl FnMut(usize, Complex<f64>)) {
         self.begin_tick();
-        let Self { mut turn, mut step, step_of_step, .. } = *self;
-        for _ in 0..self.samples_per_tick {
-            on_phasor(turn);
-            turn *= step;
-            step *= step_of_step;
-        }
-        (self.turn, self.step) = (turn, step);
-    }
-
-    /// Sum of the demodulated samples of the next tick.
-    fn tick_sum(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
-        self.begin_tick();
-        let wide = |z: &Complex<f32>| Complex::new(f64::from(z.re), f64::from(z.im));
         // two samples at a time, because the processor computes independent products in parallel
         let (mut even, mut odd) = (self.turn, self.turn * self.step);
         let bend = self.step_of_step;
         let mut even_step = self.step * self.step * bend;
         let mut odd_step = even_step * bend * bend;
         let bend_of_two = bend * bend * bend * bend;
-        let (mut even_sum, mut odd_sum) = (Complex::<f64>::default(), Complex::<f64>::default());
-        let (pairs, last) = samples.as_chunks::<2>();
-        for [first, second] in pairs {
-            even_sum += even.conj() * wide(first);
-            odd_sum += odd.conj() * wide(second);
+        let mut sample = 0;
+        while sample + 1 < self.samples_per_tick {
+            on_phasor(sample, even);
+            on_phasor(sample + 1, odd);
             even *= even_step;
             odd *= odd_step;
             even_step *= bend_of_two;
             odd_step *= bend_of_two;
+            sample += 2;
         }
-        if let [last] = last {
-            even_sum += even.conj() * wide(last);
+        if sample < self.samples_per_tick {
+            on_phasor(sample, even);
             (even, odd) = (odd, even * even_step);
         }
         // odd / even: both magnitudes are 1 up to rounding errors; without the second factor these errors would double in each tick
         self.step = odd * even.conj() * (2.0 - even.norm_sqr());
         self.turn = even;
-        even_sum + odd_sum
+    }
+
+    /// Sum of the demodulated samples of the next tick.
+    fn tick_sum(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
+        let wide = |z: &Complex<f32>| Complex::new(f64::from(z.re), f64::from(z.im));
+        let samples = &samples[..self.samples_per_tick];
+        let mut sums = [Complex::<f64>::default(); 2];
+        self.take_tick(|sample, phasor| sums[sample % 2] += phasor.conj() * wide(&samples[sample]));
+        sums[0] + sums[1]
     }
 }
 
@@ -165,7 +160,7 @@ mod tests {
 
     fn all_phasors(place: LinePlace, path: &SpeedPath, samples_per_tick: usize) -> Vec<Complex<f64>> {
         let (mut phasors, mut all) = (LinePhasors::new(place, path, samples_per_tick), Vec::new());
-        (0..path.ticks()).for_each(|_| phasors.take_tick(|phasor| all.push(phasor)));
+        (0..path.ticks()).for_each(|_| phasors.take_tick(|_, phasor| all.push(phasor)));
         all
     }
 

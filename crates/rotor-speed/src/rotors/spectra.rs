@@ -203,9 +203,9 @@ pub(super) fn phasors(
     samples: usize,
 ) -> Vec<Complex<f32>> {
     let mut phasors = LinePhasors::new(place, path, samples_per_tick);
-    let mut all = Vec::with_capacity(samples);
-    for _ in 0..samples / samples_per_tick {
-        phasors.take_tick(|phasor| all.push(Complex::new(phasor.re as f32, phasor.im as f32)));
+    let mut all = vec![Complex::default(); samples];
+    for of_tick in all.chunks_exact_mut(samples_per_tick) {
+        phasors.take_tick(|sample, phasor| of_tick[sample] = Complex::new(phasor.re as f32, phasor.im as f32));
     }
     all
 }
