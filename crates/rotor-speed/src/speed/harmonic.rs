@@ -1,6 +1,6 @@
 //! Blocks of the harmonic likelihood → mean shaft speed over a span of time, and the track of the speed.
 
-use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, joined_variance_turns2};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, SAME_TIME_S, joined_variance_turns2};
 use hovertone_analysis::{HarmonicSpeed, Method, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
@@ -15,9 +15,6 @@ const NEARNESS_MIN: f64 = 1e-3;
 /// Standard uncertainty of a track point, as a share of the difference between the two blocks there. Independent errors would give one
 /// half; the blocks share half of their sound, which gives more. *Decision.*
 const DISAGREEMENT_SHARE: f64 = 0.7;
-
-/// Rounding error of the times at which blocks meet, s. *Numeric.*
-const SAME_TIME_S: f64 = 1e-6;
 
 /// Places in a block, as shares of its length, at which it has the same weight as the block between it and its neighbour. *Numeric.*
 const QUARTERS: [f64; 2] = [0.25, 0.75];
@@ -228,6 +225,7 @@ mod tests {
             span: Span { from_s, to_s },
             speed_rev_s: start_rev_s + bend_rev_s3 * (middle_s * middle_s + length_s * length_s / 12.0),
             slope_rev_s2: 2.0 * bend_rev_s3 * middle_s,
+            variance_rev2_s2: 0.0,
             std_uncertainty_rev_s: 1e-3,
             step_to_next_turns: None,
             is_several: false,
