@@ -325,7 +325,8 @@ mod tests {
             let (want, got) = (whole.speed_in(span, order).unwrap(), limited.speed_in(span, order).unwrap());
             assert!((got.speed.rev_s() - want.speed.rev_s()).abs() < 1e-3, "{:?} {:?}", got.speed, want.speed);
             let ratio = got.std_uncertainty_rev_s.unwrap() / want.std_uncertainty_rev_s.unwrap();
-            assert!((ratio - 1.0).abs() < 0.01, "{ratio}");
+            // a part of a block is less certain than its share of the block: one at each end of the minute
+            assert!((ratio - 1.0).abs() < if span.is_some() { 0.05 } else { 0.01 }, "{ratio}");
             // the mean over 0.64 s of a swing of 7 s is (π 0.64 / 7)² / 6 smaller than its middle: 1.4 %
             let ratio = got.spread_rev_s.unwrap() / want.spread_rev_s.unwrap();
             assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
