@@ -78,9 +78,9 @@ mod tests {
                 (sound(f64::from(n) / rate_hz) + 1e-4 * ((noise >> 40) as f64 / f64::from(1 << 23) - 1.0)) as f32
             })
             .collect();
-        let mut spectra: Vec<Vec<f64>> = Vec::new();
+        let mut spectra: Vec<Vec<f32>> = Vec::new();
         Stft::<f64>::new(rate_hz, Window::Hann, 1.0, 1.0, 1).push(&samples, |frame| {
-            spectra.push(frame.power.iter().map(|&power| power as f32).collect::<Vec<f32>>());
+            spectra.push(frame.power.iter().map(|&power| power as f32).collect());
         });
         let with: Vec<f32> = whitened_db(&spectra[0]).into_iter().map(|level| level as f32).collect();
         let mut without = with.clone();
