@@ -77,7 +77,6 @@ impl HarmonicBlock {
         let length_s = span.length_s();
         let both = [self, next];
         let turns_of = |block: &Self| block.speed_rev_s * block.span.length_s();
-        let turns = both.map(turns_of).iter().sum::<f64>() + self.step_to_next_turns.unwrap_or(0.0);
         // ∫ n τ dτ, where τ is the time from the middle of both
         let moment = |block: &Self| {
             let away_s = block.span.middle_s() - span.middle_s();
@@ -86,13 +85,14 @@ impl HarmonicBlock {
         let std_turns = both.map(|block| block.std_uncertainty_rev_s * block.span.length_s());
         let line = Self {
             span,
-            speed_rev_s: turns / length_s,
+            speed_rev_s: both.map(turns_of).iter().sum::<f64>() / length_s,
             slope_rev_s2: 12.0 * both.map(moment).iter().sum::<f64>() / length_s.powi(3),
             variance_rev2_s2: 0.0,
             ..*next
         };
         let mean_square = both.map(|block| block.mean_square_in(block.span) * block.span.length_s() / length_s);
         self.meets(next).then(|| Self {
+            speed_rev_s: line.speed_rev_s + self.step_to_next_turns.unwrap_or(0.0) / length_s,
             variance_rev2_s2: (mean_square[0] + mean_square[1] - line.mean_square_in(span)).max(0.0),
             std_uncertainty_rev_s: std_turns[0].hypot(std_turns[1]) / length_s,
             level_db: self.level_db.max(next.level_db),
@@ -102,7 +102,7 @@ impl HarmonicBlock {
     }
 
     /// A block from the middle of this one to the middle of the next, along the line through the speeds there. `None` where they do not meet.
-    fn to_middle_of(&self, next: &Self) -> Option<Self> {
+    fn between(&self, next: &Self) -> Option<Self> {
         let span = Span { from_s: self.span.middle_s(), to_s: next.span.middle_s() };
         self.meets(next).then(|| Self {
             span,
@@ -216,7 +216,7 @@ impl HarmonicTrack {
             }
         }
         merged.shrink_to_fit();
-        let pairs = merged.windows(2).filter_map(|pair| pair[0].to_middle_of(&pair[1]));
+        let pairs = merged.windows(2).filter_map(|pair| pair[0].between(&pair[1]));
         self.between = pairs.filter(|block| block.is_heard).collect();
         self.blocks = merged;
     }
@@ -331,13 +331,29 @@ mod tests {
             let ratio = got.spread_rev_s.unwrap() / want.spread_rev_s.unwrap();
             assert!((ratio - 1.0).abs() < 0.02, "{ratio}");
             let squares = [&whole, &limited].map(|track| track.mean_square_rad2_s2(span).unwrap());
-            assert!((squares[1] / squares[0] - 1.0).abs() < 1e-5, "{squares:?}");
+            assert!((squares[1] / squares[0] - 1.0).abs() < 2e-6, "{squares:?}");
         }
         // the track follows the speed, also where blocks meet
         for point in limited.points_in(None, order) {
             let want = 60.0 + 1.2 * (std::f64::consts::TAU / 7.0 * point.time_s).sin();
             assert!((point.speed_rev_s - want).abs() < 0.03, "{point:?}");
         }
+    }
+
+    #[test]
+    fn steps_between_merged_blocks_count_as_turns_and_not_as_speed() {
+        let mut whole = track(3 * BLOCKS_MAX);
+        for (block, step) in whole.blocks.iter_mut().zip([1e-3, 1e-3, -2e-3].into_iter().cycle()) {
+            block.step_to_next_turns = Some(step);
+        }
+        let mut limited = whole.clone();
+        limited.limit_blocks();
+        let order = Order::new(2.0).unwrap();
+        let speeds = [&whole, &limited].map(|track| track.speed_in(None, order).unwrap().speed.rev_s());
+        assert!((speeds[0] - speeds[1]).abs() < 1e-6, "{speeds:?}");
+        // steps that count as positive alone would change it by 1e-4
+        let squares = [&whole, &limited].map(|track| track.mean_square_rad2_s2(None).unwrap());
+        assert!((squares[1] / squares[0] - 1.0).abs() < 1e-5, "{squares:?}");
     }
 
     #[test]
