@@ -37,7 +37,7 @@ pub(super) fn worth(likelihood: f64) -> f64 {
     LINEAR_UP_TO * (likelihood / LINEAR_UP_TO).ln_1p()
 }
 
-/// Points of the grid that are worked on at once, which the compiler turns into vector instructions.
+/// Points of the grid that are worked on at once, which the compiler turns into vector instructions. *Numeric.*
 const LANES: usize = 4;
 
 /// Scores of the points of a grid, frame by frame.
