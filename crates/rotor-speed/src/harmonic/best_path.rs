@@ -32,6 +32,10 @@ pub(crate) fn best_path(scores: &[impl AsRef<[f64]>], step_std: f64) -> Vec<usiz
 /// Upper envelope of the parabolas `total[p] − curvature (q − p)²` over the grid points q.
 struct Envelope {
     curvature: f64,
+    /// `1 / (2 curvature d)` for each distance d of two vertices.
+    per_distance: Vec<f64>,
+    /// `curvature q² − total[q]` of each grid point q.
+    raised: Vec<f64>,
     /// Vertices of the parabolas on the envelope, from left to right.
     places: Vec<usize>,
     /// Parabola i is highest between the borders i and i + 1.
@@ -40,21 +44,20 @@ struct Envelope {
 
 impl Envelope {
     fn new(points: usize, curvature: f64) -> Self {
-        Self { curvature, places: vec![0; points], borders: vec![0.0; points + 1] }
+        let per_distance = (0..points).map(|distance| 1.0 / (2.0 * curvature * distance as f64)).collect();
+        Self { curvature, per_distance, raised: Vec::new(), places: vec![0; points], borders: vec![0.0; points + 1] }
     }
 
     /// Finds the envelope for the totals of one frame.
     fn build(&mut self, total: &[f64]) {
-        let Self { curvature, places, borders } = self;
-        let curvature = *curvature;
+        let Self { curvature, per_distance, raised, places, borders } = self;
+        raised.clear();
+        raised.extend(total.iter().enumerate().map(|(q, total)| *curvature * q as f64 * q as f64 - total));
         let mut last = 0;
         places[0] = 0;
         (borders[0], borders[1]) = (f64::NEG_INFINITY, f64::INFINITY);
         for q in 1..total.len() {
-            let crossing = |p: usize| {
-                let (qf, pf) = (q as f64, p as f64);
-                ((curvature * qf * qf - total[q]) - (curvature * pf * pf - total[p])) / (2.0 * curvature * (qf - pf))
-            };
+            let crossing = |p: usize| (raised[q] - raised[p]) * per_distance[q - p];
             let mut s = crossing(places[last]);
             while s <= borders[last] && last > 0 {
                 last -= 1;

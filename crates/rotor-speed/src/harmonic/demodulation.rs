@@ -56,7 +56,6 @@ pub(crate) struct LinePhasors<'a> {
     step_s: f64,
     samples_per_tick: usize,
     tick: usize,
-    samples_left: usize,
     /// Phasor of the next sample.
     turn: Complex<f64>,
     /// Factor from the next sample to the one after it.
@@ -84,7 +83,6 @@ impl<'a> LinePhasors<'a> {
             step_s,
             samples_per_tick,
             tick: 0,
-            samples_left: 0,
             turn: Complex::default(),
             step: Complex::default(),
             step_of_step: Complex::default(),
@@ -105,55 +103,43 @@ impl<'a> LinePhasors<'a> {
         self.step_of_step = small_turn(2.0 * bend);
         self.bend = bend;
         self.tick += 1;
-        self.samples_left = self.samples_per_tick;
     }
 
-    /// Sum of the demodulated samples of the next tick.
-    fn tick_sum(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
+    /// Hands out the phasors of the next tick with their numbers.
+    pub(crate) fn take_tick(&mut self, mut on_phasor: impl FnMut(usize, Complex<f64>)) {
         self.begin_tick();
-        let wide = |z: &Complex<f32>| Complex::new(f64::from(z.re), f64::from(z.im));
         // two samples at a time, because the processor computes independent products in parallel
         let (mut even, mut odd) = (self.turn, self.turn * self.step);
         let bend = self.step_of_step;
         let mut even_step = self.step * self.step * bend;
         let mut odd_step = even_step * bend * bend;
         let bend_of_two = bend * bend * bend * bend;
-        let (mut even_sum, mut odd_sum) = (Complex::<f64>::default(), Complex::<f64>::default());
-        let (pairs, last) = samples.as_chunks::<2>();
-        for [first, second] in pairs {
-            even_sum += even.conj() * wide(first);
-            odd_sum += odd.conj() * wide(second);
+        let mut sample = 0;
+        while sample + 1 < self.samples_per_tick {
+            on_phasor(sample, even);
+            on_phasor(sample + 1, odd);
             even *= even_step;
             odd *= odd_step;
             even_step *= bend_of_two;
             odd_step *= bend_of_two;
+            sample += 2;
         }
-        if let [last] = last {
-            even_sum += even.conj() * wide(last);
+        if sample < self.samples_per_tick {
+            on_phasor(sample, even);
             (even, odd) = (odd, even * even_step);
         }
         // odd / even: both magnitudes are 1 up to rounding errors; without the second factor these errors would double in each tick
         self.step = odd * even.conj() * (2.0 - even.norm_sqr());
-        (self.turn, self.samples_left) = (even, 0);
-        even_sum + odd_sum
+        self.turn = even;
     }
-}
 
-impl Iterator for LinePhasors<'_> {
-    type Item = Complex<f64>;
-
-    fn next(&mut self) -> Option<Complex<f64>> {
-        if self.samples_left == 0 {
-            if self.tick >= self.path.ticks() {
-                return None;
-            }
-            self.begin_tick();
-        }
-        self.samples_left -= 1;
-        let now = self.turn;
-        self.turn *= self.step;
-        self.step *= self.step_of_step;
-        Some(now)
+    /// Sum of the demodulated samples of the next tick.
+    fn tick_sum(&mut self, samples: &[Complex<f32>]) -> Complex<f64> {
+        let wide = |z: &Complex<f32>| Complex::new(f64::from(z.re), f64::from(z.im));
+        let samples = &samples[..self.samples_per_tick];
+        let mut sums = [Complex::<f64>::default(); 2];
+        self.take_tick(|sample, phasor| sums[sample % 2] += phasor.conj() * wide(&samples[sample]));
+        sums[0] + sums[1]
     }
 }
 
@@ -172,6 +158,12 @@ pub(crate) fn demodulated(
 mod tests {
     use super::*;
 
+    fn all_phasors(place: LinePlace, path: &SpeedPath, samples_per_tick: usize) -> Vec<Complex<f64>> {
+        let (mut phasors, mut all) = (LinePhasors::new(place, path, samples_per_tick), Vec::new());
+        (0..path.ticks()).for_each(|_| phasors.take_tick(|_, phasor| all.push(phasor)));
+        all
+    }
+
     #[test]
     fn phasors_by_multiplication_are_those_of_the_path() {
         let (tick_s, samples_per_tick, order, centre_hz) = (0.0106, 13, 207.0, 12_400.0);
@@ -179,7 +171,7 @@ mod tests {
         let path = SpeedPath::from_borders(tick_s, speeds);
         let rate_hz = samples_per_tick as f64 / tick_s;
         let place = LinePlace { order, centre_hz, rate_hz };
-        let phasors: Vec<_> = LinePhasors::new(place, &path, samples_per_tick).collect();
+        let phasors = all_phasors(place, &path, samples_per_tick);
         assert_eq!(phasors.len(), 1000 * samples_per_tick);
         for (sample, phasor) in phasors.iter().enumerate() {
             let (tick, within) = (sample / samples_per_tick, (sample % samples_per_tick) as f64 / rate_hz);
@@ -191,7 +183,7 @@ mod tests {
         }
         for odd_or_even in [samples_per_tick, samples_per_tick - 1] {
             let place = LinePlace { rate_hz: odd_or_even as f64 / tick_s, ..place };
-            let phasors: Vec<_> = LinePhasors::new(place, &path, odd_or_even).collect();
+            let phasors = all_phasors(place, &path, odd_or_even);
             let narrow = |z: &Complex<f64>| Complex::new(z.re as f32, z.im as f32);
             let series: Vec<Complex<f32>> = phasors.iter().map(narrow).collect();
             for (tick, sum) in demodulated(&series, place, odd_or_even, &path).into_iter().enumerate() {

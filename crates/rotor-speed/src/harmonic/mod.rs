@@ -48,7 +48,7 @@ use partition::{
 };
 use speed_map::{Centroid, FRAME_HOPS, LinePowers, STRONG_POWER_MIN, SpeedMap};
 use speed_path::{SpeedPath, SpeedPoint};
-pub(crate) use track::{HarmonicBlock, HarmonicTrack, LENGTH_POWER, LineRecord};
+pub(crate) use track::{HarmonicBlock, HarmonicTrack, LENGTH_POWER, LineRecord, SAME_TIME_S};
 
 /// Smallest ratio of the highest power in the band of a line to the power on the path at which the band holds a foreign sound.
 /// *Decision.*
@@ -132,6 +132,7 @@ impl ChunkListener for HarmonicTracer {
             }
             None => {}
         }
+        track.limit_blocks();
     }
 
     fn end_stretch(&mut self, end_s: f64) {
@@ -141,7 +142,7 @@ impl ChunkListener for HarmonicTracer {
     }
 
     fn finish(self) -> HarmonicTrack {
-        self.track
+        self.track.finished()
     }
 }
 
@@ -289,6 +290,7 @@ fn blocks_of_several(centroids: &[Centroid], start_s: f64, frame_s: f64) -> Vec<
                 span: Span { from_s, to_s: from_s + frame_s },
                 speed_rev_s,
                 slope_rev_s2: 0.0,
+                variance_rev2_s2: 0.0,
                 std_uncertainty_rev_s: UNKNOWN_LOUDNESS_SHARE * spread_rev_s,
                 level_db: power_db(centroid.strongest_power),
                 step_to_next_turns: None,
@@ -329,6 +331,7 @@ pub(crate) fn block_at(fit: &BlockFit, is_coherent: bool, chunk: &ChunkPlace) ->
         span: Span { from_s: at(fit.tick_from), to_s: at(fit.tick_to) },
         speed_rev_s: fit.speed_rev_s,
         slope_rev_s2: fit.slope_rev_s2,
+        variance_rev2_s2: 0.0,
         std_uncertainty_rev_s: (fit.phase_scatter / fit.information + fit.bend_variance).sqrt(),
         step_to_next_turns: fit.step_to_next_turns,
         is_several: false,

@@ -2,6 +2,7 @@
 
 use hovertone_signal::channels::Channel;
 use hovertone_vehicle::MESH_SIDEBANDS;
+use std::array::from_fn;
 use std::f64::consts::PI;
 
 /// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there.
@@ -92,16 +93,16 @@ impl PlacedLobe {
         let mut sines = [-sine, cosine, sine, -cosine];
         sines.rotate_left(half_cells.rem_euclid(4) as usize);
         let first_cells = f64::from(half_cells) / 2.0 - self.cells;
+        let denominators: [f32; LOBE_PLACES] = from_fn(|index| {
+            let x = first_cells as f32 + 0.5 * index as f32;
+            PI as f32 * x * (1.0 - x * x)
+        });
         let mut lobes = [0.0f32; LOBE_PLACES];
-        let mut is_near_zero = false;
-        for (index, (lobe, step)) in lobes.iter_mut().zip(0i16..).enumerate() {
-            let x = first_cells as f32 + 0.5 * f32::from(step);
-            // the sine vanishes where the denominator does
-            let below = PI as f32 * x * (1.0 - x * x);
-            is_near_zero |= below.abs() <= LOBE_DENOMINATOR_MIN;
-            *lobe = sines[index % 4] / below;
+        for (lobes, denominators) in lobes.as_chunks_mut::<4>().0.iter_mut().zip(denominators.as_chunks::<4>().0) {
+            *lobes = from_fn(|index| sines[index] / denominators[index]);
         }
-        if is_near_zero {
+        // the sine vanishes where the denominator does
+        if denominators.iter().any(|below| below.abs() <= LOBE_DENOMINATOR_MIN) {
             for (index, lobe) in lobes.iter_mut().enumerate() {
                 let x = first_cells + 0.5 * index as f64;
                 if x.abs() < 1.5 {

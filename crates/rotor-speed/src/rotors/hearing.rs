@@ -202,7 +202,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
         };
         let grid = self.grid(&offsets_from(tracks, &spectra.common_rev_s), MARGIN_SHARE, &spectra);
         let trust = Trust { line_weights: &self.line_weights, residue_share: 0.0, echo_share };
-        let grid_scores = GridScores::new(&spectra, self.atoms, &grid, trust);
+        let mut grid_scores = GridScores::new(&spectra, self.atoms, &grid, trust);
         let scores = (0..spectra.frames()).map(|frame| grid_scores.of_frame(frame, &[])).collect();
         FrameScores { scores, grid, common_rev_s: spectra.common_rev_s }
     }

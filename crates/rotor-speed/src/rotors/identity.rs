@@ -54,18 +54,24 @@ impl Identity {
         if frames == 0 {
             return Vec::new();
         }
-        let labellings = if (2..=ROTORS_MAX).contains(&count) { permutations(count) } else { vec![unchanged] };
+        let labellings =
+            Labellings::new(if (2..=ROTORS_MAX).contains(&count) { permutations(count) } else { vec![unchanged] });
         let mut path = vec![0; frames];
         for pass in 0..PASSES {
             let templates = if pass == 0 && !self.known.is_empty() {
                 vec![self.known.clone(); frames]
             } else {
-                self.templates(tracks, &labellings, &path, frame_s, pass == 0)
+                self.templates(tracks, &labellings.all, &path, frame_s, pass == 0)
             };
-            path = self.best_sequence(tracks, &labellings, &templates, (frame_s, pace));
+            let before =
+                std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &templates, (frame_s, pace)));
+            // the next pass would expect the same levels
+            if pass > 0 && path == before {
+                break;
+            }
         }
-        let labelled: Vec<Vec<usize>> = path.iter().map(|&place| labellings[place].clone()).collect();
-        let templates = self.templates(tracks, &labellings, &path, frame_s, false);
+        let labelled: Vec<Vec<usize>> = path.iter().map(|&place| labellings.all[place].clone()).collect();
+        let templates = self.templates(tracks, &labellings.all, &path, frame_s, false);
         if let (Some(last), Some(known)) = (labelled.last(), templates.last()) {
             self.last = last.iter().map(|&track| tracks[track][frames - 1].clone()).collect();
             self.known = known.clone();
@@ -126,36 +132,36 @@ impl Identity {
     fn best_sequence(
         &self,
         tracks: &[Vec<TrackFrame>],
-        labellings: &[Vec<usize>],
+        labellings: &Labellings,
         templates: &[Vec<Vec<Option<f64>>>],
         (frame_s, pace): (f64, Pace),
     ) -> Vec<usize> {
-        let count = tracks.len();
         let frame_of = |frame: usize| -> Vec<&TrackFrame> { tracks.iter().map(|track| &track[frame]).collect() };
-        let mut total: Vec<f64> = vec![0.0; labellings.len()];
+        let mut total: Vec<f64> = vec![0.0; labellings.all.len()];
         let mut origins: Vec<Vec<usize>> = Vec::with_capacity(templates.len());
         for (frame, templates) in templates.iter().enumerate() {
             let now = frame_of(frame);
             let before = if frame == 0 { self.last.iter().collect() } else { frame_of(frame - 1) };
-            let steps = step_costs(&before, &now, frame_s, pace);
-            let mut origin = vec![0; labellings.len()];
-            let mut next = vec![0.0; labellings.len()];
-            for ((origin, next), labelling) in origin.iter_mut().zip(&mut next).zip(labellings) {
-                let levels: f64 =
-                    labelling.iter().zip(templates).map(|(&track, template)| level_cost(now[track], template)).sum();
-                let (best, cost) = if steps.is_empty() {
+            let steps = step_costs(&before, &now, frame_s, pace).concat();
+            let level_costs: Vec<Vec<f64>> = templates
+                .iter()
+                .map(|template| now.iter().map(|track| level_cost(track, template)).collect())
+                .collect();
+            let levels = labellings.costs(&level_costs);
+            let mut origin = vec![0; labellings.all.len()];
+            let mut next = vec![0.0; labellings.all.len()];
+            for (to, (origin, next)) in origin.iter_mut().zip(&mut next).enumerate() {
+                let (best, cost) = if before.is_empty() {
                     (0, 0.0)
                 } else if frame == 0 {
                     // the rotors of what came before stand in their own order
-                    (0, (0..count).map(|rotor| steps[rotor][labelling[rotor]]).sum())
+                    (0, labellings.cost_of_change(UNCHANGED, to, &steps))
                 } else {
-                    let cost_from = |from: &Vec<usize>| -> f64 {
-                        (0..count).map(|rotor| steps[from[rotor]][labelling[rotor]]).sum()
-                    };
-                    let costs = labellings.iter().zip(&total).map(|(from, total)| total + cost_from(from));
+                    let costs = total.iter().enumerate();
+                    let costs = costs.map(|(from, total)| total + labellings.cost_of_change(from, to, &steps));
                     costs.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
                 };
-                (*origin, *next) = (best, cost + levels);
+                (*origin, *next) = (best, cost + levels[to]);
             }
             total = next;
             origins.push(origin);
@@ -168,6 +174,39 @@ impl Identity {
         }
         path.reverse();
         path
+    }
+}
+
+/// The labelling in which each rotor is the track of its own number.
+const UNCHANGED: usize = 0;
+
+/// All labellings of the tracks of a frame.
+struct Labellings {
+    /// The track of each rotor. The first is [`UNCHANGED`].
+    all: Vec<Vec<usize>>,
+    /// For each labelling of a frame, each of the frame before, and each rotor: its step among those of all tracks to all tracks.
+    steps: Vec<usize>,
+}
+
+impl Labellings {
+    fn new(all: Vec<Vec<usize>>) -> Self {
+        let count = all[UNCHANGED].len();
+        let step = move |(from, to): (&usize, &usize)| from * count + to;
+        let steps_to = |to: &Vec<usize>| all.iter().flat_map(|from| from.iter().zip(to).map(step)).collect::<Vec<_>>();
+        Self { steps: all.iter().flat_map(steps_to).collect(), all }
+    }
+
+    /// The cost of a change from a labelling to another one, where `steps` are the costs of each track to each track.
+    fn cost_of_change(&self, from: usize, to: usize, steps: &[f64]) -> f64 {
+        let count = self.all[UNCHANGED].len();
+        let first = (to * self.all.len() + from) * count;
+        self.steps[first..first + count].iter().map(|&step| steps[step]).sum()
+    }
+
+    /// The cost of each labelling, where `costs` are those of each rotor to be each track.
+    fn costs(&self, costs: &[Vec<f64>]) -> Vec<f64> {
+        let cost = |labelling: &Vec<usize>| labelling.iter().zip(costs).map(|(&track, costs)| costs[track]).sum();
+        self.all.iter().map(cost).collect()
     }
 }
 

@@ -10,12 +10,16 @@ const RIDGE: f64 = 0.02;
 /// The Gram matrix G of the lines of a frame, ready to be solved: `G[i][j]` is what line i sees of line j at amplitude 1.
 ///
 /// Lines that do not reach each other are solved by themselves: sorted by place, G is a band, and its Cholesky factor
-/// stays in it.
+/// stays in it. One mixture serves for one frame after the other.
+#[derive(Default)]
 pub(super) struct Mixture {
     /// Lines by place.
     order: Vec<usize>,
     rows: Vec<Row>,
     factors: Vec<Complex<f64>>,
+    /// Scratch: values in the order of places.
+    values: Vec<Complex<f64>>,
+    amplitudes: Vec<Complex<f64>>,
 }
 
 /// A row of the factor holds its columns from `first` to its diagonal.
@@ -33,18 +37,25 @@ impl Row {
 }
 
 impl Mixture {
-    /// Of steady lines.
-    pub(super) fn of_steady(lines: &[PlacedLobe]) -> Self {
+    /// Mixes steady lines.
+    pub(super) fn mix_steady(&mut self, lines: &[PlacedLobe]) {
         let gram = |a: usize, b: usize| Complex::new(lines[a].at_place_of(lines[b]), 0.0);
-        Self::new(lines.len(), |line| lines[line].cells, gram)
+        self.mix(lines.len(), |line| lines[line].cells, gram);
     }
 
-    /// Of so many lines, each around a place in resolution cells.
-    pub(super) fn new(count: usize, place: impl Fn(usize) -> f64, gram: impl Fn(usize, usize) -> Complex<f64>) -> Self {
-        let mut order: Vec<usize> = (0..count).collect();
+    /// Mixes so many lines, each around a place in resolution cells.
+    pub(super) fn mix(
+        &mut self,
+        count: usize,
+        place: impl Fn(usize) -> f64,
+        gram: impl Fn(usize, usize) -> Complex<f64>,
+    ) {
+        let Self { order, rows, factors, .. } = self;
+        order.clear();
+        order.extend(0..count);
         order.sort_unstable_by(|&a, &b| place(a).total_cmp(&place(b)));
-        let mut rows: Vec<Row> = Vec::with_capacity(count);
-        let mut factors: Vec<Complex<f64>> = Vec::with_capacity(count * (count + 1) / 2);
+        rows.clear();
+        factors.clear();
         for i in 0..count {
             let mut first = rows.last().map_or(0, |row| row.first);
             while place(order[i]) - place(order[first]) > REACH_CELLS {
@@ -63,12 +74,13 @@ impl Mixture {
             factors.push(Complex::new((1.0 + RIDGE - others).max(RIDGE * RIDGE).sqrt(), 0.0));
             rows.push(row);
         }
-        Self { order, rows, factors }
     }
 
     /// The amplitudes of lines that see `seen`, but for what the ridge takes of them.
-    pub(super) fn amplitudes(&self, seen: &[Complex<f64>]) -> Vec<Complex<f64>> {
-        let mut solved: Vec<Complex<f64>> = self.order.iter().map(|&line| seen[line]).collect();
+    pub(super) fn amplitudes(&mut self, seen: &[Complex<f64>]) -> &[Complex<f64>] {
+        let mut solved = std::mem::take(&mut self.values);
+        solved.clear();
+        solved.extend(self.order.iter().map(|&line| seen[line]));
         self.eliminate(&mut solved, 0);
         for i in (0..solved.len()).rev() {
             solved[i] /= self.diagonal(i);
@@ -78,21 +90,26 @@ impl Mixture {
                 *other -= value * factor.conj();
             }
         }
-        let mut amplitudes = vec![Complex::default(); seen.len()];
+        self.amplitudes.resize(seen.len(), Complex::default());
         for (&line, value) in self.order.iter().zip(&solved) {
-            amplitudes[line] = *value;
+            self.amplitudes[line] = *value;
         }
-        amplitudes
+        self.values = solved;
+        &self.amplitudes
     }
 
     /// Share of a line's energy that no other line can explain, `1 / (G⁻¹)[line][line]`.
-    pub(super) fn share_of_its_own(&self, line: usize) -> f64 {
+    pub(super) fn share_of_its_own(&mut self, line: usize) -> f64 {
         let Some(place) = self.order.iter().position(|&other| other == line) else { return 0.0 };
-        let mut unit = vec![Complex::default(); self.order.len()];
+        let mut unit = std::mem::take(&mut self.values);
+        unit.clear();
+        unit.resize(self.order.len(), Complex::default());
         unit[place] = Complex::new(1.0, 0.0);
         self.eliminate(&mut unit, place);
+        let seen_by_all: f64 = unit[place..].iter().map(Complex::norm_sqr).sum();
+        self.values = unit;
         // two lines in one place leave twice the ridge
-        (1.0 / unit[place..].iter().map(Complex::norm_sqr).sum::<f64>() - 2.0 * RIDGE).max(0.0)
+        (1.0 / seen_by_all - 2.0 * RIDGE).max(0.0)
     }
 
     /// Solves with the lower factor; nothing stands before `from`.
@@ -134,16 +151,18 @@ mod tests {
                 others + own * RIDGE
             })
             .collect();
-        let mixture = Mixture::of_steady(&places.map(PlacedLobe::at));
+        let mut mixture = Mixture::default();
+        mixture.mix_steady(&places.map(PlacedLobe::at));
         for (got, wanted) in mixture.amplitudes(&seen).iter().zip(&wanted) {
             assert!((got - wanted).norm() < 1e-9);
         }
         // a line by itself is all its own; two in one place explain each other
         assert!((mixture.share_of_its_own(6) - 1.0 + RIDGE).abs() < 1e-9);
-        let twice = Mixture::of_steady(&[1.0, 1.0].map(PlacedLobe::at));
-        let both = twice.amplitudes(&[Complex::new(1.0, 0.0); 2]);
+        mixture.mix_steady(&[1.0, 1.0].map(PlacedLobe::at));
+        let both = mixture.amplitudes(&[Complex::new(1.0, 0.0); 2]);
         assert!((both[0] - both[1]).norm() < 1e-9 && (both[0].re - 0.5).abs() < 0.02);
-        assert!(twice.share_of_its_own(0) < 0.001);
-        assert!(Mixture::of_steady(&[]).amplitudes(&[]).is_empty());
+        assert!(mixture.share_of_its_own(0) < 0.001);
+        mixture.mix_steady(&[]);
+        assert!(mixture.amplitudes(&[]).is_empty());
     }
 }

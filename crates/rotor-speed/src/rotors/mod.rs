@@ -293,6 +293,7 @@ impl ChunkListener for RotorTracer {
                 track.between.extend(between[first[rotor]].iter().filter_map(part_of));
                 from = to;
             }
+            track.limit_blocks();
         }
     }
 
@@ -303,7 +304,10 @@ impl ChunkListener for RotorTracer {
     }
 
     /// The rotors, in no order.
-    fn finish(self) -> RotorTracks {
+    fn finish(mut self) -> RotorTracks {
+        for rotor in &mut self.tracks.rotors {
+            rotor.track = std::mem::take(&mut rotor.track).finished();
+        }
         self.tracks
     }
 }

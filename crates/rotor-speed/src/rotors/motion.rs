@@ -60,7 +60,7 @@ pub(super) fn common_motion(
         let spectra = Spectra::along(chunk, &chunk.series, path, (frame_s, look.frames_apart), planner);
         let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
         let line_weights = line_weights(&spectra, &grid, count);
-        let scores = GridScores::new(
+        let mut scores = GridScores::new(
             &spectra,
             atoms,
             &grid,

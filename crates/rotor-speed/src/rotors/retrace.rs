@@ -25,28 +25,24 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
     let points = 2 * side + 1;
     let frames = path.ticks() / FRAME_TICKS;
     let mut scores = vec![vec![0.0; points]; frames];
+    let mut sums = vec![Complex::<f64>::default(); points];
     for line in lines {
         let half_ticks = half_frame_ticks(frame_s_of_order(line.order), tick_s);
         let length = 2 * half_ticks;
         let window: Vec<f64> = hann_weights(length).collect();
         let energy: f64 = window.iter().map(|w| w * w).sum::<f64>() * line.samples_per_tick * line.noise_variance;
-        let turns: Vec<Complex<f64>> = (0..points * length)
-            .map(|index| {
-                let offset = ((index / length) as f64 - side as f64) * step_rev_s;
-                let time_s = ((index % length) as f64 + 0.5 - half_ticks as f64) * tick_s;
-                Complex::from_polar(window[index % length], -TAU * line.order * offset * time_s)
-            })
-            .collect();
+        let turns = turns_of_points(line.order * step_rev_s * tick_s, &window, side);
         for (frame, scores) in scores.iter_mut().enumerate() {
             let middle = frame_middle_ticks(frame);
             let from = middle.saturating_sub(half_ticks);
             let to = (middle + half_ticks).min(line.ticks.len());
             let first = from + half_ticks - middle;
-            for (score, turns) in scores.iter_mut().zip(turns.chunks_exact(length)) {
-                let sum: Complex<f64> =
-                    line.ticks[from..to].iter().zip(&turns[first..]).map(|(z, turn)| z * turn).sum();
-                *score += sum.norm_sqr() / energy;
+            sums.fill(Complex::default());
+            for (z, turns) in line.ticks[from..to].iter().zip(turns[points * first..].chunks_exact(points)) {
+                // all points beside each other, which the compiler turns into vector instructions
+                sums.iter_mut().zip(turns).for_each(|(sum, turn)| *sum += z * turn);
             }
+            scores.iter_mut().zip(&sums).for_each(|(score, sum)| *score += sum.norm_sqr() / energy);
         }
     }
     let step_std = STEP_STD_SHARE * path.mean_rev_s() / step_rev_s;
@@ -58,4 +54,16 @@ pub(super) fn retraced(lines: &[Line], path: &SpeedPath, frame_s_of_order: impl 
             path.speed_rev_s(frame_middle_ticks(frame)) + offset
         })
         .collect()
+}
+
+/// For each tick of a frame, its weight turned back by `side` points of the grid to either side, which are `cycles_per_tick` apart.
+fn turns_of_points(cycles_per_tick: f64, window: &[f64], side: usize) -> Vec<Complex<f64>> {
+    let mut turns = Vec::with_capacity(window.len() * (2 * side + 1));
+    for (tick, &weight) in window.iter().enumerate() {
+        let cycles = cycles_per_tick * (tick as f64 + 0.5 - window.len() as f64 / 2.0);
+        let step = Complex::cis(-TAU * cycles);
+        let first = Complex::from_polar(weight, TAU * cycles * side as f64);
+        turns.extend(std::iter::successors(Some(first), |turn| Some(turn * step)).take(2 * side + 1));
+    }
+    turns
 }

@@ -5,6 +5,7 @@ use super::grid::OffsetGrid;
 use super::mixture::Mixture;
 use super::spectra::{LineSpectra, Spectra};
 use realfft::num_complex::Complex;
+use std::array::from_fn;
 use std::ops::Range;
 
 /// Share of a line's energy that must be left to it by the others.
@@ -36,14 +37,21 @@ pub(super) fn worth(likelihood: f64) -> f64 {
     LINEAR_UP_TO * (likelihood / LINEAR_UP_TO).ln_1p()
 }
 
+/// Points of the grid that are worked on at once, which the compiler turns into vector instructions. *Numeric.*
+const LANES: usize = 4;
+
 /// Scores of the points of a grid, frame by frame.
 pub(super) struct GridScores<'a> {
     lines: Vec<CountingLine<'a>>,
     common_rev_s: &'a [f64],
-    residue_share: f32,
     /// Of the frame before.
     echo_share: f32,
     points: usize,
+    left: LeftBeside,
+    /// What a line multiplies the likelihood with, in each of its bins.
+    factors: Vec<f32>,
+    /// Product of these for each point, in whole lanes.
+    products: Vec<[f64; LANES]>,
 }
 
 /// A line that counts.
@@ -58,8 +66,10 @@ struct CountingLine<'a> {
 struct LinePlaces {
     /// The bins into which it can fall.
     bins: Range<usize>,
-    /// Among them, the bin below it and how far on it is to the next.
-    at_points: Vec<(u32, f32)>,
+    /// Among them, the bin below it at each point, in whole lanes.
+    below: Vec<[u32; LANES]>,
+    /// How far on it is to the next bin.
+    shares: Vec<[f32; LANES]>,
 }
 
 impl<'a> GridScores<'a> {
@@ -74,38 +84,31 @@ impl<'a> GridScores<'a> {
         Self {
             lines: lines.collect(),
             common_rev_s: &spectra.common_rev_s,
-            residue_share: trust.residue_share,
             echo_share: trust.echo_share,
             points: grid.points(),
+            left: LeftBeside { residue_share: trust.residue_share, ..LeftBeside::default() },
+            factors: Vec::new(),
+            products: vec![[1.0; LANES]; grid.points().div_ceil(LANES)],
         }
     }
 
     /// What speaks for one more rotor at each point, beside others at known offsets.
-    pub(super) fn of_frame(&self, frame: usize, others_rev_s: &[f64]) -> Vec<f64> {
+    pub(super) fn of_frame(&mut self, frame: usize, others_rev_s: &[f64]) -> Vec<f64> {
+        let Self { lines, common_rev_s, echo_share, left, factors, products, .. } = self;
         let mut scores = vec![0.0; self.points];
-        let mut products = vec![1.0f64; self.points];
-        let mut left = LeftBeside { residue_share: self.residue_share, ..LeftBeside::default() };
-        let mut factors: Vec<(f32, f32)> = Vec::new();
-        for (index, line) in self.lines.iter().enumerate() {
-            left.take_away(line, frame, self.common_rev_s[frame], others_rev_s);
-            if let Some(before) = frame.checked_sub(1).filter(|_| self.echo_share > 0.0) {
-                let moved_rev_s = self.common_rev_s[frame] - self.common_rev_s[before];
-                left.discount(line, line.spectra.frame(before), moved_rev_s, self.echo_share);
+        for (index, line) in lines.iter().enumerate() {
+            left.take_away(line, frame, common_rev_s[frame], others_rev_s);
+            if let Some(before) = frame.checked_sub(1).filter(|_| *echo_share > 0.0) {
+                let moved_rev_s = common_rev_s[frame] - common_rev_s[before];
+                left.discount(line, line.spectra.frame(before), moved_rev_s, *echo_share);
             }
             let scale = (line.weight / LINEAR_UP_TO) as f32;
-            let factor = |likelihood: f32| 1.0 + scale * likelihood.min(LIKELIHOOD_MAX);
             factors.clear();
-            // of each bin, and how much the next one has more
-            let pairs = left.likelihoods.iter().zip(left.likelihoods.iter().skip(1));
-            factors.extend(pairs.map(|(&own, &next)| (factor(own), factor(next) - factor(own))));
-            for (&(bin, share), product) in line.places.at_points.iter().zip(&mut products) {
-                let (own, more) = factors[bin as usize];
-                // rounding of what is likely beyond all measure must not make it unlikely
-                *product *= f64::from((own + share * more).max(1.0));
-            }
+            factors.extend(left.likelihoods.iter().map(|likelihood| 1.0 + scale * likelihood.min(LIKELIHOOD_MAX)));
+            line.places.multiply(factors, products);
             // one logarithm for many lines
-            if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == self.lines.len() {
-                for (score, product) in scores.iter_mut().zip(&mut products) {
+            if index % LINES_PER_LOGARITHM == LINES_PER_LOGARITHM - 1 || index + 1 == lines.len() {
+                for (score, product) in scores.iter_mut().zip(products.as_flattened_mut()) {
                     *score += LINEAR_UP_TO * std::mem::replace(product, 1.0).ln();
                 }
             }
@@ -117,13 +120,33 @@ impl<'a> GridScores<'a> {
 impl LinePlaces {
     fn of(line: &LineSpectra, grid: &OffsetGrid) -> Self {
         let bins = grid.bins_of(line);
-        let at_points = (0..grid.points()).map(|point| {
-            let place =
-                (line.bin_of(line.order * grid.offset_rev_s(point) * line.frame_s) - bins.start as f64).max(0.0);
-            let bin = place.floor().min((bins.len() - 2) as f64);
-            (bin as u32, (place - bin).min(1.0) as f32)
-        });
-        Self { at_points: at_points.collect(), bins }
+        let place_of = |point: usize| {
+            let place = line.bin_of(line.order * grid.offset_rev_s(point) * line.frame_s) - bins.start as f64;
+            place.max(0.0)
+        };
+        let bin_below = |place: f64| place.floor().min((bins.len() - 2) as f64);
+        // the last lanes go on where the grid has ended, and count for nothing
+        let places = (0..grid.points().div_ceil(LANES)).map(|lanes| from_fn(|lane| place_of(LANES * lanes + lane)));
+        let (below, shares) = places
+            .map(|places: [f64; LANES]| {
+                let share = |place: f64| (place - bin_below(place)).min(1.0) as f32;
+                (places.map(|place| bin_below(place) as u32), places.map(share))
+            })
+            .unzip();
+        Self { bins, below, shares }
+    }
+
+    /// Multiplies the product at each point with the factor there, between those of the bins around it.
+    fn multiply(&self, factors: &[f32], products: &mut [[f64; LANES]]) {
+        for ((products, below), shares) in products.iter_mut().zip(&self.below).zip(&self.shares) {
+            let own = below.map(|bin| factors[bin as usize]);
+            let next = below.map(|bin| factors[bin as usize + 1]);
+            for (lane, product) in products.iter_mut().enumerate() {
+                let factor = own[lane] + shares[lane] * (next[lane] - own[lane]);
+                // rounding of what is likely beyond all measure must not make it unlikely
+                *product *= f64::from(if factor > 1.0 { factor } else { 1.0 });
+            }
+        }
     }
 }
 
@@ -138,11 +161,12 @@ struct LeftBeside {
     floor: Vec<f32>,
     places: Vec<PlacedLobe>,
     seen: Vec<Complex<f64>>,
+    mixture: Mixture,
 }
 
 impl LeftBeside {
     fn take_away(&mut self, line: &CountingLine<'_>, frame: usize, common_rev_s: f64, others_rev_s: &[f64]) {
-        let Self { residue_share, likelihoods, left, energy_left, floor, places, seen } = self;
+        let Self { residue_share, likelihoods, left, energy_left, floor, places, seen, mixture } = self;
         let CountingLine { spectra: line, atoms, places: LinePlaces { bins, .. }, .. } = line;
         likelihoods.clear();
         left.clear();
@@ -153,7 +177,9 @@ impl LeftBeside {
         for other in others_rev_s {
             for order in &atoms.orders {
                 let cells = (order * (common_rev_s + other) - line.order * common_rev_s) * line.frame_s;
-                if let Some(z) = line.at(frame, cells).filter(|_| reached.contains(&cells)) {
+                if reached.contains(&cells)
+                    && let Some(z) = line.at(frame, cells)
+                {
                     places.push(PlacedLobe::at(cells));
                     seen.push(z);
                 }
@@ -168,7 +194,8 @@ impl LeftBeside {
         floor.clear();
         floor.resize(left.len(), 1.0);
         let step_cells = line.cells_of(1) - line.cells_of(0);
-        for (place, amplitude) in places.iter().zip(Mixture::of_steady(places).amplitudes(seen)) {
+        mixture.mix_steady(places);
+        for (place, amplitude) in places.iter().zip(mixture.amplitudes(seen)) {
             let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
             let bin_of = |cells: f64| line.bin_of(cells) - bins.start as f64;
             let from = bin_of(place.cells - REACH_CELLS).ceil().max(0.0) as usize;

@@ -31,7 +31,7 @@ pub(super) fn found_tracks(
     let step_std = step_std(grid, middle) * (spectra.frames_apart() as f64).sqrt();
     let mut searches: Vec<SearchBeside> = (0..count).map(|_| SearchBeside::new(spectra.frames())).collect();
     let mut tracks: Vec<Vec<f64>> = start.to_vec();
-    let grid_scores = GridScores::new(spectra, atoms, grid, trust);
+    let mut grid_scores = GridScores::new(spectra, atoms, grid, trust);
     let mut find = |rotor: usize, tracks: &[Vec<f64>]| -> Vec<f64> {
         let others: Vec<&Vec<f64>> =
             tracks.iter().enumerate().filter(|(other, _)| *other != rotor).map(|(_, track)| track).collect();
@@ -62,7 +62,7 @@ impl SearchBeside {
         Self { scores: vec![Vec::new(); frames], others_rev_s: vec![None; frames] }
     }
 
-    fn scores(&mut self, others: &[&Vec<f64>], score: impl Fn(usize, &[f64]) -> Vec<f64>) -> &[Vec<f64>] {
+    fn scores(&mut self, others: &[&Vec<f64>], mut score: impl FnMut(usize, &[f64]) -> Vec<f64>) -> &[Vec<f64>] {
         for (frame, (scores, before)) in self.scores.iter_mut().zip(&mut self.others_rev_s).enumerate() {
             let now: Vec<f64> = others.iter().map(|track| track[frame]).collect();
             if before.as_ref() != Some(&now) {

@@ -150,6 +150,9 @@ impl MixedChannel {
         let length = frame_ticks * self.samples_per_tick;
         let frame_s = frame_ticks as f64 * chunk.tick_s;
         let window: Vec<f32> = hann_weights(length).map(|weight| weight as f32).collect();
+        let sum_of = |weights: &[f32]| weights.iter().map(|&weight| f64::from(weight)).sum::<f64>();
+        let whole_weight = sum_of(&window);
+        let mut mixture = Mixture::default();
         let series = chunk.series[index];
         let own_order = chunk.channels[index].order;
         let frames = chunk.ticks / FRAME_TICKS;
@@ -161,7 +164,7 @@ impl MixedChannel {
             let from = middle.saturating_sub(length / 2);
             let to = (middle + length / 2).min(series.len());
             let window = &window[from + length / 2 - middle..to + length / 2 - middle];
-            let weight: f64 = window.iter().map(|&w| f64::from(w)).sum();
+            let weight = if window.len() == length { whole_weight } else { sum_of(window) };
             let speed_of = |rotor: usize| paths[rotor].speed_rev_s(frame_middle_ticks(frame));
             for ((atom, place), seen) in self.atoms.iter().zip(&mut places).zip(&mut seen) {
                 *seen = weighted_product(&series[from..to], &atom.phasors[from..to], window) / weight;
@@ -179,10 +182,11 @@ impl MixedChannel {
                 let (a, b) = (&self.atoms[a].phasors[from..to], &self.atoms[b].phasors[from..to]);
                 weighted_product(b, a, window) / weight
             };
-            let mixture = Mixture::new(places.len(), |atom| places[atom], gram);
-            let solved = mixture.amplitudes(&seen);
-            for (index, (atom, amplitude)) in self.atoms.iter_mut().zip(solved).enumerate() {
-                atom.amplitudes.push(amplitude);
+            mixture.mix(places.len(), |atom| places[atom], gram);
+            for (atom, amplitude) in self.atoms.iter_mut().zip(mixture.amplitudes(&seen)) {
+                atom.amplitudes.push(*amplitude);
+            }
+            for (index, atom) in self.atoms.iter_mut().enumerate() {
                 if atom.order == own_order {
                     atom.shares.push(mixture.share_of_its_own(index));
                 }
@@ -194,27 +198,24 @@ impl MixedChannel {
     /// Subtracts all atoms.
     fn take_away(&mut self, ticks: usize) {
         for atom in &self.atoms {
-            for tick in 0..ticks {
+            let rests = self.rest.chunks_exact_mut(self.samples_per_tick);
+            let phasors = atom.phasors.chunks_exact(self.samples_per_tick);
+            for ((rest, phasors), tick) in rests.zip(phasors).zip(0..ticks) {
                 let amplitude = atom.amplitude_at(tick);
                 let amplitude = Complex::new(amplitude.re as f32, amplitude.im as f32);
-                let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;
-                for (rest, phasor) in self.rest[samples.clone()].iter_mut().zip(&atom.phasors[samples]) {
-                    *rest -= amplitude * phasor;
-                }
+                rest.iter_mut().zip(phasors).for_each(|(rest, phasor)| *rest -= amplitude * phasor);
             }
         }
     }
 
     /// One atom and what is left beside all of them, turned back and summed in each tick.
     fn ticks_of(&self, atom: &Atom, ticks: usize) -> Vec<Complex<f64>> {
+        let rests = self.rest.chunks_exact(self.samples_per_tick);
+        let phasors = atom.phasors.chunks_exact(self.samples_per_tick);
         (0..ticks)
-            .map(|tick| {
-                let samples = tick * self.samples_per_tick..(tick + 1) * self.samples_per_tick;
-                let rest: Complex<f32> = self.rest[samples.clone()]
-                    .iter()
-                    .zip(&atom.phasors[samples])
-                    .map(|(z, phasor)| z * phasor.conj())
-                    .sum();
+            .zip(rests.zip(phasors))
+            .map(|(tick, (rest, phasors))| {
+                let rest: Complex<f32> = rest.iter().zip(phasors).map(|(z, phasor)| z * phasor.conj()).sum();
                 to_f64(rest) + atom.amplitude_at(tick) * self.samples_per_tick as f64
             })
             .collect()

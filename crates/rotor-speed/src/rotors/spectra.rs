@@ -82,10 +82,10 @@ impl Spectra {
                 let mut bins = Vec::with_capacity(frames * count);
                 for frame in 0..frames {
                     let start = length + frame_middle_ticks(frame * frames_apart) * samples_per_tick - length / 2;
-                    let spectrum = transform.spectrum(&turned[start..]);
-                    bins.extend(
-                        to_middle.iter().enumerate().map(|(index, turn)| spectrum[(index + count / 2) % count] * turn),
-                    );
+                    let (rising, negative) = transform.spectrum(&turned[start..]).split_at(count / 2);
+                    let (lower, upper) = to_middle.split_at(count / 2);
+                    bins.extend(negative.iter().zip(lower).map(|(bin, turn)| bin * turn));
+                    bins.extend(rising.iter().zip(upper).map(|(bin, turn)| bin * turn));
                 }
                 LineSpectra { order: channel.order, frame_s: ticks as f64 * chunk.tick_s, half_bins: count / 2, bins }
             })
@@ -202,8 +202,10 @@ pub(super) fn phasors(
     samples_per_tick: usize,
     samples: usize,
 ) -> Vec<Complex<f32>> {
-    LinePhasors::new(place, path, samples_per_tick)
-        .take(samples)
-        .map(|phasor| Complex::new(phasor.re as f32, phasor.im as f32))
-        .collect()
+    let mut phasors = LinePhasors::new(place, path, samples_per_tick);
+    let mut all = vec![Complex::default(); samples];
+    for of_tick in all.chunks_exact_mut(samples_per_tick) {
+        phasors.take_tick(|sample, phasor| of_tick[sample] = Complex::new(phasor.re as f32, phasor.im as f32));
+    }
+    all
 }

@@ -1,6 +1,6 @@
 //! Blocks of the harmonic likelihood → mean shaft speed over a span of time, and the track of the speed.
 
-use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, joined_variance_turns2};
+use crate::harmonic::{EndBlock, HarmonicBlock, HarmonicTrack, LENGTH_POWER, SAME_TIME_S, joined_variance_turns2};
 use hovertone_analysis::{HarmonicSpeed, Method, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std, std_uncertainty_of_mean};
 use hovertone_vehicle::{Order, RotorSpeed};
@@ -16,9 +16,6 @@ const NEARNESS_MIN: f64 = 1e-3;
 /// half; the blocks share half of their sound, which gives more. *Decision.*
 const DISAGREEMENT_SHARE: f64 = 0.7;
 
-/// Rounding error of the times at which blocks meet, s. *Numeric.*
-const SAME_TIME_S: f64 = 1e-6;
-
 /// Places in a block, as shares of its length, at which it has the same weight as the block between it and its neighbour. *Numeric.*
 const QUARTERS: [f64; 2] = [0.25, 0.75];
 
@@ -32,7 +29,7 @@ impl HarmonicTrack {
     /// - For several rotors at once, the uncertainty is at least the one of their mean with unknown loudness.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
         let parts: Vec<Part> = self
-            .blocks
+            .blocks_in(span)
             .iter()
             .filter(|block| block.is_heard)
             .map(|block| Part { block, span: span.map_or(block.span, |span| block.span.overlap(*span)) })
@@ -84,7 +81,8 @@ impl HarmonicTrack {
     fn is_edge(&self, time_s: f64) -> bool {
         let is_here = |border_s: f64| (border_s - time_s).abs() < SAME_TIME_S;
         let touches = |block: &&HarmonicBlock| is_here(block.span.from_s) || is_here(block.span.to_s);
-        self.blocks.iter().filter(touches).count() == 1
+        let near = Span { from_s: time_s - SAME_TIME_S, to_s: time_s + SAME_TIME_S };
+        self.blocks_in(Some(&near)).iter().filter(touches).count() == 1
     }
 
     /// The speed at every step of the track, without points in gaps: the mean of the block around the time and of the block between it and
@@ -94,7 +92,7 @@ impl HarmonicTrack {
         let is_wanted = |block: &&HarmonicBlock| {
             block.is_heard && span.is_none_or(|span| block.span.overlap(*span).length_s() > 0.0)
         };
-        let blocks: Vec<&HarmonicBlock> = self.blocks.iter().filter(is_wanted).collect();
+        let blocks: Vec<&HarmonicBlock> = self.blocks_in(span).iter().filter(is_wanted).collect();
         let disagreement_rev_s = self.disagreement_rev_s(&blocks);
         blocks
             .iter()
@@ -227,6 +225,7 @@ mod tests {
             span: Span { from_s, to_s },
             speed_rev_s: start_rev_s + bend_rev_s3 * (middle_s * middle_s + length_s * length_s / 12.0),
             slope_rev_s2: 2.0 * bend_rev_s3 * middle_s,
+            variance_rev2_s2: 0.0,
             std_uncertainty_rev_s: 1e-3,
             step_to_next_turns: None,
             is_several: false,

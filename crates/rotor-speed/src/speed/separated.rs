@@ -27,6 +27,8 @@ const UNKNOWN_SPREAD_SHARE: f64 = 0.06;
 
 /// Smallest distance in time of two points of a track with a gap between them, s. *Decision.*
 const GAP_S_MAX: f64 = 0.1;
+/// The same in steps of the track, where these are long. *Numeric.*
+const GAP_STEPS_MAX: f64 = 2.0;
 
 /// Largest distance of the mean by power of all rotors beyond the slowest or the fastest rotor, as a share. *Decision.*
 const BEYOND_SHARE_MAX: f64 = 0.02;
@@ -49,6 +51,11 @@ impl RotorTracks {
             mean_rev_s < slowest * (1.0 - BEYOND_SHARE_MAX) || mean_rev_s > fastest * (1.0 + BEYOND_SHARE_MAX)
         });
         if is_far || self.are_one_group && !self.would_hear_faint() { Self::default() } else { self }
+    }
+
+    /// Longest time between points of a track.
+    pub(crate) fn step_s(&self) -> f64 {
+        self.rotors.iter().map(|rotor| rotor.track.step_s).fold(0.0, f64::max)
     }
 
     /// Whether the search would have heard a faint rotor, so that a rotor that is not separated turns at the speed of a separated one.
@@ -169,7 +176,7 @@ impl RotorTracks {
     /// The rotors that are heard for most of a span of time, alone or together with others.
     fn heard(&self, span: Option<&Span>) -> impl Iterator<Item = &RotorTrack> {
         self.rotors.iter().filter(move |rotor| {
-            let blocks = rotor.track.blocks.iter().filter(|block| block.is_heard).map(|block| &block.span);
+            let blocks = rotor.track.blocks_in(span).iter().filter(|block| block.is_heard).map(|block| &block.span);
             let is_apart = !self.are_one_group && self.is_resolved(rotor, span);
             self.share_of(blocks, span) >= RESOLVED_SHARE_MIN
                 && (is_apart || self.share_of(&rotor.lost, span) <= LOST_SHARE_MAX)
@@ -184,15 +191,16 @@ impl RotorTracks {
     }
 }
 
-/// The mean speed of all rotors over time, where each rotor has a speed.
-pub(crate) fn mean_track(rotors: &[RotorEstimate]) -> Vec<TrackPoint> {
+/// The mean speed of all rotors over time, where each rotor has a speed. The points of their tracks are up to `step_s` apart.
+pub(crate) fn mean_track(rotors: &[RotorEstimate], step_s: f64) -> Vec<TrackPoint> {
     let Some((first, others)) = rotors.split_first() else { return Vec::new() };
     let count = rotors.len() as f64;
+    let gap_s = GAP_S_MAX.max(GAP_STEPS_MAX * step_s);
     let mean_at = |own: &TrackPoint| {
         let mut mean = *own;
         let mut variance = own.std_uncertainty_rev_s.powi(2);
         for other in others {
-            let point = point_at(&other.track, own.time_s)?;
+            let point = point_at(&other.track, own.time_s, gap_s)?;
             mean.speed_rev_s += point.speed_rev_s;
             mean.tone_hz += point.tone_hz;
             mean.level_db = mean.level_db.max(point.level_db);
@@ -207,10 +215,10 @@ pub(crate) fn mean_track(rotors: &[RotorEstimate]) -> Vec<TrackPoint> {
 }
 
 /// A track at a time, linear between two points, or the point nearby. `None` in a gap.
-fn point_at(track: &[TrackPoint], time_s: f64) -> Option<TrackPoint> {
+fn point_at(track: &[TrackPoint], time_s: f64, gap_s: f64) -> Option<TrackPoint> {
     let after = track.partition_point(|point| point.time_s < time_s);
     let (before, after) = (after.checked_sub(1).and_then(|index| track.get(index)), track.get(after));
-    let is_near = |point: &&TrackPoint| (point.time_s - time_s).abs() <= GAP_S_MAX / 2.0;
+    let is_near = |point: &&TrackPoint| (point.time_s - time_s).abs() <= gap_s / 2.0;
     match (before.filter(is_near), after.filter(is_near)) {
         (Some(a), Some(b)) => {
             let share = (time_s - a.time_s) / (b.time_s - a.time_s).max(f64::MIN_POSITIVE);
@@ -228,16 +236,14 @@ fn point_at(track: &[TrackPoint], time_s: f64) -> Option<TrackPoint> {
 }
 
 impl HarmonicTrack {
-    /// Mean square of the angular speed over a span of time, or over the whole track, `⟨(2π n)²⟩`, rad²/s². The mean of n² over a block with
-    /// a straight line of speed is `n² + γ² T² / 12`. `None` where no block is heard.
-    fn mean_square_rad2_s2(&self, span: Option<&Span>) -> Option<f64> {
+    /// Mean square of the angular speed over a span of time, or over the whole track, `⟨(2π n)²⟩`, rad²/s². `None` where no block is heard.
+    pub(crate) fn mean_square_rad2_s2(&self, span: Option<&Span>) -> Option<f64> {
         let (mut total, mut total_s) = (0.0, 0.0);
-        for block in self.blocks.iter().filter(|block| block.is_heard) {
+        for block in self.blocks_in(span).iter().filter(|block| block.is_heard) {
             let part = span.map_or(block.span, |span| block.span.overlap(*span));
             let length_s = part.length_s();
             if length_s > 0.0 {
-                let square = block.speed_at(part.middle_s()).powi(2) + (block.slope_rev_s2 * length_s).powi(2) / 12.0;
-                total += square * length_s;
+                total += block.mean_square_in(part) * length_s;
                 total_s += length_s;
             }
         }

@@ -54,7 +54,7 @@ pub(crate) fn speeds_from_decision(
     let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;
     let track = match tracks.into_iter().find(|track| track.method == config.method) {
         Some(track) => track.points,
-        None if are_all_apart => mean_track(&rotors),
+        None if are_all_apart => mean_track(&rotors, rotor_tracks.step_s()),
         None => lines.harmonic.points_in(None, order),
     };
     let Lines { bands, ridges, .. } = lines;

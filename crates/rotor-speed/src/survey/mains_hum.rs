@@ -50,7 +50,7 @@ pub(crate) struct MainsHum {
 
 impl MainsHum {
     /// Replaces the lines of the hum in a power spectrum by the power beside them.
-    pub(crate) fn remove_from(&self, power: &mut [f64], bin_hz: f64) {
+    pub(crate) fn remove_from(&self, power: &mut [f32], bin_hz: f64) {
         for line_hz in &self.lines_hz {
             // the main lobe of a Hann window reaches two bins to either side
             let (first, last) = ((line_hz / bin_hz).floor() as usize - 1, (line_hz / bin_hz).ceil() as usize + 1);
@@ -178,11 +178,11 @@ struct PlacedPeak {
 }
 
 /// The highest bin within two bins of a place, interpolated. `None` where it is no peak.
-fn peak_near(power: &[f64], place: f64) -> Option<PlacedPeak> {
+fn peak_near<P: Copy + Into<f64>>(power: &[P], place: f64) -> Option<PlacedPeak> {
     let centre = place.round() as usize;
     let bin = (centre.saturating_sub(2).max(1)..=centre + 2)
         .filter(|&bin| bin + 1 < power.len())
-        .max_by(|&a, &b| power[a].total_cmp(&power[b]))?;
-    let offset = peak_offset_bins(power[bin - 1], power[bin], power[bin + 1])?;
+        .max_by(|&a, &b| power[a].into().total_cmp(&power[b].into()))?;
+    let offset = peak_offset_bins(power[bin - 1].into(), power[bin].into(), power[bin + 1].into())?;
     Some(PlacedPeak { place: bin as f64 + offset, bin })
 }

@@ -185,7 +185,11 @@ mod tests {
             lengths().collect::<Vec<_>>()
         );
         // one second of a sine of half of full scale, under windows that spread it over 1.5 bins
-        let energy: f64 = survey.rows.iter().map(|row| row.power.iter().sum::<f64>() * row.span.length_s()).sum();
+        let energy: f64 = survey
+            .rows
+            .iter()
+            .map(|row| row.power.iter().copied().map(f64::from).sum::<f64>() * row.span.length_s())
+            .sum();
         assert!((energy / (1.5 * 0.25) - 1.0).abs() < 0.05, "{energy}");
     }
 }

@@ -12,8 +12,9 @@ const OVERLAPPING_FRAMES_MAX: u32 = 20;
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     pub(crate) span: Span,
-    /// Mean power of each bin; the sum over the frames while the row is built.
-    pub(crate) power: Vec<f64>,
+    /// Mean power of each bin; the sum over the frames while the row is built. 24 bits of it suffice, and these rows are most of the memory of an
+    /// analysis.
+    pub(crate) power: Vec<f32>,
     frame_count: u32,
 }
 
@@ -21,7 +22,7 @@ impl Row {
     /// Level of the power above 60 Hz, dB re a sine of full scale.
     pub(crate) fn level_db(&self, bin_hz: f64) -> f64 {
         let first = ((LEVEL_HZ_MIN / bin_hz).ceil() as usize).min(self.power.len());
-        power_db(self.power[first..].iter().sum())
+        power_db(self.power[first..].iter().copied().map(f64::from).sum())
     }
 }
 
@@ -44,7 +45,7 @@ pub(super) fn mean_power<'a>(rows: impl Iterator<Item = &'a Row> + Clone) -> Opt
     let count = rows.clone().count();
     let mut sum = vec![0.0; rows.clone().next()?.power.len()];
     for row in rows {
-        sum.iter_mut().zip(&row.power).for_each(|(sum, power)| *sum += power / count as f64);
+        sum.iter_mut().zip(&row.power).for_each(|(sum, power)| *sum += f64::from(*power) / count as f64);
     }
     Some(sum)
 }
@@ -90,7 +91,7 @@ impl RowsBuilder {
             let to_s = frame.centre_s + *hop_s / 2.0;
             match rows.last_mut().filter(|row| row.frame_count < *frames_per_row) {
                 Some(row) => {
-                    row.power.iter_mut().zip(frame.power).for_each(|(sum, power)| *sum += power);
+                    row.power.iter_mut().zip(frame.power).for_each(|(sum, power)| *sum += *power as f32);
                     row.frame_count += 1;
                     row.span.to_s = to_s;
                 }
@@ -100,7 +101,11 @@ impl RowsBuilder {
                         *frames_per_row *= 2;
                     }
                     let from_s = rows.last().map_or(*start_s, |row| row.span.to_s);
-                    rows.push(Row { span: Span { from_s, to_s }, power: frame.power.to_vec(), frame_count: 1 });
+                    rows.push(Row {
+                        span: Span { from_s, to_s },
+                        power: frame.power.iter().map(|&power| power as f32).collect(),
+                        frame_count: 1,
+                    });
                 }
             }
         });
@@ -117,7 +122,7 @@ impl RowsBuilder {
         let bin_hz = self.stft.bin_hz();
         let mut rows = self.rows;
         for row in &mut rows {
-            row.power.iter_mut().for_each(|sum| *sum /= f64::from(row.frame_count));
+            row.power.iter_mut().for_each(|sum| *sum /= row.frame_count as f32);
         }
         // the last half frame belongs to the last row
         if let Some(last) = rows.last_mut() {

@@ -15,7 +15,7 @@ pub(crate) struct LevelRow<'a> {
     pub(crate) span: Span,
     level_db: Vec<f32>,
     /// The spectrum, in whose peaks the frequency of a line is measured: levels are cut.
-    power: &'a [f64],
+    power: &'a [f32],
 }
 
 /// Levels over the floor of a recording, row by row.
@@ -82,7 +82,8 @@ impl LevelRow<'_> {
         let bins = self.power.get(first..=last)?;
         let (index, _) = bins.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
         let at = first + index;
-        let offset = hann_peak_offset_bins(self.power[at - 1], self.power[at], *self.power.get(at + 1)?)?;
+        let [before, top, after] = [at - 1, at, at + 1].map(|bin| self.power.get(bin).copied().map(f64::from));
+        let offset = hann_peak_offset_bins(before?, top?, after?)?;
         Some((at as f64 + offset, f64::from(*self.level_db.get(at)?)))
     }
 

@@ -21,12 +21,12 @@ const RANGE_DB: f64 = 75.0;
 /// beyond the main lobe, is no line. The same holds for a bin far below the loudest line.
 ///
 /// `power` is the spectrum, `level_db` the level of each bin over the floor.
-pub(super) fn level_skirts(power: &[f64], level_db: &mut [f32]) {
+pub(super) fn level_skirts(power: &[f32], level_db: &mut [f32]) {
     let lines: Vec<LoudLine> =
         (2..level_db.len().min(power.len())).filter_map(|bin| line_at(power, level_db, bin)).collect();
     let Some(loudest_db) = lines.iter().map(|line| line.db).max_by(f64::total_cmp) else { return };
     for (level, &power) in level_db.iter_mut().zip(power) {
-        if *level > 0.0 && power_db(power) < loudest_db - RANGE_DB {
+        if *level > 0.0 && power_db(f64::from(power)) < loudest_db - RANGE_DB {
             *level = 0.0;
         }
     }
@@ -38,7 +38,7 @@ pub(super) fn level_skirts(power: &[f64], level_db: &mut [f32]) {
         for bin in around.filter(|&bin| (bin as f64 - line.place).abs() >= MAIN_LOBE_BINS) {
             let x = (bin as f64 - line.place).abs();
             let below_db = power_db((PI * x * (x * x - 1.0)).powi(2));
-            if level_db[bin] > 0.0 && power_db(power[bin]) < line.db - below_db + MARGIN_DB {
+            if level_db[bin] > 0.0 && power_db(f64::from(power[bin])) < line.db - below_db + MARGIN_DB {
                 level_db[bin] = 0.0;
             }
         }
@@ -53,12 +53,13 @@ struct LoudLine {
     db: f64,
 }
 
-fn line_at(power: &[f64], level_db: &[f32], bin: usize) -> Option<LoudLine> {
+fn line_at(power: &[f32], level_db: &[f32], bin: usize) -> Option<LoudLine> {
     if level_db[bin] < LOUD_DB_MIN {
         return None;
     }
-    let offset = hann_peak_offset_bins(power[bin - 1], power[bin], *power.get(bin + 1)?)?;
-    Some(LoudLine { place: bin as f64 + offset, db: power_db(power[bin]) })
+    let [before, top, after] = [bin - 1, bin, bin + 1].map(|bin| power.get(bin).copied().map(f64::from));
+    let offset = hann_peak_offset_bins(before?, top?, after?)?;
+    Some(LoudLine { place: bin as f64 + offset, db: power_db(top?) })
 }
 
 #[cfg(test)]
@@ -77,8 +78,10 @@ mod tests {
                 (sound(f64::from(n) / rate_hz) + 1e-4 * ((noise >> 40) as f64 / f64::from(1 << 23) - 1.0)) as f32
             })
             .collect();
-        let mut spectra: Vec<Vec<f64>> = Vec::new();
-        Stft::<f64>::new(rate_hz, Window::Hann, 1.0, 1.0, 1).push(&samples, |frame| spectra.push(frame.power.to_vec()));
+        let mut spectra: Vec<Vec<f32>> = Vec::new();
+        Stft::<f64>::new(rate_hz, Window::Hann, 1.0, 1.0, 1).push(&samples, |frame| {
+            spectra.push(frame.power.iter().map(|&power| power as f32).collect());
+        });
         let with: Vec<f32> = whitened_db(&spectra[0]).into_iter().map(|level| level as f32).collect();
         let mut without = with.clone();
         level_skirts(&spectra[0], &mut without);

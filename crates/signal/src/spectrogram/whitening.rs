@@ -19,8 +19,8 @@ const FLOOR_STEP_SHARE: f64 = 0.25;
 ///
 /// - Input: one-sided power spectrum from 0 Hz, any unit. Output: as many levels. Silence gives 0 dB.
 /// - At either end of the spectrum the surroundings lie on one side, and a sloping floor is off by its slope there.
-pub fn whitened_db(power: &[f64]) -> Vec<f64> {
-    let level_db: Vec<f64> = power.iter().map(|&power| power_db(power)).collect();
+pub fn whitened_db<P: Copy + Into<f64>>(power: &[P]) -> Vec<f64> {
+    let level_db: Vec<f64> = power.iter().map(|&power| power_db(power.into())).collect();
     // bin and level of the floor at a few bins
     let mut floors: Vec<(usize, f64)> = Vec::new();
     let mut bin = 0;
@@ -68,6 +68,6 @@ mod tests {
     #[test]
     fn silence_has_no_level_over_its_floor() {
         assert!(whitened_db(&[0.0; 300]).iter().all(|&level| level == 0.0));
-        assert!(whitened_db(&[]).is_empty());
+        assert!(whitened_db::<f64>(&[]).is_empty());
     }
 }
