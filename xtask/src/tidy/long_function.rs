@@ -1,6 +1,5 @@
 //! A function fits on a screen.
 
-use super::exempt::is_exempt;
 use super::fault::Fault;
 use super::functions::{Function, functions};
 use crate::tree::Tree;
@@ -26,7 +25,7 @@ pub(super) fn check(tree: &Tree) -> Vec<Fault> {
 fn faults(tree: &Tree, allowed: &[Long]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut is_used = vec![false; allowed.len()];
-    for source in tree.sources.iter().filter(|source| !is_exempt(&source.path)) {
+    for source in &tree.sources {
         for function in functions(&source.code) {
             let lines = lines(&function);
             if lines <= LINES_MAX {
@@ -96,11 +95,9 @@ mod tests {
     }
 
     #[test]
-    fn tests_and_exempt_code_are_not_checked() {
+    fn tests_are_not_checked() {
         let body = "\n".repeat(LINES_MAX);
         let test = format!("#[cfg(test)] mod tests {{ fn f() {{{body}}} }}");
         assert_eq!(check(&Tree::of(&[(PATH, &test)])).len(), 0);
-        let exempt = format!("fn f() {{{body}}}");
-        assert_eq!(check(&Tree::of(&[("crates/rotor-speed/src/rotors/pace.rs", &exempt)])).len(), 0);
     }
 }

@@ -9,12 +9,11 @@
 //! architecture         ARCHITECTURE.md names every folder           file_length, file_name, purity, prose
 //! ```
 //!
-//! `paths` and `functions` list the names and functions of a file, `exempt` holds the exempt code.
+//! `paths` and `functions` list the names and functions of a file.
 
 mod architecture;
 mod circle;
 mod dependency;
-mod exempt;
 mod fault;
 mod file_length;
 mod file_name;
@@ -38,7 +37,7 @@ struct Rule {
     check: fn(&Tree) -> Vec<Fault>,
 }
 
-const RULES: [Rule; 13] = [
+const RULES: [Rule; 12] = [
     Rule { name: "circle", check: circle::check },
     Rule { name: "dependency", check: dependency::check },
     Rule { name: "tuple parameter", check: tuple_parameter::check },
@@ -51,7 +50,6 @@ const RULES: [Rule; 13] = [
     Rule { name: "purity", check: purity::check },
     Rule { name: "outputs", check: outputs::check },
     Rule { name: "prose", check: prose::check },
-    Rule { name: "exempt", check: exempt::check },
 ];
 
 /// Checks the workspace at `root` against all rules. The error lists every fault.
@@ -100,7 +98,7 @@ mod tests {
     use super::{list, run};
     use std::fs;
 
-    /// A workspace in which only the exempt paths are missing, with `source` as its one file.
+    /// A workspace with `source` as its one file.
     fn outcome(source: &str) -> Result<(), String> {
         let folder = tempfile::tempdir().unwrap();
         let write = |path: &str, text: &str| {

@@ -1,6 +1,5 @@
 //! A constant of the estimator says what kind of number it is: `*Physics.*`, `*Numeric.*` (resolution, tolerance) or `*Decision.*`.
 
-use super::exempt::is_exempt;
 use super::fault::Fault;
 use crate::tree::{Source, Tree};
 use syn::visit::{self, Visit};
@@ -17,7 +16,7 @@ const NUMBERS: [&str; 14] =
 const CONTAINERS: [&str; 5] = ["Option", "Range", "RangeInclusive", "RangeFrom", "RangeTo"];
 
 pub(super) fn check(tree: &Tree) -> Vec<Fault> {
-    let is_checked = |source: &&Source| is_of_estimator(source) && !is_exempt(&source.path);
+    let is_checked = |source: &&Source| is_of_estimator(source);
     tree.sources.iter().filter(is_checked).flat_map(check_source).collect()
 }
 

@@ -1,6 +1,5 @@
 //! No tuning number inside an algorithm of the estimator.
 
-use super::exempt::is_exempt;
 use super::fault::Fault;
 use super::unmarked_constant::is_of_estimator;
 use crate::tree::{Source, Tree};
@@ -18,7 +17,7 @@ const PLAIN: [f64; 5] = [0.5, 60.0, 3600.0, 180.0, 360.0];
 const CHECK: &str = "check";
 
 pub(super) fn check(tree: &Tree) -> Vec<Fault> {
-    let is_checked = |source: &&Source| is_of_estimator(source) && !is_exempt(&source.path);
+    let is_checked = |source: &&Source| is_of_estimator(source);
     tree.sources.iter().filter(is_checked).flat_map(check_source).collect()
 }
 
@@ -182,7 +181,6 @@ mod tests {
         let count = |path: &str| check(&Tree::of(&[(path, "fn f() -> f64 { 0.3 }")])).len();
         assert_eq!(count("crates/figures/src/a.rs"), 0);
         assert_eq!(count("crates/thrust/tests/a.rs"), 0);
-        assert_eq!(count("crates/rotor-speed/src/rotors/pace.rs"), 0);
         assert_eq!(count("crates/rotor-speed/src/pipeline.rs"), 1);
     }
 

@@ -12,9 +12,9 @@ use super::speed_path::SpeedPath;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Time at either end of a stretch of sound that tells little, because the sound fades in and out, s. Best of six values tried on
-/// wandering simulated rotors. *Decision.*
-const FADED_S: f64 = 0.014;
+/// Time at either end of a stretch of sound that tells little, because the sound fades in and out, s. Of the answers to wandering simulated
+/// rotors, 2 u hold in 94 % with 0.007 s, in 97 % with 0.009 s and in 99 % with 0.014 s. *Decision.*
+const FADED_S: f64 = 0.008;
 /// Largest ratio of variances at which shorter blocks replace longer ones: the noise at the ends of the blocks is known, but the
 /// curvature of the speed there is known on average alone. Best of three values tried on wandering simulated rotors. *Decision.*
 const FINER_RATIO: f64 = 2.5;

@@ -5,13 +5,13 @@ use hovertone_vehicle::MESH_SIDEBANDS;
 use std::array::from_fn;
 use std::f64::consts::PI;
 
-/// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there.
+/// Beyond so many resolution cells one line does not disturb another: the lobes of a Hann frame are below -60 dB there. *Numeric.*
 pub(super) const REACH_CELLS: f64 = 6.0;
-/// Places half a cell apart within that reach to either side, rounded up to whole vectors.
+/// Places half a cell apart within that reach to either side, rounded up to whole vectors. *Numeric.*
 const LOBE_PLACES: usize = (4 * REACH_CELLS as usize + 1).next_multiple_of(4);
-/// Below this the quotient of the lobe loses its digits.
+/// Below this the quotient of the lobe loses its digits. *Numeric.*
 const LOBE_DENOMINATOR_MIN: f32 = 0.02;
-/// Lines closer than this share one lobe; their amplitudes cannot be told apart.
+/// Lines closer than this share one lobe; their amplitudes cannot be told apart. *Numeric.*
 const SAME_CELLS: f64 = 1e-3;
 
 /// The orders that fall into one channel, its own first.
@@ -105,7 +105,8 @@ impl PlacedLobe {
         if denominators.iter().any(|below| below.abs() <= LOBE_DENOMINATOR_MIN) {
             for (index, lobe) in lobes.iter_mut().enumerate() {
                 let x = first_cells + 0.5 * index as f64;
-                if x.abs() < 1.5 {
+                // the denominator vanishes at −1, 0 and 1
+                if x.abs().round() <= 1.0 {
                     *lobe = hann_lobe(x) as f32;
                 }
             }

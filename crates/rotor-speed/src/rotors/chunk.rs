@@ -24,23 +24,25 @@ use crate::harmonic::partition::{Partition, blocks_between, doubled_partition, l
 use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::fft::ComplexPlanner;
+use std::ops::RangeInclusive;
 
-/// A line at f has frames of `√(this / f)` before anything is known of the rotors.
+/// A line at f has frames of `√(this / f)` before anything is known of the rotors. *Decision.*
 const FIRST_FRAME_HZ_S2: f64 = 100.0;
-/// Of the frames of the first search, every so many'th is enough.
+/// Of the frames of the first search, every so many'th is enough. *Numeric.*
 const FIRST_FRAMES_APART: usize = 3;
-/// Times that each rotor is then looked for again beside all others.
+/// Times that each rotor is then looked for again beside all others. *Numeric.*
 const FIRST_SWEEPS: usize = 1;
-/// What a rotor leaves behind that is taken away along no path at all.
+/// What a rotor leaves behind that is taken away along no path at all. *Decision.*
 const FIRST_RESIDUE_SHARE: f32 = 0.06;
-/// Where two rotors are closer than so many of those cells in such a share of the frames, longer ones tell them apart better.
+/// Where two rotors are closer than so many of those cells for long, longer frames tell them apart better. *Decision.*
 const CLOSE_CELLS: f64 = 2.0;
+/// Share of the frames that is long. *Decision.*
 const CLOSE_SHARE: f64 = 0.3;
-/// And in such a share, two searches better than one: of rotors 0.1 % apart all four are right in 0.946 of the frames of 20 clips, and in
-/// 0.938 by one. That is not so 0.3 % apart.
+/// Share of the frames in which two searches are better than one: of rotors 0.1 % apart all four are right in 0.946 of the frames of 20 clips, and in
+/// 0.938 by one. That is not so 0.3 % apart. *Decision.*
 const ALWAYS_CLOSE_SHARE: f64 = 0.8;
 /// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
-/// noise alone follows its maxima.
+/// noise alone follows its maxima. *Decision.*
 const HEARD_MARGIN: f64 = 3.0;
 
 /// What was heard of one rotor.
@@ -98,30 +100,33 @@ pub(super) fn resolution_rev_s(bands: &[ChannelBand]) -> f64 {
 pub(super) fn rough_tracks(
     chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
-    limits_rev_s: (f64, f64),
+    limits_rev_s: &RangeInclusive<f64>,
     count: usize,
     planner: &mut ComplexPlanner,
 ) -> (Vec<Vec<f64>>, Pace) {
-    let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
+    let middle_rev_s = (limits_rev_s.start() + limits_rev_s.end()) / 2.0;
     let motion = common_motion(chunk, atoms, limits_rev_s, count, planner);
     let pace = if motion.is_some() { Pace::Bobbing } else { Pace::Steady };
     let Some(common) = motion.or_else(|| path_through([middle_rev_s], chunk)) else { return (Vec::new(), pace) };
     let frame_s = Pace::Steady.frame_s_of_order(FIRST_FRAME_HZ_S2, middle_rev_s);
-    let spectra = Spectra::along(chunk, &chunk.series, &common, (frame_s, FIRST_FRAMES_APART), planner);
+    let spectra = Spectra::along(chunk, &chunk.series, &common, frame_s, FIRST_FRAMES_APART, planner);
     let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
     let line_weights = line_weights(&spectra, &grid, count);
     let trust = Trust { line_weights: &line_weights, residue_share: FIRST_RESIDUE_SHARE, echo_share: 0.0 };
-    let tracks = found_tracks(&spectra, atoms, &grid, &[], (count, FIRST_SWEEPS), trust);
+    let tracks = found_tracks(&spectra, atoms, &grid, &[], count, FIRST_SWEEPS, trust);
     let frames = chunk.ticks / FRAME_TICKS;
     let paths: Vec<SpeedPath> = tracks.iter().filter_map(|track| spectra.path_at(track, chunk)).collect();
     (tracks_of(&paths, frames), pace)
 }
 
 /// The band of speeds in which all rotors are, as far as rough tracks tell.
-pub(super) fn band_of_tracks<'a>(tracks: impl Iterator<Item = &'a Vec<f64>>, limits_rev_s: (f64, f64)) -> (f64, f64) {
-    let margin = MARGIN_SHARE * (limits_rev_s.0 + limits_rev_s.1) / 2.0;
-    let (low, high) = around(tracks, margin);
-    if low < high { (low.max(limits_rev_s.0), high.min(limits_rev_s.1)) } else { limits_rev_s }
+pub(super) fn band_of_tracks<'a>(
+    tracks: impl Iterator<Item = &'a Vec<f64>>,
+    limits_rev_s: &RangeInclusive<f64>,
+) -> RangeInclusive<f64> {
+    let margin = MARGIN_SHARE * (limits_rev_s.start() + limits_rev_s.end()) / 2.0;
+    let (low, high) = around(tracks, margin).into_inner();
+    if low < high { low.max(*limits_rev_s.start())..=high.min(*limits_rev_s.end()) } else { limits_rev_s.clone() }
 }
 
 /// The rotors of a chunk, in no order, from what is roughly known of them.

@@ -1,9 +1,9 @@
 //! The speeds that are looked for.
 
 use super::spectra::{LineSpectra, Spectra};
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
-/// Points of the grid in a resolution cell of the line that resolves most finely.
+/// Points of the grid in a resolution cell of the line that resolves most finely. *Numeric.*
 const GRID_PER_CELL: f64 = 2.0;
 
 /// Speeds that are looked for, as offsets from the common speed.
@@ -15,7 +15,8 @@ pub(super) struct OffsetGrid {
 }
 
 impl OffsetGrid {
-    pub(super) fn new((low_rev_s, high_rev_s): (f64, f64), spectra: &Spectra) -> Self {
+    pub(super) fn new(offsets_rev_s: RangeInclusive<f64>, spectra: &Spectra) -> Self {
+        let (low_rev_s, high_rev_s) = offsets_rev_s.into_inner();
         let finest = spectra.lines.iter().map(|line| line.order * line.frame_s).fold(1.0, f64::max);
         let points = ((high_rev_s - low_rev_s) * finest * GRID_PER_CELL).ceil().max(2.0) as usize + 1;
         Self { first_rev_s: low_rev_s, step_rev_s: (high_rev_s - low_rev_s) / (points - 1) as f64, points }

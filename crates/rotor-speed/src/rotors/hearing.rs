@@ -18,28 +18,28 @@ use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::fft::ComplexPlanner;
 use realfft::num_complex::Complex;
 
-/// A line at f has frames of `√(this / f)` along a rotor's own path.
+/// A line at f has frames of `√(this / f)` along a rotor's own path. *Decision.*
 pub(super) const OWN_FRAME_HZ_S2: f64 = 480.0;
-/// Rotors are looked for so far beyond what the first search found, as a share of the speed.
+/// Rotors are looked for so far beyond what the first search found, as a share of the speed. *Decision.*
 pub(super) const MARGIN_SHARE: f64 = 0.03;
 /// Rotors of a hovering multirotor leave their common speed by less than 1 % in a second, which smears a line over less than two
-/// resolution cells of these frames.
+/// resolution cells of these frames. *Decision.*
 pub(super) const COMMON_SEARCH: Search =
     Search { frame_hz_s2: 180.0, margin_share: MARGIN_SHARE, sweeps: 2, is_afresh: false, residue_share: 0.03 };
-/// The same for rotors that are close together: each stands in what another leaves behind.
+/// The same for rotors that are close together: each stands in what another leaves behind. *Decision.*
 pub(super) const COMMON_SEARCH_OF_CLOSE: Search = Search { residue_share: 0.0, ..COMMON_SEARCH };
-/// And along what these have found, afresh: tracks that have taken each other's rotors would stay there.
+/// And along what these have found, afresh: tracks that have taken each other's rotors would stay there. *Decision.*
 pub(super) const CLOSE_SEARCH: Search =
     Search { frame_hz_s2: OWN_FRAME_HZ_S2, margin_share: 0.003, sweeps: 2, is_afresh: true, residue_share: 0.0 };
-/// Where rotors are close to each other nearly all the time, first from where they are.
+/// Where rotors are close to each other nearly all the time, first from where they are. *Decision.*
 pub(super) const ALWAYS_CLOSE_SEARCH: Search = Search { is_afresh: false, ..CLOSE_SEARCH };
 
-/// A line at f has frames of `√(this / f)` along what rotors that bob share.
+/// A line at f has frames of `√(this / f)` along what rotors that bob share. *Decision.*
 const TOGETHER_FRAME_HZ_S2: f64 = 60.0;
-/// Times that the rotors are drawn as one pattern, each time along what they shared before.
+/// Times that the rotors are drawn as one pattern, each time along what they shared before. *Numeric.*
 const TOGETHER_ROUNDS: usize = 3;
 /// In a room with a reverberation time of 0.5 s this share of the power is still there a frame later. 0.2 to 0.6 do alike. These frames overlap,
-/// so that sound that holds still counts less as well: this is for what moves by a cell or so from one to the next.
+/// so that sound that holds still counts less as well: this is for what moves by a cell or so from one to the next. *Decision.*
 const ECHO_SHARE: f32 = 0.3;
 
 /// How the rotors are looked for beside each other.
@@ -152,7 +152,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
         frame_s: impl Fn(f64) -> f64,
     ) -> Option<Spectra> {
         let common = path_through(smoothed_mean(tracks, self.pace.common_frames()), self.chunk)?;
-        Some(Spectra::along(self.chunk, series, &common, (frame_s, 1), self.planner))
+        Some(Spectra::along(self.chunk, series, &common, frame_s, 1, self.planner))
     }
 
     /// The rotors, looked for along what their tracks share.
@@ -169,7 +169,7 @@ impl<'a, 'p> Hearing<'a, 'p> {
         let grid = self.grid(&start, search.margin_share, spectra);
         let known: &[Vec<f64>] = if search.is_afresh { &[] } else { &start };
         let trust = Trust { line_weights: &self.line_weights, residue_share: search.residue_share, echo_share: 0.0 };
-        let found = found_tracks(spectra, self.atoms, &grid, known, (start.len(), search.sweeps), trust);
+        let found = found_tracks(spectra, self.atoms, &grid, known, start.len(), search.sweeps, trust);
         self.apart(paths_along(&found, &spectra.common_rev_s, self.pace, self.chunk))
     }
 

@@ -15,15 +15,17 @@ const STEP_STD_SHARE_CLOSE: f64 = 0.0025;
 const STEP_COST: f64 = 100.0;
 /// Largest slope that is believed, as a share of the speed in a second. *Decision.*
 const SLOPE_SHARE_S_MAX: f64 = 0.1;
-/// How well the level of a line is known, in nepers, what one line may cost, and what its word counts beside the speeds': neighbouring
-/// frames hear nearly the same sound.
+/// Standard deviation of the level of a line, in nepers. *Decision.*
 const LEVEL_STD: f64 = 0.35;
+/// Largest cost of the level of one line, in nats. *Decision.*
 const LEVEL_COST_MAX: f64 = 9.0;
+/// Weight of the levels beside the speeds: neighbouring frames hear nearly the same sound. *Decision.*
 const LEVEL_WEIGHT: f64 = 0.1;
-/// Levels drift over this time.
+/// Levels drift over this time. *Decision.*
 const LEVEL_S: f64 = 1.5;
+/// Largest number of times that the levels of the rotors, and then the rotors by their levels, are found. *Numeric.*
 const PASSES: usize = 4;
-/// More rotors than this have too many permutations: they keep their tracks.
+/// More rotors than this have too many permutations: they keep their tracks. *Numeric.*
 const ROTORS_MAX: usize = 4;
 
 /// One track in one frame.
@@ -64,7 +66,7 @@ impl Identity {
                 self.templates(tracks, &labellings.all, &path, frame_s, pass == 0)
             };
             let before =
-                std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &templates, (frame_s, pace)));
+                std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &templates, frame_s, pace));
             // the next pass would expect the same levels
             if pass > 0 && path == before {
                 break;
@@ -134,7 +136,8 @@ impl Identity {
         tracks: &[Vec<TrackFrame>],
         labellings: &Labellings,
         templates: &[Vec<Vec<Option<f64>>>],
-        (frame_s, pace): (f64, Pace),
+        frame_s: f64,
+        pace: Pace,
     ) -> Vec<usize> {
         let frame_of = |frame: usize| -> Vec<&TrackFrame> { tracks.iter().map(|track| &track[frame]).collect() };
         let mut total: Vec<f64> = vec![0.0; labellings.all.len()];
@@ -177,7 +180,7 @@ impl Identity {
     }
 }
 
-/// The labelling in which each rotor is the track of its own number.
+/// The labelling in which each rotor is the track of its own number. *Numeric.*
 const UNCHANGED: usize = 0;
 
 /// All labellings of the tracks of a frame.

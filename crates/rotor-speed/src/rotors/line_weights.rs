@@ -3,11 +3,11 @@
 use super::grid::OffsetGrid;
 use super::spectra::{LineSpectra, Spectra};
 
-/// Resolution cells that a rotor fills in a frame: `∫ lobe⁴`, and a little for what its speed changes within.
+/// Resolution cells that a rotor fills in a frame: `∫ lobe⁴`, and a little for what its speed changes within. *Numeric.*
 const FILLED_CELLS: f64 = 1.2;
-/// Where rotors fill no more than this share of a band, the square of the likelihood tells them from noise, however coloured that is.
+/// Where rotors fill no more than this share of a band, the square of the likelihood tells them from noise, however coloured that is. *Decision.*
 const SPARSE_SHARE_MAX: f64 = 0.2;
-/// What so many standard deviations of chance explain is no rotor.
+/// What so many standard deviations of chance explain is no rotor. *Decision.*
 const CHANCE_DEVIATIONS: f64 = 3.0;
 
 /// `S / (1 + S)` of each line, the weight of its likelihood in that of a rotor against noise; S is the power of `count` rotors in it,
@@ -72,7 +72,7 @@ mod tests {
                 })
                 .collect();
             let spectra = Spectra::of_line(&frames);
-            line_weights(&spectra, &OffsetGrid::new((-400.0, 400.0), &spectra), 4)[0]
+            line_weights(&spectra, &OffsetGrid::new(-400.0..=400.0, &spectra), 4)[0]
         };
         assert_eq!(weight(0.0), 0.0);
         for power in [5.0, 30.0, 1000.0] {

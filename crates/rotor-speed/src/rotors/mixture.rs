@@ -4,7 +4,7 @@ use super::atoms::{PlacedLobe, REACH_CELLS};
 use realfft::num_complex::Complex;
 
 /// Added to the diagonal of the Gram matrix: lines much closer than a resolution cell share what is there instead of
-/// cancelling each other at great amplitudes.
+/// cancelling each other at great amplitudes. *Numeric.*
 const RIDGE: f64 = 0.02;
 
 /// The Gram matrix G of the lines of a frame, ready to be solved: `G[i][j]` is what line i sees of line j at amplitude 1.

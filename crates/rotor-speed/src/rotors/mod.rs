@@ -41,12 +41,13 @@ use hovertone_signal::statistics::median;
 use identity::{Identity, TrackFrame};
 use pace::Pace;
 use spectra::FRAME_TICKS;
+use std::ops::RangeInclusive;
 
-/// Lines that keep less of their phase than this are wider than frames resolve.
+/// Lines that keep less of their phase than this are wider than frames resolve. *Decision.*
 const PHASE_KEPT_MIN: f64 = 0.6;
-/// By how much two rotors must then be further apart than else, and for how much of the time: any path through a wide line is a
-/// resolution or two from any other.
+/// Factor by which two rotors must then be further apart than else: any path through a wide line is a resolution or two from any other. *Decision.*
 const WIDE_LINE_FACTOR: f64 = 4.0;
+/// Largest share of the time in which they may be closer. *Decision.*
 const WIDE_LINE_SHARE_MAX: f64 = 0.2;
 
 /// Looks where the rotors are, in a wide band of speeds.
@@ -142,7 +143,8 @@ impl ChunkListener for RotorScout {
     type Output = RoughRotors;
 
     fn take_chunk(&mut self, chunk: &Chunk<'_>) {
-        let (tracks, pace) = rough_tracks(chunk, &self.atoms, self.limits_rev_s, self.count, &mut self.planner);
+        let (low_rev_s, high_rev_s) = self.limits_rev_s;
+        let (tracks, pace) = rough_tracks(chunk, &self.atoms, &(low_rev_s..=high_rev_s), self.count, &mut self.planner);
         self.rough.chunks.push(RoughChunk { tracks, pace, noise: chunk.noise_densities() });
     }
 
@@ -153,8 +155,9 @@ impl ChunkListener for RotorScout {
 
 impl RoughRotors {
     /// The band of speeds in which they all are.
-    pub(crate) fn band_rev_s(&self) -> (f64, f64) {
-        band_of_tracks(self.chunks.iter().flat_map(|chunk| &chunk.tracks), self.limits_rev_s)
+    pub(crate) fn band_rev_s(&self) -> RangeInclusive<f64> {
+        let (low_rev_s, high_rev_s) = self.limits_rev_s;
+        band_of_tracks(self.chunks.iter().flat_map(|chunk| &chunk.tracks), &(low_rev_s..=high_rev_s))
     }
 }
 

@@ -13,16 +13,17 @@ use crate::harmonic::chunks::Chunk;
 use crate::harmonic::speed_path::SpeedPath;
 use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::{mean, median};
+use std::ops::RangeInclusive;
 
-/// Times that the motion is found by the pattern, and the pattern along the motion.
+/// Times that the motion is found by the pattern, and the pattern along the motion. *Numeric.*
 const ROUNDS: usize = 4;
-/// Over this time rates are taken.
+/// Over this time rates are taken. *Decision.*
 const RATE_S: f64 = 0.4;
 /// Slower motion, in shares of the speed per second, smears the frames of the first search over less than two resolution cells; four rotors
-/// that wander for themselves have half as much in common by chance.
+/// that wander for themselves have half as much in common by chance. *Decision.*
 const RATE_MIN_PER_S: f64 = 0.015;
 /// The pattern along the motion has at least so much more power than without: in loud noise a motion is found by chance, with 1.07 times;
-/// in flights that bob it has 1.13 times or more.
+/// in flights that bob it has 1.13 times or more. *Decision.*
 const SHARPER_MIN: f64 = 1.1;
 
 /// How closely the motion is looked at.
@@ -38,9 +39,9 @@ struct Look {
 }
 
 /// A speed that changes by 3 % in a second smears a line over one resolution cell. Small drones in flight, and the demo's, change by 5 to 7 % in a
-/// second (rms), and by a few per cent in all.
+/// second (rms), and by a few per cent in all. *Decision.*
 const FIRST_LOOK: Look = Look { frame_hz_s2: 30.0, frames_apart: 2, step_std_share: 0.007, reach_share: 0.06 };
-/// Along what the first has found, which leaves less to smear.
+/// Along what the first has found, which leaves less to smear. *Decision.*
 const SECOND_LOOK: Look = Look { frame_hz_s2: 100.0, frames_apart: 1, step_std_share: 0.002, reach_share: 0.015 };
 
 /// The path of a rotor in the middle of `limits_rev_s` that only moves with all others, where these move fast; else `None`.
@@ -50,14 +51,14 @@ const SECOND_LOOK: Look = Look { frame_hz_s2: 100.0, frames_apart: 1, step_std_s
 pub(super) fn common_motion(
     chunk: &Chunk<'_>,
     atoms: &[ChannelAtoms],
-    limits_rev_s: (f64, f64),
+    limits_rev_s: &RangeInclusive<f64>,
     count: usize,
     planner: &mut ComplexPlanner,
 ) -> Option<SpeedPath> {
-    let middle_rev_s = (limits_rev_s.0 + limits_rev_s.1) / 2.0;
+    let middle_rev_s = (limits_rev_s.start() + limits_rev_s.end()) / 2.0;
     let mut look_along = |path: &SpeedPath, look: &Look| {
         let frame_s = Pace::Steady.frame_s_of_order(look.frame_hz_s2, middle_rev_s);
-        let spectra = Spectra::along(chunk, &chunk.series, path, (frame_s, look.frames_apart), planner);
+        let spectra = Spectra::along(chunk, &chunk.series, path, frame_s, look.frames_apart, planner);
         let grid = OffsetGrid::new(offsets_within(limits_rev_s, &spectra.common_rev_s), &spectra);
         let line_weights = line_weights(&spectra, &grid, count);
         let mut scores = GridScores::new(

@@ -1,11 +1,12 @@
 //! How fast speeds change, which says how long a frame may be.
 
-/// A frame is no longer than this: sound in a room loses its phase.
+/// A frame is no longer than this: sound in a room loses its phase. *Decision.*
 const FRAME_S_MAX: f64 = 0.4;
-/// Frames of rotors that bob are so much shorter than those of others: 1.4 to 2.5 do alike, within what chance makes of 19 flights.
+/// Frames of rotors that bob are so much shorter than those of others: 1.4 to 2.5 do alike, within what chance makes of 19 flights. *Decision.*
 const BOBBING_SHORTER: f64 = 1.75;
-/// Frames to either side over which the common speed is averaged.
+/// Frames to either side over which the common speed is averaged. *Decision.*
 const COMMON_FRAMES: usize = 2;
+/// The same for rotors that bob. *Decision.*
 const COMMON_FRAMES_BOBBING: usize = 1;
 
 /// How the speeds of a vehicle's rotors change.

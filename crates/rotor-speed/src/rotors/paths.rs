@@ -5,24 +5,25 @@ use super::pace::Pace;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks};
 use crate::harmonic::chunks::Chunk;
 use crate::harmonic::speed_path::{SpeedPath, SpeedPoint};
+use std::ops::RangeInclusive;
 
 /// Lowest and highest of all tracks, and a margin beyond.
-pub(super) fn around<'a>(tracks: impl IntoIterator<Item = &'a Vec<f64>>, margin: f64) -> (f64, f64) {
+pub(super) fn around<'a>(tracks: impl IntoIterator<Item = &'a Vec<f64>>, margin: f64) -> RangeInclusive<f64> {
     let (low, high) = tracks
         .into_iter()
         .flatten()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &speed| (low.min(speed), high.max(speed)));
-    (low - margin, high + margin)
+    low - margin..=high + margin
 }
 
 /// Offsets from a common speed that lead nowhere beyond limits, lowest and highest; where it moves by more than is between these, those
 /// from their middle.
-pub(super) fn offsets_within(limits_rev_s: (f64, f64), common_rev_s: &[f64]) -> (f64, f64) {
+pub(super) fn offsets_within(limits_rev_s: &RangeInclusive<f64>, common_rev_s: &[f64]) -> RangeInclusive<f64> {
     let (slowest, fastest) =
         common_rev_s.iter().fold((f64::INFINITY, 0.0f64), |(low, high), &speed| (low.min(speed), high.max(speed)));
-    let (low, high) = (limits_rev_s.0 - slowest, limits_rev_s.1 - fastest);
-    let half_width = (limits_rev_s.1 - limits_rev_s.0) / 2.0;
-    if low < high { (low, high) } else { (-half_width, half_width) }
+    let (low, high) = (limits_rev_s.start() - slowest, limits_rev_s.end() - fastest);
+    let half_width = (limits_rev_s.end() - limits_rev_s.start()) / 2.0;
+    if low < high { low..=high } else { -half_width..=half_width }
 }
 
 /// The path through speeds in the middles of all frames.

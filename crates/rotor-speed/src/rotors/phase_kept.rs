@@ -7,7 +7,7 @@ use hovertone_signal::statistics::median;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// From one stretch of sound to the other, in steps of a frame: 0.2 s.
+/// From one stretch of sound to the other, in steps of a frame: 0.2 s. *Numeric.*
 const LAG_FRAMES: usize = 5;
 
 /// How much of its phase a line keeps over 0.2 s, from 1 for all to 0 for nothing: `|Σ z(t + T) z*(t)| / Σ |z(t)|²`, noise taken off

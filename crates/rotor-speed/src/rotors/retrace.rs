@@ -9,11 +9,11 @@ use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Points of the grid in a resolution cell of the line that resolves most finely.
+/// Points of the grid in a resolution cell of the line that resolves most finely. *Numeric.*
 const GRID_PER_CELL: f64 = 3.0;
-/// How far from the path, in such cells.
+/// How far from the path, in such cells. *Decision.*
 const REACH_CELLS: f64 = 3.0;
-/// How much the distance from the path changes from one frame to the next, as a share of the speed.
+/// How much the distance from the path changes from one frame to the next, as a share of the speed. *Decision.*
 const STEP_STD_SHARE: f64 = 0.0004;
 
 /// The speeds of the best path through the lines' joint likelihood, frame by frame.

@@ -8,15 +8,17 @@ use realfft::num_complex::Complex;
 use std::array::from_fn;
 use std::ops::Range;
 
-/// Share of a line's energy that must be left to it by the others.
+/// Share of a line's energy that must be left to it by the others. *Decision.*
 const ENERGY_LEFT_MIN: f32 = 0.1;
-/// Up to here a line counts for its likelihood, and beyond for the logarithm.
+/// Up to here a line counts for its likelihood, and beyond for the logarithm. *Decision.*
 const LINEAR_UP_TO: f64 = 8.0;
-/// What a rotor leaves behind when it is taken away lies within so many cells of its lines, and counts for nothing below this.
+/// What a rotor leaves behind when it is taken away lies within so many cells of its lines. *Decision.*
 const RESIDUE_CELLS: f32 = 4.0;
+/// Below this share of the lines' power it counts for nothing. *Decision.*
 const RESIDUE_MIN: f32 = 0.03;
-/// Likelihoods are cut here, so that the product of so many is still a number.
+/// Likelihoods are cut here, so that the product of so many is still a number. *Numeric.*
 const LIKELIHOOD_MAX: f32 = 1e9;
+/// Lines whose likelihoods are multiplied before a logarithm is taken. *Numeric.*
 const LINES_PER_LOGARITHM: usize = 32;
 
 /// What the spectra are taken for.
@@ -252,7 +254,7 @@ mod tests {
         // places are cells from the common speed, which is 5 rev/s, a cell, higher in the second frame
         let mut spectra = Spectra::of_line(&[frame(&[(-8.0, 40.0)]), frame(&[(-9.0, 20.0), (6.0, 15.0)])]);
         spectra.common_rev_s = vec![60.0, 65.0];
-        let grid = OffsetGrid::new((-100.0, 100.0), &spectra);
+        let grid = OffsetGrid::new(-100.0..=100.0, &spectra);
         let atoms = [ChannelAtoms { orders: vec![1.0] }];
         let best_rev_s = |echo_share: f32| {
             let trust = Trust { line_weights: &[1.0], residue_share: 0.0, echo_share };

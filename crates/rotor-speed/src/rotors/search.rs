@@ -8,13 +8,13 @@ use super::spectra::Spectra;
 use crate::harmonic::best_path::best_path;
 use hovertone_signal::statistics::median;
 
-/// How much a rotor's speed changes from one frame to the next, as a share.
+/// How much a rotor's speed changes from one frame to the next, as a share. *Decision.*
 const STEP_STD_SHARE: f64 = 0.001;
-/// A rotor's own track covers so many points of the grid to either side.
+/// A rotor's own track covers so many points of the grid to either side. *Numeric.*
 const OWN_POINTS: usize = 1;
-/// What a rotor claims of what was left over is taken from so many points to either side.
+/// What a rotor claims of what was left over is taken from so many points to either side. *Numeric.*
 const CLAIMED_POINTS: usize = 5;
-/// The best of some hundred points of noise lies so many median deviations over their median: 3.4 standard deviations.
+/// The best of some hundred points of noise lies so many median deviations over their median: 3.4 standard deviations. *Decision.*
 const NOTHING_DEVIATIONS: f64 = 5.0;
 
 /// The tracks of `count` rotors as offsets from the common speed in each frame: those that are not known from `start`, one after the
@@ -24,7 +24,8 @@ pub(super) fn found_tracks(
     atoms: &[ChannelAtoms],
     grid: &OffsetGrid,
     start: &[Vec<f64>],
-    (count, sweeps): (usize, usize),
+    count: usize,
+    sweeps: usize,
     trust: Trust<'_>,
 ) -> Vec<Vec<f64>> {
     let middle = spectra.common_rev_s.iter().sum::<f64>() / spectra.frames().max(1) as f64;

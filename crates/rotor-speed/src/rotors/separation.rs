@@ -13,13 +13,15 @@ use hovertone_signal::channels::TICKS_PER_HOP;
 use hovertone_signal::spectrogram::hann_weights;
 use realfft::num_complex::Complex;
 
-/// Two lines closer than this in a frame cannot be told apart: order · Δf · T ≥ 1.25, measured with frames under a Hann window.
+/// Two lines closer than this in a frame cannot be told apart: order · Δf · T ≥ 1.25, measured with frames under a Hann window. *Numeric.*
 pub(super) const RESOLVED_CELLS: f64 = 1.25;
-/// A rotor of a quarter of another one's power is a faint one.
+/// A rotor of a quarter of another one's power is a faint one. *Decision.*
 const FAINT_SHARE: f64 = 0.25;
-/// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them.
+/// Lines are taken away but for the ridge's 2 % of their amplitude, and a part of what AM and bends put beside them. *Numeric.*
 const GHOST_SHARE: f64 = 1.0 / 100.0;
-/// A line that is apart from all others in less than this share of a chunk is not heard for its speed.
+/// Noise bandwidth of a Hann window, in resolution cells (Harris 1978). *Physics.*
+const HANN_NOISE_CELLS: f64 = 1.5;
+/// A line that is apart from all others in less than this share of a chunk is not heard for its speed. *Decision.*
 const APART_SHARE_MIN: f64 = 0.5;
 
 /// What belongs to one rotor.
@@ -75,7 +77,8 @@ pub(super) fn separated(
             let own = mixed.atoms.iter().find(|atom| atom.rotor == rotor && atom.order == channel.order);
             let apart = &apart[rotor];
             let power = |amplitude: &Complex<f64>| {
-                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64 / (1.5 * chunk.noise_variances[index])
+                amplitude.norm_sqr() * (frame_ticks * samples_per_tick) as f64
+                    / (HANN_NOISE_CELLS * chunk.noise_variances[index])
             };
             let levels: Vec<f64> = match own {
                 Some(own) => own
@@ -238,6 +241,7 @@ impl Atom {
 
 /// Σ a b* w; written so that it runs in vectors.
 fn weighted_product(a: &[Complex<f32>], b: &[Complex<f32>], weights: &[f32]) -> Complex<f64> {
+    /// Sums that are kept apart, which the compiler turns into vector instructions. *Numeric.*
     const LANES: usize = 8;
     let lanes = |from: usize, re: &mut [f32], im: &mut [f32]| {
         let products = a[from..].iter().zip(&b[from..]).zip(&weights[from..]);

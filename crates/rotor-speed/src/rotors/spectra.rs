@@ -10,9 +10,11 @@ use hovertone_signal::fft::ComplexPlanner;
 use realfft::num_complex::Complex;
 use std::f64::consts::TAU;
 
-/// Ticks from one frame to the next: 0.04 s.
+/// Ticks from one frame to the next: 0.04 s. *Numeric.*
 pub(super) const FRAME_TICKS: usize = TICKS_PER_HOP / 2;
-/// Bins are half a resolution cell apart.
+/// Denominators of Lagrange's weights of six places. *Numeric.*
+const LAGRANGE_DENOMINATORS: [f64; 6] = [-120.0, 24.0, -12.0, 12.0, -24.0, 120.0];
+/// Bins are half a resolution cell apart. *Numeric.*
 const ZERO_PAD_FACTOR: usize = 2;
 
 /// The frames of one line.
@@ -52,7 +54,8 @@ impl Spectra {
         chunk: &Chunk<'_>,
         series: &[&[Complex<f32>]],
         common: &SpeedPath,
-        (frame_s_of_order, frames_apart): (impl Fn(f64) -> f64, usize),
+        frame_s_of_order: impl Fn(f64) -> f64,
+        frames_apart: usize,
         planner: &mut ComplexPlanner,
     ) -> Self {
         let frames = (chunk.ticks / FRAME_TICKS).div_ceil(frames_apart);
@@ -170,14 +173,15 @@ impl LineSpectra {
         let first = (bin as usize).checked_sub(2).filter(|first| place >= 2.0 && first + 6 <= bins.len())?;
         // Lagrange's weights of the places -2 … 3 at t
         let (a, b, c, d, e, f) = (t + 2.0, t + 1.0, t, t - 1.0, t - 2.0, t - 3.0);
-        let weights = [
-            -b * c * d * e * f / 120.0,
-            a * c * d * e * f / 24.0,
-            -a * b * d * e * f / 12.0,
-            a * b * c * e * f / 12.0,
-            -a * b * c * d * f / 24.0,
-            a * b * c * d * e / 120.0,
+        let products = [
+            b * c * d * e * f,
+            a * c * d * e * f,
+            a * b * d * e * f,
+            a * b * c * e * f,
+            a * b * c * d * f,
+            a * b * c * d * e,
         ];
+        let weights = products.into_iter().zip(LAGRANGE_DENOMINATORS).map(|(product, below)| product / below);
         let near = bins[first..first + 6].iter().zip(weights);
         Some(near.map(|(z, weight)| Complex::new(f64::from(z.re), f64::from(z.im)) * weight).sum())
     }

@@ -7,18 +7,18 @@ use crate::harmonic::best_path::best_path;
 use hovertone_signal::statistics::{mean, median};
 use std::ops::RangeInclusive;
 
-/// At first, how far a rotor is from the mean of all is the median over so many frames to either side (0.3 s).
+/// At first, how far a rotor is from the mean of all is the median over so many frames to either side (0.3 s). *Decision.*
 const SLOW_FRAMES: usize = 8;
-/// How much the shared speed changes from one frame to the next beside what is known of it, and a rotor's distance from it, as
-/// shares of the speed.
+/// Standard deviation of the step of the shared speed from one frame to the next beside what is known of it, as a share of the speed. *Decision.*
 const SHARED_STEP_STD_SHARE: f64 = 0.004;
+/// The same for the distance of a rotor from the shared speed. *Decision.*
 const OWN_STEP_STD_SHARE: f64 = 0.0003;
-/// Tracks closer than so many points of the grid, two resolution cells, are in one place.
+/// Tracks closer than so many points of the grid, two resolution cells, are in one place. *Numeric.*
 const ONE_PLACE_POINTS: f64 = 4.0;
 /// By this factor more speaks for the pattern of rotors that turn alike, or in pairs, than for tracks that scatter around them: 1.28 to 1.40 in
-/// simulated flights; 1.03 and 1.06 in two recordings of real ones in which a rotor was lost to its neighbour.
+/// simulated flights; 1.03 and 1.06 in two recordings of real ones in which a rotor was lost to its neighbour. *Decision.*
 const ALIKE_GAIN: f64 = 1.25;
-/// The score of where a rotor cannot be.
+/// The score of where a rotor cannot be. *Numeric.*
 const BARRED: f64 = -1e6;
 
 /// What speaks for one rotor at each offset from a common speed, frame by frame.

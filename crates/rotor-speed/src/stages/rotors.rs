@@ -30,8 +30,7 @@ pub(crate) fn rotors_from_hover(
     let mut scout = RotorScout::new(sample_rate_hz, &wide, mesh_order, config.rotors.count as usize);
     passes.listen(&hover.spans_s(), &mut scout)?;
     let rough = scout.finish();
-    let (low_rev_s, high_rev_s) = rough.band_rev_s();
-    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(low_rev_s..=high_rev_s), mesh_order, rough);
+    let mut tracer = RotorTracer::new(sample_rate_hz, &lines_in(rough.band_rev_s()), mesh_order, rough);
     passes.listen(&hover.spans_s(), &mut tracer)?;
     Ok(tracer.finish())
 }
