@@ -206,7 +206,6 @@ mod tests {
         assert_eq!(count("crates/sim/src/a.rs"), 0);
         assert_eq!(count("crates/signal/tests/a.rs"), 0);
         assert_eq!(count("crates/signal/src/a_tests.rs"), 0);
-        assert_eq!(count("crates/rotor-speed/src/rotors/a.rs"), 0);
         assert_eq!(count("crates/rotor-speed/src/ridge/a.rs"), 1);
     }
 
