@@ -6,6 +6,7 @@ mod accuracy;
 mod cost;
 mod document;
 mod labels;
+mod logs;
 mod real;
 mod rotors;
 mod rotors_report;
@@ -21,6 +22,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
 
   speed      speed and memory of decoding and of `hovertone speed` on 30-minute files, as ratios: docs/speed.md
              [--minutes N] for shorter files
+  logs       speed and memory of `hovertone log` on long logs of each format: docs/logs.md
+             [--mb N] for shorter logs
   accuracy   one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
              [--draws N] [--coverage N] for fewer draws, [--only PART] to print one part,
              [--install-peers] to install the other programs
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
     }
     let outcome = match words.as_slice() {
         ["speed", options @ ..] => speed::run(&root(), options),
+        ["logs", options @ ..] => logs::run(&root(), options),
         ["accuracy", options @ ..] => accuracy::run(&root(), options),
         ["rotors", options @ ..] => rotors::run(&root(), options),
         ["real", options @ ..] => real::run(&root(), options),

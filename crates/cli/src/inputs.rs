@@ -2,7 +2,7 @@
 //! the run.
 
 use crate::failure::Failure;
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -39,6 +39,20 @@ pub(crate) fn read_bytes(path: &Path, what: &str) -> Result<Vec<u8>, Failure> {
     io::stdin().read_to_end(&mut bytes).map_err(|error| cannot_read(&error, what))?;
     *used = Used::Read;
     Ok(bytes)
+}
+
+/// The bytes of a file or of stdin, to be read once; `what` names the content in messages.
+pub(crate) fn open_stream(path: &Path, what: &str) -> Result<Box<dyn Read>, Failure> {
+    if is_stdin(path) {
+        *first_use(what)? = Used::Read;
+        return Ok(Box::new(io::stdin()));
+    }
+    let is_folder = |file: &File| file.metadata().is_ok_and(|metadata| metadata.is_dir());
+    match File::open(path) {
+        Ok(file) if is_folder(&file) => Err(cannot_open(&io::ErrorKind::IsADirectory.into(), what, path)),
+        Ok(file) => Ok(Box::new(file)),
+        Err(error) => Err(cannot_open(&error, what, path)),
+    }
 }
 
 /// The text of a file or of stdin; `what` names the content in messages.

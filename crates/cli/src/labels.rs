@@ -2,16 +2,17 @@
 
 use crate::args::{BodyAxes, FrameLayout, LabelArguments};
 use crate::failure::Failure;
-use crate::inputs::read_bytes;
+use crate::inputs::open_stream;
+use crate::log::{THE_LOG, log_failure, loss_notice};
 use crate::recording::Heard;
 use crate::spin_up::names_of;
 use hovertone::rotors::{
     FlightLog, LabelsConfig, LogSignals, MotorSignal, RotorLabels, labels_from_log, labels_from_spin_up,
 };
 use hovertone::speed::TrackPoint;
-use hovertone_exchange::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes};
+use hovertone_logs::{ColumnNames, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
 use hovertone_report::Notice;
-use hovertone_vehicle::{Layout, RotorPlace, Vehicle};
+use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle};
 use std::path::Path;
 
 /// The meaning of the arguments.
@@ -52,12 +53,8 @@ pub(crate) fn resolve(
         let typed = arguments.spin_up.as_deref().unwrap_or_default();
         return Ok(Some(LabelPlan::SpinUp(names_of(typed, vehicle, rotors)?)));
     };
-    let bytes = read_bytes(path, "the log")?;
-    let mut logged = flight_log_from_bytes(&bytes).map_err(|error| Failure::Usage {
-        what: error.to_string(),
-        hint: error.hint().to_owned(),
-        path: Some(path.clone()),
-    })?;
+    let stream = open_stream(path, THE_LOG)?;
+    let mut logged = flight_from_log(stream, &ColumnNames::default()).map_err(|error| log_failure(&error, path))?;
     let (offset_s_low, offset_s_high) = arguments.log_offset_s.unzip();
     let config = LabelsConfig { offset_s_low, offset_s_high, ..LabelsConfig::default() };
     config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
@@ -78,8 +75,8 @@ fn logs_of(
         let LoggedMotors { time_s, names, values } = logged;
         FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(failed)
     };
-    let LoggedFlight { speeds, commands, rates, .. } = logged;
-    let speeds = speeds.map(|speeds| motors(speeds, MotorSignal::Speed)).transpose()?;
+    let LoggedFlight { speeds_rev_s: speeds, commands, rates, .. } = logged;
+    let speeds = speeds.map(|speeds| motors(in_rad_s(speeds), MotorSignal::Speed)).transpose()?;
     let commands = commands.map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
     let mut logs: Vec<FlightLog> = speeds.into_iter().chain(commands).collect();
     if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z], axes }) = rates {
@@ -112,6 +109,11 @@ fn logs_of(
     Ok(logs)
 }
 
+fn in_rad_s(speeds_rev_s: LoggedMotors) -> LoggedMotors {
+    let rad_s = |values: Vec<f64>| values.into_iter().map(|rev_s| RotorSpeed::from_rev_s(rev_s).rad_s()).collect();
+    LoggedMotors { values: speeds_rev_s.values.into_iter().map(rad_s).collect(), ..speeds_rev_s }
+}
+
 /// The axes of the format where it defines them, else the axes of the arguments.
 fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option<BodyAxes>, Failure> {
     let of_format = of_format.map(|axes| match axes {
@@ -119,12 +121,20 @@ fn axes_of(of_format: Option<RateAxes>, said: Option<BodyAxes>) -> Result<Option
         RateAxes::ForwardRightDown => BodyAxes::Frd,
     });
     match (of_format, said) {
-        (Some(BodyAxes::Frd), Some(BodyAxes::Flu)) => Err(Failure::usage(
-            "the body rates of a ULog have x forward, y right and z down, and --log-axes flu says otherwise",
-            "leave --log-axes out: it is for logs whose format does not say it",
-        )),
+        (Some(BodyAxes::Frd), Some(BodyAxes::Flu)) => Err(contradicted("y right and z down", "flu")),
+        (Some(BodyAxes::Flu), Some(BodyAxes::Frd)) => Err(contradicted("y left and z up", "frd")),
         (of_format, said) => Ok(of_format.or(said)),
     }
+}
+
+/// The failure of axes that contradict the format of the log.
+fn contradicted(of_format: &str, said: &str) -> Failure {
+    Failure::usage(
+        format!(
+            "the body rates of this log have x forward, {of_format} by its format, and --log-axes {said} says otherwise"
+        ),
+        "leave --log-axes out: it is for logs whose format does not say it",
+    )
 }
 
 /// Positions of the rotors with arms of 1 m: only their proportions matter.
@@ -145,8 +155,7 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
     }
     let labels = match plan {
         LabelPlan::Log { logs, notes, config } => {
-            let hint = "download the log again; what could be read of it was used";
-            record.notices.extend(notes.iter().map(|note| Notice::new(note, hint)));
+            record.notices.extend(notes.iter().map(|note| loss_notice(note)));
             let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
             let rotor_count = heard_with.rotors.count as usize;
             best_of(logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, config)))

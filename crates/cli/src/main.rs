@@ -20,6 +20,7 @@ mod init;
 mod inputs;
 mod jobs;
 mod labels;
+mod log;
 mod microphones;
 mod misuse;
 mod nearest;
@@ -77,6 +78,7 @@ fn main() -> ExitCode {
         Command::Weigh(arguments) => weigh::run(arguments, &mut terminal),
         Command::Export(arguments) => export::run(arguments, &mut terminal),
         Command::Compare(arguments) => compare::run(arguments, &mut terminal),
+        Command::Log(arguments) => log::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),

@@ -1,22 +1,18 @@
-//! Files of other programs, text in and text out: models of simulators, tables of thrust stands, logs of flights.
+//! Files of other programs, text in and text out: models of simulators, tables of thrust stands.
 //!
 //! ```text
 //! units        a thrust constant in the units of other programs      simulator     models: written, read back, compared
 //! identified   results.json → numbers for an export                 thrust_stand  CSV tables → speeds and forces
-//! flight_log   CSV and ULog → motors and body rates over time       csv_text      CSV text, for the two before
+//! csv_text     CSV text, for the tables
 //! ```
 
 mod csv_text;
-mod flight_log;
 mod identified;
 mod simulator;
 mod thrust_stand;
 mod units;
 
 pub use csv_text::CsvError;
-pub use flight_log::{
-    FlightLogError, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_log_from_bytes, flight_log_from_csv,
-};
 pub use identified::{HeardTone, IdentifiedRotor, ResultsError, identified_from_results};
 pub use simulator::{
     ChangedLine, ModelError, SimulatorFormat, SimulatorModel, UpdatedModel, export_text, model_from_text, updated_model,

@@ -15,7 +15,7 @@
 //! typeset      tables for documents: Markdown, LaTeX       data_table    tables for programs: CSV, Parquet
 //! tones        tone families and their readings            csv_text      text of a CSV writer
 //! decision     why this shaft speed, and which was second  units         the constant in units of programs
-//! names        short names of recordings
+//! names        short names of recordings                logged        what a log holds
 //! ```
 
 mod adequacy;
@@ -29,6 +29,7 @@ mod fitted_table;
 mod flight;
 mod flight_plan;
 mod folded_warnings;
+mod logged;
 mod models;
 mod names;
 mod notice;
@@ -62,6 +63,7 @@ pub use flight_plan::flight_plan_text;
 pub use folded_warnings::{
     FoldedWarning, distinct_notices, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, warning_count,
 };
+pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use names::short_names;
 pub use notice::Notice;

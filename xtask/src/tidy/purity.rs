@@ -4,7 +4,7 @@ use super::fault::Fault;
 use super::paths::{NamedPath, faults_of_paths};
 use crate::tree::{Source, Tree};
 
-const PURE: [&str; 13] = [
+const PURE: [&str; 14] = [
     "vehicle",
     "fft",
     "signal",
@@ -15,6 +15,7 @@ const PURE: [&str; 13] = [
     "hovertone",
     "sim",
     "exchange",
+    "logs",
     "report",
     "figures",
     "page",

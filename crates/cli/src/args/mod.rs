@@ -5,6 +5,7 @@ mod draft;
 mod groups;
 mod init;
 mod labels;
+mod log;
 mod shell;
 mod simulation;
 mod spectrogram;
@@ -19,6 +20,7 @@ pub(crate) use draft::DraftArguments;
 pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments, gear};
 pub(crate) use init::InitArguments;
 pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
+pub(crate) use log::{ColumnName, LogArguments};
 pub(crate) use shell::{CompletionsArguments, ManArguments};
 pub(crate) use simulation::{DemoArguments, SimulateArguments};
 pub(crate) use spectrogram::SpectrogramArguments;
@@ -47,6 +49,7 @@ Examples:
   hovertone weigh loaded.mov --constant out/results.json   what it lifts, by its sound
   hovertone export out/results.json --to gazebo            lines for a simulator
   hovertone compare out/results.json iris.sdf              a simulator's model against it
+  hovertone log flight.ulg                    what a log of a flight holds
   hovertone simulate scenario.toml -o flight  a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
 
@@ -83,6 +86,7 @@ pub(crate) enum Command {
     Weigh(Box<WeighArguments>),
     Export(ExportArguments),
     Compare(CompareArguments),
+    Log(LogArguments),
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),

@@ -1,122 +1,15 @@
 //! Logs with known content, written here; damaged logs; real logs.
 
-use super::super::{FlightLogError, LoggedFlight, RateAxes, flight_log_from_bytes};
-use super::file::UlogFile;
+use crate::flight_of;
+use crate::real::real;
+use crate::writers::ulog::{Writer, escs, flight, floats};
+use hovertone_logs::{ColumnNames, LogError, LoggedFlight, RateAxes, signals_from_log};
 use proptest::prelude::*;
-use std::f64::consts::TAU;
 use std::path::PathBuf;
-
-/// A log in the format of PX4.
-struct Writer {
-    bytes: Vec<u8>,
-    topics: u16,
-}
-
-impl Writer {
-    fn new() -> Self {
-        let mut bytes = vec![0x55, 0x4c, 0x6f, 0x67, 0x01, 0x12, 0x35, 1];
-        bytes.extend(5_000_000_u64.to_le_bytes());
-        let mut writer = Self { bytes, topics: 0 };
-        writer.message(b'B', &[0; 40]);
-        writer.message(b'I', b"\x10char[3] sys_nameabc");
-        writer.message(b'P', b"\x16int32_t SENS_BOARD_ROT\0\0\0\0");
-        for format in [
-            "esc_report:uint64_t timestamp;uint32_t esc_errorcount;int32_t esc_rpm;uint8_t actuator_function;uint8_t[7] _padding0;",
-            "esc_status:uint64_t timestamp;uint16_t counter;uint8_t[6] _padding0;esc_report[8] esc;",
-            "actuator_motors:uint64_t timestamp;uint64_t timestamp_sample;uint16_t reversible_flags;float[12] control;uint8_t[6] _padding0;",
-            "actuator_outputs:uint64_t timestamp;uint32_t noutputs;float[16] output;uint8_t[4] _padding0;",
-            "vehicle_angular_velocity:uint64_t timestamp;uint64_t timestamp_sample;float[3] xyz;uint8_t[4] _padding0;",
-            "cpuload:uint64_t timestamp;float load;",
-        ] {
-            writer.message(b'F', format.as_bytes());
-        }
-        writer
-    }
-
-    fn message(&mut self, kind: u8, content: &[u8]) {
-        self.bytes.extend((content.len() as u16).to_le_bytes());
-        self.bytes.push(kind);
-        self.bytes.extend(content);
-    }
-
-    fn topic(&mut self, name: &str, instance: u8) -> u16 {
-        let number = self.topics;
-        self.topics += 1;
-        let [low, high] = number.to_le_bytes();
-        self.message(b'A', &[&[instance, low, high], name.as_bytes()].concat());
-        number
-    }
-
-    fn data(&mut self, topic: u16, parts: &[&[u8]]) {
-        self.message(b'D', &[&topic.to_le_bytes(), parts.concat().as_slice()].concat());
-    }
-}
-
-fn floats(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
-}
-
-/// `functions[esc]`, or 0 where it is missing.
-fn escs(reported_us: u64, rpm: &[i32], functions: &[u8]) -> Vec<u8> {
-    let esc = |esc: usize| {
-        let rpm = rpm.get(esc).copied().unwrap_or(0);
-        let time = if esc < functions.len() { reported_us } else { 0 };
-        let function = functions.get(esc).copied().unwrap_or(0);
-        [&time.to_le_bytes()[..], &[0; 4], &rpm.to_le_bytes(), &[function], &[0; 7]].concat()
-    };
-    (0..8).flat_map(esc).collect()
-}
-
-/// One second of data: rates at 100 Hz, motors at 50 Hz, outputs at 20 Hz, ESCs at 10 Hz.
-fn flight() -> Vec<u8> {
-    let mut log = Writer::new();
-    let [rates, motors, servos, outputs, cpu, status] = [
-        ("vehicle_angular_velocity", 0),
-        ("actuator_motors", 0),
-        ("actuator_outputs", 0),
-        ("actuator_outputs", 1),
-        ("cpuload", 0),
-        ("esc_status", 0),
-    ]
-    .map(|(name, instance)| log.topic(name, instance));
-    for step in 0..100_u64 {
-        let now_us = 10_000_000 + 10_000 * step;
-        let (now, sampled) = (now_us.to_le_bytes(), (now_us - 1000).to_le_bytes());
-        let wave = step as f32 / 100.0;
-        log.data(rates, &[&now, &sampled, &floats(&[wave, -wave, 0.5])]);
-        if step % 2 == 0 {
-            let nan = f32::NAN;
-            let control = [0.5 + wave, 0.5 - 0.1 * wave, 0.5, 0.6 + wave, nan, nan, nan, nan, nan, nan, nan, nan];
-            log.data(motors, &[&now, &sampled, &[0; 2], &floats(&control)]);
-            log.data(cpu, &[&now, &floats(&[0.5])]);
-        }
-        if step % 5 == 0 {
-            let mut output = [0.0; 16];
-            output[..6].copy_from_slice(&[1500.0 + wave, 1500.0, 1000.0, 0.0, 0.0, 0.0]);
-            log.data(servos, &[&now, &[8, 0, 0, 0], &floats(&output)]);
-            output[..6].copy_from_slice(&[
-                1500.0 + 100.0 * wave,
-                1400.0 - 50.0 * wave,
-                1300.0 + 50.0 * wave,
-                1600.0 - 100.0 * wave,
-                900.0,
-                900.0,
-            ]);
-            log.data(outputs, &[&now, &[8, 0, 0, 0], &floats(&output)]);
-        }
-        if step % 10 == 0 {
-            // the fourth row repeats the third, and in the sixth row one ESC does not answer
-            let counted = if step == 30 { 20 } else { step as u16 };
-            let rpm = [3000 + step as i32, -3100, if step == 50 { 0 } else { 3200 }, 3300];
-            log.data(status, &[&now, &counted.to_le_bytes(), &[0; 6], &escs(now_us, &rpm, &[])]);
-        }
-    }
-    log.bytes
-}
 
 #[test]
 fn speeds_commands_and_rates_each_on_their_own_times() {
-    let log = flight_log_from_bytes(&flight()).unwrap();
+    let log = flight_of(&flight()).unwrap();
     assert!(log.notes.is_empty(), "{:?}", log.notes);
     let rates = log.rates.unwrap();
     assert_eq!((rates.time_s.len(), rates.axes), (100, Some(RateAxes::ForwardRightDown)));
@@ -129,13 +22,13 @@ fn speeds_commands_and_rates_each_on_their_own_times() {
     assert_eq!(commands.names, ["motor 1", "motor 2", "motor 4"]);
     assert_eq!(commands.time_s.len(), 50);
     assert!((commands.values[2][25] - 1.1).abs() < 1e-6);
-    let speeds = log.speeds.unwrap();
+    let speeds = log.speeds_rev_s.unwrap();
     assert_eq!(speeds.names, ["motor 1", "motor 2", "motor 3", "motor 4"]);
     let rows: Vec<i64> = speeds.time_s.iter().map(|time| (100.0 * (time - 10.0)).round() as i64).collect();
     assert_eq!(rows, [0, 10, 20, 40, 60, 70, 80, 90]);
-    assert!((speeds.values[0][3] - 3040.0 * TAU / 60.0).abs() < 1e-9);
+    assert!((speeds.values[0][3] - 3040.0 / 60.0).abs() < 1e-9);
     // the sound does not depend on the direction of rotation
-    assert!((speeds.values[1][3] - 3100.0 * TAU / 60.0).abs() < 1e-9);
+    assert!((speeds.values[1][3] - 3100.0 / 60.0).abs() < 1e-9);
 }
 
 #[test]
@@ -148,7 +41,7 @@ fn outputs_stand_in_for_motors_by_the_instance_that_moves() {
             bytes_without[at] = b'x';
         }
     }
-    let commands = flight_log_from_bytes(&bytes_without).unwrap().commands.unwrap();
+    let commands = flight_of(&bytes_without).unwrap().commands.unwrap();
     assert_eq!(commands.names, ["output 1", "output 2", "output 3", "output 4"]);
     assert!((commands.values[3][10] - 1550.0).abs() < 1e-3 && commands.time_s.len() == 20);
 }
@@ -172,9 +65,9 @@ fn escs_that_say_whose_they_are_are_put_in_order_and_stale_ones_are_gaps() {
             ],
         );
     }
-    let speeds = flight_log_from_bytes(&log.bytes).unwrap().speeds.unwrap();
+    let speeds = flight_of(&log.bytes).unwrap().speeds_rev_s.unwrap();
     assert_eq!(speeds.names, ["motor 1", "motor 2", "motor 3", "motor 4"]);
-    let rpm: Vec<f64> = speeds.values.iter().map(|values| (values[0] * 60.0 / TAU).round()).collect();
+    let rpm: Vec<f64> = speeds.values.iter().map(|values| (values[0] * 60.0).round()).collect();
     assert_eq!((rpm, speeds.time_s), (vec![100.0, 200.0, 300.0, 400.0], vec![1.0, 2.0, 4.0]));
 }
 
@@ -189,10 +82,11 @@ fn what_tells_nothing_is_refused_with_what_to_do() {
         (&silent.bytes[..400], ["before its data", "ULog"]),
         (header, ["before its data", "ULog"]),
         (&header[..7], ["before its data", "ULog"]),
-        (b"\xa3\x95\x80\0FMT", ["neither a CSV", "ULog"]),
+        (b"\xa3\x95\x80\0FMT", ["before its data", "DataFlash"]),
+        (b"PK\x03\x04\0\0", ["neither a CSV", "ULog"]),
         (b"time_s,x\n0,1\n", ["motors or body rates", "time_s"]),
     ] {
-        let error = flight_log_from_bytes(bytes).unwrap_err();
+        let error = flight_of(bytes).unwrap_err();
         let message = error.to_string();
         assert!(words.iter().all(|word| message.contains(word)), "{message}");
         assert!(!error.hint().is_empty());
@@ -202,7 +96,7 @@ fn what_tells_nothing_is_refused_with_what_to_do() {
 /// Whether every series has the length of its times, which increase.
 fn is_sound(log: &LoggedFlight) -> bool {
     let rises = |time_s: &[f64]| time_s.windows(2).all(|pair| pair[0] < pair[1]) && !time_s.is_empty();
-    let motors = [&log.speeds, &log.commands].into_iter().flatten();
+    let motors = [&log.speeds_rev_s, &log.commands].into_iter().flatten();
     let are_motors_sound = motors.into_iter().all(|motors| {
         let length = motors.time_s.len();
         rises(&motors.time_s)
@@ -221,13 +115,15 @@ fn a_log_that_breaks_off_is_read_up_to_there() {
     let whole = flight();
     let mut read = 0;
     for length in (0..whole.len()).step_by(7) {
-        match flight_log_from_bytes(&whole[..length]) {
+        match flight_of(&whole[..length]) {
             Ok(log) => {
                 read += 1;
                 assert!(is_sound(&log));
                 // all rates of the result are rates of the log
+                let is_rate = |table: &str, _: &_| table == "vehicle_angular_velocity";
+                let read = signals_from_log(&whole[..length], &ColumnNames::default(), is_rate).unwrap();
+                let expected = read.tables[0].time_s.len();
                 let rows = log.rates.map_or(0, |rates| rates.time_s.len());
-                let expected = UlogFile::read(&whole[..length]).topics[0].messages.len();
                 assert_eq!(rows, expected);
                 assert!(log.notes.len() <= 1, "{:?}", log.notes);
             }
@@ -235,20 +131,20 @@ fn a_log_that_breaks_off_is_read_up_to_there() {
         }
     }
     assert!(read > whole.len() / 7 / 2, "{read} of {}", whole.len() / 7);
-    let cut = flight_log_from_bytes(&whole[..whole.len() - 3]).unwrap();
+    let cut = flight_of(&whole[..whole.len() - 3]).unwrap();
     assert!(cut.notes[0].contains("breaks off"), "{:?}", cut.notes);
 }
 
 #[test]
 fn reading_goes_on_behind_damage() {
     let whole = flight();
-    let sound = flight_log_from_bytes(&whole).unwrap().rates.unwrap();
+    let sound = flight_of(&whole).unwrap().rates.unwrap();
     let middle = whole.len() / 2;
     let mut damaged = whole.clone();
     damaged[middle..middle + 200].fill(0xff);
-    let log = flight_log_from_bytes(&damaged).unwrap();
+    let log = flight_of(&damaged).unwrap();
     let rates = log.rates.as_ref().unwrap();
-    assert!(log.notes[0].contains("in 1 places"), "{:?}", log.notes);
+    assert!(log.notes[0].contains("in 1 place,"), "{:?}", log.notes);
     assert_eq!(rates.time_s.last(), sound.time_s.last());
     // 200 bytes hold at most 200 / 41 rates
     assert!(rates.time_s.len() >= 100 - 200 / 41 - 2, "{}", rates.time_s.len());
@@ -268,7 +164,7 @@ proptest! {
         let length = bytes.len();
         flips.iter().for_each(|&(at, with)| bytes[7 + at % (length - 7)] ^= with);
         bytes.truncate(7 + (kept * length as f64) as usize);
-        if let Ok(log) = flight_log_from_bytes(&bytes) {
+        if let Ok(log) = flight_of(&bytes) {
             prop_assert!(is_sound(&log));
         }
     }
@@ -276,21 +172,10 @@ proptest! {
     #[test]
     fn any_bytes_are_answered(bytes in prop::collection::vec(any::<u8>(), 0..2000), as_ulog in any::<bool>()) {
         let magic: &[u8] = if as_ulog { &[0x55, 0x4c, 0x6f, 0x67, 0x01, 0x12, 0x35, 1, 0, 0, 0, 0, 0, 0, 0, 0] } else { &[] };
-        if let Ok(log) = flight_log_from_bytes(&[magic, &bytes].concat()) {
+        if let Ok(log) = flight_of(&[magic, &bytes].concat()) {
             prop_assert!(is_sound(&log));
         }
     }
-}
-
-/// A real log, where the test data are installed.
-fn real(name: &str) -> Option<Vec<u8>> {
-    let shared = || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data"));
-    let path = std::env::var_os("HOVERTONE_TEST_DATA").map_or_else(shared, PathBuf::from).join("logs").join(name);
-    let bytes = std::fs::read(&path).ok();
-    if bytes.is_none() {
-        println!("skipped: no test recordings at {} (set HOVERTONE_TEST_DATA)", path.display());
-    }
-    bytes
 }
 
 /// A value as read by the `px4_ulog` reader.
@@ -311,9 +196,9 @@ fn as_px4_reads(name: &str, topic: &str, instance: u8, field: &str) -> Vec<f64> 
 fn a_real_flight_with_escs_is_read_as_px4_reads_it() {
     let name = "px4_esc_status.ulg";
     let Some(bytes) = real(name) else { return };
-    let log = flight_log_from_bytes(&bytes).unwrap();
+    let log = flight_of(&bytes).unwrap();
     assert!(log.notes.is_empty() && is_sound(&log), "{:?}", log.notes);
-    let (speeds, commands, rates) = (log.speeds.unwrap(), log.commands.unwrap(), log.rates.unwrap());
+    let (speeds, commands, rates) = (log.speeds_rev_s.unwrap(), log.commands.unwrap(), log.rates.unwrap());
     assert_eq!(speeds.names, ["motor 1", "motor 2", "motor 3", "motor 4"]);
     assert_eq!(commands.names, ["output 1", "output 2", "output 3", "output 4"]);
     let rpm = as_px4_reads(name, "esc_status", 0, "esc[2].esc_rpm");
@@ -321,12 +206,12 @@ fn a_real_flight_with_escs_is_read_as_px4_reads_it() {
     let mut compared = 0;
     for (time_s, speed) in speeds.time_s.iter().zip(&speeds.values[2]) {
         let row = times.iter().position(|time| (time * 1e-6 - time_s).abs() < 1e-9).unwrap();
-        assert!((speed - rpm[row].abs() * TAU / 60.0).abs() < 1e-9);
+        assert!((speed - rpm[row].abs() / 60.0).abs() < 1e-9);
         compared += 1;
     }
     assert!(compared > rpm.len() / 2, "{compared} of {}", rpm.len());
     // a heavy multirotor: 1334 to 2976 rpm
-    let all = || speeds.values.iter().flatten().map(|speed| speed * 60.0 / TAU);
+    let all = || speeds.values.iter().flatten().map(|speed| speed * 60.0);
     assert!(all().all(|rpm| (1000.0..3500.0).contains(&rpm)));
     assert_eq!(commands.values[1], as_px4_reads(name, "actuator_outputs", 1, "output[1]"));
     assert_eq!(rates.rates_rad_s[2], as_px4_reads(name, "sensor_combined", 0, "gyro_rad[2]"));
@@ -336,9 +221,9 @@ fn a_real_flight_with_escs_is_read_as_px4_reads_it() {
 fn a_real_log_without_escs_has_rates() {
     let name = "px4_sample_small.ulg";
     let Some(bytes) = real(name) else { return };
-    let log = flight_log_from_bytes(&bytes).unwrap();
-    assert!(is_sound(&log) && log.speeds.is_none());
+    let log = flight_of(&bytes).unwrap();
+    assert!(is_sound(&log) && log.speeds_rev_s.is_none());
     let rates = log.rates.unwrap();
     assert_eq!(rates.rates_rad_s[0], as_px4_reads(name, "vehicle_angular_velocity", 0, "xyz[0]"));
-    assert!(matches!(flight_log_from_bytes(&bytes[..200]), Err(FlightLogError::UlogWithoutData)));
+    assert!(matches!(flight_of(&bytes[..200]), Err(LogError::WithoutData { .. })));
 }

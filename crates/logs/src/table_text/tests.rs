@@ -1,7 +1,11 @@
 //! Logs as programs write them, and as they should not be.
 
-use super::*;
+use crate::{ColumnNames, LogError, LoggedFlight, flight_from_log};
 use std::f64::consts::TAU;
+
+fn flight_log_from_csv(text: &str) -> Result<LoggedFlight, LogError> {
+    flight_from_log(text.as_bytes(), &ColumnNames::default())
+}
 
 #[test]
 fn columns_are_found_wherever_they_stand_and_gaps_are_gaps() {
@@ -16,15 +20,15 @@ fn columns_are_found_wherever_they_stand_and_gaps_are_gaps() {
     let rates = log.rates.unwrap();
     assert_eq!(rates.time_s.len(), 3);
     assert!((rates.rates_rad_s[0][0] - TAU / 2.0).abs() < 1e-12 && (rates.rates_rad_s[2][2] - TAU).abs() < 1e-12);
-    assert_eq!(log.speeds, None);
+    assert_eq!(log.speeds_rev_s, None);
 }
 
 #[test]
-fn speeds_are_in_rad_s_and_in_the_order_of_their_numbers() {
+fn speeds_are_in_rev_s_and_in_the_order_of_their_numbers() {
     let log = flight_log_from_csv("time_s;rotor2_rpm;rotor1_rpm\n0;120;60\n0.5;120;60\n").unwrap();
-    let speeds = log.speeds.unwrap();
+    let speeds = log.speeds_rev_s.unwrap();
     assert_eq!(speeds.names, ["motor 1", "motor 2"]);
-    assert!((speeds.values[0][1] - TAU).abs() < 1e-12 && (speeds.values[1][0] - 2.0 * TAU).abs() < 1e-12);
+    assert!((speeds.values[0][1] - 1.0).abs() < 1e-12 && (speeds.values[1][0] - 2.0).abs() < 1e-12);
 }
 
 #[test]

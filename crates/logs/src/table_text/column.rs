@@ -1,8 +1,8 @@
-//! From the headers of flight logs to the quantities of their columns.
+//! From the headers of a CSV to the quantities of its columns.
 
 use std::f64::consts::TAU;
 
-/// Quantity of a column. Factors are SI units per unit of the column.
+/// Quantity of a column. Factors are units of the signal (s, rad/s) per unit of the column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum LogColumn {
     Time {
@@ -15,9 +15,10 @@ pub(super) enum LogColumn {
         axis: usize,
         factor: f64,
     },
+    /// Speed of a motor, in rev/s per unit of the column.
     MotorSpeed {
         motor: u32,
-        factor: f64,
+        rev_s: f64,
     },
     MotorCommand {
         motor: u32,
@@ -59,18 +60,24 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
     }
     let motor = number?;
     if has(&["rpm", "erpm"]) {
-        return Some(LogColumn::MotorSpeed { motor, factor: TAU / 60.0 });
+        return Some(LogColumn::MotorSpeed { motor, rev_s: 1.0 / 60.0 });
     }
     if has(&["rad"]) && has(&["s"]) {
-        return Some(LogColumn::MotorSpeed { motor, factor: 1.0 });
+        return Some(LogColumn::MotorSpeed { motor, rev_s: 1.0 / TAU });
     }
     if has(&["rps", "hz"]) || has(&["rev"]) && has(&["s"]) {
-        return Some(LogColumn::MotorSpeed { motor, factor: TAU });
+        return Some(LogColumn::MotorSpeed { motor, rev_s: 1.0 });
     }
     let is_command = has(&["pwm", "command", "cmd", "duty", "output", "throttle", "voltage"]);
     let is_bare = words.first().is_some_and(|word| ["motor", "rotor", "esc", "m"].contains(&word.as_str()))
         && words.iter().skip(1).all(|word| word.parse::<u32>().is_ok() || ["us", "v"].contains(&word.as_str()));
     (is_command || is_bare).then_some(LogColumn::MotorCommand { motor })
+}
+
+/// The unit in the brackets of a header, as in "Torque (N·m)"; empty without one.
+pub(super) fn unit_of(header: &str) -> String {
+    let inside = |open: char, close: char| Some(header.strip_suffix(close)?.rsplit_once(open)?.1.trim().to_owned());
+    inside('(', ')').or_else(|| inside('[', ']').filter(|unit| unit.parse::<u32>().is_err())).unwrap_or_default()
 }
 
 /// Lower-case words and whole numbers: "rotor1_speed_rad_s" becomes rotor, 1, speed, rad, s.
@@ -97,6 +104,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_unit_is_what_the_brackets_hold() {
+        for (header, unit) in
+            [("Torque (N·m)", "N·m"), ("acc [m/s²]", "m/s²"), ("motor[3]", ""), ("battery_v", ""), ("a)", "")]
+        {
+            assert_eq!(unit_of(header), unit, "{header}");
+        }
+    }
+
+    #[test]
     fn headers_as_programs_write_them() {
         use LogColumn::{MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit};
         let deg = TAU / 360.0;
@@ -119,10 +135,10 @@ mod tests {
             ("output[3]", MotorCommand { motor: 3 }),
             ("motor2 (us)", MotorCommand { motor: 2 }),
             ("voltage_3_v", MotorCommand { motor: 3 }),
-            ("rotor1_speed_rad_s", MotorSpeed { motor: 1, factor: 1.0 }),
-            ("speed_2_rad_s", MotorSpeed { motor: 2, factor: 1.0 }),
-            ("esc[0].esc_rpm", MotorSpeed { motor: 0, factor: TAU / 60.0 }),
-            ("rotor3_speed_rev_s", MotorSpeed { motor: 3, factor: TAU }),
+            ("rotor1_speed_rad_s", MotorSpeed { motor: 1, rev_s: 1.0 / TAU }),
+            ("speed_2_rad_s", MotorSpeed { motor: 2, rev_s: 1.0 / TAU }),
+            ("esc[0].esc_rpm", MotorSpeed { motor: 0, rev_s: 1.0 / 60.0 }),
+            ("rotor3_speed_rev_s", MotorSpeed { motor: 3, rev_s: 1.0 }),
         ] {
             assert_eq!(column_of(header), Some(column), "{header}");
         }

@@ -1,0 +1,126 @@
+//! `hovertone log`: what a log holds, and its signals as CSV.
+
+use crate::args::{ColumnName, LogArguments};
+use crate::failure::{Ending, Failure};
+use crate::inputs::{is_stdin, open_stream};
+use crate::outputs::{Outputs, written};
+use crate::terminal::Terminal;
+use hovertone_logs::{ColumnNames, LogError, Loss, SignalRow, log_summary, signal_rows};
+use hovertone_report::{Notice, log_json, log_text, signal_headers};
+use std::io::BufWriter;
+use std::path::Path;
+
+/// Name of a log in messages.
+pub(crate) const THE_LOG: &str = "the log";
+const HINT_OF_LOSS: &str = "download the log again; what could be read of it was used";
+
+/// Lists all logs, or writes signals of one.
+pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let names = column_names(&arguments.column)?;
+    if let Some(output) = &arguments.output {
+        return match arguments.files.as_slice() {
+            [file] => write_signals(file, output, &names, arguments, terminal),
+            files => {
+                let what = format!("--signal writes one log, and {} are given", files.len());
+                Err(Failure::usage(what, "give one log at a time"))
+            }
+        };
+    }
+    let mut ending = Ending::Done;
+    for (index, file) in arguments.files.iter().enumerate() {
+        let log = match open_stream(file, THE_LOG) {
+            Ok(stream) => log_summary(stream, &names).map_err(|error| log_failure(&error, file)),
+            Err(failure) => Err(failure),
+        };
+        let log = match log {
+            Ok(log) => log,
+            // the other logs are listed all the same
+            Err(failure @ Failure::Failed { .. }) if arguments.files.len() > 1 => {
+                terminal.failure(&failure);
+                ending = ending.max(Ending::FilesFailed);
+                continue;
+            }
+            Err(failure) => return Err(failure),
+        };
+        ending = ending.max(warn_of_loss(&log.loss, terminal)?);
+        let name = file.display().to_string();
+        let name = if is_stdin(file) { crate::inputs::STDIN } else { &name };
+        if arguments.json {
+            terminal.data(&log_json(name, &log).map_err(Failure::internal)?)?;
+        } else {
+            let gap = if index > 0 { "\n" } else { "" };
+            let width = terminal.fold_width();
+            terminal.text(&format!("{gap}{}", log_text(name, &log, arguments.signals, width)))?;
+        }
+    }
+    Ok(ending)
+}
+
+fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure> {
+    let mut names = ColumnNames::default();
+    for ColumnName { header, name } in typed {
+        names.add(header, name).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+    }
+    Ok(names)
+}
+
+/// The failure of a log: of the disk, or of its content.
+pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
+    match error {
+        LogError::Read(_) => Failure::failed(error.to_string(), error.hint(), path),
+        LogError::Write(error) => Failure::cannot_write(error, path),
+        _ => Failure::Usage { what: error.to_string(), hint: error.hint().to_owned(), path: Some(path.to_owned()) },
+    }
+}
+
+/// The notice of what a log has lost.
+pub(crate) fn loss_notice(words: &str) -> Notice {
+    Notice::new(words, HINT_OF_LOSS)
+}
+
+fn warn_of_loss(loss: &Loss, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let Some(words) = loss.in_words() else { return Ok(Ending::Done) };
+    terminal.flush()?;
+    terminal.warning(&loss_notice(&words), "");
+    Ok(Ending::Incomplete)
+}
+
+/// Writes signals row by row: the log is never held in memory.
+fn write_signals(
+    file: &Path,
+    output: &Path,
+    names: &ColumnNames,
+    arguments: &LogArguments,
+    terminal: &mut Terminal,
+) -> Result<Ending, Failure> {
+    let begun = Outputs::beside([file], arguments.replace.force).create(output)?;
+    let mut writer = csv::Writer::from_writer(BufWriter::new(begun.handle()?));
+    let mut has_header = false;
+    let mut row_count = 0_u64;
+    let mut cells: Vec<String> = Vec::new();
+    let take = |row: &SignalRow| {
+        if !std::mem::replace(&mut has_header, true) {
+            writer.write_record(signal_headers(row.signals))?;
+        }
+        cells.clear();
+        let cell = |value: &f64| if value.is_finite() { value.to_string() } else { String::new() };
+        cells.extend(std::iter::once(&row.time_s).chain(row.values).map(cell));
+        row_count += 1;
+        Ok(writer.write_record(&cells)?)
+    };
+    let stream = open_stream(file, THE_LOG)?;
+    let loss = signal_rows(stream, names, &arguments.signal, take).map_err(|error| match error {
+        LogError::Write(error) => Failure::cannot_write(&error, output),
+        error => log_failure(&error, file),
+    })?;
+    writer.flush().map_err(|error| Failure::cannot_write(&error, output))?;
+    drop(writer);
+    if row_count == 0 {
+        let what = "these signals have no rows in this log: nothing was written";
+        return Err(Failure::failed(what, "`hovertone log FILE` lists the tables with rows", file));
+    }
+    begun.keep()?;
+    let ending = warn_of_loss(&loss, terminal)?;
+    terminal.say(&format!("{}, {row_count} rows", written(output)));
+    Ok(ending)
+}

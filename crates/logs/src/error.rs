@@ -1,0 +1,167 @@
+//! Errors in logs.
+
+use crate::LogFormat;
+use std::io;
+
+/// Why a log cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LogError {
+    /// The source of the bytes failed.
+    #[error("the log cannot be read: {0}")]
+    Read(#[from] io::Error),
+    /// The caller could not write the rows.
+    #[error("the signals cannot be written: {0}")]
+    Write(io::Error),
+    /// Neither text nor a known format.
+    #[error("this is neither a CSV nor a log of PX4 (ULog), ArduPilot (DataFlash) or Betaflight (blackbox)")]
+    UnknownFormat,
+    /// No row of any table.
+    #[error("this {format} ends, or is damaged, before its data begin")]
+    WithoutData {
+        /// Format of the log.
+        format: LogFormat,
+    },
+    /// A binary log without signals about rotors.
+    #[error("this {format} holds no motor speeds, motor commands or body rates; its tables are: {tables}")]
+    WithoutSignal {
+        /// Format of the log.
+        format: LogFormat,
+        /// Names of its tables.
+        tables: String,
+    },
+    /// A version of a format that is not read.
+    #[error("this {format} has version {version} of its format, and version {known} is read")]
+    OtherVersion {
+        /// Format of the log.
+        format: LogFormat,
+        /// The version in the log.
+        version: String,
+        /// The version that is read.
+        known: &'static str,
+    },
+    /// Nothing in the file.
+    #[error("this file is empty, and a table is needed")]
+    Empty,
+    /// JSON.
+    #[error("this file is JSON, and a table is needed")]
+    Json,
+    /// No CSV with a header.
+    #[error("this is no table with a header: {0}")]
+    NotCsv(#[from] csv::Error),
+    /// A cell that is not a number.
+    #[error("line {line}, column \"{column}\": \"{cell}\" is no number")]
+    NotANumber {
+        /// Line, counted from 1.
+        line: u64,
+        /// Header of the column.
+        column: String,
+        /// Text of the cell.
+        cell: String,
+    },
+    /// No column with times.
+    #[error("no column holds the time with its unit; the columns are: {columns}")]
+    NoTime {
+        /// The headers.
+        columns: String,
+    },
+    /// No column about rotors.
+    #[error("no columns hold motors or body rates; the columns are: {columns}")]
+    NoSignal {
+        /// The headers.
+        columns: String,
+    },
+    /// Two columns with the same quantity.
+    #[error("columns \"{first}\" and \"{second}\" say the same")]
+    Twice {
+        /// Header of the first.
+        first: String,
+        /// Header of the second.
+        second: String,
+    },
+    /// Times that decrease.
+    #[error("line {line}: its time, {time_s} s, is before that of the line above it")]
+    NotInOrder {
+        /// Line, counted from 1.
+        line: u64,
+        /// The time in that line.
+        time_s: f64,
+    },
+    /// A name for a column that is not there.
+    #[error("there is no column \"{header}\"; the columns are: {columns}")]
+    NoSuchColumn {
+        /// The header of the user.
+        header: String,
+        /// The headers.
+        columns: String,
+    },
+    /// A name for a column that has no meaning.
+    #[error("\"{name}\" says no quantity with its unit, so that the column \"{header}\" cannot have it")]
+    NameWithoutMeaning {
+        /// The header of the user.
+        header: String,
+        /// The name that the user gave.
+        name: String,
+    },
+    /// Names for the columns of a log that has none.
+    #[error("this {format} names its signals itself, and no column of it can have another name")]
+    NoColumns {
+        /// Format of the log.
+        format: LogFormat,
+    },
+    /// No signal of this name.
+    #[error("the log has no signal \"{name}\"; its tables are: {tables}")]
+    NoSuchSignal {
+        /// The name of the user.
+        name: String,
+        /// Names of the tables.
+        tables: String,
+    },
+    /// Signals of several tables, which do not share their times.
+    #[error("\"{first}\" and \"{second}\" are signals of two tables, which have times of their own")]
+    SeveralTables {
+        /// A signal.
+        first: String,
+        /// A signal of another table.
+        second: String,
+    },
+}
+
+impl LogError {
+    /// Advice to the user.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Read(_) => "check the file and its disk",
+            Self::Write(_) => "check the disk",
+            Self::UnknownFormat => {
+                "export the log as CSV with a header, or give PX4's .ulg, ArduPilot's .bin or Betaflight's .bbl"
+            }
+            Self::WithoutData { .. } => "download the log from the vehicle again, or give that of the same flight",
+            Self::WithoutSignal { format: LogFormat::Ulog, .. } => {
+                "let PX4 log esc_status, actuator_motors, actuator_outputs or vehicle_angular_velocity (SDLOG_PROFILE)"
+            }
+            Self::WithoutSignal { format: LogFormat::DataFlash, .. } => {
+                "let ArduPilot log ESC, RCOU or IMU (LOG_BITMASK); ESC needs ESC telemetry"
+            }
+            Self::WithoutSignal { .. } => {
+                "let Betaflight log motors, gyro or, with bidirectional DShot, RPM (blackbox)"
+            }
+            Self::OtherVersion { .. } => "export the log as CSV with its own program (blackbox_decode)",
+            Self::Empty | Self::Json | Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
+            Self::NoTime { .. } => "name the unit, as in time_s or timestamp_us",
+            Self::NoSignal { .. } => {
+                "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
+            }
+            Self::Twice { .. } => "remove one of the columns",
+            Self::NotInOrder { .. } => "sort the log by its time, and give the log of one flight",
+            Self::NoSuchColumn { .. } => "copy the header as the file has it",
+            Self::NameWithoutMeaning { .. } => {
+                "name it as time_s, rotor1_rpm, motor1_pwm or gyro_x_rad_s (docs/logs.md)"
+            }
+            Self::NoColumns { .. } => "leave --column out: it is for CSV",
+            Self::NoSuchSignal { .. } => "`hovertone log FILE --json` lists all signals",
+            Self::SeveralTables { .. } => "write the signals of each table into a file of their own",
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Logs with all signals in one table: CSV, and blackbox.
+
+use super::rows::{Motor, command_number, motors_of, rates_of, speed_number, with_role, without_sign};
+use super::{LoggedFlight, RateAxes};
+use crate::signals::SignalTable;
+
+/// Motors and rates of the table with most rows: a blackbox file has one for each arming.
+pub(super) fn flight(tables: &[SignalTable], axes: Option<RateAxes>) -> LoggedFlight {
+    let Some(table) = tables.iter().rev().max_by_key(|table| table.time_s.len()) else {
+        return LoggedFlight::default();
+    };
+    let speeds = motors_of(&table.time_s, one_of_each(with_role(table, speed_number)), "motor", |_| false);
+    let commands = motors_of(&table.time_s, with_role(table, command_number), "motor", |_| false);
+    LoggedFlight { speeds_rev_s: speeds.map(without_sign), commands, rates: rates_of(table, axes), notes: Vec::new() }
+}
+
+/// Of two sensors for one motor, the one that sees it turn more often: a stand may have no optical one.
+fn one_of_each(motors: Vec<Motor>) -> Vec<Motor> {
+    let turning = |motor: &Motor| motor.values.iter().filter(|value| **value > 0.0).count();
+    let mut kept: Vec<Motor> = Vec::new();
+    for motor in motors {
+        match kept.iter_mut().find(|other| other.number == motor.number) {
+            Some(other) if turning(&motor) > turning(other) => *other = motor,
+            Some(_) => {}
+            None => kept.push(motor),
+        }
+    }
+    kept
+}

@@ -1,0 +1,143 @@
+//! What a log holds: its tables, their signals, rates and spans. Memory does not grow with the length of the log.
+
+use crate::log::read_log;
+use crate::table::{RowSink, RowValues, SignalRole, TableSignal};
+use crate::table_text::ColumnNames;
+use crate::time_line::TimeLine;
+use crate::{LogError, LogFormat, Loss};
+use std::io::Read;
+
+/// Lowest and highest value of a signal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValueRange {
+    /// Lowest.
+    pub low: f64,
+    /// Highest.
+    pub high: f64,
+}
+
+/// A signal of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalSummary {
+    /// Name, unit and role.
+    pub signal: TableSignal,
+    /// Its values, where it tells something about rotors and has any. For a rotor speed without its sign, and without rows at rest.
+    pub range: Option<ValueRange>,
+}
+
+/// Signals that share their times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TableSummary {
+    /// Name in the log.
+    pub name: String,
+    /// Number of rows.
+    pub row_count: u64,
+    /// Lowest and highest time.
+    pub span_s: Option<[f64; 2]>,
+    /// Rows per second.
+    pub rate_hz: Option<f64>,
+    /// The signals.
+    pub signals: Vec<SignalSummary>,
+}
+
+/// What a log holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LogSummary {
+    /// Its format.
+    pub format: LogFormat,
+    /// The tables with rows, sorted by name.
+    pub tables: Vec<TableSummary>,
+    /// What could not be read.
+    pub loss: Loss,
+}
+
+impl LogSummary {
+    /// The signals with a role and a value, with their tables.
+    pub fn about_rotors(&self) -> impl Iterator<Item = (&TableSummary, &SignalSummary)> {
+        let of_table = |table| move |signal| (table, signal);
+        let signals = self.tables.iter().flat_map(move |table| table.signals.iter().map(of_table(table)));
+        signals.filter(|(_, signal): &(&TableSummary, &SignalSummary)| signal.range.is_some())
+    }
+
+    /// Whether a rotor turns in this log: a speed that is 0 throughout is none.
+    pub fn has_rotor_speed(&self) -> bool {
+        self.about_rotors().any(|(_, signal)| matches!(signal.signal.role, Some(SignalRole::RotorSpeed(_))))
+    }
+
+    /// Lowest and highest time of all tables.
+    pub fn span_s(&self) -> Option<[f64; 2]> {
+        let spans = self.tables.iter().filter_map(|table| table.span_s);
+        spans.reduce(|[from_s, to_s], [next_from_s, next_to_s]| [from_s.min(next_from_s), to_s.max(next_to_s)])
+    }
+}
+
+/// Lists what a log holds. `names` gives the columns of a CSV other names.
+///
+/// # Errors
+/// A log that cannot be read, is of no known format, or has no data; a CSV without times or with cells that are not numbers.
+pub fn log_summary(source: impl Read, names: &ColumnNames) -> Result<LogSummary, LogError> {
+    let mut survey = Survey::default();
+    let (format, findings) = read_log(source, names, &mut survey)?;
+    let mut tables: Vec<TableSummary> = survey.tables.into_iter().filter_map(Surveyed::summary).collect();
+    if tables.is_empty() {
+        return Err(LogError::WithoutData { format });
+    }
+    tables.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(LogSummary { format, tables, loss: findings.loss })
+}
+
+#[derive(Default)]
+struct Survey {
+    tables: Vec<Surveyed>,
+}
+
+struct Surveyed {
+    name: String,
+    times: TimeLine,
+    signals: Vec<SignalSummary>,
+    /// Indices of the signals whose values are looked at.
+    watched: Vec<usize>,
+}
+
+impl RowSink for Survey {
+    fn table(&mut self, name: String, signals: Vec<TableSignal>) {
+        let watched = (0..signals.len()).filter(|&index| signals[index].role.is_some()).collect();
+        let signals = signals.into_iter().map(|signal| SignalSummary { signal, range: None }).collect();
+        self.tables.push(Surveyed { name, times: TimeLine::default(), signals, watched });
+    }
+
+    fn row(&mut self, table: usize, time_s: f64, values: &dyn RowValues) -> Result<(), LogError> {
+        let Some(table) = self.tables.get_mut(table) else { return Ok(()) };
+        table.times.take(time_s);
+        for &index in &table.watched {
+            table.signals[index].take(values.value(index));
+        }
+        Ok(())
+    }
+}
+
+impl SignalSummary {
+    fn take(&mut self, value: f64) {
+        let is_speed = matches!(self.signal.role, Some(SignalRole::RotorSpeed(_)));
+        let value = if is_speed { value.abs() } else { value };
+        if !value.is_finite() || is_speed && value == 0.0 {
+            return;
+        }
+        let range = self.range.get_or_insert(ValueRange { low: value, high: value });
+        (range.low, range.high) = (range.low.min(value), range.high.max(value));
+    }
+}
+
+impl Surveyed {
+    /// `None` for a table without rows.
+    fn summary(self) -> Option<TableSummary> {
+        let times = self.times.finished();
+        (times.row_count > 0).then(|| TableSummary {
+            name: self.name,
+            row_count: times.row_count,
+            span_s: times.span_s(),
+            rate_hz: times.rate_hz(),
+            signals: self.signals,
+        })
+    }
+}

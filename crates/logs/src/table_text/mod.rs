@@ -1,0 +1,214 @@
+//! From a CSV with a header to rows. The words and units of the headers (`column`), or the names that the user gives them, tell the quantities.
+
+mod cells;
+mod column;
+#[cfg(test)]
+mod tests;
+
+use crate::byte_window::ByteWindow;
+use crate::table::{Findings, RowSink, RowValues, SignalRole, TableSignal};
+use crate::{LogError, LogFormat};
+use cells::Cells;
+use column::{LogColumn, column_of, unit_of};
+use csv::ByteRecord;
+use std::io::Read;
+
+/// Bytes from which separator and decimal commas are told.
+const HEAD_BYTES: usize = 1 << 17;
+/// Name of the one table.
+const TABLE: &str = "table";
+/// Columns of RCbenchmark. Its speeds are the shaft's: the program divides the electrical speed by the pole pairs.
+const RCBENCHMARK_COMMAND: &str = "ESC signal (µs)";
+const RCBENCHMARK_SPEEDS: [&str; 2] = ["Motor Electrical Speed (RPM)", "Motor Optical Speed (RPM)"];
+
+/// Names for columns whose headers do not tell their quantity.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ColumnNames {
+    names: Vec<ColumnName>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct ColumnName {
+    header: String,
+    name: String,
+    meaning: LogColumn,
+}
+
+impl ColumnNames {
+    /// Whether no column has another name.
+    pub fn is_empty(&self) -> bool {
+        self.names.is_empty()
+    }
+
+    /// Reads the column with this header as if its header were `name`, such as "time_ms", "rotor1_rpm" or "motor2_pwm".
+    ///
+    /// # Errors
+    /// A name that tells no quantity with its unit.
+    pub fn add(&mut self, header: &str, name: &str) -> Result<(), LogError> {
+        match column_of(name) {
+            Some(meaning) if meaning != LogColumn::TimeWithoutUnit => {
+                let (header, name) = (header.trim().to_owned(), name.to_owned());
+                self.names.push(ColumnName { header, name, meaning });
+                Ok(())
+            }
+            _ => Err(LogError::NameWithoutMeaning { header: header.to_owned(), name: name.to_owned() }),
+        }
+    }
+
+    /// Refuses names for columns that are not there.
+    fn check(&self, headers: &[String]) -> Result<(), LogError> {
+        match self.names.iter().find(|name| !headers.contains(&name.header)) {
+            Some(name) => Err(LogError::NoSuchColumn { header: name.header.clone(), columns: names_of(headers) }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A column of the table.
+struct Column {
+    index: usize,
+    header: String,
+    meaning: Option<LogColumn>,
+    signal: TableSignal,
+    factor: f64,
+}
+
+/// Hands the rows of a CSV over, separated by commas, semicolons or tabs. An empty cell is a gap, and so is a cell without a number in a column
+/// without meaning.
+pub(crate) fn read<R: Read>(
+    bytes: &mut ByteWindow<R>,
+    names: &ColumnNames,
+    sink: &mut impl RowSink,
+) -> Result<(LogFormat, Findings), LogError> {
+    let head = bytes.ahead(HEAD_BYTES)?;
+    let cells = Cells::of_head(&head[..head.len().min(HEAD_BYTES)])?;
+    let mut reader = cells.reader(bytes);
+    let headers: Vec<String> =
+        reader.byte_headers()?.iter().map(|header| cells::text_of(header).trim().to_owned()).collect();
+    names.check(&headers)?;
+    let format = if headers.iter().any(|header| header == RCBENCHMARK_COMMAND) {
+        LogFormat::RcBenchmark
+    } else {
+        LogFormat::Csv
+    };
+    let columns = columns_of(&headers, names, format)?;
+    let Some(time) = columns.iter().find(|column| matches!(column.meaning, Some(LogColumn::Time { .. }))) else {
+        return Err(LogError::NoTime { columns: names_of(&headers) });
+    };
+    let signals: Vec<&Column> = columns.iter().filter(|column| column.is_signal()).collect();
+    sink.table(TABLE.to_owned(), signals.iter().map(|column| column.signal.clone()).collect());
+    let mut record = ByteRecord::new();
+    let mut before_s = f64::NEG_INFINITY;
+    while reader.read_byte_record(&mut record)? {
+        let Some(time_s) = number(&cells, time, &record)? else { continue };
+        if time_s < before_s {
+            return Err(LogError::NotInOrder { line: line_of(&record), time_s });
+        }
+        before_s = time_s;
+        for column in signals.iter().filter(|column| column.signal.role.is_some()) {
+            number(&cells, column, &record)?;
+        }
+        sink.row(0, time_s, &TextRow { cells: &cells, signals: &signals, record: &record })?;
+    }
+    Ok((format, Findings { headers, ..Findings::default() }))
+}
+
+/// The headers, for messages.
+pub(crate) fn names_of(headers: &[String]) -> String {
+    let headers = headers.iter().map(String::as_str).filter(|header| !header.is_empty());
+    headers.collect::<Vec<_>>().join(", ")
+}
+
+/// Line of a row, counted from 1.
+fn line_of(record: &ByteRecord) -> u64 {
+    record.position().map_or(0, csv::Position::line)
+}
+
+impl Column {
+    fn is_signal(&self) -> bool {
+        let is_time = matches!(self.meaning, Some(LogColumn::Time { .. } | LogColumn::TimeWithoutUnit));
+        !is_time && !self.header.is_empty()
+    }
+}
+
+fn columns_of(headers: &[String], names: &ColumnNames, format: LogFormat) -> Result<Vec<Column>, LogError> {
+    let column = |(index, header): (usize, &String)| {
+        let named = names.names.iter().find(|name| name.header == *header);
+        let meaning = match named {
+            Some(name) => Some(name.meaning),
+            None if format == LogFormat::RcBenchmark => meaning_of_rcbenchmark(header),
+            None => column_of(header),
+        };
+        let name = named.map_or(header, |name| &name.name);
+        let (signal, factor) = signal_of(name, meaning);
+        Column { index, header: header.clone(), meaning, signal, factor }
+    };
+    let columns: Vec<Column> = headers.iter().enumerate().map(column).collect();
+    if format != LogFormat::RcBenchmark {
+        refuse_twice(&columns)?;
+    }
+    Ok(columns)
+}
+
+fn meaning_of_rcbenchmark(header: &str) -> Option<LogColumn> {
+    match header {
+        RCBENCHMARK_COMMAND => Some(LogColumn::MotorCommand { motor: 1 }),
+        header if RCBENCHMARK_SPEEDS.contains(&header) => Some(LogColumn::MotorSpeed { motor: 1, rev_s: 1.0 / 60.0 }),
+        header => column_of(header).filter(|meaning| matches!(meaning, LogColumn::Time { .. })),
+    }
+}
+
+/// The signal of a column, and its unit per unit of the column.
+fn signal_of(name: &str, meaning: Option<LogColumn>) -> (TableSignal, f64) {
+    let with_role = |role: SignalRole| TableSignal::with_role(name.to_owned(), role);
+    match meaning {
+        Some(LogColumn::MotorSpeed { motor, rev_s }) => (with_role(SignalRole::RotorSpeed(motor)), rev_s),
+        Some(LogColumn::MotorCommand { motor }) => (with_role(SignalRole::Command(motor)), 1.0),
+        Some(LogColumn::Rate { axis, factor }) => (with_role(SignalRole::BodyRate(axis)), factor),
+        Some(LogColumn::Time { factor }) => (TableSignal::plain(name.to_owned()), factor),
+        Some(LogColumn::TimeWithoutUnit) | None => {
+            (TableSignal { unit: unit_of(name), ..TableSignal::plain(name.to_owned()) }, 1.0)
+        }
+    }
+}
+
+fn refuse_twice(columns: &[Column]) -> Result<(), LogError> {
+    for (index, column) in columns.iter().enumerate() {
+        let Some(role) = column.signal.role else { continue };
+        if let Some(first) = columns[..index].iter().find(|first| first.signal.role == Some(role)) {
+            return Err(LogError::Twice { first: first.header.clone(), second: column.header.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// The finite number of a cell, in the unit of the signal; `None` for an empty cell.
+fn number(cells: &Cells, column: &Column, record: &ByteRecord) -> Result<Option<f64>, LogError> {
+    let cell = record.get(column.index).unwrap_or_default();
+    if cells::is_gap(cell) {
+        return Ok(None);
+    }
+    let number = cells.number(cell).map(|number| column.factor * number);
+    number.map(Some).ok_or_else(|| LogError::NotANumber {
+        line: line_of(record),
+        column: column.header.clone(),
+        cell: cells::text_of(cell).into_owned(),
+    })
+}
+
+/// A row of text.
+struct TextRow<'a> {
+    cells: &'a Cells,
+    signals: &'a [&'a Column],
+    record: &'a ByteRecord,
+}
+
+impl RowValues for TextRow<'_> {
+    fn value(&self, signal: usize) -> f64 {
+        let number = self
+            .signals
+            .get(signal)
+            .and_then(|column| Some(column.factor * self.cells.number(self.record.get(column.index)?)?));
+        number.unwrap_or(f64::NAN)
+    }
+}
