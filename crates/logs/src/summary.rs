@@ -95,13 +95,25 @@ struct Surveyed {
     name: String,
     times: TimeLine,
     signals: Vec<SignalSummary>,
-    /// Indices of the signals whose values are looked at.
-    watched: Vec<usize>,
+    /// The signals whose values are looked at.
+    watched: Vec<Watched>,
+}
+
+/// Values of a signal.
+struct Watched {
+    signal: usize,
+    is_speed: bool,
+    range: ValueRange,
 }
 
 impl RowSink for Survey {
     fn table(&mut self, name: String, signals: Vec<TableSignal>) {
-        let watched = (0..signals.len()).filter(|&index| signals[index].role.is_some()).collect();
+        let range = ValueRange { low: f64::INFINITY, high: f64::NEG_INFINITY };
+        let watched = |(signal, TableSignal { role, .. }): (usize, &TableSignal)| {
+            let is_speed = matches!((*role)?, SignalRole::RotorSpeed(_));
+            Some(Watched { signal, is_speed, range })
+        };
+        let watched = signals.iter().enumerate().filter_map(watched).collect();
         let signals = signals.into_iter().map(|signal| SignalSummary { signal, range: None }).collect();
         self.tables.push(Surveyed { name, times: TimeLine::default(), signals, watched });
     }
@@ -109,28 +121,29 @@ impl RowSink for Survey {
     fn row(&mut self, table: usize, time_s: f64, values: &dyn RowValues) -> Result<(), LogError> {
         let Some(table) = self.tables.get_mut(table) else { return Ok(()) };
         table.times.take(time_s);
-        for &index in &table.watched {
-            table.signals[index].take(values.value(index));
+        for watched in &mut table.watched {
+            watched.take(values.value(watched.signal));
         }
         Ok(())
     }
 }
 
-impl SignalSummary {
+impl Watched {
     fn take(&mut self, value: f64) {
-        let is_speed = matches!(self.signal.role, Some(SignalRole::RotorSpeed(_)));
-        let value = if is_speed { value.abs() } else { value };
-        if !value.is_finite() || is_speed && value == 0.0 {
-            return;
+        let value = if self.is_speed { value.abs() } else { value };
+        if value.is_finite() && !(self.is_speed && value == 0.0) {
+            let ValueRange { low, high } = self.range;
+            self.range = ValueRange { low: low.min(value), high: high.max(value) };
         }
-        let range = self.range.get_or_insert(ValueRange { low: value, high: value });
-        (range.low, range.high) = (range.low.min(value), range.high.max(value));
     }
 }
 
 impl Surveyed {
     /// `None` for a table without rows.
-    fn summary(self) -> Option<TableSummary> {
+    fn summary(mut self) -> Option<TableSummary> {
+        for Watched { signal, range, .. } in self.watched {
+            self.signals[signal].range = (range.low <= range.high).then_some(range);
+        }
         let times = self.times.finished();
         (times.row_count > 0).then(|| TableSummary {
             name: self.name,

@@ -144,30 +144,23 @@ impl FrameLayout {
         let mut cursor = Cursor::new(bytes);
         let mut at = 0;
         for encoding in &self.encodings {
-            let room = into.get_mut(at..)?;
-            let first = room.first_mut()?;
-            at += match *encoding {
-                Encoding::Signed => {
-                    *first = cursor.signed()?;
-                    1
+            let value = match *encoding {
+                Encoding::Signed => cursor.signed()?,
+                Encoding::Unsigned => cursor.unsigned()?.cast_signed(),
+                Encoding::Nothing => 0,
+                Encoding::Negative14 => -with_sign(cursor.unsigned()? & 0x3fff, 14),
+                group => {
+                    let room = into.get_mut(at..)?;
+                    at += match group {
+                        Encoding::Nonzero { count } => nonzero(&mut cursor, room.get_mut(..count)?)?,
+                        Encoding::Four => put(room, four(&mut cursor)?),
+                        _ => put(room, three(&mut cursor, group == Encoding::ThreeOfOwnWidth)?),
+                    };
+                    continue;
                 }
-                Encoding::Unsigned => {
-                    *first = cursor.unsigned()?.cast_signed();
-                    1
-                }
-                Encoding::Nothing => {
-                    *first = 0;
-                    1
-                }
-                Encoding::Negative14 => {
-                    *first = -with_sign(cursor.unsigned()? & 0x3fff, 14);
-                    1
-                }
-                Encoding::Nonzero { count } => nonzero(&mut cursor, room.get_mut(..count)?)?,
-                Encoding::Three => put(room, three(&mut cursor, false)?),
-                Encoding::ThreeOfOwnWidth => put(room, three(&mut cursor, true)?),
-                Encoding::Four => put(room, four(&mut cursor)?),
             };
+            *into.get_mut(at)? = value;
+            at += 1;
         }
         Some(cursor.at())
     }
@@ -175,7 +168,10 @@ impl FrameLayout {
 
 /// Puts values where there is room; at the end of a frame there may be none for the last ones.
 fn put<const COUNT: usize>(room: &mut [i32], values: [i32; COUNT]) -> usize {
-    room.iter_mut().zip(values).for_each(|(place, value)| *place = value);
+    match room.first_chunk_mut() {
+        Some(places) => *places = values,
+        None => room.iter_mut().zip(values).for_each(|(place, value)| *place = value),
+    }
     COUNT
 }
 
@@ -221,6 +217,9 @@ fn three(cursor: &mut Cursor, has_own_widths: bool) -> Option<[i32; 3]> {
 fn four(cursor: &mut Cursor) -> Option<[i32; 4]> {
     let tags = cursor.byte()?;
     let mut values = [0; 4];
+    if tags == 0 {
+        return Some(values);
+    }
     let (mut kept, mut is_half_kept) = (0, false);
     for (at, value) in values.iter_mut().enumerate() {
         let halves = [0, 1, 2, 4][usize::from(tags >> (2 * at) & 3)];

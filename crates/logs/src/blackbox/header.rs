@@ -92,12 +92,13 @@ impl Header {
         let names = self.names()?;
         let first_motor = names.iter().position(|name| *name == "motor[0]");
         let numbers = self.numbers(&format!("Field {letter} predictor"))?;
-        let prediction = |number: u32| {
+        let signs = self.signs().filter(|signs| signs.len() == numbers.len())?;
+        let prediction = |(number, is_signed): (u32, bool)| {
             Some(match number {
                 0 => Prediction::Constant(0),
                 1 => Prediction::Previous,
                 2 => Prediction::StraightLine,
-                3 => Prediction::Average,
+                3 => Prediction::Average { is_signed },
                 4 => Prediction::Constant(self.number("minthrottle").unwrap_or(MIN_THROTTLE)),
                 5 => Prediction::Field(first_motor?),
                 6 => Prediction::Increment,
@@ -107,7 +108,7 @@ impl Header {
                 _ => return None,
             })
         };
-        numbers.into_iter().map(prediction).collect()
+        numbers.into_iter().zip(signs).map(prediction).collect()
     }
 
     /// Of each `I interval` loops the first is written as a whole; of the others, numerator of denominator are written.

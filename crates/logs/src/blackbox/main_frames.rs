@@ -2,9 +2,12 @@
 
 use super::encoding::FrameLayout;
 use super::header::Header;
+use std::ops::Range;
 
 /// A main frame follows the one before it within this time, unless something lies between them.
 const STEP_US_MAX: u32 = 10_000_000;
+/// Longest distance of whole frames, in loops.
+const WHOLE_MAX: u32 = 4096;
 /// Times have 32 bits and start again at 0.
 const TIME_US_COUNT: f64 = 4_294_967_296.0;
 
@@ -14,7 +17,9 @@ pub(super) enum Prediction {
     Constant(i32),
     Previous,
     StraightLine,
-    Average,
+    Average {
+        is_signed: bool,
+    },
     /// Another value of the same frame.
     Field(usize),
     /// One more than the previous value, and one for each loop that was not written.
@@ -24,7 +29,26 @@ pub(super) enum Prediction {
 /// One kind of main frames.
 struct Coding {
     layout: FrameLayout,
-    predictions: Vec<Prediction>,
+    runs: Vec<Run>,
+}
+
+/// Neighbouring fields with the same prediction.
+struct Run {
+    prediction: Prediction,
+    fields: Range<usize>,
+}
+
+/// Runs of predictions. Each value that is predicted from another of its frame is a run: the other may be its neighbour.
+fn runs_of(predictions: &[Prediction]) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (at, &prediction) in predictions.iter().enumerate() {
+        let is_alone = matches!(prediction, Prediction::Field(_));
+        match runs.last_mut().filter(|run| run.prediction == prediction && !is_alone) {
+            Some(run) => run.fields.end = at + 1,
+            None => runs.push(Run { prediction, fields: at..at + 1 }),
+        }
+    }
+    runs
 }
 
 impl Coding {
@@ -32,7 +56,7 @@ impl Coding {
         let layout = header.layout(letter)?;
         let predictions = header.predictions(letter)?;
         let is_sound = layout.field_count() == field_count && predictions.len() == field_count;
-        is_sound.then_some(Self { layout, predictions })
+        is_sound.then(|| Self { layout, runs: runs_of(&predictions) })
     }
 }
 
@@ -40,12 +64,11 @@ impl Coding {
 pub(super) struct MainFrames {
     intra: Coding,
     inter: Coding,
-    is_signed: Vec<bool>,
     /// Numbers of these values.
     iteration: Option<usize>,
     time: usize,
-    /// Of each `intervals[0]` loops the first is written as a whole; of the others, `intervals[1]` of `intervals[2]` are written.
-    intervals: [u32; 3],
+    /// By the number of the last frame, modulo the length: loops before the next frame that are not written.
+    skipped: Vec<i32>,
     /// The frame that is being decoded, the last one, and the one before it.
     present: Vec<i32>,
     last: Vec<i32>,
@@ -60,20 +83,47 @@ pub(super) struct MainFrames {
     is_intra: bool,
 }
 
+/// Adds predictions from the last and the second last frame.
+#[inline]
+fn add(present: &mut [i32], last: &[i32], second_last: &[i32], predicted: impl Fn(i32, i32) -> i32) {
+    for ((value, &last), &second_last) in present.iter_mut().zip(last).zip(second_last) {
+        *value = value.wrapping_add(predicted(last, second_last));
+    }
+}
+
+/// The average without its fraction.
+fn signed_average(one: i32, other: i32) -> i32 {
+    ((i64::from(one) + i64::from(other)) / 2) as i32
+}
+
+fn unsigned_average(one: i32, other: i32) -> i32 {
+    ((u64::from(one.cast_unsigned()) + u64::from(other.cast_unsigned())) / 2) as i32
+}
+
+/// Number of loops behind each loop, up to the next whole frame, that are not written. Of each `whole` loops the first is written as a whole;
+/// of the others, `numerator` of `denominator` are written.
+fn skipped_loops([whole, numerator, denominator]: [u32; 3]) -> Vec<i32> {
+    let whole = whole.min(WHOLE_MAX);
+    let is_written = |index: u32| {
+        let index = index % whole;
+        index == 0 || index.wrapping_add(numerator).wrapping_sub(1) % denominator < numerator
+    };
+    let skipped = |last: u32| (last + 1..=last + whole).take_while(|index| !is_written(*index)).count();
+    (0..whole).map(|last| skipped(last) as i32).collect()
+}
+
 impl MainFrames {
     /// `None` for a header that does not describe main frames with a time.
     pub(super) fn of(header: &Header) -> Option<Self> {
         let names = header.names()?;
         let count = names.len();
         let at = |wanted: &str| names.iter().position(|name| *name == wanted);
-        let is_signed = header.signs().filter(|signs| signs.len() == count)?;
         Some(Self {
             intra: Coding::of(header, "I", count)?,
             inter: Coding::of(header, "P", count)?,
-            is_signed,
             iteration: at("loopIteration"),
             time: at("time")?,
-            intervals: header.intervals(),
+            skipped: skipped_loops(header.intervals()),
             present: vec![0; count],
             last: vec![0; count],
             second_last: vec![0; count],
@@ -96,14 +146,15 @@ impl MainFrames {
     /// Decodes a whole frame; returns the number of its bytes. `None` if it is incomplete or not in the sequence of time.
     pub(super) fn decode_intra(&mut self, bytes: &[u8]) -> Option<usize> {
         let size = self.intra.layout.decode(bytes, &mut self.present)?;
-        for (at, prediction) in self.intra.predictions.iter().enumerate() {
+        for Run { prediction, fields } in &self.intra.runs {
             let predicted = match *prediction {
                 Prediction::Constant(value) => value,
                 Prediction::Field(field) => self.present[field],
                 // a whole frame depends on no other
                 _ => 0,
             };
-            self.present[at] = self.present[at].wrapping_add(predicted);
+            let values = &mut self.present[fields.clone()];
+            values.iter_mut().for_each(|value| *value = value.wrapping_add(predicted));
         }
         self.is_intra = true;
         self.is_in_sequence().then_some(size)
@@ -115,38 +166,30 @@ impl MainFrames {
             return None;
         }
         let size = self.inter.layout.decode(bytes, &mut self.present)?;
-        let skipped = self.skipped_loops();
-        let frames = self.last.iter().zip(&self.second_last).zip(&self.is_signed);
-        for (at, (prediction, ((&last, &second_last), &is_signed))) in
-            self.inter.predictions.iter().zip(frames).enumerate()
-        {
+        let last_loop = self.iteration.map_or(0, |iteration| self.last[iteration].cast_unsigned() as usize);
+        let skipped = self.skipped[last_loop % self.skipped.len()];
+        for Run { prediction, fields } in &self.inter.runs {
+            let (last, second_last) = (&self.last[fields.clone()], &self.second_last[fields.clone()]);
             let predicted = match *prediction {
-                Prediction::Constant(value) => value,
-                Prediction::Previous => last,
-                Prediction::StraightLine => last.wrapping_mul(2).wrapping_sub(second_last),
-                Prediction::Average if is_signed => ((i64::from(last) + i64::from(second_last)) / 2) as i32,
-                Prediction::Average => {
-                    ((u64::from(last.cast_unsigned()) + u64::from(second_last.cast_unsigned())) / 2) as i32
-                }
-                Prediction::Field(field) => self.present[field],
-                Prediction::Increment => last.wrapping_add(1).wrapping_add(skipped),
+                Prediction::Field(field) => Prediction::Constant(self.present[field]),
+                other => other,
             };
-            self.present[at] = self.present[at].wrapping_add(predicted);
+            let present = &mut self.present[fields.clone()];
+            match predicted {
+                Prediction::Constant(value) => add(present, last, second_last, |_, _| value),
+                Prediction::Previous => add(present, last, second_last, |last, _| last),
+                Prediction::StraightLine => {
+                    add(present, last, second_last, |last, before| last.wrapping_mul(2).wrapping_sub(before));
+                }
+                Prediction::Average { is_signed: true } => add(present, last, second_last, signed_average),
+                Prediction::Average { is_signed: false } => add(present, last, second_last, unsigned_average),
+                Prediction::Increment => add(present, last, second_last, |last, _| last.wrapping_add(1 + skipped)),
+                // was replaced by its value
+                Prediction::Field(_) => {}
+            }
         }
         self.is_intra = false;
         self.is_in_sequence().then_some(size)
-    }
-
-    /// Number of loops between the last frame and this one that were not to be written.
-    fn skipped_loops(&self) -> i32 {
-        let [whole, numerator, denominator] = self.intervals;
-        let Some(iteration) = self.iteration.filter(|_| denominator > 1) else { return 0 };
-        let last = self.last[iteration].cast_unsigned();
-        let is_written = |loops: u32| {
-            let index = last.wrapping_add(1).wrapping_add(loops) % whole;
-            index == 0 || index.wrapping_add(numerator).wrapping_sub(1) % denominator < numerator
-        };
-        (0..denominator.min(whole)).find(|loops| is_written(*loops)).unwrap_or(0).cast_signed()
     }
 
     fn is_in_sequence(&self) -> bool {

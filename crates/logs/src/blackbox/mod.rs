@@ -102,7 +102,7 @@ impl Log {
     ) -> Result<(), LogError> {
         loop {
             let ahead = bytes.ahead(2 * FRAME_BYTES_MAX)?;
-            if ahead.is_empty() || self.has_ended || ahead.starts_with(FIRST_LINE) {
+            if ahead.is_empty() || self.has_ended || ahead[0] == b'H' && ahead.starts_with(FIRST_LINE) {
                 return Ok(());
             }
             match self.frame_at(ahead) {

@@ -81,8 +81,8 @@ impl Layout {
         content.get(field.start..field.start + field.size)
     }
 
-    /// Time of a message; `None` for messages without one.
-    pub(super) fn time_s(&self, content: &[u8]) -> Option<f64> {
+    /// Place of the time, in seconds; `None` for messages without one.
+    pub(super) fn time(&self) -> Option<Place> {
         // the time is the first field, where there is one
         let first = self.fields.first()?;
         let unit_s = match first.label.as_str() {
@@ -90,7 +90,7 @@ impl Layout {
             "TimeMS" => 1e-3,
             _ => return None,
         };
-        Some(unit_s * first.place?.read(content)?)
+        Some(Place { factor: unit_s, ..first.place? })
     }
 
     /// Index of the field that says which sensor or ESC a message is of.
@@ -216,12 +216,13 @@ impl Units {
         }
     }
 
-    pub(super) fn add_units_of_type(&mut self, layout: &Layout, content: &[u8]) {
-        let number = layout.field("FmtType").and_then(|field| content.get(field.start));
-        let letters = |label: &str| layout.bytes_of(label, content).map(|bytes| text_of(bytes).into_bytes());
-        if let (Some(number), Some(units), Some(multipliers)) = (number, letters("UnitIds"), letters("MultIds")) {
-            self.of_types.insert(*number, UnitsOfType { units, multipliers });
-        }
+    /// Returns the number of the type.
+    pub(super) fn add_units_of_type(&mut self, layout: &Layout, content: &[u8]) -> Option<u8> {
+        let number = *content.get(layout.field("FmtType")?.start)?;
+        let letters = |label: &str| Some(text_of(layout.bytes_of(label, content)?).into_bytes());
+        let units = UnitsOfType { units: letters("UnitIds")?, multipliers: letters("MultIds")? };
+        self.of_types.insert(number, units);
+        Some(number)
     }
 
     pub(super) fn of_type(&self, number: usize) -> Option<&UnitsOfType> {

@@ -60,6 +60,10 @@ fn is_followed(rest: &[u8]) -> bool {
 /// A type of messages.
 struct MessageType {
     layout: Layout,
+    /// Place of the time, in seconds.
+    time: Option<Place>,
+    /// Place of the number of the sensor or ESC that a message is of.
+    instance: Option<Place>,
     /// Numbers of its tables by the instance of the sensor or ESC; without instances there is one.
     tables: BTreeMap<u32, usize>,
     /// Places with factors, made with the first table.
@@ -124,7 +128,11 @@ impl MessageTypes {
             match kind.layout.name.as_str() {
                 "UNIT" => self.units.add_unit(&kind.layout, content),
                 "MULT" => self.units.add_multiplier(&kind.layout, content),
-                "FMTU" => self.units.add_units_of_type(&kind.layout, content),
+                "FMTU" => {
+                    if let Some(number) = self.units.add_units_of_type(&kind.layout, content) {
+                        self.find_instance(usize::from(number));
+                    }
+                }
                 _ => {
                     if let Some([output, motor]) = motor_of_parameter(&kind.layout, content) {
                         motor_of_output.insert(output, motor);
@@ -144,20 +152,28 @@ impl MessageTypes {
             return;
         }
         let is_about_log = ["FMT", "UNIT", "MULT", "FMTU", "PARM"].contains(&layout.name.as_str());
-        *known = Some(MessageType { layout, tables: BTreeMap::new(), places: Vec::new(), is_about_log });
+        let time = layout.time();
+        let (tables, places) = (BTreeMap::new(), Vec::new());
+        *known = Some(MessageType { layout, time, instance: None, tables, places, is_about_log });
+        self.find_instance(usize::from(number));
+    }
+
+    /// The units of a type may come behind its description.
+    fn find_instance(&mut self, number: usize) {
+        let Some(kind) = &mut self.known[number] else { return };
+        let at = kind.layout.instance_index(self.units.of_type(number));
+        kind.instance = at.and_then(|at| kind.layout.fields[at].place);
     }
 
     fn row(&mut self, number: usize, content: &[u8], sink: &mut impl RowSink) -> Result<(), LogError> {
         let Some(kind) = &mut self.known[number] else { return Ok(()) };
-        let Some(time_s) = kind.layout.time_s(content) else { return Ok(()) };
-        let units = self.units.of_type(number);
-        let instance_at = kind.layout.instance_index(units);
-        let instance = instance_at.and_then(|at| kind.layout.fields[at].place?.read(content)).map(|value| value as u32);
+        let Some(time_s) = kind.time.and_then(|place| place.read(content)) else { return Ok(()) };
+        let instance = kind.instance.and_then(|place| place.read(content)).map(|value| value as u32);
         let key = instance.unwrap_or(0);
         let table = match kind.tables.get(&key) {
             Some(&table) => table,
             None => {
-                let (signals, places) = kind.layout.signals(units, instance, &self.units);
+                let (signals, places) = kind.layout.signals(self.units.of_type(number), instance, &self.units);
                 if self.signal_count + signals.len() > SIGNALS_MAX {
                     return Ok(());
                 }

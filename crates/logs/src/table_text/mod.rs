@@ -98,6 +98,7 @@ pub(crate) fn read<R: Read>(
     let signals: Vec<&Column> = columns.iter().filter(|column| column.is_signal()).collect();
     sink.table(TABLE.to_owned(), signals.iter().map(|column| column.signal.clone()).collect());
     let mut record = ByteRecord::new();
+    let mut about_rotors = vec![f64::NAN; signals.len()];
     let mut before_s = f64::NEG_INFINITY;
     while reader.read_byte_record(&mut record)? {
         let Some(time_s) = number(&cells, time, &record)? else { continue };
@@ -105,10 +106,16 @@ pub(crate) fn read<R: Read>(
             return Err(LogError::NotInOrder { line: line_of(&record), time_s });
         }
         before_s = time_s;
-        for column in signals.iter().filter(|column| column.signal.role.is_some()) {
-            number(&cells, column, &record)?;
+        for (place, column) in about_rotors.iter_mut().zip(&signals) {
+            if column.signal.role.is_some() {
+                *place = number(&cells, column, &record)?.unwrap_or(f64::NAN);
+            }
         }
-        sink.row(0, time_s, &TextRow { cells: &cells, signals: &signals, record: &record })?;
+        sink.row(
+            0,
+            time_s,
+            &TextRow { cells: &cells, signals: &signals, record: &record, about_rotors: &about_rotors },
+        )?;
     }
     Ok((format, Findings { headers, ..Findings::default() }))
 }
@@ -201,14 +208,17 @@ struct TextRow<'a> {
     cells: &'a Cells,
     signals: &'a [&'a Column],
     record: &'a ByteRecord,
+    /// Numbers that were read already, of the signals with a role.
+    about_rotors: &'a [f64],
 }
 
 impl RowValues for TextRow<'_> {
     fn value(&self, signal: usize) -> f64 {
-        let number = self
-            .signals
-            .get(signal)
-            .and_then(|column| Some(column.factor * self.cells.number(self.record.get(column.index)?)?));
-        number.unwrap_or(f64::NAN)
+        let Some(column) = self.signals.get(signal) else { return f64::NAN };
+        if column.signal.role.is_some() {
+            return self.about_rotors.get(signal).copied().unwrap_or(f64::NAN);
+        }
+        let cell = self.record.get(column.index).unwrap_or_default();
+        self.cells.number(cell).map_or(f64::NAN, |number| column.factor * number)
     }
 }

@@ -50,8 +50,8 @@ fn header() -> String {
         line("I encoding", &|field| field.2[1].to_string()),
         line("P predictor", &|field| field.2[2].to_string()),
         line("P encoding", &|field| field.2[3].to_string()),
-        "H Field S name:flightModeFlags,stateFlags,failsafePhase\nH Field S signed:0,0,0\n".to_owned(),
-        "H Field S predictor:0,0,0\nH Field S encoding:1,1,7\n".to_owned(),
+        "H Field S name:flightModeFlags,stateFlags,failsafePhase,rxSignalReceived,rxFlightChannelsValid\nH Field S signed:0,0,0,0,0\n".to_owned(),
+        "H Field S predictor:0,0,0,0,0\nH Field S encoding:1,1,7,7,7\n".to_owned(),
         "H minthrottle:1070\nH vbatref:1600\nH motorOutput:158,2047\nH motor_poles:12\nH gyro_scale:0x3f800000\n"
             .to_owned(),
     ]
@@ -187,10 +187,6 @@ pub(crate) fn flight(loops: u32) -> Vec<u8> {
     for iteration in 0..loops {
         let Some(is_whole) = is_written(iteration) else { continue };
         let now = truth(iteration);
-        if iteration % (40 * WHOLE) == 0 {
-            // flags, three small values; then a change of the mode
-            bytes.extend([b'S', 5, 0, 0x00, b'E', 30, 3, 1]);
-        }
         let mut values = [0; COUNT];
         for (at, (_, _, codes)) in FIELDS.iter().enumerate() {
             let predictor = codes[if is_whole { 0 } else { 2 }];
@@ -209,6 +205,10 @@ pub(crate) fn flight(loops: u32) -> Vec<u8> {
         }
         bytes.push(if is_whole { b'I' } else { b'P' });
         write(&mut bytes, |at| FIELDS[at].2[if is_whole { 1 } else { 3 }], &values);
+        if iteration % (40 * WHOLE) == 0 {
+            // flags, three small values; then a change of the mode
+            bytes.extend([b'S', 5, 0, 0x00, b'E', 30, 3, 1]);
+        }
         last = if is_whole { [now, now] } else { [now, last[0]] };
     }
     bytes.extend(b"E\xffEnd of log\0");

@@ -1,5 +1,8 @@
 //! A DataFlash log of ArduPilot.
 
+/// Time of the messages about the log.
+const TIME_US: u64 = 900_000;
+
 /// Type of a message, its name, the types and labels of its values, the letters of their units and factors.
 pub(crate) struct Kind {
     pub(crate) number: u8,
@@ -81,17 +84,17 @@ impl Writer {
         for (letter, label) in
             [("s", "s"), ("q", "rpm"), ("v", "V"), ("A", "A"), ("E", "rad/s"), ("Y", "us"), ("o", "m/s/s")]
         {
-            writer.message(&UNIT, &[&1_u64.to_le_bytes(), letter.as_bytes(), &text(label, 64)]);
+            writer.message(&UNIT, &[&TIME_US.to_le_bytes(), letter.as_bytes(), &text(label, 64)]);
         }
         for (letter, factor) in [("-", 0.0_f64), ("0", 1.0), ("F", 1e-6), ("B", 1e-2)] {
-            writer.message(&MULT, &[&1_u64.to_le_bytes(), letter.as_bytes(), &factor.to_le_bytes()]);
+            writer.message(&MULT, &[&TIME_US.to_le_bytes(), letter.as_bytes(), &factor.to_le_bytes()]);
         }
         for kind in [&ESC, &RCOU, &IMU] {
             let (units, factors) = (text(kind.units, 16), text(kind.factors, 16));
-            writer.message(&FMTU, &[&1_u64.to_le_bytes(), &[kind.number], &units, &factors]);
+            writer.message(&FMTU, &[&TIME_US.to_le_bytes(), &[kind.number], &units, &factors]);
         }
         for (name, value) in motors {
-            writer.message(&PARM, &[&1_u64.to_le_bytes(), &text(name, 16), &value.to_le_bytes()]);
+            writer.message(&PARM, &[&TIME_US.to_le_bytes(), &text(name, 16), &value.to_le_bytes()]);
         }
         writer
     }
