@@ -7,13 +7,13 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LabelArguments {
-    /// A log of the same flight, CSV or PX4's ULog: speeds, commands or PWM of each motor, or the body's rates
+    /// A log of the same flight, of PX4, ArduPilot or Betaflight, or CSV: speeds, commands or PWM of each motor, or the body's rates
     #[arg(long, value_name = "FILE", value_parser = typed_path())]
     pub(crate) log: Option<PathBuf>,
     /// Seconds to add to the log's times to get the recording's, or LOW..HIGH in minutes and seconds; found by itself where not given
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
-    /// How the axes of a CSV's body rates point (a ULog's are frd)
+    /// How the axes of a CSV's body rates point (other logs define them)
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
     /// Order in which the motors came up to about the hover's speed, one by one, at the beginning: front-left,…; or 1,2,…

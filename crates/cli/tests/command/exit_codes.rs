@@ -5,7 +5,7 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Words of a command, its exit code, and a word of its message.
-const CASES: [(&str, i32, &str); 37] = [
+const CASES: [(&str, i32, &str); 40] = [
     // what is read is not there, or of another kind
     ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
     ("speed *.mov --blades 2", 1, "no file matches"),
@@ -29,6 +29,8 @@ const CASES: [(&str, i32, &str); 37] = [
     ("compare nowhere.json model.sdf", 1, "nowhere.json"),
     ("simulate nowhere.toml", 1, "nowhere.toml"),
     ("vehicles --add nowhere.toml", 1, "nowhere.toml"),
+    ("log nowhere.ulg", 1, "nowhere.ulg"),
+    ("log empty", 1, "a folder"),
     // what would be written cannot be
     ("identify good.toml -o a.wav", 1, "no folder"),
     ("demo -o a.wav", 1, "no folder"),
@@ -47,6 +49,7 @@ const CASES: [(&str, i32, &str); 37] = [
     // what was typed, or stands in a file, has no meaning
     ("speed a.wav --blades 0", 2, "--blades"),
     ("identify broken.toml", 2, "mas_kg"),
+    ("log a.wav", 2, "neither a CSV"),
 ];
 
 #[test]

@@ -123,7 +123,8 @@ fn a_ulog_is_known_by_its_first_bytes_and_says_its_axes_itself() {
     let rates = [head.clone(), format, message(b'A', b"\0\0\0sensor_combined"), message(b'D', &[0; 22])].concat();
     refused(&rates, &["--log-axes", "flu"], &["x forward, y right and z down", "leave --log-axes out"]);
     refused(&head, &[], &["before its data", "log.csv"]);
-    refused(b"\xa3\x95\x80\0FMT", &[], &["neither a CSV nor a PX4 ULog"]);
+    refused(b"\xa3\x95\x80\0FMT", &[], &["this ArduPilot DataFlash log ends"]);
+    refused(b"PK\x03\x04\0\0", &[], &["neither a CSV nor a log of PX4"]);
     // without --log-axes it is the recording that is missing
     fs::write(&log, &rates).unwrap();
     let run = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)]).ends_with(1);

@@ -16,6 +16,7 @@ mod identify;
 mod into;
 mod labels;
 mod lighthouse;
+mod log;
 mod messages;
 mod microphones;
 mod movie;

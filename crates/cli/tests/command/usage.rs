@@ -96,6 +96,7 @@ fn help_and_version_are_data() {
         "export",
         "compare",
         "demo",
+        "log",
         "simulate",
         "vehicles",
         "Exit codes",
@@ -116,6 +117,7 @@ fn help_and_version_are_data() {
         "export",
         "compare",
         "demo",
+        "log",
         "simulate",
         "vehicles",
     ] {

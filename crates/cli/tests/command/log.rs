@@ -1,0 +1,108 @@
+//! `hovertone log`: what a log holds, and its signals as CSV.
+
+use crate::testkit::{hovertone, recordings, refused_with, text};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const CSV: &str = "time_s,rotor1_rpm,motor1_pwm,note\n0,600,10,a\n0.5,660,11,b\n1,720,12,c\n";
+
+fn written(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> String {
+    let path = folder.join(name);
+    fs::write(&path, content).unwrap();
+    text(&path).to_owned()
+}
+
+#[test]
+fn a_log_is_listed_for_people_and_for_programs() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", CSV);
+    let run = hovertone(&["log", &log]).ends_with(0);
+    for words in ["CSV, 1.0 s, 1 table, 3 signals", "table.rotor1_rpm", "rotor speed", "10.00", "12.00", "rev/s"] {
+        assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
+    }
+    assert!(run.stderr.is_empty() && !run.stdout.contains("note"), "{}", run.stdout);
+    let names = hovertone(&["log", &log, "--signals"]).ends_with(0).stdout;
+    assert!(names.contains("rotor1_rpm (rev/s), motor1_pwm, note"), "{names}");
+    let line = hovertone(&["log", "--json", &log]).ends_with(0).json_lines().remove(0);
+    assert_eq!(
+        (&line["format"], &line["has_rotor_speed"], &line["lost_bytes"]),
+        (&"CSV".into(), &true.into(), &0.into())
+    );
+    let table = &line["tables"][0];
+    assert_eq!((&table["rate_hz"], &table["from_s"], &table["to_s"]), (&2.0.into(), &0.0.into(), &1.0.into()));
+    let speed = &table["signals"][0];
+    assert_eq!(
+        (&speed["unit"], &speed["about"], &speed["number"]),
+        (&"rev/s".into(), &"rotor speed".into(), &1.into())
+    );
+    assert_eq!((&speed["low"], &speed["high"]), (&10.0.into(), &12.0.into()));
+    let other = written(folder.path(), "other.csv", "time_s,x_m\n0,1\n1,2\n");
+    assert!(hovertone(&["log", &other]).ends_with(0).stdout.contains("no rotor speed in this log"));
+}
+
+#[test]
+fn signals_become_a_csv_that_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", "Zeit;Drehzahl;n\n0;600;1\n500;;2\n1000;720;3\n");
+    let out = folder.path().join("speeds.csv");
+    let named = ["--column", "Zeit=time_ms", "--column", "Drehzahl=rotor1_rpm"];
+    let written = ["log", &log, "--signal", "table.rotor1_rpm", "-o", text(&out)];
+    let run = hovertone(&[&written[..], &named].concat()).ends_with(0);
+    assert!(run.stderr.contains("written: ") && run.stderr.contains("3 rows"), "{}", run.stderr);
+    assert_eq!(fs::read_to_string(&out).unwrap(), "time_s,rotor1_speed_rev_s\n0,10\n0.5,\n1,12\n");
+    let line: Value = hovertone(&["log", "--json", text(&out)]).ends_with(0).json_lines().remove(0);
+    assert_eq!(line["tables"][0]["signals"][0]["high"], 12.0);
+    // nothing is replaced, and an unknown signal leaves nothing behind
+    refused_with(&[&written[..], &named].concat(), &["exists already"]);
+    fs::remove_file(&out).unwrap();
+    let unknown = ["log", &log, "--signal", "table.speed", "-o", text(&out)];
+    refused_with(&[&unknown[..], &named].concat(), &["no signal \"table.speed\"; its tables are: table"]);
+    assert!(!out.exists());
+}
+
+#[test]
+fn what_has_no_meaning_is_refused_with_what_to_do() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", CSV);
+    let archive = written(folder.path(), "log.zip", b"PK\x03\x04\0\0");
+    let columns = ["log", &log, "--column"];
+    for (more, words) in [
+        ("Zeit=time_s", ["there is no column \"Zeit\"", "time_s, rotor1_rpm"]),
+        ("time_s=speed", ["\"speed\" says no quantity", "rotor1_rpm"]),
+        ("time_s", ["--column", "Drehzahl=rotor1_rpm"]),
+    ] {
+        refused_with(&[&columns[..], &[more]].concat(), &words);
+    }
+    refused_with(&["log", &archive], &["neither a CSV nor a log of PX4", "log.zip"]);
+    refused_with(&["log", &log, &log, "--signal", "table", "-o", "x.csv"], &["2 are given", "one log at a time"]);
+    refused_with(&["log", &log, "--signal", "table"], &["--output"]);
+}
+
+#[test]
+fn real_logs_say_whether_a_rotor_turns() {
+    let Some(logs) = recordings("logs") else { return };
+    let listed = |name: &str| hovertone(&["log", text(&logs.join(name))]).ends_with(0).stdout;
+    assert!(listed("px4_sample_small.ulg").contains("no rotor speed in this log"));
+    let with_escs = listed("px4_esc_status.ulg");
+    assert!(with_escs.contains("esc_status.esc[0–3].esc_rpm") && with_escs.contains("3.24"), "{with_escs}");
+    assert!(listed("rcbenchmark_command_steps.csv").contains("RCbenchmark CSV, 14.2 s"));
+}
+
+#[test]
+fn a_damaged_log_gives_what_it_holds_and_says_what_is_lost() {
+    let Some(logs) = recordings("logs") else { return };
+    let mut bytes = fs::read(logs.join("px4_esc_status.ulg")).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let cut = written(folder.path(), "cut.ulg", &bytes[..400_000]);
+    let run = hovertone(&["log", &cut]).ends_with(3);
+    assert!(run.stdout.contains("esc_status") && run.stderr.contains("the log breaks off"), "{}", run.stderr);
+    bytes[300_000..302_000].fill(0xff);
+    let damaged = written(folder.path(), "damaged.ulg", &bytes);
+    let run = hovertone(&["log", "--json", &damaged]).ends_with(3);
+    let line = &run.json_lines()[0];
+    let (lost, place) = (line["lost_bytes"].as_u64().unwrap(), &line["lost_places"][0]);
+    assert!((2000..4000).contains(&lost) && line["lost_place_count"] == 1, "{lost}");
+    assert!(place["from_byte"].as_u64().unwrap() <= 300_000 && place["after_s"].as_f64().unwrap() > 5080.0);
+    assert!(run.stderr.contains("the log is damaged: ") && run.stderr.contains("hint: download"), "{}", run.stderr);
+}
