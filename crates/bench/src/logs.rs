@@ -34,8 +34,8 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     let program = target(root).join("release").join("hovertone");
     let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
     println!("\n`hovertone log --json` on logs of {megabytes} MB, made by repeating; fastest of {REPEATS} runs\n");
-    println!("| log | MB/s | MiB | MiB at a twentieth of the length |");
-    println!("|---|---|---|---|");
+    println!("| log | MB/s of processor time | MB/s | MiB | MiB at a twentieth of the length |");
+    println!("|---|---|---|---|---|");
     for short in shorts(root) {
         let place = folder.path().join(short.name);
         let small = written(&place, &short, megabytes * BYTES_PER_MEGABYTE / SHORT_SHARE)?;
@@ -45,8 +45,10 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
         // once, so that the file is in memory: the disk is not measured
         let _ = listed(&program, &long)?;
         let cost = listed(&program, &long)?;
-        let rate = (size / BYTES_PER_MEGABYTE) as f64 / cost.wall_s;
-        println!("| {} | {rate:.0} | {:.1} | {:.1} |", short.name, cost.peak_mib, small.peak_mib);
+        let megabytes = (size / BYTES_PER_MEGABYTE) as f64;
+        let busy = cost.cpu_s.map_or("–".to_owned(), |cpu_s| format!("{:.0}", megabytes / cpu_s));
+        let rate = megabytes / cost.wall_s;
+        println!("| {} | {busy} | {rate:.0} | {:.1} | {:.1} |", short.name, cost.peak_mib, small.peak_mib);
         fs::remove_file(&long).map_err(|error| error.to_string())?;
     }
     Ok(())

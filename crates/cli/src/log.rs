@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<E
     let mut ending = Ending::Done;
     for (index, file) in arguments.files.iter().enumerate() {
         let log = match open_stream(file, THE_LOG) {
-            Ok(stream) => log_summary(stream, &names).map_err(|error| log_failure(&error, file)),
+            Ok(stream) => log_summary(stream, &names).map_err(|error| failure_of(&error, file)),
             Err(failure) => Err(failure),
         };
         let log = match log {
@@ -62,6 +62,15 @@ fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure> {
         names.add(header, name).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
     Ok(names)
+}
+
+/// The failure of a file that should be a log.
+fn failure_of(error: &LogError, path: &Path) -> Failure {
+    match error {
+        // a file of another kind, such as a recording
+        LogError::UnknownFormat => Failure::failed(error.to_string(), error.hint(), path),
+        _ => log_failure(error, path),
+    }
 }
 
 /// The failure of a log: of the disk, or of its content.
@@ -111,7 +120,7 @@ fn write_signals(
     let stream = open_stream(file, THE_LOG)?;
     let loss = signal_rows(stream, names, &arguments.signal, take).map_err(|error| match error {
         LogError::Write(error) => Failure::cannot_write(&error, output),
-        error => log_failure(&error, file),
+        error => failure_of(&error, file),
     })?;
     writer.flush().map_err(|error| Failure::cannot_write(&error, output))?;
     drop(writer);

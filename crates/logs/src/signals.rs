@@ -102,7 +102,7 @@ impl<F: Fn(&str, &TableSignal) -> bool> RowSink for Collector<F> {
         self.tables.push(Collected { table, chosen, has_rows: false });
     }
 
-    fn row(&mut self, table: usize, time_s: f64, values: &dyn RowValues) -> Result<(), LogError> {
+    fn row(&mut self, table: usize, time_s: f64, values: &impl RowValues) -> Result<(), LogError> {
         let Some(collected) = self.tables.get_mut(table) else { return Ok(()) };
         collected.has_rows = true;
         if !collected.chosen.is_empty() {
@@ -212,7 +212,7 @@ impl<F: FnMut(&SignalRow) -> io::Result<()>> RowSink for Streamer<'_, F> {
         }
     }
 
-    fn row(&mut self, table: usize, time_s: f64, values: &dyn RowValues) -> Result<(), LogError> {
+    fn row(&mut self, table: usize, time_s: f64, values: &impl RowValues) -> Result<(), LogError> {
         let Some(chosen) = self.chosen.as_ref().filter(|chosen| chosen.number == table) else { return Ok(()) };
         self.row.clear();
         self.row.extend(chosen.indices.iter().map(|&index| values.value(index)));

@@ -118,7 +118,7 @@ impl RowSink for Survey {
         self.tables.push(Surveyed { name, times: TimeLine::default(), signals, watched });
     }
 
-    fn row(&mut self, table: usize, time_s: f64, values: &dyn RowValues) -> Result<(), LogError> {
+    fn row(&mut self, table: usize, time_s: f64, values: &impl RowValues) -> Result<(), LogError> {
         let Some(table) = self.tables.get_mut(table) else { return Ok(()) };
         table.times.take(time_s);
         for watched in &mut table.watched {

@@ -51,13 +51,6 @@ pub(crate) trait RowValues {
     fn value(&self, signal: usize) -> f64;
 }
 
-/// A row of numbers that are decoded already.
-impl RowValues for [f64] {
-    fn value(&self, signal: usize) -> f64 {
-        self.get(signal).copied().unwrap_or(f64::NAN)
-    }
-}
-
 /// What is done with a log while it is read.
 pub(crate) trait RowSink {
     /// A table; the first has number 0.
@@ -67,7 +60,7 @@ pub(crate) trait RowSink {
     ///
     /// # Errors
     /// Those of the sink's own work.
-    fn row(&mut self, table: usize, time_s: f64, values: &dyn RowValues) -> Result<(), LogError>;
+    fn row(&mut self, table: usize, time_s: f64, values: &impl RowValues) -> Result<(), LogError>;
 }
 
 /// What a reader found beside the rows.

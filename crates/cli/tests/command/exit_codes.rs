@@ -5,7 +5,7 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Words of a command, its exit code, and a word of its message.
-const CASES: [(&str, i32, &str); 40] = [
+const CASES: [(&str, i32, &str); 41] = [
     // what is read is not there, or of another kind
     ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
     ("speed *.mov --blades 2", 1, "no file matches"),
@@ -31,6 +31,7 @@ const CASES: [(&str, i32, &str); 40] = [
     ("vehicles --add nowhere.toml", 1, "nowhere.toml"),
     ("log nowhere.ulg", 1, "nowhere.ulg"),
     ("log empty", 1, "a folder"),
+    ("log a.wav", 1, "neither a CSV"),
     // what would be written cannot be
     ("identify good.toml -o a.wav", 1, "no folder"),
     ("demo -o a.wav", 1, "no folder"),
@@ -49,7 +50,7 @@ const CASES: [(&str, i32, &str); 40] = [
     // what was typed, or stands in a file, has no meaning
     ("speed a.wav --blades 0", 2, "--blades"),
     ("identify broken.toml", 2, "mas_kg"),
-    ("log a.wav", 2, "neither a CSV"),
+    ("log a.wav --column Zeit=speed", 2, "no quantity"),
 ];
 
 #[test]
