@@ -11,7 +11,7 @@ breaks off or is damaged gives what it holds. Speeds are in rev/s.
 
 Examples:
   hovertone log flight.ulg
-  hovertone log flight.bin --signals
+  hovertone log flight.csv --signals
   hovertone log flight.ulg --signal esc_status -o speeds.csv
   hovertone log bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm
   hovertone log --json *.ulg | jq '.tables[].name'";
