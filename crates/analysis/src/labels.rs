@@ -201,14 +201,14 @@ impl NotTold {
             Self::OtherChannels { .. } => {
                 "give the position of each channel's microphone, in the order of the channels"
             }
-            Self::OtherPlaces { .. } => "say where every rotor stands",
+            Self::OtherPlaces { .. } => "give the place of each rotor",
             Self::NothingHeard { .. } => "check that the channel is not silent; a longer hover shows fainter lines",
             Self::OtherArray { .. } => {
                 "check positions, their order and their axes (x forward, y left, z up), and how well they are known (position_std_m)"
             }
             Self::SeveralPlacesFit { .. } => {
-                "microphones nearer to the rotors and off the vehicle's planes of symmetry, more of them, or positions that are better \
-                 known (position_std_m) tell more"
+                "place the microphones nearer, and not on the vehicle's planes of symmetry; or add microphones, or measure their places \
+                 better (position_std_m)"
             }
         }
     }
@@ -244,7 +244,10 @@ impl fmt::Display for NotTold {
                 write!(f, "before a rotor is heard as in the hover something turns at {speed_rev_s:.1} rev/s")
             }
             Self::RotorsTooClose { apart_rev_s } => {
-                write!(f, "two rotors turn within {apart_rev_s:.2} rev/s of each other, too close to hear each begin")
+                write!(
+                    f,
+                    "two rotors turn within {apart_rev_s:.2} rev/s of each other, too close to hear when each starts"
+                )
             }
             Self::SpinUpTooLong { before_hover_s } => {
                 write!(f, "the hover begins {before_hover_s:.0} s after the recording, too long to be followed")

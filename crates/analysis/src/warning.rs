@@ -86,6 +86,7 @@ impl Warning {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
+            Self::HarmonicLeftOut { harmonic: 1, .. } => "ignore this if the other harmonics agree, or narrow --band",
             Self::HarmonicLeftOut { .. } => {
                 "ignore this if the other harmonics agree; --harmonics 1 follows the tone alone"
             }
@@ -96,7 +97,7 @@ impl Warning {
                 "another sound may lie in these bands: check the blades or the gear, narrow --band, or compare --harmonics 1"
             }
             Self::OtherSteadySpeed { .. } => "choose the part you mean with --from and --to",
-            Self::HoverShorterThanSample { .. } => "record a longer hover, or shorten the samples (length_s)",
+            Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
             Self::RotorsNotApart { has_mean: false, .. } => {
@@ -107,7 +108,7 @@ impl Warning {
                 "the mean speed is still valid, with a larger uncertainty; to separate more rotors, place the microphone nearer and \
                  keep the high frequencies"
             }
-            Self::RotorCountUnknown { .. } => "say --rotors 1 if one rotor turns, or how many do",
+            Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds, and the result follows the loudest; a narrower --band follows one line"
             }
@@ -138,7 +139,7 @@ impl fmt::Display for Warning {
             Self::HoverShorterThanSample { hover_s, length_s } => {
                 write!(
                     f,
-                    "the hover lasts {hover_s:.1} s, less than one sample of {length_s:.1} s: it is used as one sample"
+                    "the hover of {hover_s:.1} s is shorter than a sample ({length_s:.1} s) and is used as one sample"
                 )
             }
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
@@ -152,7 +153,7 @@ impl fmt::Display for Warning {
             Self::RotorsNotApart { resolved, of, .. } => write!(f, "separated rotors: {resolved} of {of}"),
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not known: the ± contains others that turn faster or slower, with a standard deviation of {:.1} %",
+                "the number of rotors is not known: the ± allows for other rotors, with speeds that differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::SeveralLines { spread_share } => {

@@ -114,7 +114,10 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
         ("air_density_kg_m3", arguments.air_density_kg_m3, 0.3..=1.8, "from 0.3 to 1.8"),
     ] {
         if let Some(value) = value.filter(|value| !allowed.contains(value)) {
-            return Err(Failure::usage(format!("{name} = {value}, must be {words}"), "see `hovertone export --help`"));
+            return Err(Failure::usage(
+                format!("{name} is {value}, and it must be {words}"),
+                "see `hovertone export --help`",
+            ));
         }
     }
     Ok(IdentifiedRotor {

@@ -21,7 +21,7 @@ pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
             Ok(Gravity::at_place(latitude_deg, place.height_m.unwrap_or(0.0)))
         }
         (None, Some(latitude_deg)) => {
-            Err(Failure::usage(format!("latitude_deg = {latitude_deg}, must lie between -90 and 90"), SEE_HELP))
+            Err(Failure::usage(format!("latitude_deg is {latitude_deg}, and it must lie between -90 and 90"), SEE_HELP))
         }
         (None, None) => Ok(Gravity::UNKNOWN),
     }
@@ -30,7 +30,7 @@ pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
 /// Density of the air, where an argument says anything about it.
 pub(crate) fn air_density_kg_m3(air: &AirArguments, place: &PlaceArguments) -> Result<Option<f64>, Failure> {
     if let Some(diameter_m) = air.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
-        return Err(Failure::usage(format!("diameter_m = {diameter_m}, must be from 0.01 to 10"), SEE_HELP));
+        return Err(Failure::usage(format!("diameter_m is {diameter_m}, and it must be from 0.01 to 10"), SEE_HELP));
     }
     let said = Air {
         temperature_c: air.temperature_c,

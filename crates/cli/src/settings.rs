@@ -77,10 +77,10 @@ pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, F
 
 /// The part of a recording that the arguments name. A recording begins at 0 s.
 pub(crate) fn span_of(from_s: Option<f64>, to_s: Option<f64>) -> Result<SpanConfig, Failure> {
-    for (name, time_s) in [("from", from_s), ("to", to_s)] {
+    for (name, time_s) in [("--from", from_s), ("--to", to_s)] {
         if let Some(time_s) = time_s.filter(|time_s| !(time_s.is_finite() && *time_s >= 0.0)) {
             let hint = "the recording begins at 0 s: give seconds from its beginning";
-            return Err(Failure::usage(format!("{name} = {time_s} s, must be 0 or more"), hint));
+            return Err(Failure::usage(format!("{name} is {time_s} s, and it must be 0 s or more"), hint));
         }
     }
     Ok(SpanConfig { from_s, to_s })

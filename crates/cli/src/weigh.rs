@@ -226,7 +226,7 @@ fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) 
 /// Checks the numbers of the arguments.
 fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     let must_be = |name: &str, value: f64, words: &str| {
-        Err(Failure::usage(format!("{name} = {value}, must be {words}"), SEE_HELP))
+        Err(Failure::usage(format!("{name} is {value}, and it must be {words}"), SEE_HELP))
     };
     for (name, value) in [("constant_n_s2", arguments.constant_n_s2), ("mass_kg", arguments.mass_kg)] {
         if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {

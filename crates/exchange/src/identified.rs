@@ -79,7 +79,7 @@ impl IdentifiedRotor {
 #[non_exhaustive]
 pub enum ResultsError {
     /// Not JSON.
-    #[error("this is no results.json: {}", json_fault(.0))]
+    #[error("this file is no results.json, because {}", json_fault(.0))]
     NotJson(#[from] serde_json::Error),
     /// JSON without the fields of a result.
     #[error("this is no results.json of `hovertone identify`: {what} is missing")]

@@ -72,7 +72,7 @@ pub enum LogError {
         columns: String,
     },
     /// Two columns with the same quantity.
-    #[error("columns \"{first}\" and \"{second}\" say the same")]
+    #[error("columns \"{first}\" and \"{second}\" have the same meaning")]
     Twice {
         /// Header of the first.
         first: String,
@@ -96,7 +96,7 @@ pub enum LogError {
         columns: String,
     },
     /// A name for a column that has no meaning.
-    #[error("\"{name}\" says no quantity with its unit, so that the column \"{header}\" cannot have it")]
+    #[error("\"{name}\" is no known column name, so the column \"{header}\" cannot have it")]
     NameWithoutMeaning {
         /// The header of the user.
         header: String,
@@ -160,7 +160,7 @@ impl LogError {
                 "name it as time_s, rotor1_rpm, motor1_pwm or gyro_x_rad_s (docs/logs.md)"
             }
             Self::NoColumns { .. } => "leave --column out: it is for CSV",
-            Self::NoSuchSignal { .. } => "`hovertone log FILE --json` lists all signals",
+            Self::NoSuchSignal { .. } => "`hovertone log FILE --signals` lists them",
             Self::SeveralTables { .. } => "write the signals of each table into a file of their own",
         }
     }

@@ -61,7 +61,7 @@ fn check_parameters(parameters: &AudioCodecParameters) -> Result<(), SymphoniaEr
     }
     let frames = [parameters.max_frames_per_packet, parameters.frames_per_block];
     if frames.into_iter().flatten().any(|frames| frames > PACKET_FRAMES_MAX) {
-        return Err(SymphoniaError::DecodeError("its packets claim an impossible length"));
+        return Err(SymphoniaError::DecodeError("its header gives a packet length that is too large"));
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use crate::container::Container;
 #[non_exhaustive]
 pub enum MediaError {
     /// The file cannot be opened.
-    #[error("the file cannot be opened: {0}; check the name and your right to read it")]
+    #[error("the file cannot be opened: {}; check its name and its folder", why_not_opened(.0))]
     CannotOpen(#[source] io::Error),
 
     /// A directory, pipe or device.
@@ -120,4 +120,13 @@ pub enum MediaError {
     /// Reading the disk failed.
     #[error("the file could not be read on: {0}; check the disk or the connection")]
     Read(#[source] io::Error),
+}
+
+/// Why a file cannot be opened, in plain words where they are known.
+fn why_not_opened(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "you have no right to read it".to_owned(),
+        _ => error.to_string(),
+    }
 }

@@ -48,7 +48,7 @@ pub(crate) fn open_demuxer(
         Container::Ogg => probe.register_format::<OggReader<'_>>(),
         Container::Mov | Container::Mp4 | Container::ThreeGp => probe.register_format::<IsoMp4Reader<'_>>(),
         Container::Matroska | Container::WebM => probe.register_format::<MkvReader<'_>>(),
-        _ => return Err(SymphoniaError::Unsupported("no native demuxer for this container")),
+        _ => return Err(SymphoniaError::Unsupported("hovertone does not read this kind of file itself")),
     }
     let stream = FileView::open(path, base, patches)?.into_stream();
     guarded(|| probe.probe(&Hint::new(), stream, FormatOptions::default(), MetadataOptions::default()))

@@ -116,10 +116,10 @@ impl fmt::Display for MediaWarning {
                 write!(f, "NaN or infinite audio samples: {count}; they were replaced by zero")
             }
             Self::SeveralAudioTracks { chosen, count, silent } => {
-                write!(f, "of {count} audio tracks, number {chosen} was taken")?;
+                write!(f, "audio track {chosen} of {count} is used")?;
                 if !silent.is_empty() {
                     let silent: Vec<String> = silent.iter().map(usize::to_string).collect();
-                    write!(f, ", because silence is all that is in number {}", silent.join(", "))?;
+                    write!(f, ", because silence is all that is in track {}", silent.join(", "))?;
                 }
                 Ok(())
             }

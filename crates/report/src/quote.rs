@@ -50,7 +50,7 @@ impl Verdict {
     }
 }
 
-/// "C_f = (7.09 ± 0.03) 1e-6 N s² for one rotor, (2.836 ± 0.012) 1e-5 N s² for the whole vehicle; ± is k = 2 (0.42 %)"; `None` without a
+/// "C_f = (7.09 ± 0.03) 1e-6 N s² for one rotor, (2.836 ± 0.012) 1e-5 N s² for the whole vehicle; ± is 0.42 %, with k = 2"; `None` without a
 /// constant.
 pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
     let (total, per_rotor) = (table.thrust_constant_total_n_s2?, table.thrust_constant_per_rotor_n_s2?);
@@ -60,7 +60,7 @@ pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
     };
     let share = total.std_uncertainty.map(|std| 100.0 * COVERAGE_FACTOR * std / total.value);
     let meaning = share
-        .map_or("; ± is not known".to_owned(), |percent| format!("; ± is k = {COVERAGE_FACTOR} ({percent:.2} %)"));
+        .map_or("; ± is not known".to_owned(), |percent| format!("; ± is {percent:.2} %, with k = {COVERAGE_FACTOR}"));
     Some(format!("C_f = {} for one rotor{vehicle}{meaning}", quoted(per_rotor)))
 }
 

@@ -175,8 +175,8 @@ impl SpeedRecord {
                         .to_owned(),
                 ),
                 Outcome::Ok(_) => Some(
-                    "the lines fit several shaft speeds, and neither their levels nor the thrust of the hover decides between them; measure \
-                     the diameter of the propeller again, or record nearer"
+                    "the lines fit several shaft speeds, and neither their levels nor the thrust of the hover decides between them; check \
+                     the diameter of the propeller and the vehicle, or record nearer"
                         .to_owned(),
                 ),
             },

@@ -148,7 +148,7 @@ pub fn thrust_summary(tables: &[ThrustTable], reported: Method, width: Option<us
     let coefficients = tables.iter().find(|table| table.method == reported).and_then(|table| table.coefficients);
     let coefficients = coefficients.map_or(String::new(), |both| {
         format!(
-            "\nC_T of one rotor: {} = T/(ρ n² D⁴), or {} = T/(ρ A (ωR)²); air {} kg/m³\n",
+            "\nthrust coefficient of one rotor: {} for a propeller, T/(ρ n² D⁴); {} for a rotorcraft, T/(ρ A (ωR)²); air of {} kg/m³\n",
             significant(both.propeller, 4),
             significant(both.rotorcraft, 4),
             significant(both.density_kg_m3, 4),

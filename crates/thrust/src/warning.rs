@@ -217,7 +217,7 @@ impl fmt::Display for ThrustWarning {
                 f.write_str("there is one recording: the ± does not contain how much the speed differs from flight to flight")
             }
             Self::OneRecordingEach { .. } => f.write_str(
-                "each load has one recording: the ± comes from the scatter of the loads about one law, so that the law is not tested",
+                "each load has one recording, so the law cannot be tested; the ± comes from the scatter of the loads",
             ),
             Self::EqualLoads { count } => write!(f, "all {count} loads are equal, or nearly so"),
             Self::NarrowLoadRange(range) => {

@@ -43,7 +43,7 @@ pub enum OwnVehicleError {
         id: String,
     },
     /// A number out of range.
-    #[error("{name} = {value}, {must_be}")]
+    #[error("{name} is {value}, and it {must_be}")]
     OutOfRange {
         /// Name of the number.
         name: &'static str,

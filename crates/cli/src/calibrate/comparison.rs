@@ -133,15 +133,21 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     };
     let advice = match judgement {
         Judgement::Undecided if check.expanded_ppm() >= arguments.clock_ppm => {
-            "; the ± is too wide for this limit: record longer, know the speed better, or allow more with --clock-ppm"
+            "; the ± is too wide for this limit: record longer, measure the speed more exactly, or raise --clock-ppm"
         }
-        Judgement::Undecided => "; the limit lies within the ±: record longer, or know the speed better",
+        Judgement::Undecided => "; the limit lies within the ±: record longer, or measure the speed more exactly",
         _ => "",
     };
     let verdict = word(judgement);
     let mut text = format!("clock: {verdict}, {off} (k = 2), at most {} are expected{advice}\n", arguments.clock_ppm);
-    text += &if check.is_significant() {
-        let ppm = signed(comparison.whole_correction_ppm(before_ppm), 1).replace('−', "-").replace('+', "");
+    let whole_ppm = comparison.whole_correction_ppm(before_ppm);
+    text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
+        format!(
+            "correction: none, because no clock is off by more than {CLOCK_CORRECTION_PPM_MAX} millionths: check the known speed, and \
+             whether the recording was slowed down\n"
+        )
+    } else if check.is_significant() {
+        let ppm = signed(whole_ppm, 1).replace('−', "-").replace('+', "");
         format!(
             "correction: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}\n",

@@ -195,7 +195,7 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
     };
     for (name, value) in [("known_std_ppm", arguments.known_std_ppm), ("clock_ppm", Some(arguments.clock_ppm))] {
         if let Some(value) = value.filter(|value| !(0.0..=MILLION).contains(value)) {
-            return Err(Failure::usage(format!("{name} = {value}, must be 0 to {MILLION}"), SEE_HELP));
+            return Err(Failure::usage(format!("{name} is {value}, and it must be 0 to {MILLION}"), SEE_HELP));
         }
     }
     let stated = arguments.known_std_ppm.map(|ppm| ppm / MILLION);

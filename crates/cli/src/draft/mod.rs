@@ -49,7 +49,7 @@ impl Draft {
         vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
         if let Some(diameter_m) = arguments.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
             let hint = "it is in metres, from tip to tip: 10 inches are 0.254";
-            return Err(Failure::usage(format!("diameter_m = {diameter_m}, must be from 0.01 to 10"), hint));
+            return Err(Failure::usage(format!("diameter_m is {diameter_m}, and it must be from 0.01 to 10"), hint));
         }
         let draft = Self {
             preset: arguments.vehicle.clone(),

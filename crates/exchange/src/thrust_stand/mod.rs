@@ -94,7 +94,7 @@ pub enum TableError {
         columns: String,
     },
     /// A number out of range.
-    #[error("line {line}, column \"{column}\": {value}, {must_be}")]
+    #[error("line {line}, column \"{column}\": {value}: {must_be}")]
     OutOfRange {
         /// Line, counted from 1.
         line: u64,

@@ -42,10 +42,10 @@ pub(super) fn check(rows: &[GroupedRow], columns: MeasuredColumns<'_>) -> Result
         let rev_s = RotorSpeed::from_rad_s(row.speed_rad_s).rev_s();
         let must_be = match rev_s {
             _ if rev_s > SPEED_REV_S_MAX => {
-                "no rotor is faster than 1500 rev/s (90000 rpm): is this the unit of the header, or rpm?"
+                "too fast for a rotor, at most 1500 rev/s (90000 rpm); check the unit in the header"
             }
             _ if rev_s > 0.0 && rev_s < SPEED_REV_S_MIN => {
-                "no rotor flies below 1 rev/s (60 rpm): is this the unit of the header, or rev/s?"
+                "too slow for a rotor that flies, at least 1 rev/s (60 rpm); check the unit in the header"
             }
             _ => "",
         };

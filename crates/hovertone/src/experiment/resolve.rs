@@ -234,7 +234,7 @@ impl ExperimentFile {
         if rotors_running != rotor_count && load.thrust_n.is_none() {
             return Err(ExperimentError::Contradiction {
                 what: format!("load {:?} hovers with {rotors_running} of {rotor_count} rotors", load.name),
-                hint: "leave rotors_running out: it is for bench runs, which have a thrust_n",
+                hint: "remove rotors_running, or give thrust_n for a bench run",
             });
         }
         if load.recordings.is_empty() {
@@ -302,7 +302,7 @@ impl ExperimentFile {
             return Err(ExperimentError::OutOfRange {
                 name: "vehicle.mass_kg".to_owned(),
                 value: mass_kg,
-                must_be: "is more than ten times off the preset's or the model's; masses are in kg",
+                must_be: "differs from the mass of the preset or the model by more than ten times; check the unit and the vehicle",
             });
         }
         not_negative(&named("added_mass_kg"), added_mass_kg)?;

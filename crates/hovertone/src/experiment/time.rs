@@ -42,7 +42,7 @@ pub fn time_s_from_text(text: &str) -> Option<f64> {
 
 /// A time in a file: a number of seconds, or a text such as `"1:02.5"`.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "a time: seconds, such as 62.5, or \"1:02.5\"")]
+#[serde(untagged, expecting = "a time must be a number of seconds, such as 62.5, or \"1:02.5\"")]
 enum Written {
     Seconds(f64),
     Text(String),

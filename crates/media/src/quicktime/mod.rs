@@ -98,13 +98,13 @@ pub(crate) enum QuicktimeError {
     #[error("the file cannot be read")]
     Io(#[from] io::Error),
     /// Most recorders write the index last, so it is missing in a truncated recording.
-    #[error("the MP4/MOV file has no index (moov box){}: {NO_MOOV_WHY}", cut_in_text(*cut_in))]
+    #[error("it has no index (moov box){}: {NO_MOOV_WHY}", cut_in_text(*cut_in))]
     NoMoov {
         /// The box that continues beyond the end of the file.
         cut_in: Option<[u8; 4]>,
     },
     /// The file ends inside its index.
-    #[error("the MP4/MOV file ends inside its index: the moov box takes {size} bytes and {room} are left")]
+    #[error("it ends inside its index: the moov box takes {size} bytes and {room} are left")]
     MoovCut {
         /// Stated size of the box in bytes.
         size: u64,
@@ -112,7 +112,7 @@ pub(crate) enum QuicktimeError {
         room: u64,
     },
     /// An index that is too large for any recording.
-    #[error("the index of the MP4/MOV file (moov box) takes {size} bytes, more than the {max} that are read")]
+    #[error("its index (moov box) takes {size} bytes, more than the {max} that are read")]
     MoovTooLarge {
         /// Stated size of the box in bytes.
         size: u64,
@@ -125,7 +125,7 @@ pub(crate) enum QuicktimeError {
     )]
     CompressedMoov,
     /// A box that is smaller than its header or larger than its container.
-    #[error("the MP4/MOV file is damaged: its {} box takes {size} bytes where {room} are left", name(*kind))]
+    #[error("its {} box takes {size} bytes where {room} are left", name(*kind))]
     BoxSize {
         /// Type of the box.
         kind: [u8; 4],
@@ -135,13 +135,13 @@ pub(crate) enum QuicktimeError {
         room: u64,
     },
     /// A mandatory box is missing.
-    #[error("the MP4/MOV file is damaged: a sound track has no {} box", name(*kind))]
+    #[error("a sound track has no {} box", name(*kind))]
     MissingBox {
         /// Type of the box.
         kind: [u8; 4],
     },
     /// A part of the index is damaged.
-    #[error("the MP4/MOV file is damaged: {what} cannot be read")]
+    #[error("{what} cannot be read")]
     Damaged {
         /// The part.
         what: &'static str,

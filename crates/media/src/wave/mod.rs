@@ -272,7 +272,11 @@ impl Format {
             });
         }
         match tag {
-            1 | 3 => bad("the size of a sample", sample_bytes, "1 to 4 bytes, or 4 or 8 of floating point"),
+            1 | 3 => bad(
+                "the number of bytes of an audio sample",
+                sample_bytes,
+                "1 to 4, or 4 or 8 where they are floating point",
+            ),
             2 | 0x11 if channel_count <= 2 && bits == 4 => {
                 let (id, name, head, head_frames) = if tag == 2 {
                     (CODEC_ID_ADPCM_MS, "MS ADPCM", 7, 2)

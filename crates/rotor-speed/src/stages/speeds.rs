@@ -39,14 +39,14 @@ pub(crate) fn speeds_from_decision(
         .collect();
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&lines.ridges, &speeds));
-    let is_of_one_line = speeds.first().is_some_and(|speed| speed.method != Method::Separated);
-    if is_of_one_line && heard_by.count_of_one_line(config) > config.rotors.count {
+    let is_of_all = speeds.first().is_some_and(|speed| speed.method == Method::Separated);
+    if !is_of_all && heard_by.count_of_one_line(config) > config.rotors.count {
         warnings.push(Warning::RotorCountUnknown { spread_share: config.budget.rotor_spread_share });
     }
     warnings.extend(warning_of_samples(&samples));
     let rotors = rotor_tracks.rotors(order, &config.budget);
-    if !rotors.is_empty() {
-        // the result is the mean of the separated rotors, and does not follow the loudest
+    if is_of_all {
+        // the result is the mean of all rotors, and does not follow the loudest
         warnings.retain(|warning| !matches!(warning, Warning::SeveralLines { .. }));
     }
     let wants_rotors = config.methods().any(|method| method == Method::Separated);

@@ -86,7 +86,7 @@ pub enum ScenarioError {
         hint: &'static str,
     },
     /// A number out of its range.
-    #[error("{name} = {value}, {must_be}")]
+    #[error("{name} is {value}, and it {must_be}")]
     OutOfRange {
         /// Which number.
         name: &'static str,
