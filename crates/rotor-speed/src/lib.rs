@@ -23,7 +23,7 @@ mod tone;
 pub use config::Config;
 pub use discovery::{Discovery, FoundSpeed, tones_from_passes, tones_from_source};
 pub use error::Error;
-pub use evidence::{EvidenceConfig, LevelPrior};
+pub use evidence::EvidenceConfig;
 pub use hover::{HoverConfig, HoverPart};
 pub use pipeline::{
     HoverRotors, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source, speed_from_survey,

@@ -44,4 +44,4 @@ pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub(crate) use near_speed::nats_near;
 pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
-pub use settings::{EvidenceConfig, LevelPrior};
+pub use settings::EvidenceConfig;
