@@ -48,9 +48,11 @@ pub(super) const LAST_HARMONIC: u32 = 64;
 
 /// Level of one order along a path.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OrderLevel {
-    pub(super) order: u32,
-    pub(super) level_db: f64,
+pub struct OrderLevel {
+    /// The order.
+    pub order: u32,
+    /// Mean over the frames of the level over the floor.
+    pub level_db: f64,
 }
 
 /// Sums of log-likelihood ratios of the lines up to each of the last harmonics, in nats.

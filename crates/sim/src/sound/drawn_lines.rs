@@ -17,6 +17,8 @@ const MOTOR_LINES: u32 = 4;
 const MOTOR_DB: f64 = -15.0;
 /// Its standard deviation over vehicles and lines, dB. Assumed.
 const MOTOR_STD_DB: f64 = 10.0;
+/// The fall of the table was measured up to this harmonic of the blade pass.
+const FALL_HARMONICS: f64 = 12.0;
 
 impl ToneSettings {
     /// The lines of one vehicle with levels drawn from the table:
@@ -26,8 +28,8 @@ impl ToneSettings {
     /// - the offset of the shaft lines: of alike or unlike blades, or inaudible;
     /// - the lines below the blade pass, and the shares of lines that are missing.
     ///
-    /// Levels of the table are over the floor, so that a floor that falls with frequency makes the heard fall smaller. Lines of something else,
-    /// echoes, notches and smeared lines are not drawn: rooms, voices and the wander of the rotors make them.
+    /// Levels of the table are over the floor; here they are over a flat one. Lines of something else, echoes, notches and smeared lines are not
+    /// drawn: rooms, voices and the wander of the rotors make them.
     pub fn drawn(vehicle: &Vehicle, table: &LineLevels, seed: u64) -> Self {
         let mut random = Draws(stream(seed, Part::Levels, 0));
         let plain = Self::for_vehicle(vehicle);
@@ -59,10 +61,16 @@ impl MotorTones {
 }
 
 impl SourceSettings {
-    /// As [`for_vehicle`](Self::for_vehicle), with levels drawn from those of real rotors, and with the lines of a motor without a gear.
+    /// As [`for_vehicle`](Self::for_vehicle), with levels drawn from those of real rotors, and with the lines of a motor without a gear. Levels of
+    /// the table are over the floor, so that the lines also fall by as much as the broadband noise between the first and the twelfth harmonic.
     pub fn drawn(vehicle: &Vehicle, hover_speed: RotorSpeed, table: &LineLevels, seed: u64) -> Self {
         let plain = Self::for_vehicle(vehicle, hover_speed);
-        let tones = ToneSettings::drawn(vehicle, table, seed);
+        let mut tones = ToneSettings::drawn(vehicle, table, seed);
+        if let (Some(blades), Some(noise)) = (&mut tones.blade_pass, &plain.broadband) {
+            let first_hz = f64::from(blades.blade_count) * hover_speed.rev_s();
+            let noise_fall_db = noise.density_db(first_hz) - noise.density_db(FALL_HARMONICS * first_hz);
+            blades.exponent -= noise_fall_db / (20.0 * FALL_HARMONICS.log10());
+        }
         let blade_level = tones.blade_pass.as_ref().map_or(1.0, |blades| blades.level);
         let motor =
             plain.motor.or_else(|| Some(MotorTones::drawn(blade_level, &mut Draws(stream(seed, Part::Levels, 1)))));
@@ -131,25 +139,24 @@ mod tests {
         (mean, (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt())
     }
 
-    /// Means within five standard errors, standard deviations within five of theirs, std/√(2 n).
+    /// The mean within five standard errors, the standard deviation within five of its own, std/√(2 n).
+    fn assert_normal(table: &LineLevels, value: fn(&ToneSettings) -> f64, mean: f64, std: f64) {
+        let (found_mean, found_std) = mean_and_std(&drawn(table).iter().map(value).collect::<Vec<_>>());
+        let error = std / (COUNT as f64).sqrt();
+        assert!((found_mean - mean).abs() < 5.0 * error, "{found_mean} {mean}");
+        assert!((found_std - std).abs() < 5.0 * error / 2_f64.sqrt(), "{found_std} {std}");
+    }
+
     #[test]
     fn levels_have_the_distributions_of_the_table() {
         let table = LineLevels { fall: 3.0, fall_std: 0.5, ..LineLevels::default() };
-        let falls = |tones: &ToneSettings| -2.0 * tones.blade_pass.as_ref().unwrap().exponent;
-        let offsets = |tones: &ToneSettings| 20.0 * tones.unlike_blades_level.log10();
+        let fall = |tones: &ToneSettings| -2.0 * tones.blade_pass.as_ref().unwrap().exponent;
+        let offset_db = |tones: &ToneSettings| 20.0 * tones.unlike_blades_level.log10();
+        assert_normal(&table, fall, 3.0, 0.5);
         let unlike = LineLevels { faint_shaft: 0.0, shaft_inaudible: 0.0, ..table };
-        let alike = LineLevels { faint_shaft: 1.0, shaft_inaudible: 0.0, ..table };
-        let cases: [(LineLevels, &dyn Fn(&ToneSettings) -> f64, f64, f64); 3] = [
-            (table, &falls, 3.0, 0.5),
-            (unlike, &offsets, table.shaft_db, table.shaft_std_db),
-            (alike, &offsets, table.faint_shaft_db, table.faint_shaft_std_db),
-        ];
-        for (table, value, mean, std) in cases {
-            let (found_mean, found_std) = mean_and_std(&drawn(&table).iter().map(value).collect::<Vec<_>>());
-            let error = std / (COUNT as f64).sqrt();
-            assert!((found_mean - mean).abs() < 5.0 * error, "{found_mean} {mean}");
-            assert!((found_std - std).abs() < 5.0 * error / 2_f64.sqrt(), "{found_std} {std}");
-        }
+        assert_normal(&unlike, offset_db, table.shaft_db, table.shaft_std_db);
+        let alike = LineLevels { faint_shaft: 1.0, ..unlike };
+        assert_normal(&alike, offset_db, table.faint_shaft_db, table.faint_shaft_std_db);
     }
 
     /// Shares within five standard errors √(p (1 − p)/n).
@@ -172,6 +179,18 @@ mod tests {
         assert_eq!(scatter.blade_pass.missing_share, table.blade_pass_missing);
         assert_eq!(scatter.shaft.missing_share, table.shaft_missing);
         assert_eq!((scatter.below.missing_share, scatter.below.spread_db), (table.below_missing, table.below_std_db));
+    }
+
+    /// From the first to the twelfth harmonic, the lines fall by the drawn fall more than the noise, 5 dB per octave above 1 kHz.
+    #[test]
+    fn lines_fall_over_the_floor_by_the_drawn_fall() {
+        let vehicle = find_preset("f450").unwrap();
+        let table = LineLevels { fall: 1.3, fall_std: 0.0, ..LineLevels::default() };
+        for (rev_s, noise_fall_db) in [(20.0, 0.0), (80.0, 5.0 * 1.92_f64.log2()), (600.0, 5.0 * 12_f64.log2())] {
+            let source = SourceSettings::drawn(vehicle, RotorSpeed::from_rev_s(rev_s), &table, 3);
+            let fall_db = -20.0 * source.tones.blade_pass.unwrap().exponent * 12_f64.log10();
+            assert!((fall_db - noise_fall_db - 13.0 * 12_f64.log10()).abs() < 1e-9, "{rev_s}: {fall_db}");
+        }
     }
 
     #[test]
