@@ -137,10 +137,10 @@ const LEVELS: &str = "Each simulated flight is a hover with levels drawn from th
 const ANSWERS: &str = "Answers to the whole sound with the blades given and nothing else, judged as in [real-sound.md](real-sound.md). A simulated \
     answer is right between the slowest and the fastest instant of any rotor.";
 const EASIER: &str = "\
-- **More evidence at the same loudness.** The first line of the blade pass has nearly the same median level as in real flights, but the medians of votes
-  and of the evidence of the levels are higher in simulated flights.
-- **More and louder shaft lines** than in real flights, and louder lines below the blade pass than on real benches. They tell the octave. The table has
-  one distribution for flights and benches, and lines of the motor, whose levels are assumed, are at orders 7 and 21, which are no blade pass.
+- **More evidence at the same loudness.** The first line of the blade pass has nearly the same median level as in real flights, but the medians of
+  votes and of the evidence of the levels are higher in simulated flights.
+- **More and louder shaft lines** than in real flights, and louder lines below the blade pass than on real benches. They tell the octave. The table
+  has one distribution for flights and benches, and lines of the motor, whose levels are assumed, are at orders 7 and 21, which are no blade pass.
 - **Steadier speeds.** The gain of each motor wanders by 0.2 to 0.4 % here; rotors of real flights wander by 1 to 3 %. With gains that wander by 2 %,
   the simulated vehicles lean and sink to the ground.
 
@@ -149,10 +149,10 @@ The first line of the blade pass, the audible share of blade pass lines and the 
 Where it is harder:
 
 - Lines of the blade pass scatter more than in real flights, and less than on real benches: the table has one distribution for both.
-- The fall is smaller than the drawn one (1.3 ± 1.0), because wind and the noise of the place make a floor that falls with frequency too.
+- The fall is smaller than the drawn one (1.3 ± 1.0), probably because wind and the noise of the place make a floor that falls with frequency too.
 - The loudness has a wider range. The silent simulated flights have a first line within 3 dB of the floor and votes below 0: they are not
-  audible. No real recording of the set is as faint.
-- Voices and lines of the motor leave more lines that no blade pass explains.
+  audible. Nine of ten real flights have votes of 3 nats and more.
+- More places between the orders hold lines of something else, probably of voices and of rotors that are further apart.
 
 One real rotor on a bench is louder, falls more steeply and shows most of its shaft lines. No simulated set stands for it.
 
