@@ -41,6 +41,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--data DIR] for other recordings, [--try NAME=VALUE,…] to print what other values change
   saying-more  each error with a fact about the vehicle said and without it, on simulated and semi-real sound: docs/saying-more.md
              [--semi-real DIR] for recordings made before, [--flights N] for fewer flights
+  levels     levels of the lines and evidence of simulated flights beside real recordings: docs/synthetic-and-real.md
+             [--data DIR] for other recordings, [--flights N] for fewer flights
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         ["rotors", options @ ..] => rotors::run(&root(), options),
         ["real", options @ ..] => real::run(&root(), options),
         ["sensitivity", options @ ..] => real::sensitivity::run(&root(), options),
+        ["levels", options @ ..] => real::levels::run(&root(), options),
         ["saying-more", options @ ..] => real::saying_more::run(&root(), options),
         ["labels", options @ ..] => labels::run(&root(), options),
         ["roundtrip", options @ ..] => roundtrip::run(&root(), options),

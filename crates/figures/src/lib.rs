@@ -11,7 +11,7 @@
 //! ```
 //!
 //! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian`
-//! (9), `fit`, `budget`, `rotors`, and `spectrogram` of one recording.
+//! (9), `fit`, `budget`, `rotors`, `spectrogram` of one recording, and `distributions` of several sets of cases.
 
 mod axis;
 mod bitmap;
@@ -19,6 +19,7 @@ mod budget;
 mod canvas;
 mod colour;
 mod database;
+mod distributions;
 mod experiment;
 mod figure;
 mod fit;
@@ -37,6 +38,7 @@ mod trial;
 
 pub use bitmap::{DOTS_PER_INCH, figure_png};
 pub use colour::{LEVEL_COUNT, level_colours, method_colour};
+pub use distributions::{Distribution, distributions_figure};
 pub use experiment::{ExperimentFigures, figures_of_experiment};
 pub use figure::{Figure, FigureError};
 pub use picture::{

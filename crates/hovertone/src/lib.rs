@@ -124,9 +124,10 @@ pub mod speed {
         UncertaintySource, UncertaintyTerm, Warning,
     };
     pub use hovertone_rotor_speed::{
-        BudgetConfig, Config, Error, HoverConfig, HoverPart, HoverRotors, RidgeConfig, RotorsConfig, SampleConfig,
-        SpanConfig, SpectrogramConfig, Surveyed, ToneConfig, passes_of_speed, rotors_from_survey, speed_from_passes,
-        speed_from_source, speed_from_survey, survey_from_passes,
+        BudgetConfig, ComparedSpeed, Config, Error, EvidenceNear, HoverConfig, HoverPart, HoverRotors, LinesNear,
+        NoiseLevel, OrderLevel, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig, Surveyed,
+        ToneConfig, evidence_near, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source,
+        speed_from_survey, survey_from_passes,
     };
 }
 

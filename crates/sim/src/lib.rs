@@ -48,8 +48,8 @@ pub use prescribed::{
 };
 pub use rk4::rk4;
 pub use sound::{
-    AmbientSettings, BabbleSettings, BladePassTones, BroadbandSettings, Directivity, FlightSound, GearMeshTones,
-    MicrophoneSettings, MotorTones, Room, RotorState, SoundSettings, SoundState, SourceSettings, Surroundings,
-    ToneSettings, WallAbsorption,
+    AmbientSettings, AutomaticGain, BabbleSettings, BladePassTones, BroadbandSettings, ClassScatter, Directivity,
+    FlightSound, GearMeshTones, LineScatter, MicrophoneSettings, MotorTones, Room, RotorState, SoundSettings,
+    SoundState, SourceSettings, Surroundings, ToneSettings, WallAbsorption,
 };
 pub use trim::{HoverTrim, hover_trim};

@@ -19,6 +19,8 @@ pub(crate) enum Part {
     Jitter = 22,
     Scenario = 23,
     MotorGain = 24,
+    Levels = 25,
+    WindNoise = 26,
 }
 
 /// The stream of `part` number `index`.

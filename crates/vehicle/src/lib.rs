@@ -1,7 +1,7 @@
 //! What a multirotor is, and the quantities of its rotors.
 //!
-//! Nothing here knows of sound. The estimator (`hovertone`) and the simulator (`hovertone-sim`) share this crate and nothing else,
-//! so that recovering a simulated flight proves something.
+//! The estimator (`hovertone`) and the simulator (`hovertone-sim`) share this crate and nothing else, so that recovering a simulated flight
+//! proves something. Of sound, it has only the levels that were measured on real rotors.
 
 mod constants;
 mod contradiction;
@@ -10,6 +10,7 @@ mod flight;
 mod frame;
 mod known_rotor;
 mod limits;
+mod line_levels;
 mod own_vehicle;
 mod presets;
 mod said;
@@ -30,6 +31,7 @@ pub use limits::{
     MASS_ALONE_KG_MAX, MASS_FACTOR_MAX, MESH_SIDEBANDS, PROPELLER_DIAMETER_M, ROTOR_SPREAD_SHARE, THRUST_COEFFICIENT,
     are_masses_of_one_vehicle, check_range, is_swamped, loudest_rotor_share,
 };
+pub use line_levels::LineLevels;
 pub use own_vehicle::{OwnVehicle, OwnVehicleError};
 pub use presets::{find_preset, presets};
 pub use said::{SaidOfVehicle, SearchedTone};

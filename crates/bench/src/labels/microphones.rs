@@ -137,10 +137,8 @@ impl Heard {
             let [x, y, z] = at_m.map(|metres| metres + setup.position_std_m * normal());
             let (sin, cos) = heading_rad.sin_cos();
             MicrophoneSection {
-                position_m: [x * cos - y * sin, x * sin + y * cos, (HEIGHT_M + z).max(0.02)],
-                ideal: false,
                 full_scale_db_spl: Some(120.0),
-                self_noise_db_spl: None,
+                ..MicrophoneSection::at([x * cos - y * sin, x * sin + y * cos, (HEIGHT_M + z).max(0.02)])
             }
         });
         let file = ScenarioFile {

@@ -118,12 +118,7 @@ fn by_tracks(kind: &Kind, flights: usize) -> Result<Count, String> {
 
 /// An AR.Drone over open ground and a microphone on a stand.
 fn heard_hover(seed: u64, thrust_std_share: f64) -> ScenarioFile {
-    let microphone = MicrophoneSection {
-        position_m: [-1.2, 0.5, 1.3],
-        ideal: false,
-        full_scale_db_spl: None,
-        self_noise_db_spl: None,
-    };
+    let microphone = MicrophoneSection::at([-1.2, 0.5, 1.3]);
     ScenarioFile {
         seed,
         duration_s: Some(DURATION_S),

@@ -47,6 +47,9 @@ pub(super) struct Truth {
     pub(super) blades: Option<u32>,
     #[serde(default)]
     pub(super) speeds_rev_s: Vec<f64>,
+    /// The stretch for which the speeds are known.
+    #[serde(default)]
+    pub(super) span_s: Option<[f64; 2]>,
     /// How far a separated rotor may be from the speed of a true one.
     #[serde(default)]
     pub(super) tolerance_rev_s: Option<f64>,
@@ -71,6 +74,13 @@ pub(super) struct Truth {
 impl Truth {
     pub(super) fn is_low_confidence(&self) -> bool {
         self.confidence == "low"
+    }
+
+    /// The mean of the known speeds; else the middle of the accepted range.
+    pub(super) fn mean_rev_s(&self) -> Option<f64> {
+        let middle = self.accept_rev_s.map(|range| f64::midpoint(range.low, range.high));
+        let count = self.speeds_rev_s.len();
+        if count > 0 { Some(self.speeds_rev_s.iter().sum::<f64>() / count as f64) } else { middle }
     }
 
     /// The range for the whole file.

@@ -7,6 +7,7 @@ use hovertone::speed::{Config, Method, Outcome, SpeedAnalysis, ToneConfig, speed
 use hovertone::tones::Reading;
 use hovertone_media::{OpenOptions, Recording};
 use hovertone_vehicle::{KnownRotor, Order};
+use std::path::Path;
 
 /// A case that the library can hear: its sound and its settings.
 pub(super) struct LoadedCase<'a> {
@@ -65,15 +66,13 @@ impl<'a> LoadedCase<'a> {
     }
 
     fn load(set: &TruthSet, case: Case<'a>, facts: Facts) -> Result<Self, String> {
-        let path = set.path(&case.truth.file);
-        let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-        let options = OpenOptions { channel: facts.channel, ..OpenOptions::default() };
-        let mut recording = Recording::open(&path, &options).map_err(|error| failed(&error))?;
-        let mut samples = Vec::new();
-        while let Some(block) = recording.next_block().map_err(|error| failed(&error))? {
-            samples.extend_from_slice(block);
-        }
-        Ok(Self { case, sound: Signal::new(samples, recording.sample_rate_hz()), facts })
+        let sound = sound_of(&set.path(&case.truth.file), facts.channel)?;
+        Ok(Self { case, sound, facts })
+    }
+
+    /// The blades that the flags say.
+    pub(super) fn blades(&self) -> u32 {
+        self.facts.blades
     }
 
     /// The default settings of this case.
@@ -85,6 +84,23 @@ impl<'a> LoadedCase<'a> {
     pub(super) fn answer(&self, config: &Config) -> Result<Answer, String> {
         answer_to(self.sound.clone(), config)
     }
+}
+
+/// The default settings where the blades are known and nothing else.
+pub(super) fn config_of_blades(blades: u32) -> Result<Config, String> {
+    Facts { blades, ..Facts::default() }.config()
+}
+
+/// The sound of a file.
+pub(super) fn sound_of(path: &Path, channel: Option<usize>) -> Result<Signal, String> {
+    let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
+    let options = OpenOptions { channel, ..OpenOptions::default() };
+    let mut recording = Recording::open(path, &options).map_err(|error| failed(&error))?;
+    let mut samples = Vec::new();
+    while let Some(block) = recording.next_block().map_err(|error| failed(&error))? {
+        samples.extend_from_slice(block);
+    }
+    Ok(Signal::new(samples, recording.sample_rate_hz()))
 }
 
 /// What the library hears in a sound.

@@ -16,6 +16,7 @@ mod false_alarms;
 mod floors;
 mod hearing;
 mod judgement;
+pub(crate) mod levels;
 mod library;
 mod limits;
 mod microphones;

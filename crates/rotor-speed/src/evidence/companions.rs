@@ -58,7 +58,7 @@ mod tests {
     use super::*;
     use crate::evidence::excess::{Excess, ExcessFrame};
     use crate::evidence::level_table::level_of;
-    use crate::evidence::settings::LevelPrior;
+    use hovertone_vehicle::LineLevels;
 
     /// Two seconds of noise to 9 kHz, with lines of 20 dB at twelve harmonics of the blade pass of each rotor.
     fn rotors(speeds_rev_s: &[f64], bin_hz: f64, hop_s: f64) -> Excess {
@@ -76,7 +76,7 @@ mod tests {
     fn nats(speeds_rev_s: &[f64]) -> f64 {
         let looks = Looks { short: rotors(speeds_rev_s, 2.5, 0.05), long: rotors(speeds_rev_s, 0.625, 0.1) };
         let heard = vec![speeds_rev_s[0]; looks.short.frames.len()];
-        let propeller = OwnPropeller { blades: 2, prior: &LevelPrior::default() };
+        let propeller = OwnPropeller { blades: 2, prior: &LineLevels::default() };
         companion_nats(&looks, &heard, &propeller).expect("frames")
     }
 

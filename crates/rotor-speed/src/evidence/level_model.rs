@@ -11,8 +11,8 @@
 
 use super::level_table::LEVEL_DB_MIN;
 use super::levels::NoiseLevel;
-use super::settings::LevelPrior;
 use hovertone_signal::statistics::log_sum_exp;
+use hovertone_vehicle::LineLevels;
 
 /// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
 const LINE_DB: std::ops::RangeInclusive<i32> = -45..=80;
@@ -36,8 +36,6 @@ const SMEARS_DB: [f64; 3] = [1.0, 2.0, 4.0];
 const SHAFT_DB: [i32; 16] = [-39, -36, -33, -30, -27, -24, -21, -18, -15, -12, -9, -6, -3, 0, 3, 6];
 /// Steps of the integral over the level that an echo takes from every other line, dB. *Numeric.*
 const ECHO_DB: [i32; 3] = [-6, -12, -18];
-/// Scatter of the lines of a recording over that of most, and the share of the recordings that have it. *Decision.*
-const SCATTERS: [(f64, f64); 3] = [(1.0, 0.65), (1.6, 0.25), (2.4, 0.1)];
 /// Lowest sum of loudness and offset, dB. *Numeric.*
 const SUM_DB_MIN: i32 = LOUDNESS_DB[0] + SHAFT_DB[0];
 /// Number of sums of loudness and offset. *Numeric.*
@@ -50,9 +48,11 @@ pub(super) const LAST_HARMONIC: u32 = 64;
 
 /// Level of one order along a path.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct OrderLevel {
-    pub(super) order: u32,
-    pub(super) level_db: f64,
+pub struct OrderLevel {
+    /// The order.
+    pub order: u32,
+    /// Mean over the frames of the level over the floor.
+    pub level_db: f64,
 }
 
 /// Sums of log-likelihood ratios of the lines up to each of the last harmonics, in nats.
@@ -60,7 +60,7 @@ type UpTo = [f64; LAST_HARMONICS.len()];
 
 /// The model for the noise of one recording.
 pub(super) struct LevelModel<'a> {
-    prior: &'a LevelPrior,
+    prior: &'a LineLevels,
     blades: u32,
     below: RatioTable,
     scatters: Vec<Scatter>,
@@ -80,7 +80,7 @@ struct Scatter {
 
 impl<'a> LevelModel<'a> {
     /// The model of rotors with so many blades.
-    pub(super) fn new(noise: NoiseLevel, blades: u32, prior: &'a LevelPrior) -> Self {
+    pub(super) fn new(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
         let foreign = prior.foreign.max(noise.lines_share);
         let table = |std_db: f64, missing: f64, notched: f64| {
             RatioTable::new(noise, &LineScatter { std_db, missing, notched, prior }, foreign)
@@ -89,7 +89,7 @@ impl<'a> LevelModel<'a> {
             prior,
             blades,
             below: table(prior.below_std_db, prior.below_missing, 0.0),
-            scatters: SCATTERS
+            scatters: LineLevels::SCATTERS
                 .iter()
                 .map(|(factor, share)| Scatter {
                     share_nats: share.ln(),
@@ -178,7 +178,7 @@ impl Fall {
 }
 
 /// The falls over which the evidence is integrated, with the logarithms of their weights.
-fn falls(prior: &LevelPrior) -> Vec<(Fall, f64)> {
+fn falls(prior: &LineLevels) -> Vec<(Fall, f64)> {
     let steady = ln_weights(&FALLS, prior.fall, prior.fall_std);
     let steady = FALLS
         .iter()
@@ -234,7 +234,7 @@ struct LineScatter<'a> {
     missing: f64,
     /// Share of lines in a notch.
     notched: f64,
-    prior: &'a LevelPrior,
+    prior: &'a LineLevels,
 }
 
 /// Log-likelihood ratios of the lines of one class, as a table over their measured and mean levels. A row is filled when it is first asked for.
@@ -334,7 +334,7 @@ fn noise_density(deviation_db: f64, std_db: f64) -> f64 {
 }
 
 /// Logarithms of the weights of the offsets of shaft lines: blades are alike, or unlike.
-fn ln_weights_of_shaft_lines(prior: &LevelPrior) -> Vec<f64> {
+fn ln_weights_of_shaft_lines(prior: &LineLevels) -> Vec<f64> {
     let unlike = ln_weights(&SHAFT_DB.map(f64::from), prior.shaft_db, prior.shaft_std_db);
     let alike = ln_weights(&SHAFT_DB.map(f64::from), prior.faint_shaft_db, prior.faint_shaft_std_db);
     let (unlike_nats, alike_nats) = ((1.0 - prior.faint_shaft).ln(), prior.faint_shaft.ln());
@@ -358,7 +358,7 @@ mod tests {
     fn evidence(levels_db: &[f64], blades: u32) -> f64 {
         let levels: Vec<OrderLevel> =
             (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db }).collect();
-        LevelModel::new(NOISE, blades, &LevelPrior::default()).evidence_nats(&levels)
+        LevelModel::new(NOISE, blades, &LineLevels::default()).evidence_nats(&levels)
     }
 
     #[test]

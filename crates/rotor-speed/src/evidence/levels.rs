@@ -45,11 +45,13 @@ pub(super) fn levels_of_orders(excess: &Excess, speeds_rev_s: &[f64], blades: u3
 
 /// Level where no line is, and its standard deviation.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct NoiseLevel {
-    pub(super) mean_db: f64,
-    pub(super) std_db: f64,
+pub struct NoiseLevel {
+    /// The median.
+    pub mean_db: f64,
+    /// By the median deviation.
+    pub std_db: f64,
     /// Share of the places that hold a line of something else.
-    pub(super) lines_share: f64,
+    pub lines_share: f64,
 }
 
 impl NoiseLevel {

@@ -42,6 +42,9 @@ mod votes;
 
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
-pub(crate) use near_speed::nats_near;
+pub use level_model::OrderLevel;
+pub use levels::NoiseLevel;
+pub use near_speed::LinesNear;
+pub(crate) use near_speed::{lines_near, nats_near};
 pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
-pub use settings::{EvidenceConfig, LevelPrior};
+pub use settings::EvidenceConfig;

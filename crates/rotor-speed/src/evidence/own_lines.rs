@@ -4,8 +4,8 @@ use super::excess::Excess;
 use super::level_model::{LevelModel, OrderLevel};
 use super::level_table;
 use super::levels::{level_db, noise_level};
-use super::settings::LevelPrior;
 use super::votes::HARMONICS;
+use hovertone_vehicle::LineLevels;
 
 /// Distance at which two lines stand apart, in resolutions of a frame: half the width of the main lobe of each. *Physics.*
 const APART_RESOLUTIONS: f64 = 2.0;
@@ -58,7 +58,7 @@ pub(crate) fn own_lines_nats(
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
     let noise = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty())?;
-    let prior = LevelPrior { blade_pass_db: loudest_db, blade_pass_std_db: prior.rotors_std_db, ..*prior };
+    let prior = LineLevels { blade_pass_db: loudest_db, blade_pass_std_db: prior.rotors_std_db, ..*prior };
     Some(LevelModel::new(noise, blades, &prior).evidence_nats(&levels))
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn own_lines_nats(
 #[derive(Clone, Copy)]
 pub(crate) struct OwnPropeller<'a> {
     pub(crate) blades: u32,
-    pub(crate) prior: &'a LevelPrior,
+    pub(crate) prior: &'a LineLevels,
 }
 
 #[cfg(test)]
@@ -88,7 +88,7 @@ mod tests {
         let constant = |speed_rev_s: f64| vec![speed_rev_s; excess.frames.len()];
         let others: Vec<Vec<f64>> = others_rev_s.iter().copied().map(constant).collect();
         let others: Vec<&[f64]> = others.iter().map(Vec::as_slice).collect();
-        let propeller = OwnPropeller { blades: 2, prior: &LevelPrior::default() };
+        let propeller = OwnPropeller { blades: 2, prior: &LineLevels::default() };
         own_lines_nats(excess, &constant(speed_rev_s), &others, 20.0, &propeller)
     }
 

@@ -158,7 +158,7 @@ fn are_several(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) 
 ///
 /// # Errors
 /// Mains hum.
-fn beliefs_of(
+pub(crate) fn beliefs_of(
     surveyed: &Surveyed,
     speeds_rev_s: RangeInclusive<f64>,
     config: &Config,

@@ -28,9 +28,9 @@ pub use maneuver::{Axis, Maneuver};
 pub use run::ScenarioRun;
 pub use schedule::{Instruction, Schedule};
 pub use sections::{
-    AirSection, AmbientSection, GroundSection, GustSection, JitterSection, LayoutName, MicrophoneSection,
-    MotorWanderSection, PayloadSection, PeopleSection, RoomSection, SampleFormat, SoundSection, SpreadSection,
-    VehicleSection, WindSection,
+    AirSection, AmbientSection, AutomaticGainSection, GroundSection, GustSection, JitterSection, LayoutName,
+    LineLevelsName, MicrophoneSection, MotorWanderSection, PayloadSection, PeopleSection, RoomSection, SampleFormat,
+    SoundSection, SpreadSection, VehicleSection, WindSection,
 };
 pub use truth::{ScenarioTruth, SpanTruth};
 pub use truth_table::{TRUTH_COLUMNS, truth_cells};

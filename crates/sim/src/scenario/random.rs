@@ -71,12 +71,7 @@ impl ScenarioFile {
             ground: (!is_indoors).then(GroundSection::default),
             people: is_indoors.then(PeopleSection::default),
             ambient: Some(AmbientSection::default()),
-            microphones: vec![MicrophoneSection {
-                position_m,
-                ideal: false,
-                full_scale_db_spl: None,
-                self_noise_db_spl: None,
-            }],
+            microphones: vec![MicrophoneSection::at(position_m)],
             ..Self::default()
         }
     }

@@ -3,16 +3,18 @@
 use super::file::ScenarioFile;
 use super::maneuver::Maneuver;
 use super::schedule::Schedule;
-use super::sections::{GustSection, JitterSection, MicrophoneSection, SampleFormat, VehicleSection};
+use super::sections::{
+    AutomaticGainSection, GustSection, JitterSection, LineLevelsName, MicrophoneSection, SampleFormat, VehicleSection,
+};
 use super::{Scenario, ScenarioError};
 use crate::control::Setpoint;
 use crate::environment::{Air, Gusts};
 use crate::flight_settings::{FlightSettings, MotorWander, Payload, Spread, Start};
 use crate::sound::{
-    AmbientSettings, BabbleSettings, MicrophoneSettings, Room, SoundSettings, SourceSettings, Surroundings,
-    WallAbsorption,
+    AmbientSettings, AutomaticGain, BabbleSettings, MicrophoneSettings, Room, SoundSettings, SourceSettings,
+    Surroundings, WallAbsorption,
 };
-use hovertone_vehicle::{FlightParameters, RotorSpeed, Sourced, find_flight_parameters, find_preset};
+use hovertone_vehicle::{FlightParameters, LineLevels, RotorSpeed, Sourced, find_flight_parameters, find_preset};
 use std::collections::BTreeMap;
 
 /// Source of a number from the file.
@@ -147,7 +149,11 @@ impl ScenarioFile {
         let id = flight.vehicle.id;
         let preset = find_preset(id).ok_or_else(|| ScenarioError::UnknownPreset { name: id.to_owned() })?;
         let section = &self.sound;
-        let mut source = SourceSettings::for_vehicle(preset, bare_hover_speed(flight));
+        let hover_speed = bare_hover_speed(flight);
+        let mut source = match section.line_levels {
+            LineLevelsName::Assumed => SourceSettings::for_vehicle(preset, hover_speed),
+            LineLevelsName::Drawn => SourceSettings::drawn(preset, hover_speed, &LineLevels::default(), self.seed),
+        };
         source.tone_level_db_spl = section.tone_level_db_spl;
         source.unsteadiness = section.unsteadiness;
         if let Some(noise) = &mut source.broadband {
@@ -272,7 +278,19 @@ fn microphone_of(section: &MicrophoneSection) -> MicrophoneSettings {
     MicrophoneSettings {
         full_scale_db_spl: section.full_scale_db_spl.unwrap_or(plain.full_scale_db_spl),
         self_noise_db_spl: section.self_noise_db_spl.or(plain.self_noise_db_spl),
+        wind_noise_db_spl: section.wind_noise_db_spl,
+        automatic_gain: section.automatic_gain.map(automatic_gain_of),
         ..plain
+    }
+}
+
+fn automatic_gain_of(section: AutomaticGainSection) -> AutomaticGain {
+    let plain = AutomaticGain::default();
+    AutomaticGain {
+        target_dbfs: section.target_dbfs.unwrap_or(plain.target_dbfs),
+        attack_s: section.attack_s.unwrap_or(plain.attack_s),
+        release_s: section.release_s.unwrap_or(plain.release_s),
+        gain_db_max: section.gain_db_max.unwrap_or(plain.gain_db_max),
     }
 }
 

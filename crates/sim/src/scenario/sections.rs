@@ -204,6 +204,19 @@ pub struct SoundSection {
     pub broadband_level_db_spl: f64,
     /// Standard deviation of every line's slow change in amplitude and phase.
     pub unsteadiness: f64,
+    /// Where the levels of the lines come from.
+    pub line_levels: LineLevelsName,
+}
+
+/// Where the levels of the lines come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LineLevelsName {
+    /// One assumed set for each vehicle.
+    #[default]
+    Assumed,
+    /// Drawn from the levels of real rotors, by the seed.
+    Drawn,
 }
 
 impl Default for SoundSection {
@@ -215,6 +228,7 @@ impl Default for SoundSection {
             tone_level_db_spl: 53.0,
             broadband_level_db_spl: 60.0,
             unsteadiness: 0.1,
+            line_levels: LineLevelsName::Assumed,
         }
     }
 }
@@ -315,4 +329,38 @@ pub struct MicrophoneSection {
     /// Its own noise.
     #[serde(default)]
     pub self_noise_db_spl: Option<f64>,
+    /// Noise of the wind over it.
+    #[serde(default)]
+    pub wind_noise_db_spl: Option<f64>,
+    /// Gain of the recorder that follows the level.
+    #[serde(default)]
+    pub automatic_gain: Option<AutomaticGainSection>,
+}
+
+impl MicrophoneSection {
+    /// The default microphone at this position.
+    pub fn at(position_m: [f64; 3]) -> Self {
+        Self {
+            position_m,
+            ideal: false,
+            full_scale_db_spl: None,
+            self_noise_db_spl: None,
+            wind_noise_db_spl: None,
+            automatic_gain: None,
+        }
+    }
+}
+
+/// An automatic gain; defaults as in [`AutomaticGain`](crate::AutomaticGain).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AutomaticGainSection {
+    /// Level that the sound is brought to: its rms over that of a full-scale sine.
+    pub target_dbfs: Option<f64>,
+    /// Time constant of a gain that falls.
+    pub attack_s: Option<f64>,
+    /// Time constant of a gain that rises.
+    pub release_s: Option<f64>,
+    /// Largest gain.
+    pub gain_db_max: Option<f64>,
 }

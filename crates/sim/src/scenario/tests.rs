@@ -182,3 +182,43 @@ fn every_cell_has_its_column() {
     assert!((of("total_thrust_n") - 0.413 * 9.806_65).abs() < 1e-9 && of("battery_v") == 11.1);
     assert_eq!(of("speed_4_rad_s"), rows[10].speed_rad_s[3]);
 }
+
+/// With C_f of the front 14 % below and of the back 14 % above the mean, equal thrusts need speeds √(1.14/0.86) = 1.15 apart.
+#[test]
+fn rotors_are_as_far_apart_as_their_thrust_constants_demand() {
+    let (_, _, truth) =
+        run("duration_s = 2.0\n[spread]\nthrust_shares = [0.86, 1.14, 1.14, 0.86]\n[sound]\nsample_rate_hz = 8000");
+    let speeds = truth.hover.unwrap().mean_speed_rad_s;
+    let fastest = speeds.iter().fold(0.0_f64, |fastest, speed| fastest.max(*speed));
+    let slowest = speeds.iter().fold(f64::INFINITY, |slowest, speed| slowest.min(*speed));
+    assert!((fastest / slowest - (1.14_f64 / 0.86).sqrt()).abs() < 1e-3, "{speeds:?}");
+}
+
+#[test]
+fn drawn_levels_differ_with_the_seed_and_assumed_ones_are_the_default() {
+    let text = |seed: u32, levels: &str| {
+        format!("seed = {seed}\n[vehicle]\npreset = \"f450\"\n[sound]\nline_levels = \"{levels}\"")
+    };
+    let tones = |seed, levels| scenario(&text(seed, levels)).unwrap().sound.source;
+    let plain = scenario("[vehicle]\npreset = \"f450\"").unwrap().sound.source;
+    assert_eq!(tones(5, "assumed"), plain);
+    let drawn = tones(5, "drawn");
+    assert_eq!(drawn, tones(5, "drawn"));
+    assert!(drawn.tones != plain.tones && drawn.motor.is_some() && drawn != tones(6, "drawn"));
+}
+
+/// A silent flight: the wind alone, at an ideal microphone whose full scale is √2 Pa. Its noise has 44 independent values a second (the square of
+/// the integral of the density over the integral of its square), so the mean square of 10 s has a relative standard error of 4.8 %.
+#[test]
+fn wind_makes_noise_of_the_set_level_and_an_automatic_gain_brings_it_to_its_target() {
+    let silent = "duration_s = 10.0\n[sound]\nsample_rate_hz = 8000\nsample_format = \"float32\"\ntone_level_db_spl = -100\n\
+         broadband_level_db_spl = -100\n[[microphone]]\nposition_m = [1, 0, 1]\nideal = true\nwind_noise_db_spl = 74\n";
+    let (channels, ..) = run(silent);
+    assert!((mean_square(&channels[0]) / 0.005 - 1.0).abs() < 5.0 * 0.048, "{}", mean_square(&channels[0]));
+    let (channels, ..) =
+        run(&format!("{silent}automatic_gain = {{ target_dbfs = -30, attack_s = 0.5, release_s = 0.5 }}\n"));
+    // the level of a full-scale sine is a mean square of 1/2; a fluctuating noise comes out within 3 dB of the target
+    let level_db = 10.0 * (2.0 * mean_square(&channels[0])).log10();
+    assert!((level_db + 30.0).abs() < 3.0, "{level_db}");
+    assert!(refused(&format!("{silent}automatic_gain = {{ attack_s = 0 }}\n")).contains("attack_s"));
+}

@@ -19,6 +19,10 @@ use std::collections::VecDeque;
 const BLOCK: usize = 256;
 /// Time for the filters of the microphones to settle; rendered before the first sample and dropped.
 const SETTLING_S: f64 = 0.1;
+/// Slope of the noise of wind: turbulence has a power of f^(−5/3).
+const WIND_SLOPE_DB: f64 = -5.0;
+/// Frequency below which the noise of wind is flat: gusts, which no recorder hears.
+const WIND_FLAT_BELOW_HZ: f64 = 10.0;
 /// Largest distance outdoors; it bounds the memory.
 const DISTANCE_M_MAX: f64 = 1000.0;
 /// Largest speed of a rotor's hub, as a share of the speed of sound.
@@ -81,6 +85,7 @@ struct Channel {
     received: Received,
     tail: Option<Reverberation>,
     ambient: Option<ColouredNoise>,
+    wind: Option<ColouredNoise>,
     /// The babble at 1 m, before its delay.
     babble: VecDeque<f32>,
     babble_gain: f32,
@@ -312,6 +317,10 @@ impl Channel {
             let (std, slope) = (rms_pa(noise.level_db_spl), noise.slope_db_per_octave);
             ColouredNoise::new(std, slope, noise.flat_below_hz, sample_rate_hz, random)
         });
+        let wind = microphone.wind_noise_db_spl.map(|level_db_spl| {
+            let random = stream(settings.seed, Part::WindNoise, index as u64);
+            ColouredNoise::new(rms_pa(level_db_spl), WIND_SLOPE_DB, WIND_FLAT_BELOW_HZ, sample_rate_hz, random)
+        });
         let tail = match settings.surroundings {
             Surroundings::Room(room) => room.reverberation_s.map(|tail_s| {
                 Reverberation::new(tail_s, room.tail_power(tail_s), sample_rate_hz, settings.seed, index as u64)
@@ -330,6 +339,7 @@ impl Channel {
             received: Received::from(0),
             tail,
             ambient,
+            wind,
             babble,
             babble_gain,
             microphone: Microphone::new(microphone, sample_rate_hz, settings.seed, index as u64),
@@ -345,9 +355,9 @@ impl Channel {
         if let Some(tail) = &mut self.tail {
             tail.add(sent, pressure);
         }
-        if let Some(ambient) = &mut self.ambient {
+        for source in [&mut self.ambient, &mut self.wind].into_iter().flatten() {
             let mut noise = [0.0; BLOCK];
-            ambient.fill(&mut noise[..count]);
+            source.fill(&mut noise[..count]);
             for (pressure, noise) in pressure.iter_mut().zip(&noise) {
                 *pressure += noise;
             }

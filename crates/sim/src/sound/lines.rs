@@ -1,12 +1,12 @@
 //! The lines of one rotor: multiples of its shaft, in phase with it at every sample except for a slow unsteadiness.
 
 use super::level::amplitude_pa;
+use super::line_scatter::LineClass;
 use super::phasors::{CHUNK, LANES, Phasors};
 use super::settings::SourceSettings;
 use rand::RngExt;
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
-use std::f64::consts::TAU;
 
 /// Samples between two draws of the unsteadiness; straight between them. Part of the meaning of a seed.
 pub(crate) const UNSTEADY_STEP: i64 = 256;
@@ -52,7 +52,7 @@ impl SlowNormal {
 }
 
 /// The lines in the order in which they are summed: shaft; blade pass; for each harmonic of the mesh carrier, (above,
-/// below) for each sideband, (above, below) of the pinion; motor.
+/// below) for each sideband, (above, below) of the pinion; motor; unlike blades.
 pub(crate) struct LineBank {
     lines: Vec<Line>,
     /// Amplitudes of the present chunk.
@@ -67,6 +67,7 @@ pub(crate) struct LineBank {
     pinion_teeth: u32,
     motor_order: f64,
     motor_lines: usize,
+    unlike_lines: usize,
     order_max: f64,
     unsteadiness: f64,
     keep: f64,
@@ -84,20 +85,19 @@ impl LineBank {
         let keep = (-(UNSTEADY_STEP as f64) / sample_rate_hz / settings.unsteadiness_time_constant_s).exp();
         let unit_pa = amplitude_pa(settings.tone_level_db_spl);
         let mut lines = Vec::new();
-        let mut line = |order: f64, level: f64| {
-            let spread: f64 = random.sample(StandardNormal);
-            let phase = TAU * random.random::<f64>();
-            let amplitude = unit_pa * level * 10_f64.powf(settings.tones.level_spread_db * spread / 20.0);
+        let mut line = |class: LineClass, order: f64, level: f64| {
+            let draw = settings.tones.draw_line(class, &mut random);
+            let (amplitude, phase) = (unit_pa * level * draw.factor, draw.phase_rad);
             let mean = Complex { re: (amplitude * phase.cos()) as f32, im: (amplitude * phase.sin()) as f32 };
             let (re, im) = (SlowNormal::new(keep, &mut random), SlowNormal::new(keep, &mut random));
             lines.push(Line { order, mean, re, im });
         };
-        line(1.0, settings.tones.shaft_level);
+        line(settings.tones.class_of_shaft(), 1.0, settings.tones.shaft_level);
         let (mut blade_count, mut blade_lines) = (1, 0);
         if let Some(blades) = &settings.tones.blade_pass {
             (blade_count, blade_lines) = (blades.blade_count, blades.harmonic_count as usize);
-            for number in (1..=blades.harmonic_count).map(f64::from) {
-                line(f64::from(blade_count) * number, blades.level * number.powf(blades.exponent));
+            for order in (1..=blades.harmonic_count).map(|number| f64::from(blade_count * number)) {
+                line(LineClass::BladePass, order, blades.level_of_order(order));
             }
         }
         let (mut mesh_order, mut mesh_harmonics, mut sidebands, mut pinion_order) = (1, 0, 0, None);
@@ -110,14 +110,14 @@ impl LineBank {
                 .map(|teeth| f64::from(mesh.order) / f64::from(teeth));
             for (number, &level) in (1_u32..).zip(&mesh.harmonic_levels) {
                 let order = f64::from(mesh.order) * f64::from(number);
-                line(order, level);
+                line(LineClass::Machine, order, level);
                 for (away, &share) in (1_u32..).zip(&mesh.sideband_levels) {
-                    line(order + f64::from(away), level * share);
-                    line(order - f64::from(away), level * share);
+                    line(LineClass::Machine, order + f64::from(away), level * share);
+                    line(LineClass::Machine, order - f64::from(away), level * share);
                 }
                 if let Some(away) = pinion_order {
-                    line(order + away, level * settings.pinion_sideband_level);
-                    line(order - away, level * settings.pinion_sideband_level);
+                    line(LineClass::Machine, order + away, level * settings.pinion_sideband_level);
+                    line(LineClass::Machine, order - away, level * settings.pinion_sideband_level);
                 }
             }
         }
@@ -125,8 +125,13 @@ impl LineBank {
         if let Some(motor) = &settings.motor {
             (motor_order, motor_lines) = (motor.order, motor.harmonic_levels.len());
             for (number, &level) in (1_u32..).zip(&motor.harmonic_levels) {
-                line(motor.order * f64::from(number), level);
+                line(LineClass::Machine, motor.order * f64::from(number), level);
             }
+        }
+        let mut unlike_lines = 0;
+        for it in settings.tones.lines_of_unlike_blades() {
+            line(it.class, it.order, it.level);
+            unlike_lines += 1;
         }
         let order_max = lines.iter().map(|line| line.order).fold(0.0, f64::max);
         Self {
@@ -141,6 +146,7 @@ impl LineBank {
             pinion_teeth: settings.pinion_teeth.unwrap_or(1),
             motor_order,
             motor_lines,
+            unlike_lines,
             order_max,
             unsteadiness: settings.unsteadiness,
             keep,
@@ -165,7 +171,7 @@ impl LineBank {
     }
 
     /// Sums the lines at these turns, over a chunk that begins at a share `step_share` of the way to the next step: the
-    /// blade-pass lines into `blades`, all others into `mechanical`.
+    /// lines of the blades into `blades`, all others into `mechanical`.
     pub(crate) fn sum(
         &mut self,
         turns: &[f64; CHUNK],
@@ -219,17 +225,22 @@ impl LineBank {
     }
 
     /// Horner's scheme per family, in registers: each line costs one complex multiplication and addition. Returns the cosine
-    /// of the blade pass, the sum of its lines, and the sum of all others.
+    /// of the blade pass, the sum of the lines of the blades, and the sum of all others.
     fn tile(&self, start: usize) -> (Lanes, Lanes, Lanes) {
         let shaft = LanePhasor::at(&self.shaft, start);
         let (first, rest) = self.amplitudes.split_at(1);
         let (blade_lines, rest) = rest.split_at(self.blade_lines);
         let per_harmonic = 1 + 2 * self.sidebands + if self.pinion_order.is_some() { 2 } else { 0 };
-        let (mesh_lines, motor_lines) = rest.split_at(per_harmonic * self.mesh_harmonics);
+        let (mesh_lines, rest) = rest.split_at(per_harmonic * self.mesh_harmonics);
+        let (motor_lines, unlike_lines) = rest.split_at(self.motor_lines);
 
         let mut other = LanePhasor::series(first, &shaft);
         let blade = shaft.power(self.blade_count);
-        let blades = LanePhasor::series(blade_lines, &blade);
+        let mut blades = LanePhasor::series(blade_lines, &blade);
+        if self.unlike_lines > 0 {
+            // from order 2 on
+            blades.add_lanes(&LanePhasor::series(unlike_lines, &shaft).times(&shaft));
+        }
         if !mesh_lines.is_empty() {
             let pinion = LanePhasor::at(&self.pinion, start);
             let turn = match self.pinion_order {

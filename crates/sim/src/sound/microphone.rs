@@ -1,5 +1,6 @@
 //! From pressure to samples.
 
+use super::automatic_gain::{AutomaticGain, GainControl};
 use super::biquad::Biquad;
 use super::level::{amplitude_pa, rms_pa};
 use super::settings::{Bound, LEVEL, checked};
@@ -20,6 +21,11 @@ pub struct MicrophoneSettings {
     pub low_pass_hz: Option<f64>,
     /// Its own white noise, as an equivalent sound level; `None` for none.
     pub self_noise_db_spl: Option<f64>,
+    /// Noise of the wind over it, before the filters, as a sound level over the whole band; `None` for none. The power of its pressure falls as
+    /// f^(−5/3), as in the inertial range of turbulence (5 dB per octave; Strasberg 1988), and is flat below 10 Hz.
+    pub wind_noise_db_spl: Option<f64>,
+    /// Gain of the recorder that follows the level, after its filters; `None` for a fixed gain.
+    pub automatic_gain: Option<AutomaticGain>,
     /// Level of a sine with peaks at full scale, ±1; louder sound is clipped.
     pub full_scale_db_spl: f64,
     /// Bits of a sample, 2 to 24; samples are then whole multiples of `2^(1-bits)`, rounded without dither, at most
@@ -42,6 +48,8 @@ impl MicrophoneSettings {
             high_pass_hz: Some(100.0),
             low_pass_hz: Some(16_000.0),
             self_noise_db_spl: Some(29.0),
+            wind_noise_db_spl: None,
+            automatic_gain: None,
             full_scale_db_spl: 100.0,
             bits: Some(16),
         }
@@ -54,6 +62,8 @@ impl MicrophoneSettings {
             high_pass_hz: None,
             low_pass_hz: None,
             self_noise_db_spl: None,
+            wind_noise_db_spl: None,
+            automatic_gain: None,
             full_scale_db_spl: 94.0,
             bits: None,
         }
@@ -72,6 +82,12 @@ impl MicrophoneSettings {
         if let Some(value) = self.self_noise_db_spl {
             checked("self_noise_db_spl", value, LEVEL)?;
         }
+        if let Some(value) = self.wind_noise_db_spl {
+            checked("wind_noise_db_spl", value, LEVEL)?;
+        }
+        if let Some(automatic) = &self.automatic_gain {
+            automatic.check()?;
+        }
         if let Some(bits) = self.bits {
             checked("bits", f64::from(bits), Bound::Within(2.0, 24.0, "between 2 and 24"))?;
         }
@@ -88,6 +104,7 @@ pub(crate) struct Microphone {
     /// Standard deviation of its own noise, in full scale.
     noise_std: f64,
     random: Pcg64,
+    automatic_gain: Option<GainControl>,
     /// Steps per unit.
     steps: Option<f64>,
 }
@@ -103,6 +120,7 @@ impl Microphone {
             low_pass: low_pass_hz.map(|hz| Biquad::low_pass(hz, sample_rate_hz)),
             noise_std: settings.self_noise_db_spl.map_or(0.0, |level| gain * rms_pa(level)),
             random: stream(seed, Part::SelfNoise, index),
+            automatic_gain: settings.automatic_gain.map(|automatic| GainControl::new(automatic, sample_rate_hz)),
             steps: settings.bits.map(|bits| 2_f64.powi(bits as i32 - 1)),
         }
     }
@@ -119,6 +137,9 @@ impl Microphone {
         if self.noise_std > 0.0 {
             let normal: f64 = self.random.sample(StandardNormal);
             value += self.noise_std * normal;
+        }
+        if let Some(automatic) = &mut self.automatic_gain {
+            value = automatic.sample(value);
         }
         match self.steps {
             None => value.clamp(-1.0, 1.0) as f32,

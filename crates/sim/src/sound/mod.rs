@@ -14,15 +14,18 @@
 //!
 //! Not modelled: absorption in air (by ISO 9613-1, at 20 °C and 50 % humidity, 0.03 dB per metre at 4 kHz, 0.11 at
 //! 8 kHz, 0.36 at 16 kHz), walls that absorb high and low notes differently, reflections of second and higher order one
-//! by one (the exponential tail stands for them, without Doppler shift), shielding by the vehicle, wind over the
-//! microphone, and interaction between rotors.
+//! by one (the exponential tail stands for them, without Doppler shift), shielding by the vehicle, gusts in the
+//! noise of the wind over the microphone, and interaction between rotors.
 
+mod automatic_gain;
 mod babble;
 mod biquad;
 mod directivity;
+mod drawn_lines;
 mod flight_sound;
 mod interpolator;
 mod level;
+mod line_scatter;
 mod lines;
 mod microphone;
 mod noise_colour;
@@ -36,13 +39,16 @@ mod source;
 mod state;
 mod tone_settings;
 
+pub use automatic_gain::AutomaticGain;
 pub use babble::BabbleSettings;
 pub use directivity::Directivity;
 pub use flight_sound::FlightSound;
+pub use line_scatter::{ClassScatter, LineScatter};
 pub use microphone::MicrophoneSettings;
 pub use room::{Room, Surroundings, WallAbsorption};
 pub use settings::{AmbientSettings, BroadbandSettings, MotorTones, SoundSettings, SourceSettings};
 pub use state::{RotorState, SoundState};
 pub use tone_settings::{BladePassTones, GearMeshTones, ToneSettings};
 
+pub(crate) use line_scatter::LineClass;
 pub(crate) use noise_slope::SlopeFilterRoots;

@@ -52,6 +52,13 @@ pub struct BroadbandSettings {
     pub modulation_depth: f64,
 }
 
+impl BroadbandSettings {
+    /// The density at a frequency over that of low frequencies, dB.
+    pub(crate) fn density_db(&self, hz: f64) -> f64 {
+        self.slope_db_per_octave * (hz / self.flat_below_hz).max(1.0).log2()
+    }
+}
+
 impl Default for BroadbandSettings {
     /// - 60 dB: with four rotors 66 dB at 1 m, 3 dB below the lines (assumed; real rotors lie on both sides).
     /// - Flat to 1 kHz, then -5 dB per octave: from the octave floors of a recording of a hovering DJI M300

@@ -1,5 +1,6 @@
 //! Settings: the lines of a rotor.
 
+use super::line_scatter::{LineClass, LineScatter};
 use hovertone_vehicle::{QuantityError, Vehicle};
 
 /// Lines of the gear between motor and rotor. Levels are amplitudes in the unit of all levels.
@@ -39,6 +40,11 @@ impl BladePassTones {
     pub fn with_blades(blade_count: u32) -> Self {
         Self { blade_count, harmonic_count: 20, level: 2.0, exponent: -0.7 }
     }
+
+    /// The level at an order, which may be between two harmonics.
+    pub(crate) fn level_of_order(&self, order: f64) -> f64 {
+        self.level * (order / f64::from(self.blade_count)).powf(self.exponent)
+    }
 }
 
 /// Level of the shaft lines of a propeller without a gear, as a share of the blade pass: −14 dB.
@@ -51,13 +57,22 @@ pub struct ToneSettings {
     pub gear_mesh: Option<GearMeshTones>,
     /// Lines of the blades.
     pub blade_pass: Option<BladePassTones>,
-    /// Level of the line at the shaft speed itself: imbalance.
+    /// Level of the line at the shaft speed itself: imbalance. With a `scatter`, of all lines below the blade pass.
     pub shaft_level: f64,
     /// Level of the other lines of the shaft, as a share of the level that the blade pass has at their order: no two blades are quite alike.
-    /// Sounds of hovers have these lines; sounds of flights do not yet.
     pub unlike_blades_level: f64,
     /// Standard deviation of every line's level about the set one, drawn once per rotor and line.
     pub level_spread_db: f64,
+    /// Scatter of the lines of blades and shaft by class, in place of `level_spread_db`.
+    pub scatter: Option<LineScatter>,
+}
+
+/// A line of the shaft that is no blade pass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ShaftLine {
+    pub(crate) order: f64,
+    pub(crate) level: f64,
+    pub(crate) class: LineClass,
 }
 
 impl Default for ToneSettings {
@@ -70,6 +85,7 @@ impl Default for ToneSettings {
             shaft_level: 0.2,
             unlike_blades_level: 0.0,
             level_spread_db: 3.0,
+            scatter: None,
         }
     }
 }
@@ -95,7 +111,33 @@ impl ToneSettings {
             shaft_level: 0.0,
             unlike_blades_level: 0.0,
             level_spread_db: 0.0,
+            scatter: None,
         }
+    }
+
+    /// The class of the line at the shaft speed itself.
+    pub(crate) fn class_of_shaft(&self) -> LineClass {
+        match &self.blade_pass {
+            Some(blades) if blades.blade_count > 1 => LineClass::Below,
+            _ => LineClass::Shaft,
+        }
+    }
+
+    /// The lines of unlike blades: orders 2, 3, …, silent at those of the blade pass. None where their level is 0.
+    pub(crate) fn lines_of_unlike_blades(&self) -> impl Iterator<Item = ShaftLine> {
+        let blades = self.blade_pass.as_ref().filter(|_| self.unlike_blades_level > 0.0);
+        blades.into_iter().flat_map(move |blades| {
+            (2..blades.blade_count * blades.harmonic_count).map(move |order| {
+                let is_below = order < blades.blade_count;
+                let level = match self.scatter {
+                    _ if order.is_multiple_of(blades.blade_count) => 0.0,
+                    Some(_) if is_below => self.shaft_level,
+                    _ => self.unlike_blades_level * blades.level_of_order(f64::from(order)),
+                };
+                let class = if is_below { LineClass::Below } else { LineClass::Shaft };
+                ShaftLine { order: f64::from(order), level, class }
+            })
+        })
     }
 
     pub(crate) fn check(&self) -> Result<(), QuantityError> {
@@ -104,6 +146,13 @@ impl ToneSettings {
             ("unlike_blades_level", self.unlike_blades_level),
             ("level_spread_db", self.level_spread_db),
         ];
+        for class in self.scatter.iter().flat_map(|scatter| [scatter.blade_pass, scatter.shaft, scatter.below]) {
+            levels.push(("scatter spread_db", class.spread_db));
+            if !(0.0..=1.0).contains(&class.missing_share) {
+                let must_be = "between 0 and 1";
+                return Err(QuantityError { name: "scatter missing_share", value: class.missing_share, must_be });
+            }
+        }
         let mut counts = Vec::new();
         if let Some(mesh) = &self.gear_mesh {
             counts.push(("gear mesh order", mesh.order));

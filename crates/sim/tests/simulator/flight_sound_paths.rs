@@ -25,6 +25,7 @@ fn comb(count: u32) -> SourceSettings {
             shaft_level: 0.0,
             unlike_blades_level: 0.0,
             level_spread_db: 0.0,
+            scatter: None,
         },
         // So that a hundred of them are not clipped.
         tone_level_db_spl: 50.0,

@@ -289,6 +289,7 @@ fn settings_out_of_bounds_are_refused_by_name() {
         shaft_level: 0.0,
         unlike_blades_level: 0.0,
         level_spread_db: 0.0,
+        scatter: None,
     };
     assert_eq!(refused(HoverSettings { tones: mute, ..four_rotors() }), Some("lines to measure the noise against"));
     let toothless = ToneSettings { gear_mesh: Some(GearMeshTones::with_order(0)), ..ToneSettings::default() };

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 /// Where the constants are.
 const SOURCES: &str = "crates/rotor-speed/src";
+/// The table of levels, which it shares with the simulator.
+const TABLE: &str = "crates/vehicle/src/line_levels.rs";
 /// The mark in a doc comment.
 const MARK: &str = "*Decision.*";
 
@@ -38,7 +40,7 @@ impl IntoIterator for Constants {
 /// Reads the sources.
 pub(super) fn decision_constants(root: &Path) -> Result<Constants, String> {
     let folder = root.join(SOURCES);
-    let mut files = Vec::new();
+    let mut files = vec![root.join(TABLE)];
     let mut folders = vec![folder.clone()];
     while let Some(folder) = folders.pop() {
         let failed = |error: std::io::Error| format!("{}: {error}", folder.display());
@@ -55,7 +57,7 @@ pub(super) fn decision_constants(root: &Path) -> Result<Constants, String> {
     let of_file = |path: PathBuf| {
         let text = fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
         let names = names_of(&text);
-        let file = path.strip_prefix(&folder).unwrap_or(&path).display().to_string();
+        let file = path.strip_prefix(&folder).or(path.strip_prefix(root)).unwrap_or(&path).display().to_string();
         Ok(FileConstants { file: format!("`{file}`"), count: names.len(), names: names.join(", ") })
     };
     let all: Vec<FileConstants> = files.into_iter().map(of_file).collect::<Result<_, String>>()?;

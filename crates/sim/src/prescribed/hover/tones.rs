@@ -1,11 +1,9 @@
 //! The lines of one rotor of a hover: sums of whole multiples of its shaft, in phase with it at every sample.
 
 use crate::prescribed::phasors::{Amplitude, BLOCK, Phasors};
-use crate::sound::ToneSettings;
-use rand::RngExt;
-use rand_distr::StandardNormal;
+use crate::sound::{LineClass, ToneSettings};
 use rand_pcg::Pcg64;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// A harmonic of the gear mesh, with its sidebands at +1, +2, … and -1, -2, … shaft speeds.
 #[derive(Clone)]
@@ -31,45 +29,35 @@ impl RotorTones {
     /// Draws levels and phases. Lines at orders above `order_max` are silent, as behind a recorder's anti-alias filter,
     /// but they are drawn too, so that the other lines do not depend on the sample rate.
     pub(super) fn new(settings: &ToneSettings, level: f64, order_max: f64, random: &mut Pcg64) -> Self {
-        let mut line = |order: f64, relative_level: f64| {
-            let spread: f64 = random.sample(StandardNormal);
-            let phase = TAU * random.random::<f64>();
+        let mut line = |class: LineClass, order: f64, relative_level: f64| {
+            let draw = settings.draw_line(class, random);
             let heard = if (0.0..=order_max).contains(&order) { 1.0 } else { 0.0 };
-            let amplitude = heard * level * relative_level * 10_f64.powf(settings.level_spread_db * spread / 20.0);
-            Amplitude::polar(amplitude, phase)
+            Amplitude::polar(heard * level * relative_level * draw.factor, draw.phase_rad)
         };
-        let shaft = line(1.0, settings.shaft_level);
+        let shaft = line(settings.class_of_shaft(), 1.0, settings.shaft_level);
         let mut mesh = Vec::new();
         let mut mesh_order = 0;
         if let Some(gear) = &settings.gear_mesh {
             mesh_order = gear.order;
             for (number, &harmonic_level) in (1_u32..).zip(&gear.harmonic_levels) {
                 let order = f64::from(gear.order) * f64::from(number);
-                let carrier = line(order, harmonic_level);
+                let carrier = line(LineClass::Machine, order, harmonic_level);
                 let (mut above, mut below) = (Vec::new(), Vec::new());
                 for (away, &sideband_level) in (1_u32..).zip(&gear.sideband_levels) {
-                    above.push(line(order + f64::from(away), harmonic_level * sideband_level));
-                    below.push(line(order - f64::from(away), harmonic_level * sideband_level));
+                    above.push(line(LineClass::Machine, order + f64::from(away), harmonic_level * sideband_level));
+                    below.push(line(LineClass::Machine, order - f64::from(away), harmonic_level * sideband_level));
                 }
                 mesh.push(MeshHarmonic { carrier, above, below });
             }
         }
-        let (mut blade_pass, mut unlike_blades) = (Vec::new(), Vec::new());
-        let mut blade_count = 0;
+        let (mut blade_pass, mut blade_count) = (Vec::new(), 0);
         if let Some(blades) = &settings.blade_pass {
             blade_count = blades.blade_count;
-            let level = |order: f64| blades.level * (order / f64::from(blade_count)).powf(blades.exponent);
             for order in (1..=blades.harmonic_count).map(|number| f64::from(blade_count * number)) {
-                blade_pass.push(line(order, level(order)));
-            }
-            if settings.unlike_blades_level > 0.0 {
-                for order in 2..blade_count * blades.harmonic_count {
-                    let is_blade_pass = order.is_multiple_of(blade_count);
-                    let share = if is_blade_pass { 0.0 } else { settings.unlike_blades_level };
-                    unlike_blades.push(line(f64::from(order), share * level(f64::from(order))));
-                }
+                blade_pass.push(line(LineClass::BladePass, order, blades.level_of_order(order)));
             }
         }
+        let unlike_blades = settings.lines_of_unlike_blades().map(|it| line(it.class, it.order, it.level)).collect();
         Self { shaft, blade_count, blade_pass, unlike_blades, mesh_order, mesh }
     }
 
@@ -132,6 +120,7 @@ impl RotorTones {
 mod tests {
     use super::*;
     use crate::seed::{Part, stream};
+    use std::f64::consts::TAU;
 
     fn tones(settings: &ToneSettings, order_max: f64) -> RotorTones {
         RotorTones::new(settings, 1.0, order_max, &mut stream(7, Part::Tones, 0))
