@@ -50,7 +50,7 @@ const CASES: [(&str, i32, &str); 41] = [
     // what was typed, or stands in a file, has no meaning
     ("speed a.wav --blades 0", 2, "--blades"),
     ("identify broken.toml", 2, "mas_kg"),
-    ("log a.wav --column Zeit=speed", 2, "no quantity"),
+    ("log a.wav --column Zeit=speed", 2, "no known column name"),
 ];
 
 #[test]

@@ -187,7 +187,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 64 (hint: "),
         ("identify --vehicle ardrone --mass -1 a.wav", "error: --mass -1: "),
         ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav is negative"),
-        ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
+        ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m is -1"),
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
         ("sped a.wav", "error: there is no command \"sped\" (hint: did you mean speed?)"),

@@ -44,7 +44,7 @@ fn lengths_and_masses_are_typed_with_their_units() {
         plan(&["--mass-kg", "413g", "--latitude-deg", "50", "--height-m", "800"])
     );
     refused_with(&["speed", "a.wav", "--rotors", "4", "--mass-kg", "413g", "--diameter-m", "0.5in"], &["Mach"]);
-    refused_with(&["speed", "a.wav", "--blades", "2", "--drift-m-max=-30cm"], &["drift_m_max = -0.3"]);
+    refused_with(&["speed", "a.wav", "--blades", "2", "--drift-m-max=-30cm"], &["drift_m_max is -0.3"]);
     let refused = hovertone(&["speed", "a.wav", "--diameter-m", "8ft"]).ends_with(2);
     assert!(refused.stderr.contains("8in"), "{}", refused.stderr);
 }
@@ -68,7 +68,7 @@ fn a_table_in_another_unit_than_its_header_is_refused() {
     let table = folder.path().join("stand.csv");
     for (rows, words) in [
         ("rpm,thrust_n\n3000,0.7\n-3610,1\n4000,1.3\n", ["line 3", "-3610: a speed must be 0 or more"]),
-        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["line 4", "or rpm?"]),
+        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["line 4", "check the unit in the header"]),
         ("rpm,mass_kg\n3610,413\n3742,444\n3820,462\n", ["line 4", "in grams"]),
         ("rpm,mass_g\n3610,0.413\n3742,0.444\n3820,0.462\n", ["line 4", "in kilograms"]),
     ] {

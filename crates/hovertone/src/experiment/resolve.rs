@@ -302,7 +302,7 @@ impl ExperimentFile {
             return Err(ExperimentError::OutOfRange {
                 name: "vehicle.mass_kg".to_owned(),
                 value: mass_kg,
-                must_be: "differs from the mass of the preset or the model by more than ten times; check the unit and the vehicle",
+                must_be: "differs from the mass of the preset or the model by more than ten times; masses are in kg",
             });
         }
         not_negative(&named("added_mass_kg"), added_mass_kg)?;
