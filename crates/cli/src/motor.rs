@@ -1,0 +1,82 @@
+//! `hovertone motor`: constants of motors from the steps in a log.
+
+use crate::args::MotorArguments;
+use crate::failure::{Ending, Failure};
+use crate::inputs::{STDIN, is_stdin, open_stream};
+use crate::log::{THE_LOG, column_names, log_failure, loss_notice};
+use crate::terminal::Terminal;
+use hovertone_dynamics::{CommandSeries, MotorConfig, MotorSeries, command_of_speed, motor_from_series};
+use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
+use hovertone_report::{LoggedMotor, MotorRecord, motor_json, motor_text};
+use std::path::Path;
+
+/// Tells the constants of the motors of all logs.
+pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let names = column_names(&arguments.column)?;
+    let mut ending = Ending::Done;
+    for (index, file) in arguments.files.iter().enumerate() {
+        let flight = match flight_of(file, &names) {
+            Ok(flight) => flight,
+            // the other logs are read all the same
+            Err(failure @ Failure::Failed { .. }) if arguments.files.len() > 1 => {
+                terminal.failure(&failure);
+                ending = ending.max(Ending::FilesFailed);
+                continue;
+            }
+            Err(failure) => return Err(failure),
+        };
+        let file = if is_stdin(file) { STDIN.to_owned() } else { file.display().to_string() };
+        let record = MotorRecord { file, motors: motors_of(&flight) };
+        if !record.has_time_constant() {
+            ending = ending.max(Ending::Incomplete);
+        }
+        if arguments.json {
+            terminal.data(&motor_json(&record).map_err(Failure::internal)?)?;
+        } else {
+            let gap = if index > 0 { "\n" } else { "" };
+            let width = terminal.fold_width();
+            terminal.text(&format!("{gap}{}", motor_text(&record, width)))?;
+        }
+        if !flight.notes.is_empty() {
+            terminal.flush()?;
+            flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
+            ending = ending.max(Ending::Incomplete);
+        }
+    }
+    Ok(ending)
+}
+
+fn flight_of(file: &Path, names: &ColumnNames) -> Result<LoggedFlight, Failure> {
+    let stream = open_stream(file, THE_LOG)?;
+    flight_from_log(stream, names).map_err(|error| match error {
+        LogError::UnknownFormat => {
+            let what = "`motor` reads logs, and this is none; recordings are not supported";
+            Failure::failed(what, error.hint(), file)
+        }
+        error => log_failure(&error, file),
+    })
+}
+
+/// The motors that turn, each with its command: that of the same name, else the one that its speed follows best.
+fn motors_of(flight: &LoggedFlight) -> Vec<LoggedMotor> {
+    let Some(speeds) = &flight.speeds_rev_s else { return Vec::new() };
+    let config = MotorConfig::default();
+    let motor = |(name, values): (&String, &Vec<f64>)| {
+        let series = MotorSeries { time_s: &speeds.time_s, speed_rev_s: values };
+        let of_commands =
+            flight.commands.as_ref().and_then(|commands| Some((commands, command_at(commands, name, &series)?)));
+        let command =
+            of_commands.map(|(commands, at)| CommandSeries { time_s: &commands.time_s, command: &commands.values[at] });
+        let model = motor_from_series(series, command, &config)?;
+        let command = of_commands.map(|(commands, at)| commands.names[at].clone());
+        Some(LoggedMotor { name: name.clone(), command, model })
+    };
+    speeds.names.iter().zip(&speeds.values).filter_map(motor).collect()
+}
+
+fn command_at(commands: &LoggedMotors, name: &str, series: &MotorSeries) -> Option<usize> {
+    let named = commands.names.iter().position(|of_command| of_command == name);
+    let all: Vec<CommandSeries> =
+        commands.values.iter().map(|command| CommandSeries { time_s: &commands.time_s, command }).collect();
+    named.or_else(|| command_of_speed(series, &all).map(|(at, _)| at))
+}
