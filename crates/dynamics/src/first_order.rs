@@ -1,8 +1,8 @@
 //! One step as a curve of first order.
 
 use crate::search::{Interval, minimum};
-use crate::series::MotorSeries;
-use hovertone_signal::statistics::{mean, std, std_uncertainty_of_mean};
+use crate::series::{MotorSeries, std_uncertainty_of_long_mean};
+use hovertone_signal::statistics::{mean, std};
 use nalgebra::{Matrix4, RowVector4};
 
 /// Parameters of the curve.
@@ -10,6 +10,8 @@ const PARAMETERS: usize = 4;
 /// Places of the coarse search for the start and for the time constant. *Numeric.*
 const START_COUNT: usize = 48;
 const TIME_CONSTANT_COUNT: usize = 24;
+/// Most rows of the coarse search: of more, each second, third, … is taken. *Numeric.*
+const COARSE_ROWS_MAX: usize = 400;
 /// The fine search ends at this share of a coarse step. *Numeric.*
 const FINE_SHARE: f64 = 1e-4;
 /// The scatter of the rise counts where its variance is larger by this factor: the 95 % point of χ² with 3 degrees of freedom, over 3. *Numeric.*
@@ -46,16 +48,20 @@ pub(crate) fn first_order_from_rows(rows: &MotorSeries, range: FitRange) -> Opti
         return None;
     }
     let logarithm = Interval { low: range.time_constant_s.low.ln(), high: range.time_constant_s.high.ln() };
-    let cost = |start_s: f64, logarithm: f64| residual_squares(rows, start_s, logarithm.exp());
+    let stride = rows.time_s.len().div_ceil(COARSE_ROWS_MAX);
+    let each = |values: &[f64]| values.iter().copied().step_by(stride).collect::<Vec<f64>>();
+    let (time_s, speed_rev_s) = (each(rows.time_s), each(rows.speed_rev_s));
+    let coarse = MotorSeries { time_s: &time_s, speed_rev_s: &speed_rev_s };
     let (mut best, mut lowest) = ((range.start_s.low, logarithm.low), f64::INFINITY);
     for start_s in range.start_s.points(START_COUNT) {
         for logarithm in logarithm.points(TIME_CONSTANT_COUNT) {
-            let squares = cost(start_s, logarithm);
+            let squares = residual_squares(&coarse, start_s, logarithm.exp());
             if squares < lowest {
                 (best, lowest) = ((start_s, logarithm), squares);
             }
         }
     }
+    let cost = |start_s: f64, logarithm: f64| residual_squares(rows, start_s, logarithm.exp());
     // the valley of start and time constant is oblique: the fine search covers two coarse steps on both sides
     let near_start = range.start_s.around(best.0, 2.0 * range.start_s.step(START_COUNT));
     let near_logarithm = logarithm.around(best.1, 2.0 * logarithm.step(TIME_CONSTANT_COUNT));
@@ -153,7 +159,7 @@ fn residual_variance(residuals: &[f64], gradients: &[RowVector4<f64>], inverse: 
 
 /// Factor of the variance of a mean over that of independent rows.
 fn correlation_factor(residuals: &[f64]) -> f64 {
-    let (Some(spread), Some(of_mean)) = (std(residuals), std_uncertainty_of_mean(residuals)) else { return 1.0 };
+    let (Some(spread), Some(of_mean)) = (std(residuals), std_uncertainty_of_long_mean(residuals)) else { return 1.0 };
     if spread > 0.0 { (of_mean / spread).powi(2) * residuals.len() as f64 } else { 1.0 }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::combined::{CombinedEstimate, combined};
 use crate::config::MotorConfig;
+use crate::load::{LoadTerm, load_term_of};
 use crate::plateaus::{HeldCommand, Plateau, held_commands, plateaus_of};
 use crate::series::{CommandSeries, MotorSeries, pairs_of};
 use crate::static_map::{StaticMap, map_of_plateaus, map_of_rows};
@@ -32,6 +33,8 @@ pub struct MotorConstants {
     pub time_constant_down_s: Option<CombinedEstimate>,
     /// Time from the command to the change of the speed.
     pub dead_time_s: Option<CombinedEstimate>,
+    /// The square term of the load; absent where the range of speeds is too small to tell it.
+    pub load_term: Option<LoadTerm>,
     /// Largest speed.
     pub speed_rev_s_max: f64,
 }
@@ -45,6 +48,7 @@ pub fn constants_of(models: &[MotorModel]) -> MotorConstants {
         time_constant_up_s: time_constant_s(true),
         time_constant_down_s: time_constant_s(false),
         dead_time_s: combined(used().filter_map(|step| step.dead_time_s)),
+        load_term: load_term_of(models.iter().flat_map(|model| &model.steps)),
         speed_rev_s_max: models.iter().map(|model| model.speed_rev_s_max).fold(0.0, f64::max),
     }
 }

@@ -1,8 +1,8 @@
 //! Stretches in which a command is held, and the speeds that they lead to.
 
 use crate::config::MotorConfig;
-use crate::series::{CommandSeries, MotorSeries};
-use hovertone_signal::statistics::{median, std_uncertainty_of_mean};
+use crate::series::{CommandSeries, MotorSeries, std_uncertainty_of_long_mean};
+use hovertone_signal::statistics::median;
 
 /// A command changes if it differs by more than this share of its range. *Numeric*: commands are digital.
 const CHANGE_SHARE: f64 = 0.005;
@@ -59,7 +59,7 @@ pub(crate) fn plateaus_of(series: &MotorSeries, held: &[HeldCommand], config: &M
     let plateau = |held: &HeldCommand| {
         let settled = series.between(held.to_s - SETTLED_SHARE * held.length_s(), held.to_s);
         let speed_rev_s = median(settled.speed_rev_s).filter(|speed_rev_s| *speed_rev_s > 0.0)?;
-        let speed_std_rev_s = std_uncertainty_of_mean(settled.speed_rev_s)?;
+        let speed_std_rev_s = std_uncertainty_of_long_mean(settled.speed_rev_s)?;
         Some(Plateau { command: held.command, speed_rev_s, speed_std_rev_s })
     };
     long.filter_map(plateau).collect()

@@ -1,6 +1,6 @@
 //! What comes in: the speed of one motor over time, and its command.
 
-use hovertone_signal::statistics::{mean, median, std};
+use hovertone_signal::statistics::{mean, median, std, std_uncertainty_of_mean};
 
 /// Speed of one motor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +69,16 @@ pub fn command_of_speed(series: &MotorSeries, commands: &[CommandSeries]) -> Opt
         Some((at, correlation(&pairs)?))
     });
     correlations.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Most values whose correlation is computed: its time grows with the square of their number. *Numeric.*
+const CORRELATED_VALUES_MAX: usize = 2000;
+
+/// [`std_uncertainty_of_mean`] of a series of any length: of a long one, means of successive values, which have the same mean.
+pub(crate) fn std_uncertainty_of_long_mean(values: &[f64]) -> Option<f64> {
+    let length = values.len().div_ceil(CORRELATED_VALUES_MAX).max(1);
+    let means: Vec<f64> = values.chunks_exact(length).filter_map(mean).collect();
+    std_uncertainty_of_mean(&means)
 }
 
 /// A command and the speed at the same time.

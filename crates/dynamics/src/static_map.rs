@@ -2,8 +2,7 @@
 
 use crate::config::MotorConfig;
 use crate::plateaus::Plateau;
-use crate::series::{CommandedSpeed, correlation};
-use hovertone_signal::statistics::std_uncertainty_of_mean;
+use crate::series::{CommandedSpeed, correlation, std_uncertainty_of_long_mean};
 use hovertone_vehicle::{Ending, Estimate};
 
 /// Where a static map comes from.
@@ -118,7 +117,7 @@ fn line_of(pairs: &[CommandedSpeed], own_std_rev_s: f64) -> Option<MapLine> {
     let residual = |pair: &CommandedSpeed| pair.speed_rev_s - speed_mean - slope * (pair.command - command_mean);
     let residuals: Vec<f64> = pairs.iter().map(residual).collect();
     // (u √n)² is the variance of a row, times the factor by which correlated rows are worth less
-    let scatter = std_uncertainty_of_mean(&residuals)?.powi(2) * count * (count - 1.0) / (count - 2.0).max(1.0);
+    let scatter = std_uncertainty_of_long_mean(&residuals)?.powi(2) * count * (count - 1.0) / (count - 2.0).max(1.0);
     let variance = scatter.max(own_std_rev_s.powi(2)) / squares;
     let ending = if pairs.len() > 2 { Ending::Solved } else { Ending::SingleObservation };
     let gain_rev_s = Estimate { value: slope, std_uncertainty: Some(variance.sqrt()), ending };

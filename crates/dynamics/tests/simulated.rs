@@ -143,3 +143,39 @@ fn time_constants_of_simulated_logs_are_right_and_their_uncertainty_is_true() {
         }
     }
 }
+
+/// Steps of a motor with the square term, in closed form: behind a step of size S to ω the rest decays as r/(k S + (r − k S) e^{r t}), with
+/// r = 1/τ₀ + 2 k ω.
+fn with_load(levels_rev_s: &[f64], square_per_rev: f64, rng: &mut Pcg64) -> SimulatedLog {
+    let mut log = SimulatedLog { time_s: Vec::new(), speed_rev_s: Vec::new(), command: Vec::new() };
+    for row in 0..(HOLD_S * 200.0) as usize * levels_rev_s.len() {
+        let time_s = row as f64 / 200.0;
+        let at = ((time_s / HOLD_S) as usize).min(levels_rev_s.len() - 1);
+        let (level, before) = (levels_rev_s[at], levels_rev_s[at.saturating_sub(1)]);
+        let rate = 10.0 + 2.0 * square_per_rev * level;
+        let of_load = square_per_rev * (level - before);
+        let left = rate / (of_load + (rate - of_load) * (rate * (time_s - HOLD_S * at as f64)).exp());
+        let noise: f64 = StandardNormal.sample(rng);
+        log.time_s.push(time_s);
+        log.speed_rev_s.push(level + (before - level) * left + 0.2 * noise);
+        log.command.push(level);
+    }
+    log
+}
+
+#[test]
+fn the_square_term_is_told_where_the_range_of_speeds_allows_it() {
+    let wide = [60.0, 100.0, 140.0, 180.0, 220.0, 260.0, 300.0];
+    let narrow = [200.0, 210.0, 220.0, 230.0, 240.0];
+    let (mut rng, mut errors) = (Pcg64::seed_from_u64(5), Errors::default());
+    for square_per_rev in [0.02, 0.04] {
+        for _ in 0..20 {
+            let found = constants_of(&[model(&with_load(&wide, square_per_rev, &mut rng), true)]).load_term.unwrap();
+            errors.add(found.square_per_rev, square_per_rev);
+        }
+    }
+    println!("square term: within 10 % {:.3}, coverage {:.3}", errors.within(0.1), errors.coverage());
+    assert!(errors.within(0.1) >= 0.9 && errors.coverage() >= 0.9);
+    let found = constants_of(&[model(&with_load(&narrow, 0.02, &mut rng), true)]);
+    assert!(found.time_constant_up_s.is_some() && found.load_term.is_none());
+}
