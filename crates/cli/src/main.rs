@@ -12,6 +12,7 @@ mod draft;
 mod drawing;
 mod export;
 mod failure;
+mod figure_file;
 mod file_list;
 mod files;
 mod fit;

@@ -2,10 +2,13 @@
 
 use crate::args::MotorArguments;
 use crate::failure::{Ending, Failure};
+use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, open_stream};
 use crate::log::{THE_LOG, column_names, log_failure, loss_notice};
+use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone_dynamics::{CommandSeries, MotorConfig, MotorSeries, command_of_speed, motor_from_series};
+use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
 use hovertone_report::{LoggedMotor, MotorRecord, motor_json, motor_text};
 use std::path::Path;
@@ -13,6 +16,7 @@ use std::path::Path;
 /// Tells the constants of the motors of all logs.
 pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let names = column_names(&arguments.column)?;
+    let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, arguments)).transpose()?;
     let mut ending = Ending::Done;
     for (index, file) in arguments.files.iter().enumerate() {
         let flight = match flight_of(file, &names) {
@@ -42,8 +46,52 @@ pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result
             flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
             ending = ending.max(Ending::Incomplete);
         }
+        if let Some(figure) = &figure {
+            terminal.flush()?;
+            figure.write(&record, &flight, terminal)?;
+        }
     }
     Ok(ending)
+}
+
+/// Where the steps are drawn.
+struct FigureFile<'a> {
+    place: &'a Path,
+    kind: FigureKind,
+    outputs: Outputs,
+}
+
+impl<'a> FigureFile<'a> {
+    /// Checks, before any log is read, that the figure can be written.
+    fn of(place: &'a Path, arguments: &MotorArguments) -> Result<Self, Failure> {
+        let kind = FigureKind::of(place, "use --figure steps.png or --figure steps.svg")?;
+        if arguments.files.len() > 1 {
+            let what = format!("--figure draws one log, and {} are given", arguments.files.len());
+            return Err(Failure::usage(what, "give one log at a time"));
+        }
+        let outputs = Outputs::beside(&arguments.files, arguments.replace.force);
+        outputs.check(place)?;
+        Ok(Self { place, kind, outputs })
+    }
+
+    fn write(&self, record: &MotorRecord, flight: &LoggedFlight, terminal: &mut Terminal) -> Result<(), Failure> {
+        let Some(speeds) = &flight.speeds_rev_s else { return Ok(()) };
+        let values_of = |name: &str| speeds.names.iter().zip(&speeds.values).find(|(of, _)| *of == name);
+        let drawn = record.motors.iter().filter_map(|motor| Some((motor, values_of(&motor.name)?.1)));
+        let steps: Vec<DrawnStep> = drawn
+            .flat_map(|(motor, values)| {
+                let drawn = |step| DrawnStep { motor: &motor.name, step, time_s: &speeds.time_s, speed_rev_s: values };
+                motor.model.steps.iter().map(drawn)
+            })
+            .collect();
+        let Some(figure) = motor_steps_figure(&steps).map_err(Failure::internal)? else {
+            terminal.say("no step with a time constant: no figure was written");
+            return Ok(());
+        };
+        self.outputs.write(self.place, self.kind.bytes(figure, DOTS_PER_INCH)?)?;
+        terminal.say(&written(self.place));
+        Ok(())
+    }
 }
 
 fn flight_of(file: &Path, names: &ColumnNames) -> Result<LoggedFlight, Failure> {

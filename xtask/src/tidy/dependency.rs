@@ -50,7 +50,7 @@ const TABLE: [Row; 19] = [
     Row { crate_name: "exchange", may_use: &["vehicle"] },
     Row { crate_name: "logs", may_use: &[] },
     Row { crate_name: "report", may_use: &["analysis", "thrust", "vehicle", "exchange", "logs", "dynamics"] },
-    Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal"] },
+    Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal", "dynamics"] },
     Row { crate_name: "page", may_use: &["analysis", "thrust", "vehicle", "signal", "figures", "report"] },
     Row { crate_name: "cli", may_use: &LIBRARIES },
     Row { crate_name: "bench", may_use: &LIBRARIES },

@@ -1,6 +1,6 @@
 //! Arguments of `motor`.
 
-use super::groups::typed_path;
+use super::groups::{ReplaceArguments, typed_path};
 use super::log::{ColumnName, column_name};
 use clap::Args;
 use std::path::PathBuf;
@@ -12,6 +12,7 @@ between two levels that are held. Log rows every 20 ms or faster tell the time c
 
 Examples:
   hovertone motor steps.csv
+  hovertone motor steps.csv --figure steps.svg
   hovertone motor steps.csv --json | jq '.time_constant_up_s.value'
   hovertone motor bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm";
 
@@ -28,4 +29,9 @@ pub(crate) struct MotorArguments {
     /// Print one JSON object per line and log, in the order given
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
+    /// Draw the steps of one log, with their curves
+    #[arg(long, value_name = "FILE.svg|png", value_parser = typed_path(), help_heading = "Output")]
+    pub(crate) figure: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
 }

@@ -64,6 +64,61 @@ fn steps_of_a_log_tell_the_constants_of_its_motor() {
 }
 
 #[test]
+fn the_steps_are_drawn_with_their_curves() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", steps_csv(true));
+    let (svg, png) = (folder.path().join("steps.svg"), folder.path().join("steps.png"));
+    for figure in [&svg, &png] {
+        let run = hovertone(&["motor", &log, "--figure", text(figure)]).ends_with(0);
+        assert!(run.stderr.contains("written: ") && run.stdout.contains("time constant"), "{}", run.stderr);
+    }
+    let drawing = fs::read_to_string(&svg).unwrap();
+    let drawn = roxmltree::Document::parse(&drawing).unwrap();
+    let is_step = |node: &roxmltree::Node| node.attribute("class").is_some_and(|class| class.contains("step step-"));
+    assert_eq!(drawn.descendants().filter(is_step).count(), LEVELS.len() - 1);
+    assert!(drawing.contains("time after the start of the step (ms)"));
+    assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
+    refused_with(&["motor", &log, "--figure", text(&svg)], &["exists already"]);
+    refused_with(&["motor", &log, "--figure", "steps.pdf"], &["neither with .png nor with .svg", "steps.svg"]);
+    refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 are given", "one log at a time"]);
+    refused_with(&["motor", &log, "--figure", &log, "--force"], &["neither with .png"]);
+    let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n0.02,600\n");
+    let nothing = folder.path().join("nothing.svg");
+    let run = hovertone(&["motor", &flat, "--figure", text(&nothing)]).ends_with(3);
+    assert!(run.stderr.contains("no figure was written") && !nothing.exists(), "{}", run.stderr);
+}
+
+#[test]
+fn absurd_logs_end_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |of: &dyn Fn(i32) -> String| {
+        (0..200).map(|row| format!("{},{}\n", f64::from(row) * 0.01, of(row))).collect::<String>()
+    };
+    let huge = rows(&|row| if row < 100 { "1e300,1".to_owned() } else { "1e308,2".to_owned() });
+    let alternating = rows(&|row| format!("{},{row}", 6000 * (row % 2)));
+    let instant = rows(&|row| format!("{},{}", if row < 100 { 6000 } else { 9000 }, if row < 100 { 1 } else { 2 }));
+    let negative = rows(&|row| format!("{},{}", if row < 100 { -6000 } else { -9000 }, -(row / 50)));
+    for (name, rows) in [
+        ("huge", huge.as_str()),
+        ("alternating", &alternating),
+        ("instant", &instant),
+        ("negative", &negative),
+        ("one", "0,600,1\n"),
+        ("two", "0,600,1\n1,700,2\n"),
+        ("same time", "0,600,1\n0,700,2\n0,800,2\n"),
+        ("far", "0,600,1\n1e15,700,2\n1e16,800,2\n"),
+    ] {
+        let log = written(folder.path(), "log.csv", format!("time_s,rotor1_rpm,motor1_pwm\n{rows}"));
+        for output in [&["motor", log.as_str()][..], &["motor", "--json", &log]] {
+            let run = hovertone(output);
+            assert!([0, 3].contains(&run.code), "{name}: {}", run.stderr);
+            let words = format!("{}{}", run.stdout, run.stderr);
+            assert!(!words.contains("panicked") && !words.contains("NaN") && !words.contains("inf"), "{name}: {words}");
+        }
+    }
+}
+
+#[test]
 fn a_log_without_a_time_constant_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let flat: String = (0..500).map(|row| format!("{},{}\n", f64::from(row) * 0.01, 6000 + row % 3)).collect();
