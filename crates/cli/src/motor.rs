@@ -13,6 +13,10 @@ use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_f
 use hovertone_report::{LoggedMotor, MotorRecord, motor_json, motor_text};
 use std::path::Path;
 
+/// Largest speed of a log, rev/s. *Physics*: the electrical speed of the fastest motors, which logs hold where the pole pairs are not known, stays
+/// below a million rpm.
+const SPEED_REV_S_MAX: f64 = 17_000.0;
+
 /// Tells the constants of the motors of all logs.
 pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let names = column_names(&arguments.column)?;
@@ -96,13 +100,22 @@ impl<'a> FigureFile<'a> {
 
 fn flight_of(file: &Path, names: &ColumnNames) -> Result<LoggedFlight, Failure> {
     let stream = open_stream(file, THE_LOG)?;
-    flight_from_log(stream, names).map_err(|error| match error {
+    let flight = flight_from_log(stream, names).map_err(|error| match error {
         LogError::UnknownFormat => {
             let what = "`motor` reads logs, and this is none; recordings are not supported";
             Failure::failed(what, error.hint(), file)
         }
         error => log_failure(&error, file),
-    })
+    })?;
+    let speeds = flight.speeds_rev_s.iter().flat_map(|speeds| speeds.values.iter().flatten());
+    let fastest_rev_s = speeds.copied().fold(0.0, f64::max);
+    if fastest_rev_s > SPEED_REV_S_MAX {
+        let what =
+            format!("a motor of this log has {fastest_rev_s:.3e} rev/s, and none exceeds {SPEED_REV_S_MAX} rev/s");
+        let hint = "check the unit in the header of the speed, or name it: --column HEADER=rotor1_rpm".to_owned();
+        return Err(Failure::Usage { what, hint, path: Some(file.to_owned()) });
+    }
+    Ok(flight)
 }
 
 /// The motors that turn, each with its command: that of the same name, else the one that its speed follows best.

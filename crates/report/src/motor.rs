@@ -73,6 +73,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
 
 fn steps_table(record: &MotorRecord) -> TextTable {
     let mut shown = TextTable::new(vec![
+        Column::words("step"),
         Column::words("motor"),
         Column::numbers("at", "s"),
         Column::numbers("from", "rev/s"),
@@ -81,18 +82,18 @@ fn steps_table(record: &MotorRecord) -> TextTable {
         Column::numbers("dead time", "ms"),
         Column::words("note"),
     ]);
-    for motor in &record.motors {
-        for step in &motor.model.steps {
-            shown.push(vec![
-                motor.name.clone(),
-                fixed(step.time_s.value, 3),
-                significant(step.speed_from_rev_s, DIGITS),
-                significant(step.speed_to_rev_s, DIGITS),
-                in_ms(step.time_constant_s),
-                in_ms(step.dead_time_s),
-                verdict_in_words(step.verdict).to_owned(),
-            ]);
-        }
+    let steps = record.motors.iter().flat_map(|motor| motor.model.steps.iter().map(move |step| (motor, step)));
+    for (number, (motor, step)) in (1..).zip(steps) {
+        shown.push(vec![
+            number.to_string(),
+            motor.name.clone(),
+            fixed(step.time_s.value, 3),
+            significant(step.speed_from_rev_s, DIGITS),
+            significant(step.speed_to_rev_s, DIGITS),
+            in_ms(step.time_constant_s),
+            in_ms(step.dead_time_s),
+            verdict_in_words(step.verdict).to_owned(),
+        ]);
     }
     shown
 }
@@ -170,6 +171,9 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if maps().any(|map| !map.points.is_empty()) {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));
     }
+    if maps().any(|map| map.points.iter().any(|point| point.is_saturated)) {
+        text += "saturated: the speed follows the command no longer; left out of the gain\n";
+    }
     text
 }
 
@@ -207,7 +211,7 @@ fn plateaus_table(record: &MotorRecord) -> TextTable {
     ]);
     for motor in &record.motors {
         for point in motor.model.static_map.iter().flat_map(|map| &map.points) {
-            let note = if point.is_saturated { "saturated: left out of the gain" } else { "" };
+            let note = if point.is_saturated { "saturated" } else { "" };
             shown.push(vec![
                 motor.name.clone(),
                 significant(point.command, DIGITS),

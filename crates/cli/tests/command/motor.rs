@@ -94,13 +94,13 @@ fn absurd_logs_end_with_a_sentence() {
     let rows = |of: &dyn Fn(i32) -> String| {
         (0..200).map(|row| format!("{},{}\n", f64::from(row) * 0.01, of(row))).collect::<String>()
     };
-    let huge = rows(&|row| if row < 100 { "1e300,1".to_owned() } else { "1e308,2".to_owned() });
+    let huge = written(folder.path(), "huge.csv", "time_s,rotor1_rpm\n0,1e300\n1,1e308\n");
+    refused_with(&["motor", &huge], &["1.667e306 rev/s", "check the unit"]);
     let alternating = rows(&|row| format!("{},{row}", 6000 * (row % 2)));
     let instant = rows(&|row| format!("{},{}", if row < 100 { 6000 } else { 9000 }, if row < 100 { 1 } else { 2 }));
     let negative = rows(&|row| format!("{},{}", if row < 100 { -6000 } else { -9000 }, -(row / 50)));
     for (name, rows) in [
-        ("huge", huge.as_str()),
-        ("alternating", &alternating),
+        ("alternating", alternating.as_str()),
         ("instant", &instant),
         ("negative", &negative),
         ("one", "0,600,1\n"),
