@@ -6,7 +6,7 @@ use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_dynamics::{
-    CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, StepVerdict, constants_of,
+    CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict, constants_of,
 };
 use hovertone_vehicle::Estimate;
 use std::f64::consts::TAU;
@@ -55,7 +55,8 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let Some(first) = record.motors.first() else { return text + "no rotor speed in this log\n" };
     let interval_ms = significant(first.model.interval_s * MS_PER_S, 3);
     text += &format!("{}, log rows every {interval_ms} ms\n", counted(record.motors.len(), "motor"));
-    let has_steps = record.motors.iter().any(|motor| !motor.model.steps.is_empty());
+    let has_steps = shown_steps(record).next().is_some();
+    let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
         text +=
             "too slow for a time constant: a motor reaches its speed within 300 ms, and 3 log rows must lie in that\n";
@@ -67,8 +68,17 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += &format!("\n{}", table_text(&constants_table(record), width));
         text += &load_text(&record.constants());
     }
+    if other_count > 0 {
+        text += &format!("left out: {} of the speed, not of first order\n", counted(other_count, "change"));
+    }
     text += &maps_text(record, width);
     text + &simulator_lines(&record.constants())
+}
+
+/// All steps but those of a flight: changes of the speed, without a step of the command, that are no curve of first order.
+fn shown_steps(record: &MotorRecord) -> impl Iterator<Item = (&LoggedMotor, &MotorStep)> {
+    let steps = record.motors.iter().flat_map(|motor| motor.model.steps.iter().map(move |step| (motor, step)));
+    steps.filter(|(_, step)| step.command.is_some() || step.verdict != StepVerdict::OtherCurve)
 }
 
 fn steps_table(record: &MotorRecord) -> TextTable {
@@ -82,8 +92,7 @@ fn steps_table(record: &MotorRecord) -> TextTable {
         Column::numbers("dead time", "ms"),
         Column::words("note"),
     ]);
-    let steps = record.motors.iter().flat_map(|motor| motor.model.steps.iter().map(move |step| (motor, step)));
-    for (number, (motor, step)) in (1..).zip(steps) {
+    for (number, (motor, step)) in (1..).zip(shown_steps(record)) {
         shown.push(vec![
             number.to_string(),
             motor.name.clone(),

@@ -124,6 +124,12 @@ fn a_log_without_a_time_constant_says_why() {
     let flat: String = (0..500).map(|row| format!("{},{}\n", f64::from(row) * 0.01, 6000 + row % 3)).collect();
     let flat = written(folder.path(), "flat.csv", format!("time_s,rotor1_rpm\n{flat}"));
     assert!(hovertone(&["motor", &flat]).ends_with(3).stdout.contains("no step: "));
+    let wander =
+        |row: i32| 6000.0 + 600.0 * (0.9 * (f64::from(row) * 0.02).sin()).tan() + 300.0 * (f64::from(row) * 0.05).sin();
+    let wander: String = (0..3000).map(|row| format!("{},{:.0}\n", f64::from(row) * 0.01, wander(row))).collect();
+    let wander = written(folder.path(), "wander.csv", format!("time_s,rotor1_rpm\n{wander}"));
+    let run = hovertone(&["motor", &wander]).ends_with(3);
+    assert!(run.stdout.contains("no step: ") && !run.stdout.contains("time constant up"), "{}", run.stdout);
     let slow: Vec<String> = steps_csv(true).lines().step_by(30).map(str::to_owned).collect();
     let slow = written(folder.path(), "slow.csv", slow.join("\n"));
     let run = hovertone(&["motor", &slow]).ends_with(3);
