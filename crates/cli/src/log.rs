@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<E
     Ok(ending)
 }
 
-fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure> {
+pub(crate) fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure> {
     let mut names = ColumnNames::default();
     for ColumnName { header, name } in typed {
         names.add(header, name).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;

@@ -12,6 +12,7 @@ mod draft;
 mod drawing;
 mod export;
 mod failure;
+mod figure_file;
 mod file_list;
 mod files;
 mod fit;
@@ -23,6 +24,7 @@ mod labels;
 mod log;
 mod microphones;
 mod misuse;
+mod motor;
 mod nearest;
 mod output_file;
 mod output_folder;
@@ -79,6 +81,7 @@ fn main() -> ExitCode {
         Command::Export(arguments) => export::run(arguments, &mut terminal),
         Command::Compare(arguments) => compare::run(arguments, &mut terminal),
         Command::Log(arguments) => log::run(arguments, &mut terminal),
+        Command::Motor(arguments) => motor::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),

@@ -3,6 +3,7 @@
 use crate::args::SpectrogramArguments;
 use crate::drawing::{drawing_of, trial_of};
 use crate::failure::{Ending, Failure};
+use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::jobs::ending_of;
 use crate::outputs::{Outputs, written};
@@ -10,18 +11,11 @@ use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
-use hovertone_figures::{figure_png, recording_figure};
-use std::path::Path;
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Png,
-    Svg,
-}
+use hovertone_figures::recording_figure;
 
 /// Analyses a recording and draws it.
 pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let kind = kind_of(&arguments.output)?;
+    let kind = FigureKind::of(&arguments.output, "use -o spectrogram.png or -o spectrogram.svg")?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     let hearing = Hearing::of(&arguments.hearing);
     let outputs = Outputs::beside([&arguments.file], arguments.replace.force);
@@ -46,24 +40,8 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         let hint = "a recording needs a tenth of a second of sound for a picture";
         return Err(Failure::failed("the sound is too short for a spectrogram: nothing was written", hint, &job.path));
     };
-    let bytes = match kind {
-        Kind::Svg => figure.svg.into_bytes(),
-        Kind::Png => figure_png(&figure, f64::from(arguments.dpi)).map_err(Failure::internal)?,
-    };
+    let bytes = kind.bytes(figure, f64::from(arguments.dpi))?;
     outputs.write(&arguments.output, bytes)?;
     terminal.say(&written(&arguments.output));
     Ok(ending)
-}
-
-fn kind_of(output: &Path) -> Result<Kind, Failure> {
-    let extension = output.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("png") => Ok(Kind::Png),
-        Some("svg") => Ok(Kind::Svg),
-        _ => Err(Failure::Usage {
-            what: "the picture's name ends neither with .png nor with .svg".to_owned(),
-            hint: "use -o spectrogram.png or -o spectrogram.svg".to_owned(),
-            path: Some(output.to_owned()),
-        }),
-    }
 }

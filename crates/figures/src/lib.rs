@@ -11,7 +11,7 @@
 //! ```
 //!
 //! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian`
-//! (9), `fit`, `budget`, `rotors`, `spectrogram` of one recording, and `distributions` of several sets of cases.
+//! (9), `fit`, `budget`, `rotors`, `motor_steps`, `spectrogram` of one recording, and `distributions` of several sets of cases.
 
 mod axis;
 mod bitmap;
@@ -28,6 +28,7 @@ mod geometry;
 mod joined;
 mod load_spectrograms;
 mod maximum_trace;
+mod motor_steps;
 mod picture;
 mod raster;
 mod rotors;
@@ -41,6 +42,7 @@ pub use colour::{LEVEL_COUNT, level_colours, method_colour};
 pub use distributions::{Distribution, distributions_figure};
 pub use experiment::{ExperimentFigures, figures_of_experiment};
 pub use figure::{Figure, FigureError};
+pub use motor_steps::{DrawnStep, motor_steps_figure};
 pub use picture::{
     MeanSpectrum, Picture, PictureConfig, PictureError, PictureView, Pictures, pictures_from_source, views_of_recording,
 };

@@ -16,6 +16,7 @@
 //! tones        tone families and their readings            csv_text      text of a CSV writer
 //! decision     why this shaft speed, and which was second  units         the constant in units of programs
 //! names        short names of recordings                logged        what a log holds
+//! motor        constants of motors, from steps in a log   motor_json    the same for programs
 //! ```
 
 mod adequacy;
@@ -31,6 +32,8 @@ mod flight_plan;
 mod folded_warnings;
 mod logged;
 mod models;
+mod motor;
+mod motor_json;
 mod names;
 mod notice;
 mod number;
@@ -65,6 +68,8 @@ pub use folded_warnings::{
 };
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
+pub use motor::{LoggedMotor, MotorRecord, motor_text};
+pub use motor_json::motor_json;
 pub use names::short_names;
 pub use notice::Notice;
 pub use number::{ScaledNumber, fixed, scaled_number, signed, with_uncertainty};

@@ -12,13 +12,14 @@ struct Row {
 }
 
 /// All crates but the two at the top, `cli` and `bench`.
-const LIBRARIES: [&str; 15] = [
+const LIBRARIES: [&str; 16] = [
     "vehicle",
     "fft",
     "signal",
     "analysis",
     "rotor-speed",
     "rotor-id",
+    "dynamics",
     "thrust",
     "hovertone",
     "media",
@@ -33,13 +34,14 @@ const LIBRARIES: [&str; 15] = [
 /// The line of the table.
 const TABLE_LINE: usize = line!() as usize + 2;
 /// From the lowest crate to the highest.
-const TABLE: [Row; 18] = [
+const TABLE: [Row; 19] = [
     Row { crate_name: "vehicle", may_use: &[] },
     Row { crate_name: "fft", may_use: &[] },
     Row { crate_name: "signal", may_use: &["fft"] },
     Row { crate_name: "analysis", may_use: &["vehicle"] },
     Row { crate_name: "rotor-speed", may_use: &["signal", "analysis", "vehicle"] },
     Row { crate_name: "rotor-id", may_use: &["rotor-speed", "signal", "analysis", "vehicle"] },
+    Row { crate_name: "dynamics", may_use: &["signal", "analysis", "vehicle"] },
     Row { crate_name: "thrust", may_use: &["analysis", "vehicle"] },
     Row { crate_name: "hovertone", may_use: &["rotor-id", "rotor-speed", "thrust", "signal", "analysis", "vehicle"] },
     Row { crate_name: "media", may_use: &["signal"] },
@@ -47,8 +49,8 @@ const TABLE: [Row; 18] = [
     Row { crate_name: "sim", may_use: &["vehicle"] },
     Row { crate_name: "exchange", may_use: &["vehicle"] },
     Row { crate_name: "logs", may_use: &[] },
-    Row { crate_name: "report", may_use: &["analysis", "thrust", "vehicle", "exchange", "logs"] },
-    Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal"] },
+    Row { crate_name: "report", may_use: &["analysis", "thrust", "vehicle", "exchange", "logs", "dynamics"] },
+    Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal", "dynamics"] },
     Row { crate_name: "page", may_use: &["analysis", "thrust", "vehicle", "signal", "figures", "report"] },
     Row { crate_name: "cli", may_use: &LIBRARIES },
     Row { crate_name: "bench", may_use: &LIBRARIES },

@@ -4,13 +4,14 @@ use super::fault::Fault;
 use super::paths::{NamedPath, faults_of_paths};
 use crate::tree::{Source, Tree};
 
-const PURE: [&str; 14] = [
+const PURE: [&str; 15] = [
     "vehicle",
     "fft",
     "signal",
     "analysis",
     "rotor-speed",
     "rotor-id",
+    "dynamics",
     "thrust",
     "hovertone",
     "sim",

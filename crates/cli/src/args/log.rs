@@ -49,7 +49,7 @@ pub(crate) struct ColumnName {
     pub(crate) name: String,
 }
 
-fn column_name(typed: &str) -> Result<ColumnName, String> {
+pub(super) fn column_name(typed: &str) -> Result<ColumnName, String> {
     // a header may have the sign, a name has none
     match typed.rsplit_once('=') {
         Some((header, name)) if !header.trim().is_empty() => {

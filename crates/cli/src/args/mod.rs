@@ -6,6 +6,7 @@ mod groups;
 mod init;
 mod labels;
 mod log;
+mod motor;
 mod shell;
 mod simulation;
 mod spectrogram;
@@ -21,6 +22,7 @@ pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, Ton
 pub(crate) use init::InitArguments;
 pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
 pub(crate) use log::{ColumnName, LogArguments};
+pub(crate) use motor::MotorArguments;
 pub(crate) use shell::{CompletionsArguments, ManArguments};
 pub(crate) use simulation::{DemoArguments, SimulateArguments};
 pub(crate) use spectrogram::SpectrogramArguments;
@@ -50,6 +52,7 @@ Examples:
   hovertone export out/results.json --to gazebo            lines for a simulator
   hovertone compare out/results.json iris.sdf              a simulator's model against it
   hovertone log flight.ulg                    what a log of a flight holds
+  hovertone motor steps.csv                   time constants of a motor, from steps in a log
   hovertone simulate scenario.toml -o flight  a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
 
@@ -87,6 +90,7 @@ pub(crate) enum Command {
     Export(ExportArguments),
     Compare(CompareArguments),
     Log(LogArguments),
+    Motor(MotorArguments),
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),

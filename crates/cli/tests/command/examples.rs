@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 17] = [
     "init",
     "speed",
     "tones",
@@ -20,6 +20,7 @@ const COMMANDS: [&str; 16] = [
     "compare",
     "demo",
     "log",
+    "motor",
     "simulate",
     "vehicles",
     "completions",
@@ -124,6 +125,9 @@ fn lay_out(folder: &Path) {
     }
     let rows: String = (0..60).map(|row| format!("{:.2},3600,3610,3620,3630\n", 0.05 * f64::from(row))).collect();
     fs::write(file("flight.csv"), format!("time_s,motor_1_rpm,motor_2_rpm,motor_3_rpm,motor_4_rpm\n{rows}")).unwrap();
+    let step = |row: i32| 6000.0 + 3000.0 * (1.0 - (-0.2 * f64::from(row - 50).max(0.0)).exp());
+    let steps: String = (0..150).map(|row| format!("{:.2},{:.0}\n", 0.01 * f64::from(row), step(row))).collect();
+    fs::write(file("steps.csv"), format!("time_s,rotor1_rpm\n{steps}")).unwrap();
     fs::write(file("bench.csv"), "Zeit;Drehzahl\n0;3600\n500;3610\n").unwrap();
     let places = ["[0.9, 0.35, -0.1]", "[-0.7, 0.7, 0.1]"];
     fs::write(file("stands.toml"), places.map(|place| format!("[[microphone]]\nposition_m = {place}\n")).concat())

@@ -5,7 +5,7 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Words of a command, its exit code, and a word of its message.
-const CASES: [(&str, i32, &str); 41] = [
+const CASES: [(&str, i32, &str); 45] = [
     // what is read is not there, or of another kind
     ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
     ("speed *.mov --blades 2", 1, "no file matches"),
@@ -32,6 +32,8 @@ const CASES: [(&str, i32, &str); 41] = [
     ("log nowhere.ulg", 1, "nowhere.ulg"),
     ("log empty", 1, "a folder"),
     ("log a.wav", 1, "neither a CSV"),
+    ("motor nowhere.ulg", 1, "nowhere.ulg"),
+    ("motor a.wav", 1, "recordings are not supported"),
     // what would be written cannot be
     ("identify good.toml -o a.wav", 1, "no folder"),
     ("demo -o a.wav", 1, "no folder"),
@@ -51,6 +53,8 @@ const CASES: [(&str, i32, &str); 41] = [
     ("speed a.wav --blades 0", 2, "--blades"),
     ("identify broken.toml", 2, "mas_kg"),
     ("log a.wav --column Zeit=speed", 2, "no known column name"),
+    ("motor a.wav --figure full/notes.png", 2, "exists already"),
+    ("motor a.wav --column Zeit=speed", 2, "no known column name"),
 ];
 
 #[test]

@@ -19,6 +19,7 @@ mod lighthouse;
 mod log;
 mod messages;
 mod microphones;
+mod motor;
 mod movie;
 mod newcomer;
 mod nonsense;

@@ -97,6 +97,7 @@ fn help_and_version_are_data() {
         "compare",
         "demo",
         "log",
+        "motor",
         "simulate",
         "vehicles",
         "Exit codes",
@@ -118,6 +119,7 @@ fn help_and_version_are_data() {
         "compare",
         "demo",
         "log",
+        "motor",
         "simulate",
         "vehicles",
     ] {

@@ -1,0 +1,187 @@
+//! `hovertone motor`: time constants, dead time and static map from a log.
+
+use crate::testkit::{hovertone, recordings, refused_with, text};
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+const UP_S: f64 = 0.06;
+const DOWN_S: f64 = 0.11;
+const DEAD_S: f64 = 0.03;
+const LEVELS: [f64; 6] = [100.0, 160.0, 120.0, 180.0, 130.0, 170.0];
+
+/// A CSV of a motor of first order at 100 rows per second; the command steps each 1.5 s, and the speed is rounded to 1 rpm.
+fn steps_csv(has_command: bool) -> String {
+    let mut csv = String::from(if has_command { "time_s,motor1_pwm,rotor1_rpm\n" } else { "time_s,rotor1_rpm\n" });
+    let level = |time_s: f64| LEVELS[((time_s / 1.5 + 1e-9).max(0.0) as usize).min(LEVELS.len() - 1)];
+    let mut speed_rev_s = LEVELS[0];
+    for row in 0..900 {
+        let time_s = f64::from(row) * 0.01;
+        // the dead time is three rows: the level of a row is constant since the row before it
+        let target_rev_s = level(time_s - 0.01 - DEAD_S);
+        let time_constant_s = if target_rev_s > speed_rev_s { UP_S } else { DOWN_S };
+        speed_rev_s = target_rev_s + (speed_rev_s - target_rev_s) * (-0.01 / time_constant_s).exp();
+        let command = if has_command { format!("{},", 1000.0 + 4.0 * level(time_s)) } else { String::new() };
+        writeln!(csv, "{time_s:.2},{command}{:.0}", 60.0 * speed_rev_s).unwrap();
+    }
+    csv
+}
+
+fn written(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> String {
+    let path = folder.join(name);
+    fs::write(&path, content).unwrap();
+    text(&path).to_owned()
+}
+
+fn near(value: &Value, truth: f64, share: f64) {
+    let value = value.as_f64().unwrap();
+    assert!((value / truth - 1.0).abs() < share, "{value} {truth}");
+}
+
+#[test]
+fn steps_of_a_log_tell_the_constants_of_its_motor() {
+    let folder = tempfile::tempdir().unwrap();
+    for has_command in [true, false] {
+        let log = written(folder.path(), "log.csv", steps_csv(has_command));
+        let line = hovertone(&["motor", "--json", &log]).ends_with(0).json_lines().remove(0);
+        near(&line["time_constant_up_s"]["value"], UP_S, 0.01);
+        near(&line["time_constant_down_s"]["value"], DOWN_S, 0.01);
+        assert_eq!(line["steps"].as_array().unwrap().len(), LEVELS.len() - 1);
+        assert_eq!((&line["steps"][0]["motor"], &line["steps"][0]["verdict"]), (&"motor 1".into(), &"used".into()));
+        if has_command {
+            near(&line["dead_time_s"]["value"], DEAD_S, 0.05);
+            near(&line["motors"][0]["static_map"]["gain_rev_s"], 0.25, 0.01);
+        } else {
+            assert!(line["dead_time_s"].is_null() && line["motors"][0]["static_map"].is_null());
+        }
+        let shown = hovertone(&["motor", &log]).ends_with(0).stdout;
+        for words in ["time constant", "<timeConstantUp>0.060", "<timeConstantDown>0.110", "<maxRotVelocity>1131<"] {
+            assert!(shown.contains(words), "{words}\n{shown}");
+        }
+        assert_eq!(shown.contains("no static map"), !has_command, "{shown}");
+    }
+}
+
+#[test]
+fn the_steps_are_drawn_with_their_curves() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", steps_csv(true));
+    let (svg, png) = (folder.path().join("steps.svg"), folder.path().join("steps.png"));
+    for figure in [&svg, &png] {
+        let run = hovertone(&["motor", &log, "--figure", text(figure)]).ends_with(0);
+        assert!(run.stderr.contains("written: ") && run.stdout.contains("time constant"), "{}", run.stderr);
+    }
+    let drawing = fs::read_to_string(&svg).unwrap();
+    let drawn = roxmltree::Document::parse(&drawing).unwrap();
+    let is_step = |node: &roxmltree::Node| node.attribute("class").is_some_and(|class| class.contains("step step-"));
+    assert_eq!(drawn.descendants().filter(is_step).count(), LEVELS.len() - 1);
+    assert!(drawing.contains("time after the start of the step (ms)"));
+    assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
+    refused_with(&["motor", &log, "--figure", text(&svg)], &["exists already"]);
+    refused_with(&["motor", &log, "--figure", "steps.pdf"], &["neither with .png nor with .svg", "steps.svg"]);
+    refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 are given", "one log at a time"]);
+    refused_with(&["motor", &log, "--figure", &log, "--force"], &["neither with .png"]);
+    let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n0.02,600\n");
+    let nothing = folder.path().join("nothing.svg");
+    let run = hovertone(&["motor", &flat, "--figure", text(&nothing)]).ends_with(3);
+    assert!(run.stderr.contains("no figure was written") && !nothing.exists(), "{}", run.stderr);
+}
+
+#[test]
+fn absurd_logs_end_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = |of: &dyn Fn(i32) -> String| {
+        (0..200).map(|row| format!("{},{}\n", f64::from(row) * 0.01, of(row))).collect::<String>()
+    };
+    let huge = written(folder.path(), "huge.csv", "time_s,rotor1_rpm\n0,1e300\n1,1e308\n");
+    refused_with(&["motor", &huge], &["1.667e306 rev/s", "check the unit"]);
+    let alternating = rows(&|row| format!("{},{row}", 6000 * (row % 2)));
+    let instant = rows(&|row| format!("{},{}", if row < 100 { 6000 } else { 9000 }, if row < 100 { 1 } else { 2 }));
+    let negative = rows(&|row| format!("{},{}", if row < 100 { -6000 } else { -9000 }, -(row / 50)));
+    for (name, rows) in [
+        ("alternating", alternating.as_str()),
+        ("instant", &instant),
+        ("negative", &negative),
+        ("one", "0,600,1\n"),
+        ("two", "0,600,1\n1,700,2\n"),
+        ("same time", "0,600,1\n0,700,2\n0,800,2\n"),
+        ("far", "0,600,1\n1e15,700,2\n1e16,800,2\n"),
+    ] {
+        let log = written(folder.path(), "log.csv", format!("time_s,rotor1_rpm,motor1_pwm\n{rows}"));
+        for output in [&["motor", log.as_str()][..], &["motor", "--json", &log]] {
+            let run = hovertone(output);
+            assert!([0, 3].contains(&run.code), "{name}: {}", run.stderr);
+            let words = format!("{}{}", run.stdout, run.stderr);
+            assert!(!words.contains("panicked") && !words.contains("NaN") && !words.contains("inf"), "{name}: {words}");
+        }
+    }
+}
+
+#[test]
+fn a_log_without_a_time_constant_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let flat: String = (0..500).map(|row| format!("{},{}\n", f64::from(row) * 0.01, 6000 + row % 3)).collect();
+    let flat = written(folder.path(), "flat.csv", format!("time_s,rotor1_rpm\n{flat}"));
+    assert!(hovertone(&["motor", &flat]).ends_with(3).stdout.contains("no step: "));
+    let wander =
+        |row: i32| 6000.0 + 600.0 * (0.9 * (f64::from(row) * 0.02).sin()).tan() + 300.0 * (f64::from(row) * 0.05).sin();
+    let wander: String = (0..3000).map(|row| format!("{},{:.0}\n", f64::from(row) * 0.01, wander(row))).collect();
+    let wander = written(folder.path(), "wander.csv", format!("time_s,rotor1_rpm\n{wander}"));
+    let run = hovertone(&["motor", &wander]).ends_with(3);
+    assert!(run.stdout.contains("no step: ") && !run.stdout.contains("time constant up"), "{}", run.stdout);
+    let slow: Vec<String> = steps_csv(true).lines().step_by(30).map(str::to_owned).collect();
+    let slow = written(folder.path(), "slow.csv", slow.join("\n"));
+    let run = hovertone(&["motor", &slow]).ends_with(3);
+    assert!(run.stdout.contains("too slow for a time constant") && run.stdout.contains("static map"), "{}", run.stdout);
+    let commands = written(folder.path(), "commands.csv", "time_s,motor1_pwm\n0,1000\n1,1200\n");
+    assert!(hovertone(&["motor", &commands]).ends_with(3).stdout.contains("no rotor speed in this log"));
+    let still = written(folder.path(), "still.csv", "time_s,rotor1_rpm\n0,0\n1,0\n2,0\n");
+    assert!(hovertone(&["motor", &still]).ends_with(3).stdout.contains("no rotor speed in this log"));
+}
+
+#[test]
+fn what_is_no_log_is_refused_and_the_others_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", steps_csv(true));
+    let sound = written(folder.path(), "sound.wav", b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0\x01\0\x01\0");
+    let run = hovertone(&["motor", &sound]).ends_with(1);
+    assert!(run.stderr.contains("recordings are not supported") && run.stdout.is_empty(), "{}", run.stderr);
+    assert_eq!(run.stderr.trim_end().lines().count(), 1, "{}", run.stderr);
+    let run = hovertone(&["motor", "--json", &sound, &log]).ends_with(1);
+    assert_eq!(run.json_lines().len(), 1);
+    let other = written(folder.path(), "other.csv", "time_s,x_m\n0,1\n1,2\n");
+    refused_with(&["motor", &other], &["no columns hold motors", "x_m"]);
+}
+
+#[test]
+fn a_thrust_stand_tells_time_constants_and_its_saturated_step() {
+    let Some(logs) = recordings("logs") else { return };
+    let log = logs.join("rcbenchmark_command_steps.csv");
+    let line = hovertone(&["motor", "--json", text(&log)]).ends_with(0).json_lines().remove(0);
+    let steps = line["steps"].as_array().unwrap();
+    assert_eq!(steps.len(), 4);
+    for (step, time_constant_s) in steps.iter().zip([0.038, 0.038, 0.043]) {
+        let found_s = step["time_constant_s"].as_f64().unwrap();
+        assert!((found_s - time_constant_s).abs() <= 0.002, "{step}");
+        // the truth is 49 to 64 ms, and the fit has an uncertainty of 1 ms and more
+        let dead_time_s = step["dead_time_s"].as_f64().unwrap();
+        assert!((0.047..=0.066).contains(&dead_time_s), "{step}");
+    }
+    assert_eq!((&steps[3]["verdict"], &steps[3]["time_constant_s"]), (&"saturated".into(), &Value::Null));
+    let points = line["motors"][0]["static_map"]["points"].as_array().unwrap();
+    let saturated: Vec<bool> = points.iter().map(|point| point["is_saturated"].as_bool().unwrap()).collect();
+    assert_eq!(saturated, [false, false, false, false, true]);
+}
+
+#[test]
+fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
+    let Some(logs) = recordings("logs") else { return };
+    let run = hovertone(&["motor", text(&logs.join("px4_esc_status.ulg"))]).ends_with(3);
+    for words in ["4 motors", "too slow for a time constant", "static map", "output 4", "no command is held"] {
+        assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
+    }
+    assert!(!run.stdout.contains("timeConstant"));
+    let run = hovertone(&["motor", text(&logs.join("px4_sample_small.ulg"))]).ends_with(3);
+    assert!(run.stdout.contains("no rotor speed in this log"), "{}", run.stdout);
+}

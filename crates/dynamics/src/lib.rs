@@ -1,0 +1,30 @@
+//! Logged speeds and commands of a motor → its constants in eq 2 of the paper, in the form that a log can tell:
+//! dω/dt = (ω_target − ω)/τ, with τ for rising and for falling speeds, the dead time and the static map ω_target(command); and the square
+//! term of the load where the speeds have a wide enough range.
+//!
+//! ```text
+//! series ─ transitions ▶ windows with one step ─ first_order ▶ curves ─ step ▶ steps with a verdict ─ combined ▶ time constants, dead time
+//!    └──── plateaus ────▶ levels held ─ static_map ▶ speed of each command, gain, saturation ──┘
+//! ```
+//!
+//! `motor.rs` is the whole chain, `config.rs` has all settings.
+
+mod combined;
+mod config;
+mod first_order;
+mod load;
+mod motor;
+mod plateaus;
+mod search;
+mod series;
+mod static_map;
+mod step;
+mod transitions;
+
+pub use combined::CombinedEstimate;
+pub use config::MotorConfig;
+pub use load::LoadTerm;
+pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series};
+pub use series::{CommandSeries, MotorSeries, command_of_speed};
+pub use static_map::{MapOrigin, MapPoint, StaticMap};
+pub use step::{MotorStep, StepVerdict};

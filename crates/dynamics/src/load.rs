@@ -1,0 +1,68 @@
+//! The square term of eq 2: the torque of the load grows with ω², so that a motor follows faster at higher speeds.
+
+use crate::step::{MotorStep, StepVerdict};
+use hovertone_vehicle::{Ending, Estimate};
+
+/// Fewest steps: a straight line through two points has no scatter. *Numeric.*
+const STEPS_MIN: usize = 3;
+/// Largest standard uncertainty of the load's share of 1/τ at the mean speed. *Decision*: at more the range of speeds is too small.
+const SHARE_STD_MAX: f64 = 0.1;
+/// A curve of first order through a step with the square term has the 1/τ of the speed at its end, less this share of the step. *Physics*:
+/// least squares of first order in the term, with start and both levels free.
+const STEP_SHARE: f64 = 2.0 / 9.0;
+
+/// dω/dt = (ω_target − ω)/τ₀ − k ω²: near a speed ω the motor follows with 1/τ = 1/τ₀ + 2 k ω.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadTerm {
+    /// 1/τ₀, without load, per second.
+    pub unloaded_rate_per_s: Estimate,
+    /// k per turn, for speeds in rev/s.
+    pub square_per_rev: Estimate,
+    /// Share of the load in 1/τ at the mean speed of the steps.
+    pub share: Estimate,
+}
+
+/// The term from rising steps at different speeds: the line of 1/τ over the speed, weighted by the uncertainties, which a larger scatter
+/// about the line increases. `None` where the range of speeds is too small to tell it.
+pub(crate) fn load_term_of<'a>(steps: impl Iterator<Item = &'a MotorStep>) -> Option<LoadTerm> {
+    let rising = steps.filter(|step| step.verdict == StepVerdict::Used && step.is_up());
+    let rates: Vec<Rate> = rising.filter_map(rate_of).collect();
+    if rates.len() < STEPS_MIN {
+        return None;
+    }
+    let weight = rates.iter().map(|rate| rate.weight).sum::<f64>();
+    let speed = rates.iter().map(|rate| rate.weight * rate.speed_rev_s).sum::<f64>() / weight;
+    let rate_mean = rates.iter().map(|rate| rate.weight * rate.rate_per_s).sum::<f64>() / weight;
+    let squares: f64 = rates.iter().map(|rate| rate.weight * (rate.speed_rev_s - speed).powi(2)).sum();
+    let products = rates.iter().map(|rate| rate.weight * (rate.speed_rev_s - speed) * (rate.rate_per_s - rate_mean));
+    let slope = products.sum::<f64>() / squares;
+    let residual = |rate: &Rate| rate.rate_per_s - rate_mean - slope * (rate.speed_rev_s - speed);
+    let chi_square: f64 = rates.iter().map(|rate| rate.weight * residual(rate).powi(2)).sum();
+    let excess = (chi_square / (rates.len() - 2) as f64).max(1.0);
+    let slope_variance = excess / squares;
+    let estimate =
+        |value: f64, variance: f64| Estimate { value, std_uncertainty: Some(variance.sqrt()), ending: Ending::Solved };
+    let unloaded_variance = excess / weight + slope_variance * speed * speed;
+    let share = estimate(slope * speed / rate_mean, slope_variance * (speed / rate_mean).powi(2));
+    let is_told = share.std_uncertainty.is_some_and(|std| std <= SHARE_STD_MAX);
+    is_told.then(|| LoadTerm {
+        unloaded_rate_per_s: estimate(rate_mean - slope * speed, unloaded_variance),
+        square_per_rev: estimate(slope / 2.0, slope_variance / 4.0),
+        share,
+    })
+}
+
+/// 1/τ of a step, at the speed that it belongs to.
+struct Rate {
+    speed_rev_s: f64,
+    rate_per_s: f64,
+    weight: f64,
+}
+
+fn rate_of(step: &MotorStep) -> Option<Rate> {
+    let time_constant_s = step.time_constant_s?;
+    let rate_per_s = time_constant_s.value.recip();
+    let std_per_s = time_constant_s.std_uncertainty? * rate_per_s * rate_per_s;
+    let speed_rev_s = step.speed_to_rev_s - STEP_SHARE * (step.speed_to_rev_s - step.speed_from_rev_s);
+    (std_per_s > 0.0).then(|| Rate { speed_rev_s, rate_per_s, weight: std_per_s.powi(-2) })
+}

@@ -1,0 +1,252 @@
+//! Constants of motors from a log: tables for people, and lines for simulators.
+
+use crate::number::{DASH, expanded, fixed, rounded, significant, with_uncertainty};
+use crate::printable::printable;
+use crate::quote::counted;
+use crate::table_lines::table_text;
+use crate::text_table::{Column, TextTable};
+use hovertone_dynamics::{
+    CombinedEstimate, LoadTerm, MapOrigin, MotorConstants, MotorModel, MotorStep, StepVerdict, constants_of,
+};
+use hovertone_vehicle::Estimate;
+use std::f64::consts::TAU;
+
+/// Digits of a speed and of a command.
+const DIGITS: usize = 4;
+const MS_PER_S: f64 = 1e3;
+
+/// A motor of a log.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoggedMotor {
+    /// Its name in the log.
+    pub name: String,
+    /// Name of its command in the log, where it has one.
+    pub command: Option<String>,
+    /// What the log tells about it.
+    pub model: MotorModel,
+}
+
+/// A log and its motors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotorRecord {
+    /// Name of the log as given.
+    pub file: String,
+    /// Motors that turn.
+    pub motors: Vec<LoggedMotor>,
+}
+
+impl MotorRecord {
+    /// The constants of all motors together.
+    pub fn constants(&self) -> MotorConstants {
+        let models: Vec<MotorModel> = self.motors.iter().map(|motor| motor.model.clone()).collect();
+        constants_of(&models)
+    }
+
+    /// Whether any time constant is told.
+    pub fn has_time_constant(&self) -> bool {
+        let constants = self.constants();
+        constants.time_constant_up_s.is_some() || constants.time_constant_down_s.is_some()
+    }
+}
+
+/// The motors of a log as text.
+pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
+    let mut text = format!("{}\n", printable(&record.file));
+    let Some(first) = record.motors.first() else { return text + "no rotor speed in this log\n" };
+    let interval_ms = significant(first.model.interval_s * MS_PER_S, 3);
+    text += &format!("{}, log rows every {interval_ms} ms\n", counted(record.motors.len(), "motor"));
+    let has_steps = shown_steps(record).next().is_some();
+    let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
+    if first.model.is_too_slow {
+        text +=
+            "too slow for a time constant: a motor reaches its speed within 300 ms, and 3 log rows must lie in that\n";
+    } else if !has_steps {
+        text += "no step: the speed never changes once between two levels that are held\n";
+    }
+    if has_steps {
+        text += &format!("\n{}", table_text(&steps_table(record), width));
+        text += &format!("\n{}", table_text(&constants_table(record), width));
+        text += &load_text(&record.constants());
+    }
+    if other_count > 0 {
+        text += &format!("left out: {} of the speed, not of first order\n", counted(other_count, "change"));
+    }
+    text += &maps_text(record, width);
+    text + &simulator_lines(&record.constants())
+}
+
+/// All steps but those of a flight: changes of the speed, without a step of the command, that are no curve of first order.
+fn shown_steps(record: &MotorRecord) -> impl Iterator<Item = (&LoggedMotor, &MotorStep)> {
+    let steps = record.motors.iter().flat_map(|motor| motor.model.steps.iter().map(move |step| (motor, step)));
+    steps.filter(|(_, step)| step.command.is_some() || step.verdict != StepVerdict::OtherCurve)
+}
+
+fn steps_table(record: &MotorRecord) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("step"),
+        Column::words("motor"),
+        Column::numbers("at", "s"),
+        Column::numbers("from", "rev/s"),
+        Column::numbers("to", "rev/s"),
+        Column::numbers("time constant", "ms"),
+        Column::numbers("dead time", "ms"),
+        Column::words("note"),
+    ]);
+    for (number, (motor, step)) in (1..).zip(shown_steps(record)) {
+        shown.push(vec![
+            number.to_string(),
+            motor.name.clone(),
+            fixed(step.time_s.value, 3),
+            significant(step.speed_from_rev_s, DIGITS),
+            significant(step.speed_to_rev_s, DIGITS),
+            in_ms(step.time_constant_s),
+            in_ms(step.dead_time_s),
+            verdict_in_words(step.verdict).to_owned(),
+        ]);
+    }
+    shown
+}
+
+fn constants_table(record: &MotorRecord) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("motor"),
+        Column::numbers("time constant up", "ms"),
+        Column::numbers("steps", ""),
+        Column::numbers("time constant down", "ms"),
+        Column::numbers("steps", ""),
+        Column::numbers("dead time", "ms"),
+        Column::numbers("largest speed", "rev/s"),
+    ]);
+    let mut push = |name: &str, constants: MotorConstants| {
+        let count = |combined: Option<CombinedEstimate>| combined.map_or(0, |combined| combined.step_count).to_string();
+        let value = |combined: Option<CombinedEstimate>| in_ms(combined.map(|combined| combined.estimate));
+        shown.push(vec![
+            name.to_owned(),
+            value(constants.time_constant_up_s),
+            count(constants.time_constant_up_s),
+            value(constants.time_constant_down_s),
+            count(constants.time_constant_down_s),
+            value(constants.dead_time_s),
+            significant(constants.speed_rev_s_max, DIGITS),
+        ]);
+    };
+    for motor in &record.motors {
+        push(&motor.name, constants_of(std::slice::from_ref(&motor.model)));
+    }
+    if record.motors.len() > 1 {
+        push("all", record.constants());
+    }
+    shown
+}
+
+fn in_ms(estimate: Option<Estimate>) -> String {
+    estimate.map_or(DASH.to_owned(), |estimate| {
+        let estimate_ms = estimate.scaled(MS_PER_S);
+        with_uncertainty(estimate_ms.value, estimate_ms.std_uncertainty)
+    })
+}
+
+fn verdict_in_words(verdict: StepVerdict) -> &'static str {
+    match verdict {
+        StepVerdict::Used => "",
+        StepVerdict::TooSlowRows => "log rows too slow for a time constant",
+        StepVerdict::Saturated => "saturated: left out",
+        StepVerdict::AtRest => "starts or stops: left out",
+        StepVerdict::OtherCurve => "not of first order: left out",
+        StepVerdict::Uncertain => "too uncertain: left out",
+    }
+}
+
+/// The square term of the load, or why it is not told.
+fn load_text(constants: &MotorConstants) -> String {
+    let Some(LoadTerm { unloaded_rate_per_s, square_per_rev, .. }) = constants.load_term else {
+        return "square term of the load: not told, the range of speeds is too small\n".to_owned();
+    };
+    let rate = with_uncertainty(unloaded_rate_per_s.value, unloaded_rate_per_s.std_uncertainty);
+    let square = with_uncertainty(square_per_rev.value, square_per_rev.std_uncertainty);
+    format!("square term of the load: 1/τ = 1/τ₀ + 2 k ω with 1/τ₀ = {rate} 1/s, k = {square} 1/rev\n")
+}
+
+/// The static maps: the gain of each motor, and the plateaus behind it.
+fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
+    if record.motors.iter().all(|motor| motor.command.is_none()) {
+        return "\nno static map: this log has no command that changes\n".to_owned();
+    }
+    let mut text = format!("\nstatic map\n{}", table_text(&gains_table(record), width));
+    let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
+    if maps().any(|map| map.origin == MapOrigin::Rows) {
+        text += "from all log rows, since no command is held: the lag of the motor makes the gain too small\n";
+    }
+    if maps().any(|map| !map.points.is_empty()) {
+        text += &format!("\n{}", table_text(&plateaus_table(record), width));
+    }
+    if maps().any(|map| map.points.iter().any(|point| point.is_saturated)) {
+        text += "saturated: the speed follows the command no longer; left out of the gain\n";
+    }
+    text
+}
+
+fn gains_table(record: &MotorRecord) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("motor"),
+        Column::words("command"),
+        Column::numbers("gain", "rev/s per unit"),
+        Column::numbers("at command 0", "rev/s"),
+    ]);
+    for motor in &record.motors {
+        let told = motor.model.static_map.as_ref().and_then(|map| Some((map.gain_rev_s?, map.offset_rev_s?)));
+        match (&motor.command, told) {
+            (None, _) => shown.push_words(motor.name.clone(), "no command in this log".to_owned()),
+            (Some(command), None) => {
+                shown.push_words(motor.name.clone(), format!("the speed does not follow the command {command}"));
+            }
+            (Some(command), Some((gain, offset_rev_s))) => shown.push(vec![
+                motor.name.clone(),
+                command.clone(),
+                with_uncertainty(gain.value, gain.std_uncertainty),
+                significant(offset_rev_s, DIGITS),
+            ]),
+        }
+    }
+    shown
+}
+
+fn plateaus_table(record: &MotorRecord) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("motor"),
+        Column::numbers("command", ""),
+        Column::numbers("settled speed", "rev/s"),
+        Column::words("note"),
+    ]);
+    for motor in &record.motors {
+        for point in motor.model.static_map.iter().flat_map(|map| &map.points) {
+            let note = if point.is_saturated { "saturated" } else { "" };
+            shown.push(vec![
+                motor.name.clone(),
+                significant(point.command, DIGITS),
+                with_uncertainty(point.speed_rev_s, Some(point.speed_std_rev_s)),
+                note.to_owned(),
+            ]);
+        }
+    }
+    shown
+}
+
+/// Lines for models of Gazebo and PX4, where a time constant is told.
+fn simulator_lines(constants: &MotorConstants) -> String {
+    let line = |name: &str, combined: Option<CombinedEstimate>| {
+        combined.map_or(String::new(), |combined| {
+            let Estimate { value, std_uncertainty, .. } = combined.estimate;
+            format!("<{name}>{}</{name}>\n", rounded(value, expanded(std_uncertainty)))
+        })
+    };
+    let up = line("timeConstantUp", constants.time_constant_up_s);
+    let down = line("timeConstantDown", constants.time_constant_down_s);
+    if up.is_empty() && down.is_empty() {
+        return String::new();
+    }
+    let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
+    format!(
+        "\nfor Gazebo and PX4 (the largest speed is that of this log)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+    )
+}
