@@ -50,9 +50,11 @@ pub enum NoTone {
         /// Longest continuous time of that tone.
         held_s: f64,
     },
-    /// The gear mesh is not heard, and the blade pass does not decide for its speed.
-    GearMeshNotHeard {
-        /// Where the gear mesh would be.
+    /// The lines belong to a slower shaft or to an instrument.
+    ForeignSeries {
+        /// Distance between the lines.
+        fundamental_hz: f64,
+        /// Tone of the strongest candidate.
         tone_hz: f64,
     },
     /// The tone lies above the bandwidth of the recording.
@@ -112,10 +114,10 @@ impl fmt::Display for NoTone {
                 "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most, and others sound for longer; \
                  if a rotor is among them, choose its part with --from and --to"
             ),
-            Self::GearMeshNotHeard { tone_hz } => write!(
+            Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
                 f,
-                "no gear mesh is heard near {tone_hz:.0} Hz, and the blade pass does not settle the speed; record with the high \
-                 frequencies, or follow the blade pass"
+                "lines {fundamental_hz:.1} Hz apart are heard that a rotor with its tone near {tone_hz:.0} Hz cannot make: a slower \
+                 rotor, an engine or an instrument; check the blades or the gear"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,

@@ -6,7 +6,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::pipeline::{passes_after_survey, speed_of_found_tone};
 use crate::stages::{Silence, Surveyed};
-use hovertone_analysis::{NoTone, Reading, SeenHarmonic, ToneFamily};
+use hovertone_analysis::{NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::RotorSpeed;
 
@@ -15,7 +15,7 @@ pub(super) const OTHER_SPEED_FACTOR: f64 = 1.9;
 /// The analysis must find the family's own tone, within this share. *Decision.*
 const SAME_TONE_SHARE: f64 = 0.08;
 
-/// The speed of the family at `rotor`, read in its most plausible way.
+/// The speed of the family at `rotor`, read in its most plausible way that its lines do not refute.
 pub(super) fn speed_of_family(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -24,18 +24,38 @@ pub(super) fn speed_of_family(
     config: &Config,
     discovery: &Discovery,
 ) -> Result<FoundSpeed, Error> {
-    let Some(reading) = families[rotor].readings.first() else {
+    let Some(first) = families[rotor].readings.first() else {
         let analysis = Silence::because(NoTone::NoSeries).analysis(surveyed.heard());
         return Ok(FoundSpeed { families, rotor: None, config: config.clone(), analysis, alternatives: Vec::new() });
     };
     let mut config_of_found = config.clone();
     config_of_found.ridge.company_share_min = config.ridge.company_share_min.max(discovery.config.company_share_min);
-    let mut found = config_for(&config_of_found, reading, OTHER_SPEED_FACTOR);
-    let mut analysis = speed_of_found_tone(passes, surveyed, &found)?;
+    let mut is_first = true;
+    let mut analysed = |reading: &Reading, factor: f64| -> Result<(Config, SpeedAnalysis), Error> {
+        let found = config_for(&config_of_found, reading, factor);
+        if !std::mem::take(&mut is_first) {
+            passes.expect_more(passes_after_survey(&found));
+        }
+        let analysis = speed_of_found_tone(passes, surveyed, &found)?;
+        Ok((found, analysis))
+    };
+    let mut reading = first;
+    let (mut found, mut analysis) = analysed(reading, OTHER_SPEED_FACTOR)?;
+    // lines that one reading cannot explain refute it, not the others
+    let is_refuted = |analysis: &SpeedAnalysis| {
+        matches!(analysis.outcome, Outcome::NoRotorTone { reason: NoTone::ForeignSeries { .. } })
+    };
+    for other in families[rotor].plausible_readings(discovery.config.plausible_min).into_iter().skip(1) {
+        if !is_refuted(&analysis) {
+            break;
+        }
+        let next = analysed(other, OTHER_SPEED_FACTOR)?;
+        if !is_refuted(&next.1) {
+            (reading, (found, analysis)) = (other, next);
+        }
+    }
     if !speed_of(&analysis, &found).is_none_or(|speed| is_near(speed.speed, reading)) {
-        found = config_for(&config_of_found, reading, 1.0 + SAME_TONE_SHARE);
-        passes.expect_more(passes_after_survey(&found));
-        analysis = speed_of_found_tone(passes, surveyed, &found)?;
+        (found, analysis) = analysed(reading, 1.0 + SAME_TONE_SHARE)?;
     }
     // the analysis knows the tone better than the survey
     let ratio = speed_of(&analysis, &found).map(|speed| speed.speed.rad_s() / reading.speed.rad_s());

@@ -127,9 +127,6 @@ impl HarmonicBlock {
     }
 }
 
-/// Smallest mean power of a line on the path, over the power of noise, at which it is heard. *Decision.*
-const HEARD_POWER_MIN: f64 = 3.0;
-
 /// The contribution of a line over all chunks.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LineRecord {
@@ -233,13 +230,6 @@ impl HarmonicTrack {
             Some(nearest.speed_at(time_s.clamp(nearest.span.from_s, nearest.span.to_s)))
         };
         times_s.iter().map(speed_at).collect()
-    }
-
-    /// Whether the line of this order, or one of its harmonics, stands out of the noise along the path.
-    pub(crate) fn hears_line(&self, order: f64) -> bool {
-        let is_harmonic = |line: &&LineRecord| (line.order / order).fract() < ORDER_TOLERANCE;
-        let mut harmonics = self.lines.iter().filter(is_harmonic);
-        harmonics.any(|line| line.on_path >= HEARD_POWER_MIN * f64::from(line.chunks.max(1)))
     }
 
     /// Share of a hover of length `hover_s` in which lines keep their phase.

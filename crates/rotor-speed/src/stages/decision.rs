@@ -6,14 +6,14 @@ use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum};
 use crate::error::Error;
-use crate::evidence::{OwnPropeller, WantedPropeller, WantedRotor, nats_near};
+use crate::evidence::{OwnPropeller, nats_near};
 use crate::harmonic::HarmonicTracer;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use crate::tone::{ToneConfig, blades_known, blades_of_tone, lines_and_between, search_range_rev_s};
+use crate::tone::{blades_of_tone, foreign_series, lines_and_between};
 use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
 use hovertone_signal::passes::Passes;
-use hovertone_vehicle::{BLADES_MAX, Order};
+use hovertone_vehicle::BLADES_MAX;
 
 /// A candidate that is one rotor, or several.
 pub(crate) struct Decision {
@@ -78,15 +78,13 @@ fn why_no_rotor(
     if candidates.is_named && evidence_is_too_small(surveyed, speed_rev_s, config) {
         return Ok(Some(NoTone::NoSeries));
     }
-    let is_gear = config.tone.order.lines_per_turn() > BLADES_MAX;
     let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
     if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
-        not_a_line = if is_gear { None } else { slower_shaft(passes, hover, lines, speed_rev_s, config)? };
+        not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
     }
-    if is_gear && !lines.harmonic.hears_line(config.tone.order.lines_per_turn()) {
-        not_a_line = not_a_line.or_else(|| blade_pass_objects(surveyed, passes.sample_rate_hz(), speed_rev_s, config));
-    }
-    Ok(not_a_line.or_else(not_held_or_hum))
+    Ok(not_a_line
+        .or_else(not_held_or_hum)
+        .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
 /// Whether the levels of all orders are too little evidence for a rotor at this speed, where they can be compared: where a single line is
@@ -101,26 +99,8 @@ fn evidence_is_too_small(surveyed: &Surveyed, speed_rev_s: f64, config: &Config)
     nats.is_some_and(|nats| nats < nats_min)
 }
 
-/// The reason why a gear mesh that is not heard has another speed than this: the blade pass is heard, and does not decide for it. What seems to be
-/// the gear mesh may then be lines of the blade pass at another octave.
-fn blade_pass_objects(surveyed: &Surveyed, sample_rate_hz: f64, speed_rev_s: f64, config: &Config) -> Option<NoTone> {
-    let propeller = |blades: u32| {
-        let tone = ToneConfig { order: Order::from_blades(blades).ok()?, band_hz: None, ..config.tone.clone() };
-        Some(WantedPropeller { blades, share: 1.0, speeds_rev_s: search_range_rev_s(&tone, sample_rate_hz).ok()? })
-    };
-    let propellers = blades_known(&config.tone).and_then(propeller).into_iter().collect();
-    let wanted = WantedRotor { propellers, known: config.known };
-    let beliefs = surveyed.beliefs(&wanted, config).ok().flatten()?;
-    let is_settled = match beliefs.possible(config.evidence.belief_min) {
-        [decided] => decided.is_of_same_vehicle(speed_rev_s),
-        _ => false,
-    };
-    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
-    (!is_settled).then_some(NoTone::GearMeshNotHeard { tone_hz })
-}
-
 /// Tests in one pass whether lines between the assumed ones sound as well, so that a slower shaft explains them better: the comb cannot
-/// decide this for a weak, steady tone.
+/// decide this for a weak, steady tone. A gear mesh has too high an order for the question.
 fn slower_shaft(
     passes: &mut Passes<'_>,
     hover: &Hover,
@@ -129,6 +109,9 @@ fn slower_shaft(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let order = config.tone.order.lines_per_turn();
+    if order > BLADES_MAX {
+        return Ok(None);
+    }
     let found = lines.harmonic.speed_in(None, config.tone.order);
     let steady_rev_s = found.map_or(speed_rev_s, |found| found.speed.rev_s());
     let bands = lines_and_between(&lines.channel_bands, order, steady_rev_s);
