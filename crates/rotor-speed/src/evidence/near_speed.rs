@@ -14,7 +14,8 @@ const NEAR: f64 = 0.1;
 /// Evidence of the levels of all orders for a rotor near a speed, in nats, of both looks together: against levels of nothing, where as many places
 /// hold lines as between the orders of this rotor. So lines that the rotor leaves unexplained count against it. `None` without a band.
 pub(crate) fn nats_near(looks: &Looks, speed_rev_s: f64, propeller: &OwnPropeller<'_>) -> Option<f64> {
-    let nats_of = |look| Some(lines_near(look, speed_rev_s, propeller)?.levels_nats);
+    let table = VoteTable::for_blades(propeller.blades);
+    let nats_of = |look| Some(PathNear::of(look, speed_rev_s, propeller, &table)?.levels_nats);
     Some(nats_of(&looks.short)? + nats_of(&looks.long)?)
 }
 
@@ -36,9 +37,7 @@ pub struct LinesNear {
 /// The lines along the best path near a speed. `None` without a band.
 pub(crate) fn lines_near(look: &Excess, speed_rev_s: f64, propeller: &OwnPropeller<'_>) -> Option<LinesNear> {
     let table = VoteTable::for_blades(propeller.blades);
-    let speeds_rev_s = path_near(look, &vec![speed_rev_s; look.frames.len()], NEAR, &table)?;
-    let noise = noise_level(look, &speeds_rev_s)?;
-    let levels = levels_of_orders(look, &speeds_rev_s, propeller.blades);
+    let PathNear { speeds_rev_s, levels, noise, levels_nats } = PathNear::of(look, speed_rev_s, propeller, &table)?;
     let votes: Vec<f64> = look
         .frames
         .iter()
@@ -48,11 +47,25 @@ pub(crate) fn lines_near(look: &Excess, speed_rev_s: f64, propeller: &OwnPropell
         })
         .map(f64::from)
         .collect();
-    Some(LinesNear {
-        speed_rev_s: mean(&speeds_rev_s)?,
-        votes_nats: median(&votes)?,
-        levels_nats: LevelModel::new(noise, propeller.blades, propeller.prior).evidence_nats(&levels),
-        levels,
-        noise,
-    })
+    Some(LinesNear { speed_rev_s: mean(&speeds_rev_s)?, votes_nats: median(&votes)?, levels, noise, levels_nats })
+}
+
+/// The best path near a speed, with the evidence along it.
+struct PathNear {
+    /// Speed in each frame.
+    speeds_rev_s: Vec<f64>,
+    levels: Vec<OrderLevel>,
+    noise: NoiseLevel,
+    levels_nats: f64,
+}
+
+impl PathNear {
+    /// `None` without a band.
+    fn of(look: &Excess, speed_rev_s: f64, propeller: &OwnPropeller<'_>, table: &VoteTable) -> Option<Self> {
+        let speeds_rev_s = path_near(look, &vec![speed_rev_s; look.frames.len()], NEAR, table)?;
+        let noise = noise_level(look, &speeds_rev_s)?;
+        let levels = levels_of_orders(look, &speeds_rev_s, propeller.blades);
+        let levels_nats = LevelModel::new(noise, propeller.blades, propeller.prior).evidence_nats(&levels);
+        Some(Self { speeds_rev_s, levels, noise, levels_nats })
+    }
 }

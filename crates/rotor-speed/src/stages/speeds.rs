@@ -24,8 +24,10 @@ pub(crate) fn speeds_from_decision(
     let order = config.tone.order;
     let weights = HarmonicWeights::from_ridges(&lines.ridges, &config.ridge, &mut warnings);
     let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, order)).collect();
-    let hover_s = hover.length_s();
-    let heard_by = HeardBy { weights: &weights, tracks: &tracks, lines: &lines, rotor_tracks: &rotor_tracks, hover_s };
+    let keeps_phase = lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
+    let one_line_count = config.rotors.count_of_one_line(keeps_phase);
+    let heard_by =
+        HeardBy { weights: &weights, tracks: &tracks, lines: &lines, rotor_tracks: &rotor_tracks, one_line_count };
     let speeds = heard_by.speeds_in(None, hover.length_s(), config);
     let window_s = lines.ridges.first().map_or(0.0, |ridge| ridge.window_s);
     if speeds.is_empty() {
@@ -40,7 +42,7 @@ pub(crate) fn speeds_from_decision(
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&lines.ridges, &speeds));
     let is_of_all = speeds.first().is_some_and(|speed| speed.method == Method::Separated);
-    if !is_of_all && heard_by.count_of_one_line(config) > config.rotors.count {
+    if !is_of_all && one_line_count > config.rotors.count {
         warnings.push(Warning::RotorCountUnknown { spread_share: config.budget.rotor_spread_share });
     }
     warnings.extend(warning_of_samples(&samples));
@@ -68,19 +70,15 @@ struct HeardBy<'a> {
     tracks: &'a [Track],
     lines: &'a Lines,
     rotor_tracks: &'a RotorTracks,
-    hover_s: f64,
+    /// Rotors for which one line may stand.
+    one_line_count: u32,
 }
 
 impl HeardBy<'_> {
-    /// Rotors for which one line may stand.
-    fn count_of_one_line(&self, config: &Config) -> u32 {
-        config.rotors.count_of_one_line(self.lines.harmonic.steady_share(self.hover_s) >= config.ridge.steady_share_min)
-    }
-
     /// The speed in a span of length `length_s`, or in the whole hover without a span: one estimate for each wanted method that has one.
     fn speeds_in(&self, span: Option<&Span>, length_s: f64, config: &Config) -> Vec<SpeedEstimate> {
         let order = config.tone.order;
-        let loudest_share = config.budget.loudest_rotor_share(self.count_of_one_line(config));
+        let loudest_share = config.budget.loudest_rotor_share(self.one_line_count);
         config
             .methods()
             .filter_map(|method| match self.tracks.iter().find(|track| track.method == method) {
