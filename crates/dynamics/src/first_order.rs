@@ -17,7 +17,7 @@ const FINE_SHARE: f64 = 1e-4;
 /// The scatter of the rise counts where its variance is larger by this factor: the 95 % point of χ² with 3 degrees of freedom, over 3. *Numeric.*
 const RISE_VARIANCE_RATIO: f64 = 2.6;
 /// Variance of an even distribution over its squared width. *Physics.*
-const EVEN_VARIANCE: f64 = 1.0 / 12.0;
+pub(crate) const EVEN_VARIANCE: f64 = 1.0 / 12.0;
 
 /// Where the start and the time constant are sought.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ pub(crate) fn first_order_from_rows(rows: &MotorSeries, range: FitRange) -> Opti
 }
 
 /// Share of the step that is done.
-fn response(time_s: f64, start_s: f64, time_constant_s: f64) -> f64 {
+pub(crate) fn response(time_s: f64, start_s: f64, time_constant_s: f64) -> f64 {
     if time_s > start_s { 1.0 - (-(time_s - start_s) / time_constant_s).exp() } else { 0.0 }
 }
 

@@ -1,7 +1,7 @@
 //! A step and what it can tell.
 
 use crate::config::MotorConfig;
-use crate::first_order::{FirstOrderFit, FitRange, first_order_from_rows};
+use crate::first_order::{EVEN_VARIANCE, FirstOrderFit, FitRange, first_order_from_rows, response};
 use crate::plateaus::Plateau;
 use crate::search::Interval;
 use crate::series::MotorSeries;
@@ -18,8 +18,6 @@ const TIME_CONSTANT_INTERVALS_MIN: f64 = 0.2;
 const TIME_CONSTANT_STD_SHARE_MAX: f64 = 0.5;
 /// A motor below this share of its largest speed is at rest. *Decision.*
 const REST_SHARE: f64 = 0.02;
-/// Variance of an even distribution over its squared width. *Physics.*
-const EVEN_VARIANCE: f64 = 1.0 / 12.0;
 
 /// What a step can tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,8 +65,7 @@ impl MotorStep {
 
     /// The speed of the fitted curve at a time; `None` without a time constant.
     pub fn speed_rev_s_at(&self, time_s: f64) -> Option<f64> {
-        let time_constant_s = self.time_constant_s?.value;
-        let done = 1.0 - (-(time_s - self.time_s.value).max(0.0) / time_constant_s).exp();
+        let done = response(time_s, self.time_s.value, self.time_constant_s?.value);
         Some(self.speed_from_rev_s + (self.speed_to_rev_s - self.speed_from_rev_s) * done)
     }
 }
