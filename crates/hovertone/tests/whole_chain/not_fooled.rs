@@ -1,9 +1,10 @@
 //! What is no rotor is not answered with a speed, alone; beside a rotor it does not change the answer.
 use crate::testkit::not_rotors::{Dice, KINDS, Kind};
-use crate::testkit::{SAMPLE_RATE_HZ, analyse, config, recording, rotor, sound, tone};
+use crate::testkit::{SAMPLE_RATE_HZ, analyse, config, hears_nothing, recording, rotor, sound, tone};
 use hovertone::sound::Signal;
 use hovertone::speed::{Config, NoTone, Outcome, ToneConfig, speed_from_source};
 use hovertone_vehicle::presets;
+use std::f64::consts::TAU;
 
 /// Every way in which a user can say which tone: blades, a gear, both, a vehicle.
 fn asked() -> Vec<(String, Config)> {
@@ -178,6 +179,19 @@ fn damage_to_the_recording_does_not_change_the_speed() {
             let got = tone(&analyse(samples, &config(2.0))).speeds[0].speed.rev_s();
             assert!((got / truth - 1.0).abs() < 2e-3, "{name}, seed {seed}: {got}, {truth}");
         }
+    }
+}
+
+/// A pure tone that was rounded to 16 bits has lines of rounding at multiples of 100 Hz, as a rotor has.
+#[test]
+fn the_rounding_of_a_pure_tone_is_no_rotor() {
+    let mut config = config(2.0);
+    config.tone.blades = Some(2);
+    for (hz, steps) in [(1000.0, 3276.7), (2000.0, 3276.7), (1000.0, 655.0), (440.0 * 3.0, 3276.7)] {
+        let sine = |n: u32| (steps * (TAU * (hz * f64::from(n) / SAMPLE_RATE_HZ).fract()).sin()).round() / 32_768.0;
+        let samples: Vec<f32> = (0..6 * 44_100).map(|n| sine(n) as f32).collect();
+        let analysis = analyse(samples, &config);
+        assert!(hears_nothing(&analysis), "{hz} Hz, {steps} steps: {:?}", analysis.outcome);
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::floor::Floor;
 use super::level_table::{Level, LevelTable};
+use super::rounding::Rounding;
 use hovertone_signal::spectrogram::{Stft, Window};
 use hovertone_signal::statistics::median;
 use std::f64::consts::{LN_2, PI};
@@ -112,6 +113,7 @@ pub(crate) struct ExcessBuilder {
     /// Sections from one that is kept to the next.
     stride: usize,
     sections: Vec<Section>,
+    rounding: Rounding,
 }
 
 struct Section {
@@ -122,7 +124,7 @@ struct Section {
 impl ExcessBuilder {
     /// Sections of a recording that starts at `start_s`.
     pub(crate) fn new(sample_rate_hz: f64, start_s: f64) -> Self {
-        Self { start_s, sample_rate_hz, samples: 0, stride: 1, sections: Vec::new() }
+        Self { start_s, sample_rate_hz, samples: 0, stride: 1, sections: Vec::new(), rounding: Rounding::default() }
     }
 
     fn section_samples(&self) -> usize {
@@ -143,6 +145,7 @@ impl ExcessBuilder {
     }
 
     fn keep(&mut self, index: usize, samples: &[f32]) {
+        self.rounding.take(samples);
         match self.sections.last_mut().filter(|section| section.index == index) {
             Some(section) => section.samples.extend_from_slice(samples),
             None => self.sections.push(Section { index, samples: samples.to_vec() }),
@@ -157,8 +160,8 @@ impl ExcessBuilder {
     /// The sections in frames of both lengths. Each section is freed once it is in frames.
     pub(crate) fn finish(self) -> Looks {
         let section_samples = self.section_samples();
-        let mut short = Frames::new(self.sample_rate_hz, SHORT_S, HOP_S);
-        let mut long = Frames::new(self.sample_rate_hz, LONG_S, f64::from(LONG_HOPS) * HOP_S);
+        let mut short = Frames::new(self.sample_rate_hz, SHORT_S, HOP_S, self.rounding);
+        let mut long = Frames::new(self.sample_rate_hz, LONG_S, f64::from(LONG_HOPS) * HOP_S, self.rounding);
         let mut next = None;
         for Section { index, samples } in self.sections {
             let start_s = self.start_s + (index * section_samples) as f64 / self.sample_rate_hz;
@@ -177,16 +180,19 @@ struct Frames {
     /// Number of bins in the band.
     bins: usize,
     floor: Floor,
+    /// Power of a line that rounding makes.
+    rounding_power: f64,
     levels: LevelTable,
     frames: Vec<ExcessFrame>,
 }
 
 impl Frames {
-    fn new(sample_rate_hz: f64, frame_s: f64, hop_s: f64) -> Self {
+    fn new(sample_rate_hz: f64, frame_s: f64, hop_s: f64, rounding: Rounding) -> Self {
         let stft = Stft::<f32>::new(sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         Self {
             bins: (HZ_MAX.min(RATE_SHARE_MAX * sample_rate_hz) / stft.bin_hz()) as usize,
             floor: Floor::of_bins(stft.bin_hz()),
+            rounding_power: rounding.line_power(),
             levels: LevelTable::new(),
             frames: Vec::new(),
             stft,
@@ -195,13 +201,14 @@ impl Frames {
 
     /// Takes in a section. Where it does not follow the last one, its start is given.
     fn push(&mut self, samples: &[f32], start_s: Option<f64>) {
-        let Self { stft, bins, floor, levels, frames } = self;
+        let Self { stft, bins, floor, rounding_power, levels, frames } = self;
         if let Some(start_s) = start_s {
             stft.restart(start_s);
         }
         stft.push(samples, |frame| {
             let mean_power = frame.power.iter().sum::<f64>() / frame.power.len() as f64;
-            let excess = over_floor(&frame.power[..frame.power.len().min(*bins)], floor, mean_power);
+            let added = (ADDED_NOISE_SHARE * mean_power).max(*rounding_power);
+            let excess = over_floor(&frame.power[..frame.power.len().min(*bins)], floor, added);
             let levels = excess.into_iter().map(|excess| levels.of(excess)).collect();
             frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
         });
@@ -218,9 +225,9 @@ impl Frames {
     }
 }
 
-/// Power over the floor. A skirt or a side lobe of a line counts as noise at most.
-fn over_floor(power: &[f64], floor: &mut Floor, mean_power: f64) -> Vec<f64> {
-    let added = (ADDED_NOISE_SHARE * mean_power).max(f64::MIN_POSITIVE);
+/// Power over the floor, with noise added to both. A skirt or a side lobe of a line counts as noise at most.
+fn over_floor(power: &[f64], floor: &mut Floor, added: f64) -> Vec<f64> {
+    let added = added.max(f64::MIN_POSITIVE);
     // the median of noise is ln 2 of its mean
     let floors = floor.of(power);
     let over = |(power, floor): (&f64, f64)| (power + added) / (floor / LN_2 + added);

@@ -35,6 +35,7 @@ mod levels;
 mod near_speed;
 mod own_lines;
 mod path;
+mod rounding;
 mod search;
 mod second_look;
 mod settings;
