@@ -7,39 +7,62 @@ use std::collections::BTreeSet;
 const STRETCHES_MAX: usize = 6;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
+const EDGE: &str = "edge of the hover";
+
+/// A stretch of cuts that follow each other, with the time that each reason cuts of it. A hover's edge belongs to the stretch beside it.
+struct Stretch {
+    span: Span,
+    reasons: Vec<(&'static str, f64)>,
+}
 
 /// "4.4 s each: handling noise, silence": the sum and the reasons, by which recordings are alike; `None` where nothing was cut.
 pub(crate) fn cut_in_short(cuts: &[Cut]) -> Option<String> {
     let stretches = joined(cuts);
-    let reasons: BTreeSet<&str> = stretches.iter().map(|(_, reason)| in_words(*reason)).collect();
-    let sum_s: f64 = stretches.iter().map(|(span, _)| span.length_s()).sum();
+    let reasons: BTreeSet<&str> = stretches.iter().flat_map(Stretch::names).collect();
+    let sum_s: f64 = stretches.iter().map(|stretch| stretch.span.length_s()).sum();
     let reasons = reasons.into_iter().collect::<Vec<_>>().join(", ");
     (!stretches.is_empty()).then(|| format!("{sum_s:.1} s each: {reasons}"))
 }
 
-/// "0.0–1.6 s (silence), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
+/// "0.0–1.6 s (silence, edge of the hover), 6.2–7.0 s (handling noise)"; `None` where nothing was cut.
 pub fn cuts_in_words(cuts: &[Cut]) -> Option<String> {
     let stretches = joined(cuts);
     if stretches.is_empty() {
         return None;
     }
     if stretches.len() <= STRETCHES_MAX {
-        let words: Vec<String> = stretches
-            .iter()
-            .map(|(span, reason)| format!("{:.1}–{:.1} s ({})", span.from_s, span.to_s, in_words(*reason)))
-            .collect();
-        return Some(words.join(", "));
+        return Some(stretches.iter().map(Stretch::in_words).collect::<Vec<_>>().join(", "));
     }
-    let mut sums: Vec<(&str, f64)> = Vec::new();
-    for (span, reason) in &stretches {
-        let words = in_words(*reason);
-        match sums.iter_mut().find(|(known, _)| *known == words) {
-            Some((_, sum_s)) => *sum_s += span.length_s(),
-            None => sums.push((words, span.length_s())),
-        }
+    let mut sums = Vec::new();
+    for (reason, length_s) in stretches.iter().flat_map(|stretch| &stretch.reasons) {
+        add(&mut sums, reason, *length_s);
     }
-    let words: Vec<String> = sums.iter().map(|(words, sum_s)| format!("{sum_s:.1} s {words}")).collect();
+    let words: Vec<String> = sums.iter().map(|(reason, sum_s)| format!("{sum_s:.1} s {reason}")).collect();
     Some(format!("{} stretches: {}", stretches.len(), words.join(", ")))
+}
+
+impl Stretch {
+    fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.reasons.iter().map(|(reason, _)| *reason)
+    }
+
+    fn in_words(&self) -> String {
+        let reasons: Vec<&str> = self.names().collect();
+        format!("{:.1}–{:.1} s ({})", self.span.from_s, self.span.to_s, reasons.join(", "))
+    }
+
+    /// Whether a cut that follows belongs to this stretch.
+    fn takes(&self, reason: &'static str) -> bool {
+        self.names().all(|known| known == EDGE) || reason == EDGE || self.names().any(|known| known == reason)
+    }
+}
+
+/// Adds a time to that of its reason.
+fn add(sums: &mut Vec<(&'static str, f64)>, reason: &'static str, length_s: f64) {
+    match sums.iter_mut().find(|(known, _)| *known == reason) {
+        Some((_, sum_s)) => *sum_s += length_s,
+        None => sums.push((reason, length_s)),
+    }
 }
 
 fn in_words(reason: CutReason) -> &'static str {
@@ -51,35 +74,32 @@ fn in_words(reason: CutReason) -> &'static str {
         CutReason::Landing => "landing",
         CutReason::Manoeuvre => "manoeuvre",
         CutReason::NoTone => "no rotor heard",
-        CutReason::Edge => "edge of the hover",
+        CutReason::Edge => EDGE,
         CutReason::TooShort => "too short to use",
         _ => "not hover",
     }
 }
 
-/// Cuts in order of time. Adjacent cuts with equal reasons are merged, and the edge of a hover is merged with its neighbour.
-fn joined(cuts: &[Cut]) -> Vec<(Span, CutReason)> {
+/// Cuts in order of time, without what overlaps.
+fn joined(cuts: &[Cut]) -> Vec<Stretch> {
     let mut cuts: Vec<&Cut> = cuts.iter().collect();
     cuts.sort_by(|a, b| a.span.from_s.total_cmp(&b.span.from_s));
-    let mut stretches: Vec<(Span, CutReason)> = Vec::new();
+    let mut stretches: Vec<Stretch> = Vec::new();
     for cut in cuts {
-        let is_edge = |reason: CutReason| reason == CutReason::Edge;
-        match stretches.last_mut() {
-            Some((span, reason))
-                if cut.span.from_s - span.to_s < TOUCHING_S
-                    && (in_words(*reason) == in_words(cut.reason) || is_edge(*reason) || is_edge(cut.reason)) =>
-            {
-                span.to_s = cut.span.to_s;
-                if is_edge(*reason) {
-                    *reason = cut.reason;
-                }
+        let reason = in_words(cut.reason);
+        // frames of the survey overlap the next cut: time that is already listed is skipped
+        let listed_s = stretches.last().map_or(f64::NEG_INFINITY, |before| before.span.to_s);
+        let span = Span { from_s: cut.span.from_s.max(listed_s), to_s: cut.span.to_s.max(listed_s) };
+        let is_within = span.length_s() <= 0.0;
+        let last = stretches
+            .last_mut()
+            .filter(|before| span.from_s - before.span.to_s < TOUCHING_S && (is_within || before.takes(reason)));
+        match last {
+            Some(before) => {
+                before.span.to_s = span.to_s;
+                add(&mut before.reasons, reason, span.length_s());
             }
-            // frames of the survey overlap the next cut: time that is already listed is skipped
-            Some((before, _)) => {
-                let span = Span { from_s: cut.span.from_s.max(before.to_s), ..cut.span };
-                stretches.push((span, cut.reason));
-            }
-            None => stretches.push((cut.span, cut.reason)),
+            None => stretches.push(Stretch { span, reasons: vec![(reason, span.length_s())] }),
         }
     }
     stretches
@@ -102,7 +122,7 @@ mod tests {
             cut(9.0, 9.5, CutReason::Edge),
             cut(10.0, 11.0, CutReason::OtherSpeed { speed_rev_s: 9.0 }),
         ];
-        let expected = "0.0–1.5 s (silence), 9.0–11.0 s (another speed)";
+        let expected = "0.0–1.5 s (silence, edge of the hover), 9.0–11.0 s (edge of the hover, another speed)";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
         assert_eq!(cuts_in_words(&[]), None);
     }
@@ -111,6 +131,18 @@ mod tests {
     fn cuts_do_not_overlap() {
         let cuts = [cut(0.0, 0.6, CutReason::TooShort), cut(0.5, 2.1, CutReason::NoTone)];
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some("0.0–0.6 s (too short to use), 0.6–2.1 s (no rotor heard)"));
+    }
+
+    #[test]
+    fn a_stretch_with_two_reasons_names_both() {
+        let cuts = [cut(0.0, 2.0, CutReason::Silence), cut(0.5, 1.5, CutReason::NoTone)];
+        assert_eq!(cuts_in_words(&cuts).as_deref(), Some("0.0–2.0 s (silence, no rotor heard)"));
+        assert_eq!(cut_in_short(&cuts).as_deref(), Some("2.0 s each: no rotor heard, silence"));
+        // the edge between two stretches belongs to the first
+        let cuts =
+            [cut(0.0, 2.0, CutReason::Silence), cut(2.0, 2.5, CutReason::Edge), cut(2.5, 3.0, CutReason::Manoeuvre)];
+        let expected = "0.0–2.5 s (silence, edge of the hover), 2.5–3.0 s (manoeuvre)";
+        assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
     }
 
     #[test]
