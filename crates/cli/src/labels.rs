@@ -11,7 +11,7 @@ use hovertone::rotors::{
 };
 use hovertone::speed::TrackPoint;
 use hovertone_logs::{ColumnNames, LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
-use hovertone_report::Notice;
+use hovertone_report::{Notice, SpeedRecord};
 use hovertone_vehicle::{Layout, RotorPlace, RotorSpeed, Vehicle};
 use std::path::Path;
 
@@ -145,6 +145,14 @@ fn places_of(layout: Option<FrameLayout>, vehicle: Option<&Vehicle>) -> Option<[
         FrameLayout::Plus => Layout::Plus,
     });
     Some(layout.or_else(known)?.places(1.0))
+}
+
+/// Says of a recording that no rotor is named, where its shaft speed is ambiguous.
+pub(crate) fn note_if_ambiguous(record: &mut SpeedRecord) {
+    if record.is_ambiguous() {
+        let hint = "settle the shaft speed first: the line \"ambiguous\" says how";
+        record.notices.push(Notice::new("no rotor is named: the shaft speed is ambiguous", hint));
+    }
 }
 
 /// Labels the rotors of a recording, with a notice where a label is missing.

@@ -3,7 +3,7 @@
 use crate::args::SpeedArguments;
 use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
-use crate::labels::{LabelPlan, label};
+use crate::labels::{LabelPlan, label, note_if_ambiguous};
 use crate::microphones::{ArrayPlan, label_all};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
@@ -30,6 +30,9 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
     let mut heard = hear_all(&plan.jobs, plan.hearing, &progress);
     progress.finish();
+    if plan.labels.is_some() || plan.microphones.is_some() {
+        heard.iter_mut().for_each(|heard| note_if_ambiguous(&mut heard.record));
+    }
     if let Some(labels) = &plan.labels {
         heard.iter_mut().for_each(|heard| label(heard, labels));
     }

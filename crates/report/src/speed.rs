@@ -7,7 +7,7 @@ use crate::printable::{printable, shared_folder};
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
-use crate::tones::{ReadingLine, percent};
+use crate::tones::{ReadingLine, meanings_of, percent};
 use crate::version::VERSION;
 use hovertone_analysis::{
     Hover, LabelSource, Method, Reading, RotorCondition, RotorEstimate, RotorLabel, RotorsHeard, ShaftLine, Span,
@@ -46,7 +46,10 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
             None if record.has_failed() => table.push_words(name(record), "could not be heard".to_owned()),
             None if record.is_ambiguous() => {
                 table.push_words(name(record), "a rotor tone that can mean:".to_owned());
-                record.alternatives().iter().for_each(|reading| table.push(cells_of_reading(record, reading)));
+                let readings = record.alternatives();
+                for (reading, meaning) in readings.iter().zip(meanings_of(readings)) {
+                    table.push(cells_of_reading(record, reading, &meaning));
+                }
             }
             None => table.push_words(name(record), "no rotor tone".to_owned()),
         }
@@ -83,9 +86,9 @@ fn cell_of_span(record: &SpeedRecord) -> String {
 }
 
 /// One of several readings; its plausibility stands in the column of the uncertainty.
-fn cells_of_reading(record: &SpeedRecord, reading: &Reading) -> Vec<String> {
+fn cells_of_reading(record: &SpeedRecord, reading: &Reading, meaning: &str) -> Vec<String> {
     vec![
-        format!("  {}? ({} %)", reading.meaning, percent(reading.plausibility)),
+        format!("  {meaning}? ({} %)", percent(reading.plausibility)),
         significant(reading.tone_hz, DIGITS_OF_READINGS),
         significant(reading.speed.rev_s(), DIGITS_OF_READINGS),
         DASH.to_owned(),

@@ -130,6 +130,15 @@ fn numbers_in_words(harmonics: &[SeenHarmonic]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
+/// The meaning of each reading in words. Where two readings have the same, each has the frequency of its tone too.
+pub(crate) fn meanings_of(readings: &[Reading]) -> Vec<String> {
+    let words: Vec<String> = readings.iter().map(|reading| reading.meaning.to_string()).collect();
+    let is_twice = |word: &String| words.iter().filter(|other| *other == word).count() > 1;
+    let of_tone = |reading: &Reading| format!(", tone of {} Hz", significant(reading.tone_hz, DIGITS));
+    let named = readings.iter().zip(&words);
+    named.map(|(reading, word)| if is_twice(word) { word.clone() + &of_tone(reading) } else { word.clone() }).collect()
+}
+
 /// Plausibility in per cent; a dash for an excluded reading.
 pub(crate) fn percent(plausibility: f64) -> String {
     match plausibility {
@@ -162,9 +171,9 @@ fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
     columns.extend(has_coefficient.then(|| Column::numbers("C_T", "")));
     columns.extend([Column::numbers("plausible", "%"), Column::words("because")]);
     let mut table = TextTable::new(columns);
-    for reading in readings {
+    for (reading, meaning) in readings.iter().zip(meanings_of(readings)) {
         let mut cells = vec![
-            reading.meaning.to_string(),
+            meaning,
             reading.order.to_string(),
             significant(reading.tone_hz, digits),
             significant(reading.speed.rev_s(), digits),
@@ -187,7 +196,7 @@ fn readings_in_a_line(readings: &[Reading]) -> String {
     let possible = readings.iter().filter(|reading| reading.plausibility > 0.0);
     let words: Vec<String> = possible
         .filter(|reading| !matches!(reading.meaning, Meaning::ShaftLines { .. }) || reading.plausibility > 0.1)
-        .map(|reading| format!("{} {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
+        .map(|reading| format!("{}: {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
         .collect();
     match words.is_empty() {
         true => format!("{INDENT}no rotor turns like that\n"),
@@ -259,4 +268,30 @@ pub fn tones_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
         settings: &record.settings,
         version: VERSION,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hovertone_vehicle::RotorSpeed;
+
+    #[test]
+    fn readings_with_one_meaning_are_told_by_their_tones() {
+        let reading = |blades: u32, tone_hz: f64| {
+            let speed = RotorSpeed::from_rev_s(tone_hz / f64::from(blades));
+            Reading {
+                order: Order::from_blades(blades).unwrap(),
+                tone_hz,
+                meaning: Meaning::BladePass { blades },
+                speed,
+                motor_speed: speed,
+                tip_mach: None,
+                thrust_coefficient: None,
+                plausibility: 0.3,
+                why: String::new(),
+            }
+        };
+        let named = meanings_of(&[reading(2, 404.0), reading(2, 201.8), reading(3, 201.8)]);
+        assert_eq!(named, ["2 blades, tone of 404.0 Hz", "2 blades, tone of 201.8 Hz", "3 blades"]);
+    }
 }

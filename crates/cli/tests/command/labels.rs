@@ -1,6 +1,6 @@
 //! Which rotor is which: `hovertone speed --log` and `--spin-up`.
 
-use crate::testkit::{hovertone, refused_with, text};
+use crate::testkit::{hovertone, recordings, refused_with, text};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -149,4 +149,19 @@ fn an_order_of_starts_names_every_rotor_once() {
     let line = hovertone(&run).ends_with(3).json_lines().remove(0);
     assert_eq!(line["labels"]["source"], "spin_up");
     assert!(line["labels"]["reason"].is_string() && line["rotors"][0]["label"].is_null(), "{}", line["labels"]);
+}
+
+/// Where the shaft speed is ambiguous, there is nothing to name, and one line says so.
+#[test]
+fn without_a_settled_speed_no_rotor_is_named() {
+    let Some(real) = recordings("small-multirotors") else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (log, sound) = (folder.path().join("log.csv"), real.join("DRONE_002.wav"));
+    fs::write(&log, "time_s,motor1_pwm,motor2_pwm,motor3_pwm,motor4_pwm\n0,1,2,3,4\n9,2,3,4,1\n").unwrap();
+    for more in [["--log", text(&log)], ["--spin-up", "1,2,3,4"]] {
+        let run = hovertone(&[&["speed", text(&sound), "--rotors", "4"], &more[..]].concat()).ends_with(3);
+        assert!(run.stdout.contains("a rotor tone that can mean:"), "{}", run.stdout);
+        let said = "warning: no rotor is named: the shaft speed is ambiguous (hint: ";
+        assert_eq!(run.stderr.matches(said).count(), 1, "{}", run.stderr);
+    }
 }
