@@ -188,7 +188,7 @@ impl NotTold {
             Self::OffsetAtLimit { .. } => "widen --log-offset-s LOW:HIGH",
             Self::StartedTogether { .. } => "start one motor after the other, a second or more apart",
             Self::NotFollowed { .. } => {
-                "bring each motor straight to the speed of the hover, wait a second before the next, and record from before the first"
+                "start the recording first; then bring one motor after the other straight to the speed of the hover, a second apart"
             }
             Self::OtherSpeedBefore { .. } => {
                 "bring each motor straight to the speed of the hover: idling is not followed"
@@ -219,13 +219,13 @@ impl fmt::Display for NotTold {
         match self {
             Self::OtherCount { rotors, of_log } => write!(f, "{rotors} rotors turn, and the log is of {of_log}"),
             Self::TooManyRotors { rotors } => {
-                write!(f, "{rotors} rotors have too many assignments; up to {} can be told", LABELLED_ROTORS_MAX)
+                write!(f, "{rotors} rotors are too many to be named; the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
                 write!(f, "too few rotors are separated: {tracks}, needed: {needed}")
             }
             Self::TooManyOffsets { low_s, high_s } => {
-                write!(f, "the log could be anywhere from {low_s:.0} to {high_s:.0} s off the recording")
+                write!(f, "the offset of the log can be anything from {low_s:.0} to {high_s:.0} s")
             }
             Self::NoOverlap => f.write_str("the log and the hover share too little time"),
             Self::NothingInCommon { probability } => {
@@ -235,13 +235,13 @@ impl fmt::Display for NotTold {
                 write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of the tried offsets")
             }
             Self::StartedTogether { apart_s } => {
-                write!(f, "two rotors begin within {:.1} s of each other", apart_s.max(0.1))
+                write!(f, "two rotors start within {:.1} s of each other", apart_s.max(0.1))
             }
             Self::NotFollowed { tracks } => {
-                write!(f, "{tracks} of the rotors cannot be followed from the hover back to where they begin")
+                write!(f, "{tracks} of the rotors cannot be followed from the hover back to their start")
             }
             Self::OtherSpeedBefore { speed_rev_s } => {
-                write!(f, "before a rotor is heard as in the hover something turns at {speed_rev_s:.1} rev/s")
+                write!(f, "before a rotor reaches the speed of the hover, something turns at {speed_rev_s:.1} rev/s")
             }
             Self::RotorsTooClose { apart_rev_s } => {
                 write!(
@@ -252,7 +252,7 @@ impl fmt::Display for NotTold {
             Self::SpinUpTooLong { before_hover_s } => {
                 write!(f, "the hover begins {before_hover_s:.0} s after the recording, too long to be followed")
             }
-            Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors several labels fit the log"),
+            Self::SeveralFit { tracks } => write!(f, "several labels fit the log, for {tracks} of the rotors"),
             Self::OtherChannels { channels, microphones } => {
                 write!(f, "channels of the recording: {channels}, microphones with a position: {microphones}")
             }
@@ -266,7 +266,7 @@ impl fmt::Display for NotTold {
                 write!(f, "levels and delays do not fit these positions (probability {probability:.2})")
             }
             Self::SeveralPlacesFit { tracks } => {
-                write!(f, "for {tracks} of the rotors levels and delays fit several places")
+                write!(f, "levels and delays fit several places, for {tracks} of the rotors")
             }
         }
     }

@@ -84,30 +84,32 @@ impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutsideRecording => f.write_str("the recording has nothing between the times asked for"),
-            Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s are too short to hear a rotor in"),
+            Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor"),
             Self::Silence => f.write_str("nothing sounds"),
             Self::NoSeries => f.write_str("nothing resembles the lines of a rotor"),
             Self::NoHover => f.write_str("no stretch holds a steady tone for long enough"),
             Self::NoFrame { window_s, hover_s } => {
-                write!(f, "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; ask for shorter frames")
+                write!(
+                    f,
+                    "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; give shorter frames with --window-s"
+                )
             }
             Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, is a line in {:.0} % of its frames, but these are too few to prove that a \
-                 rotor's would be one in more than {:.0} %; let it hear a longer hover",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in {:.0} % of its frames; a rotor stands out in more than {:.0} %, \
+                 but the frames are too few to prove it; give a longer hover",
                 100.0 * line_share,
                 100.0 * line_share_min
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, is a line in {} of its frames; a rotor is one in clearly \
-                 more than {:.0} %",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in only {} of its frames; a rotor stands out in more than {:.0} %",
                 percent_in_words(*line_share),
                 100.0 * line_share_min
             ),
             Self::MainsHum { mains_hz } => write!(
                 f,
-                "what sounds is mains hum, lines at multiples of {mains_hz:.2} Hz that do not move, and no rotor is heard beside it"
+                "the sound is mains hum: lines at multiples of {mains_hz:.2} Hz that do not move; no rotor is heard beside it"
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
@@ -116,8 +118,8 @@ impl fmt::Display for NoTone {
             ),
             Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
                 f,
-                "lines {fundamental_hz:.1} Hz apart are heard that a rotor with its tone near {tone_hz:.0} Hz cannot make: a slower \
-                 rotor, an engine or an instrument; check the blades or the gear"
+                "there are lines {fundamental_hz:.1} Hz apart, which a rotor with its tone near {tone_hz:.0} Hz cannot make: they are of a \
+                 slower rotor, an engine or an instrument; check the blades or the gear"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
@@ -126,13 +128,11 @@ impl fmt::Display for NoTone {
             ),
             Self::SlowerShaft { line_count, .. } => write!(
                 f,
-                "a weak steady tone, but {line_count} lines sound between those that the rotor can make: the shaft turns more \
-                 slowly than they say"
+                "the tone is weak, and {line_count} lines sound between the lines that this rotor can make: a slower shaft makes them"
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, is a line in only {} of its frames and none of its \
-                 harmonics is heard",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in only {} of its frames, and none of its harmonics is heard",
                 percent_in_words(*line_share)
             ),
         }

@@ -131,7 +131,11 @@ impl fmt::Display for Warning {
                 write!(f, "the recording holds nothing above {:.1} kHz: a codec or the recorder cut it", above_hz / 1e3)
             }
             Self::FewHarmonicsAgree { used, of } => {
-                write!(f, "only {used} of {of} harmonics agree, or the first is not among them")
+                if 2 * used < *of {
+                    write!(f, "only {used} of {of} harmonics agree")
+                } else {
+                    f.write_str("the first harmonic does not agree with the others")
+                }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
                 write!(f, "another steady speed, {speed_rev_s:.1} rev/s, is heard from {from_s:.1} s to {to_s:.1} s")
@@ -157,7 +161,7 @@ impl fmt::Display for Warning {
                 100.0 * spread_share
             ),
             Self::SeveralLines { spread_share } => {
-                write!(f, "the ridge spreads over {:.1} % of the speed", 100.0 * spread_share)
+                write!(f, "the spread of the ridge is {:.1} % of the speed", 100.0 * spread_share)
             }
         }
     }

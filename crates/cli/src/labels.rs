@@ -94,13 +94,13 @@ fn logs_of(
             _ if !logs.is_empty() => {}
             (None, _) => {
                 return Err(Failure::usage(
-                    "the log has body rates, and it is not said how their axes point: front and rear would be a guess",
+                    "the log has body rates, and the direction of their axes is not known: front and rear could be swapped",
                     "give --log-axes flu (x forward, y left, z up) or frd (y right, z down: PX4, ArduPilot)",
                 ));
             }
             (_, None) => {
                 return Err(Failure::usage(
-                    "the log has body rates, and it is not said where the rotors stand",
+                    "the log has body rates, and the places of the rotors are not known",
                     "give --layout x or plus, or a vehicle whose layout is known (`hovertone vehicles`)",
                 ));
             }

@@ -78,7 +78,7 @@ pub(crate) fn resolve(
     let given: Vec<PlacedRotor> = given.collect();
     let Some(places) = Some(given).filter(|given| !given.is_empty()).or_else(|| places_of(vehicle?)) else {
         return Err(refused(
-            "it is not said where the rotors stand".to_owned(),
+            "the places of the rotors are not known".to_owned(),
             "add a [[rotor]] with name and position_m for each, or give --vehicle with one whose frame is known (`hovertone vehicles`)",
         ));
     };
@@ -92,7 +92,7 @@ pub(crate) fn resolve(
         refused(error.to_string(), hint)
     })?;
     if array.rotor_count() != rotors as usize {
-        let what = format!("{rotors} rotors turn, and {} have a place", array.rotor_count());
+        let what = format!("rotors that turn: {rotors}, rotors with a place: {}", array.rotor_count());
         return Err(refused(what, "give their number with --rotors, and the place of each"));
     }
     for job in jobs {
@@ -157,7 +157,7 @@ fn label(heard: &mut Heard, path: &Path, plan: &ArrayPlan, share: &mut Share<'_>
         match lines {
             Ok(lines) => channel_lines.push(lines),
             Err(error) => {
-                let text = format!("which rotor is which is not told: channel {channel} could not be heard: {error}");
+                let text = format!("no rotor is named: channel {channel} could not be heard: {error}");
                 record.notices.push(Notice::new(text, "check the file"));
                 return;
             }

@@ -142,10 +142,10 @@ impl ThrustWarning {
                 "keep height and place, fly the loads in a random sequence, each with an equally full battery"
             }
             Self::ImplausibleThrustCoefficient { .. } => {
-                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
+                "the range is 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
             }
             Self::ImplausibleFigureOfMerit { .. } => {
-                "rotors have 0.05 to 0.85: check the power (all running rotors together), its unit, and the diameter"
+                "the range is 0.05 to 0.85: check the power (all running rotors together), its unit, and the diameter"
             }
             Self::UncertaintiesIncomplete { .. } => "state one in every row, or in none",
             Self::MassNotWeighed { .. } => {
@@ -225,12 +225,12 @@ impl fmt::Display for ThrustWarning {
                 match range.force_ratio_needed {
                     Some(needed) => write!(
                         f,
-                        "the largest force is only {:.2} times the smallest, which leaves an intercept open to {open}; {needed:.1} times would do",
+                        "the largest force is only {:.2} times the smallest, so that an intercept within {open} would not show; {needed:.1} times is enough",
                         range.force_ratio
                     ),
                     None => write!(
                         f,
-                        "the forces scatter too much to show an intercept, which is open to {open}; a wider range of loads would not do"
+                        "the forces scatter so much that an intercept within {open} would not show; a wider range of loads would not help"
                     ),
                 }
             }
@@ -239,10 +239,10 @@ impl fmt::Display for ThrustWarning {
             }
             Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {
-                write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside of what propellers have")
+                write!(f, "a thrust coefficient T/(ρ n² D⁴) of {propeller:.3} is outside the range of propellers")
             }
             Self::ImplausibleFigureOfMerit { name, figure_of_merit } => {
-                write!(f, "a figure of merit of {figure_of_merit:.3} (\"{name}\") is outside of what rotors have")
+                write!(f, "a figure of merit of {figure_of_merit:.3} (\"{name}\") is outside the range of rotors")
             }
             Self::UncertaintiesIncomplete { stated, of } => {
                 write!(f, "only {stated} of {of} rows have an uncertainty above 0: all forces are taken as equally uncertain")

@@ -40,7 +40,7 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let vehicles: Vec<&Table> =
         file.values().filter_map(Value::as_table).filter(|vehicle| vehicle.contains_key("rpm2thrust")).collect();
     let [vehicle] = vehicles[..] else {
-        return Err(broken(format!("{} vehicles have rpm2thrust; leave the one that is meant", vehicles.len())));
+        return Err(broken(format!("{} vehicles have rpm2thrust; keep only the one that you mean", vehicles.len())));
     };
     let number = |value: &Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
     let polynomial = |name: &str| -> Option<[f64; 3]> {

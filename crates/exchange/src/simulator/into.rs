@@ -118,7 +118,7 @@ pub fn updated_model(text: &str, rotor: &IdentifiedRotor) -> Result<UpdatedModel
     let text_after = edited(text, &edits);
     let after = model_from_text(&text_after)?;
     if (after.thrust_constant_n_s2 / thrust.n_s2() - 1.0).abs() > TOLERANCE {
-        let reason = "its constant stands where it was not found".to_owned();
+        let reason = "the place of its constant was not found".to_owned();
         return Err(ModelError::Broken { format: "a model that can be changed", reason });
     }
     Ok(UpdatedModel { format, changes: changed_lines(text, &text_after), text: text_after })

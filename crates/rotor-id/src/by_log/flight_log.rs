@@ -47,7 +47,7 @@ pub enum MotorSignal {
 #[non_exhaustive]
 pub enum LogError {
     /// Series of different lengths.
-    #[error("a series of {length} values beside {times} times")]
+    #[error("a signal has {length} values, and the log has {times} times")]
     UnequalLengths {
         /// Length of the series.
         length: usize,
@@ -55,7 +55,7 @@ pub enum LogError {
         times: usize,
     },
     /// Names for another number of motors than there are series.
-    #[error("{names} names for {series} motors")]
+    #[error("{names} names are given for {series} motors")]
     UnequalNames {
         /// Number of names.
         names: usize,
@@ -63,7 +63,7 @@ pub enum LogError {
         series: usize,
     },
     /// Times that do not increase.
-    #[error("row {row} is at {time_s} s, no later than the one before it")]
+    #[error("row {row} has the time {time_s} s, which is not after that of the row before")]
     NotInOrder {
         /// Row, counted from 0.
         row: usize,

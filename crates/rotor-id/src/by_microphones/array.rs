@@ -28,19 +28,19 @@ pub struct MicrophoneArray {
 #[non_exhaustive]
 pub enum ArrayError {
     /// Fewer than two microphones: nothing can be compared.
-    #[error("{count} microphone(s), and at least 2 are needed")]
+    #[error("microphones: {count}; at least 2 are needed")]
     TooFewMicrophones {
         /// Number of microphones.
         count: usize,
     },
     /// Fewer than two rotors, or more than can be labelled.
-    #[error("{count} rotor(s), and 2 to {LABELLED_ROTORS_MAX} can be told")]
+    #[error("rotors: {count}; 2 to {LABELLED_ROTORS_MAX} can be named")]
     WrongRotorCount {
         /// Number of rotors.
         count: usize,
     },
     /// A coordinate that is not finite or larger than 1000 m.
-    #[error("{what} {number} is at a place that is not within 1000 m")]
+    #[error("{what} {number} has a position that is not within 1000 m")]
     BadPosition {
         /// "microphone" or "rotor".
         what: &'static str,

@@ -86,7 +86,7 @@ impl<'a> HarmonicWeights<'a> {
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
-                    format!("its tone is in only {} of the frames", percent_in_words(ridge.point_share()))
+                    format!("its tone is in {} of the frames", percent_in_words(ridge.point_share()))
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     let (percent, how) =

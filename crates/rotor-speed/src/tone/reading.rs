@@ -55,7 +55,7 @@ pub(crate) fn readings_of(
     let left = 1.0 - shaft_likelihood.unwrap_or(0.0);
     for (blades, share) in BLADES.into_iter().zip(config.blade_shares) {
         let share = if known.blade_count == Some(blades) { 1.0 } else { share };
-        let why = "blades not heard".to_owned();
+        let why = "number of blades not heard".to_owned();
         readings.extend(reading(fundamental_hz, f64::from(blades), Meaning::BladePass { blades }, left * share, why));
     }
     for gear in known_gears() {
