@@ -5,16 +5,19 @@ use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, read_text};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
-use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_exchange::{
     ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
     updated_model,
 };
 use hovertone_report::{Notice, printable};
+use hovertone_vehicle::{check_diameter, check_positive, check_range};
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Masses that differ by less are of one vehicle.
 const MASS_SHARE: f64 = 0.02;
+/// Densities of air: from the highest mountain in summer to a pole in winter.
+const AIR_DENSITY_KG_M3: RangeInclusive<f64> = 0.3..=1.8;
 
 /// Writes or prints the lines.
 pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -105,21 +108,14 @@ fn difference(before: &Path, after: &Path, changes: &[ChangedLine]) -> String {
 
 fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
     let rotor = identified(&arguments.results, arguments.of.group.as_deref())?;
-    let diameter = PROPELLER_DIAMETER_M;
-    for (name, value, allowed, words) in [
-        ("torque_constant_n_m_s2", arguments.torque_constant_n_m_s2, f64::MIN_POSITIVE..=f64::MAX, "a number above 0"),
-        ("hover_command", arguments.hover_command, f64::MIN_POSITIVE..=1.0, "above 0 and at most 1"),
-        ("diameter_m", arguments.diameter_m, diameter, "from 0.01 to 10"),
-        // densities from the highest mountain in summer to a pole in winter
-        ("air_density_kg_m3", arguments.air_density_kg_m3, 0.3..=1.8, "from 0.3 to 1.8"),
-    ] {
-        if let Some(value) = value.filter(|value| !allowed.contains(value)) {
-            return Err(Failure::usage(
-                format!("{name} is {value}, and it must be {words}"),
-                "see `hovertone export --help`",
-            ));
-        }
-    }
+    let (torque, command) = (arguments.torque_constant_n_m_s2, arguments.hover_command);
+    torque.map_or(Ok(()), |torque| check_positive("torque_constant_n_m_s2", torque))?;
+    command.map_or(Ok(()), |command| check_positive("hover_command", command))?;
+    command.map_or(Ok(()), |command| check_range("hover_command", command, 0.0, 1.0))?;
+    arguments.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
+    let (thinnest, densest) = (*AIR_DENSITY_KG_M3.start(), *AIR_DENSITY_KG_M3.end());
+    let density = arguments.air_density_kg_m3;
+    density.map_or(Ok(()), |density| check_range("air_density_kg_m3", density, thinnest, densest))?;
     Ok(IdentifiedRotor {
         torque_constant_n_m_s2: arguments.torque_constant_n_m_s2.or(rotor.torque_constant_n_m_s2),
         hover_command: arguments.hover_command,

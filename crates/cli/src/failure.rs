@@ -1,9 +1,12 @@
 //! Endings of a run and their exit codes.
 
-use hovertone_vehicle::Contradiction;
+use hovertone_vehicle::{ConfigError, Contradiction, QuantityError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// Advice for a number.
+const SEE_UNIT: &str = "correct this number; --help of the command has its unit";
 
 /// Ending of a run that was possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,10 +29,29 @@ impl Ending {
     }
 }
 
+/// Whether a file is there that its owner protected.
+fn is_protected(path: &Path) -> bool {
+    path.metadata().is_ok_and(|metadata| metadata.is_file() && metadata.permissions().readonly())
+}
+
 /// Two statements about a vehicle of which one must be wrong.
 impl From<Contradiction> for Failure {
     fn from(contradiction: Contradiction) -> Self {
         Self::usage(contradiction.to_string(), contradiction.hint())
+    }
+}
+
+/// A number out of its range.
+impl From<QuantityError> for Failure {
+    fn from(error: QuantityError) -> Self {
+        Self::usage(error.to_string(), SEE_UNIT)
+    }
+}
+
+/// A setting out of its range.
+impl From<ConfigError> for Failure {
+    fn from(error: ConfigError) -> Self {
+        Self::usage(error.to_string(), SEE_UNIT)
     }
 }
 
@@ -58,7 +80,13 @@ impl Failure {
             io::ErrorKind::NotFound => {
                 ("the folder of this file does not exist".to_owned(), "make the folder, or choose another place")
             }
-            io::ErrorKind::PermissionDenied => ("you have no right to write here".to_owned(), "choose another place"),
+            io::ErrorKind::PermissionDenied if is_protected(path) => {
+                ("this file is protected against writing".to_owned(), "choose another name, or remove the protection")
+            }
+            io::ErrorKind::PermissionDenied => (
+                "you have no right to write into the folder of this name".to_owned(),
+                "choose a place in a folder of your own",
+            ),
             _ => (format!("this file cannot be written: {error}"), "choose another place, or check the disk"),
         };
         Self::failed(what, hint, path)

@@ -15,7 +15,7 @@ use hovertone::thrust::{
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
-use hovertone_vehicle::{Estimate, KnownRotor, RotorSpeed, check_tips};
+use hovertone_vehicle::{Estimate, KnownRotor, QuantityError, RotorSpeed, check_tips};
 use std::path::Path;
 
 /// Most multirotors safely carry a quarter of their mass.
@@ -263,7 +263,7 @@ fn plan_campaign(
             PlanError::OutOfReach { .. } => {
                 "ask for a larger --wanted-share, or make a contribution smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
             }
-            PlanError::OutOfRange { name: "wanted_share", .. } => "for 2 % give --wanted-share 0.02",
+            PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
             _ => "see `hovertone fit --help`",
         };
         Failure::usage(error.to_string(), hint)

@@ -2,6 +2,7 @@
 //! the run.
 
 use crate::failure::Failure;
+use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use std::fs::{self, File};
 use std::io::{self, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
@@ -70,9 +71,10 @@ fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {
     let (found, hint) = match error.kind() {
         _ if path.is_dir() => (format!("this is a folder, and {what} must be a file"), "name the file in the folder"),
         io::ErrorKind::NotFound => (format!("there is no such file for {what}"), "check its name and its folder"),
-        io::ErrorKind::PermissionDenied => {
-            (format!("you have no right to read {what}"), "change the rights of the file")
-        }
+        io::ErrorKind::PermissionDenied => match closed_folder(path) {
+            Some(folder) => return Failure::failed(CLOSED_FOLDER, GET_RIGHT, &folder),
+            None => (format!("you have no right to read {what}"), GET_RIGHT),
+        },
         _ => (format!("{what} cannot be read: {error}"), "check the file and its disk"),
     };
     Failure::failed(found, hint, path)
@@ -110,11 +112,14 @@ pub(crate) fn forget_stdin() {
 fn first_use(what: &str) -> Result<std::sync::MutexGuard<'static, Used>, Failure> {
     let used = USED.lock().map_err(Failure::internal)?;
     if !matches!(*used, Used::No) {
-        return Err(Failure::usage("stdin (-) is named twice, and it can be read once", "give the other as a file"));
+        return Err(Failure::usage(
+            "stdin (-) is named twice, and it can be read only once",
+            "give the other as a file",
+        ));
     }
     if io::stdin().is_terminal() {
         let hint = "pipe it in, as in `hovertone speed - < hover.wav`, or give a file";
-        return Err(Failure::usage(format!("{what} would be read from the terminal, and nobody can type it"), hint));
+        return Err(Failure::usage(format!("{what} would be read from the terminal, and it cannot be typed"), hint));
     }
     Ok(used)
 }

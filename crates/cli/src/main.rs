@@ -35,6 +35,7 @@ mod progress;
 mod recording;
 mod recording_files;
 mod report_folder;
+mod rights;
 mod settings;
 mod shell;
 mod simulate;

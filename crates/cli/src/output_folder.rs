@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::file_list::FileList;
 use crate::output_file::{OutputFile, is_left_unfinished};
 use crate::outputs::{Outputs, refused, write_whole};
+use crate::rights::CLOSED_FOLDER;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -57,8 +58,11 @@ impl OutputFolder {
     fn is_empty(&self) -> Result<bool, Failure> {
         match fs::read_dir(&self.path) {
             Ok(entries) => Ok(entries.filter_map(Result::ok).all(|entry| is_left_unfinished(&entry.file_name()))),
+            Err(_) if self.path.is_dir() => {
+                Err(Failure::failed(CLOSED_FOLDER, "choose another with -o DIR", &self.path))
+            }
             Err(_) if self.path.exists() => {
-                Err(Failure::failed("this is no folder that can be read", "choose another with -o DIR", &self.path))
+                Err(Failure::failed("this is a file, no folder", "choose another with -o DIR", &self.path))
             }
             Err(_) => Ok(true),
         }

@@ -6,7 +6,7 @@ use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
 use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
 use hovertone_report::SpeedRecord;
-use hovertone_vehicle::{Gear, Order, QuantityError, SaidOfVehicle, check_tips};
+use hovertone_vehicle::{Gear, Order, QuantityError, SaidOfVehicle, check_not_negative, check_tips};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
 pub(crate) fn config_of(
@@ -78,10 +78,9 @@ pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, F
 /// The part of a recording that the arguments name. A recording begins at 0 s.
 pub(crate) fn span_of(from_s: Option<f64>, to_s: Option<f64>) -> Result<SpanConfig, Failure> {
     for (name, time_s) in [("--from", from_s), ("--to", to_s)] {
-        if let Some(time_s) = time_s.filter(|time_s| !(time_s.is_finite() && *time_s >= 0.0)) {
-            let hint = "the recording begins at 0 s: give seconds from its beginning";
-            return Err(Failure::usage(format!("{name} is {time_s} s, and it must be 0 s or more"), hint));
-        }
+        let hint = "the recording begins at 0 s: give seconds from its beginning";
+        let checked = time_s.map_or(Ok(()), |time_s| check_not_negative(name, time_s));
+        checked.map_err(|error| Failure::usage(error.to_string(), hint))?;
     }
     Ok(SpanConfig { from_s, to_s })
 }

@@ -5,7 +5,7 @@ use crate::copies::refuse_copies;
 use crate::export::identified;
 use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
-use crate::place::gravity_of;
+use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::tone_of;
@@ -16,7 +16,8 @@ use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
-    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, is_swamped,
+    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, check_not_negative,
+    check_positive, is_swamped,
 };
 use std::ops::RangeInclusive;
 
@@ -225,13 +226,8 @@ fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) 
 
 /// Checks the numbers of the arguments.
 fn check(arguments: &WeighArguments) -> Result<(), Failure> {
-    let must_be = |name: &str, value: f64, words: &str| {
-        Err(Failure::usage(format!("{name} is {value}, and it must be {words}"), SEE_HELP))
-    };
     for (name, value) in [("constant_n_s2", arguments.constant_n_s2), ("mass_kg", arguments.mass_kg)] {
-        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-            return must_be(name, value, "a number above 0");
-        }
+        value.map_or(Ok(()), |value| check_positive(name, value))?;
     }
     if let Some(constant_n_s2) = arguments.constant_n_s2.filter(|constant_n_s2| !CONSTANT_N_S2.contains(constant_n_s2))
     {
@@ -241,15 +237,10 @@ fn check(arguments: &WeighArguments) -> Result<(), Failure> {
     }
     let of_mass = KnownRotor { mass_kg: arguments.mass_kg, ..KnownRotor::default() };
     of_mass.check().map_err(|error| Failure::usage(error.to_string(), "masses are in kilograms"))?;
-    if let (Some(height_m), None) = (arguments.place.height_m, arguments.place.latitude_deg) {
-        let what = format!("height_m = {height_m} alone does not tell gravity");
-        return Err(Failure::usage(what, "also give --latitude-deg, or leave --height-m out"));
-    }
+    refuse_height_alone(&arguments.place)?;
     let stds = [("constant_std_n_s2", arguments.constant_std_n_s2), ("mass_std_kg", arguments.mass_std_kg)];
     for (name, value) in stds {
-        if let Some(value) = value.filter(|value| !(value.is_finite() && *value >= 0.0)) {
-            return must_be(name, value, "0 or more");
-        }
+        value.map_or(Ok(()), |value| check_not_negative(name, value))?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! From `results.json` to the numbers for simulators.
 
-use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
+use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, QuantityError, check_positive};
 use serde::Deserialize;
 use serde_json::Value;
 use serde_json::error::Category;
@@ -111,13 +111,8 @@ pub enum ResultsError {
     #[error("nothing was identified in these results: no recording had a rotor tone")]
     NothingIdentified,
     /// A number out of range.
-    #[error("{name} = {value} in these results, it must be a number above 0")]
-    OutOfRange {
-        /// Name of the number.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
 }
 
 /// Why a text is not the wanted JSON, without the words of the parser.
@@ -126,7 +121,7 @@ pub(crate) fn json_fault(error: &serde_json::Error) -> String {
         (Category::Eof, 1, 0) => "the file is empty".to_owned(),
         (Category::Eof, line, _) => format!("the file ends too early, on line {line}"),
         (Category::Data, ..) => "a value is missing or has another type".to_owned(),
-        (_, line, column) => format!("it is not JSON from line {line}, column {column}"),
+        (_, line, column) => format!("it has a fault in line {line}, column {column}"),
     }
 }
 
@@ -180,13 +175,13 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         .ok_or(ResultsError::Missing { what: "thrust_constant_per_rotor_n_s2" })?;
     let constant: Option<Constant> = serde_json::from_value(constant.clone())?;
     let constant = constant.ok_or(ResultsError::NothingIdentified)?;
-    positive("thrust_constant_per_rotor_n_s2", constant.value)?;
+    check_positive("thrust_constant_per_rotor_n_s2", constant.value)?;
     let number_at = |pointer: &str| results.pointer(pointer).and_then(Value::as_f64);
     // the fields of `identify`, or else of `fit`
     let rotor_count = results.pointer("/settings/experiment/rotor_count").or_else(|| results.get("rotor_count"));
     let rotor_count = rotor_count.and_then(Value::as_u64).and_then(|count| u32::try_from(count).ok());
     let rotor_count = rotor_count.ok_or(ResultsError::Missing { what: "the number of rotors" })?;
-    positive("rotor_count", f64::from(rotor_count))?;
+    check_positive("rotor_count", f64::from(rotor_count))?;
     let budgeted = number_at("/uncertainty_budget/expanded_uncertainty_n_s2");
     let hover = results.pointer("/settings/experiment").and_then(|experiment| unladen_hover(&results, experiment));
     let text = |pointer: &str| results.pointer(pointer).and_then(Value::as_str);
@@ -236,10 +231,6 @@ fn heard_as_a_group(results: &Value) -> String {
         (_, 0) => " (rotors as a group)".to_owned(),
         (group, others) => format!(" (rotors as a group in {group} of {} recordings)", group + others),
     }
-}
-
-fn positive(name: &'static str, value: f64) -> Result<(), ResultsError> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(ResultsError::OutOfRange { name, value }) }
 }
 
 #[derive(Clone, Copy)]

@@ -11,7 +11,7 @@ use crate::container::Container;
 #[non_exhaustive]
 pub enum MediaError {
     /// The file cannot be opened.
-    #[error("the file cannot be opened: {}; check its name and its folder", why_not_opened(.0))]
+    #[error("the file cannot be opened: {}", why_not_opened(.0))]
     CannotOpen(#[source] io::Error),
 
     /// A directory, pipe or device.
@@ -96,7 +96,7 @@ pub enum MediaError {
     },
 
     /// A header field with an impossible value.
-    #[error("the {container}'s header is nonsense: {field} is {value}, and it must be {limit}; export the file again")]
+    #[error("the {container}'s header is nonsense: {field} = {value}, and it must be {limit}; export the file again")]
     BadHeader {
         /// The container.
         container: Container,
@@ -122,11 +122,15 @@ pub enum MediaError {
     Read(#[source] io::Error),
 }
 
-/// Why a file cannot be opened, in plain words where they are known.
+/// Why a file cannot be opened and what to do, in plain words where they are known.
 fn why_not_opened(error: &io::Error) -> String {
     match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        io::ErrorKind::PermissionDenied => "you have no right to read it".to_owned(),
-        _ => error.to_string(),
+        io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
+        io::ErrorKind::PermissionDenied => {
+            "you have no right to read it, or to open its folder; let its owner give you the \
+                                            right, or copy it to a folder of your own"
+                .to_owned()
+        }
+        _ => format!("{error}; check the file and its disk"),
     }
 }

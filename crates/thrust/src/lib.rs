@@ -28,8 +28,8 @@ mod warning;
 mod weighing;
 
 pub use air::{
-    Air, Gravity, ThrustCoefficients, TorqueReading, figure_of_merit, gravity_m_s2, is_plausible_merit,
-    thrust_constant_n_s2, torque_constant_n_m_s2,
+    Air, Gravity, ThrustCoefficients, TorqueReading, check_gravity, check_latitude, figure_of_merit, gravity_m_s2,
+    is_plausible_merit, thrust_constant_n_s2, torque_constant_n_m_s2,
 };
 pub use budget::{BudgetInput, BudgetLine, UncertaintyBudget};
 pub use campaign::TrialBootstrap;

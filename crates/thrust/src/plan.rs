@@ -8,7 +8,9 @@ use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 use crate::square_law::force_ratio_for_intercept;
 use hovertone_analysis::{Method, Span};
-use hovertone_vehicle::{MASS_FACTOR_MAX, PROPELLER_DIAMETER_M, RotorSpeed};
+use hovertone_vehicle::{
+    ConfigError, MASS_FACTOR_MAX, QuantityError, RotorSpeed, check_diameter, check_not_negative, check_positive,
+};
 use serde::Serialize;
 
 /// Numbers of loads that are tried. From three loads on, one that does not fit can be named. *Numeric.*
@@ -70,22 +72,18 @@ pub struct FlightPlan {
 }
 
 /// Why there is no plan.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlanError {
     /// A mass or a share out of range.
-    #[error("{name} = {value} cannot be used; it must be {must_be}")]
-    OutOfRange {
-        /// Name of the number.
-        name: &'static str,
-        /// The given value.
-        value: f64,
-        /// Allowed values.
-        must_be: &'static str,
-    },
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
+    /// A setting out of range.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
     /// No number of flights reaches the wanted uncertainty.
     #[error(
-        "no number of flights brings the uncertainty below {:.2} % (k = 2): that remains because of: {}",
+        "no number of flights brings the uncertainty below {:.2} % (k = 2); the largest contribution that remains: {}",
         100.0 * .best_share, .largest.title()
     )]
     OutOfReach {
@@ -103,39 +101,34 @@ pub enum PlanError {
 pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
     for (name, value) in [
         ("wanted_share", wish.wanted_share),
-        ("vehicle_mass_kg", wish.vehicle_mass_kg),
-        ("added_mass_kg_max", wish.added_mass_kg_max),
+        ("mass_kg", wish.vehicle_mass_kg),
+        ("added_mass_kg", wish.added_mass_kg_max),
         ("gravity_m_s2", wish.gravity_m_s2),
         ("speed_spread_share", wish.speed_spread_share),
-        ("correlation_time_s", wish.correlation_time_s),
+        ("correlation_s", wish.correlation_time_s),
     ] {
-        if !(value.is_finite() && value > 0.0) {
-            return Err(PlanError::OutOfRange { name, value, must_be: "a number above 0" });
-        }
+        check_positive(name, value)?;
     }
     for (name, value) in [("mass_std_kg", wish.mass_std_kg), ("gravity_std_m_s2", wish.gravity_std_m_s2)] {
-        if !(value.is_finite() && value >= 0.0) {
-            return Err(PlanError::OutOfRange { name, value, must_be: "0 or more" });
-        }
+        check_not_negative(name, value)?;
     }
     if wish.correlation_time_s > CORRELATION_S_MAX {
-        let (name, value) = ("correlation_time_s", wish.correlation_time_s);
-        return Err(PlanError::OutOfRange { name, value, must_be: "at most 60, the length of the longest hover" });
+        let (name, value) = ("correlation_s", wish.correlation_time_s);
+        return Err(QuantityError { name, value, must_be: "at most 60, the length of the longest hover" }.into());
     }
     for (name, value) in [("wanted_share", wish.wanted_share), ("speed_spread_share", wish.speed_spread_share)] {
         if value > SHARE_MAX {
-            return Err(PlanError::OutOfRange { name, value, must_be: "a share of at most 0.5: 2 % are 0.02" });
+            return Err(QuantityError { name, value, must_be: "a share of at most 0.5: 2 % are 0.02" }.into());
         }
     }
-    for (name, value) in [("added_mass_kg_max", wish.added_mass_kg_max), ("mass_std_kg", wish.mass_std_kg)] {
+    for (name, value) in [("added_mass_kg", wish.added_mass_kg_max), ("mass_std_kg", wish.mass_std_kg)] {
         if value > MASS_FACTOR_MAX * wish.vehicle_mass_kg {
             let must_be = "at most ten times the vehicle's mass: masses are in kilograms, 31 g are 0.031";
-            return Err(PlanError::OutOfRange { name, value, must_be });
+            return Err(QuantityError { name, value, must_be }.into());
         }
     }
-    if let Some(value) = wish.settings.propeller_diameter_m.filter(|value| !PROPELLER_DIAMETER_M.contains(value)) {
-        return Err(PlanError::OutOfRange { name: "propeller_diameter_m", value, must_be: "from 0.01 to 10" });
-    }
+    let diameter_m = wish.settings.propeller_diameter_m;
+    diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
     let mut plans: Vec<FlightPlan> = Vec::new();
     for load_count in LOADS {
         for trials_per_load in TRIALS {
@@ -148,11 +141,8 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         Some(plan) => Ok(*plan),
         None => {
             let best = plans.iter().min_by(|a, b| a.expanded_share.total_cmp(&b.expanded_share));
-            let nothing = PlanError::OutOfRange {
-                name: "wanted_share",
-                value: wish.wanted_share,
-                must_be: "within what floats hold",
-            };
+            let must_be = "within what floats hold";
+            let nothing = QuantityError { name: "wanted_share", value: wish.wanted_share, must_be }.into();
             Err(best.map_or(nothing, |best| PlanError::OutOfReach {
                 best_share: best.expanded_share,
                 largest: best.largest,
@@ -253,8 +243,8 @@ mod tests {
         let Err(PlanError::OutOfReach { best_share, largest }) = flight_plan(&ridge) else { panic!("a plan") };
         assert_eq!(largest, BudgetInput::LoudestRotor);
         assert!((best_share - 0.02).abs() < 0.002, "{best_share}");
-        assert!(matches!(flight_plan(&wish(0.0)), Err(PlanError::OutOfRange { .. })));
-        let refused = |wish: PlanWish| matches!(flight_plan(&wish), Err(PlanError::OutOfRange { .. }));
+        assert!(matches!(flight_plan(&wish(0.0)), Err(PlanError::Quantity(_))));
+        let refused = |wish: PlanWish| matches!(flight_plan(&wish), Err(PlanError::Quantity(_)));
         assert!(refused(PlanWish { vehicle_mass_kg: f64::NAN, ..wish(0.01) }));
         assert!(refused(PlanWish { mass_std_kg: f64::NAN, ..wish(0.01) }));
         assert!(refused(PlanWish { mass_std_kg: -0.1, ..wish(0.01) }));

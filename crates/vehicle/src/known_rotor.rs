@@ -3,14 +3,12 @@
 use crate::contradiction::HOVER_REV_S_MIN;
 use crate::{
     ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, SOUND_M_S, ShaftSpeedRange,
-    THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range,
+    THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_diameter, check_range,
 };
 use serde::Serialize;
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
-/// Diameters of multirotor propellers that are accepted as a prior, m. *Decision.*
-const DIAMETER_M_ALLOWED: RangeInclusive<f64> = 0.01..=5.0;
 /// Masses of multirotors that are accepted as a prior, kg. *Decision.*
 const MASS_KG_ALLOWED: RangeInclusive<f64> = 1e-3..=1e4;
 /// Numbers of rotors that are accepted as a prior. *Decision.*
@@ -93,7 +91,7 @@ impl KnownRotor {
         let within = |name, value: Option<f64>, allowed: RangeInclusive<f64>| {
             value.map_or(Ok(()), |value| check_range(name, value, *allowed.start(), *allowed.end()))
         };
-        within("diameter_m", self.diameter_m, DIAMETER_M_ALLOWED)?;
+        self.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
         within("mass_kg", self.mass_kg, MASS_KG_ALLOWED)?;
         within("rotors", self.rotor_count.map(f64::from), ROTORS_ALLOWED)
     }

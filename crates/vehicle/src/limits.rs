@@ -1,5 +1,6 @@
 //! Limits of settings and of what multirotors can be, where several stages share them.
 
+use crate::QuantityError;
 use std::ops::RangeInclusive;
 
 /// Most blades of a propeller. A tone of higher order is a gear mesh. *Physics.*
@@ -61,7 +62,7 @@ pub fn is_swamped(value: f64, std_uncertainty: f64) -> bool {
 #[non_exhaustive]
 pub enum ConfigError {
     /// A number outside its limits.
-    #[error("{name} is {value}, and it must be from {min} to {max}")]
+    #[error("{name} = {value}, and it must be from {min} to {max}")]
     OutOfRange {
         /// Name of the setting, as in files and flags.
         name: &'static str,
@@ -96,4 +97,32 @@ pub enum ConfigError {
 /// [`ConfigError::OutOfRange`] with the setting's name, its value and the limits.
 pub fn check_range(name: &'static str, value: f64, min: f64, max: f64) -> Result<(), ConfigError> {
     if (min..=max).contains(&value) { Ok(()) } else { Err(ConfigError::OutOfRange { name, value, min, max }) }
+}
+
+/// Checks the tip-to-tip diameter of a propeller against [`PROPELLER_DIAMETER_M`].
+///
+/// # Errors
+/// [`ConfigError::OutOfRange`].
+pub fn check_diameter(name: &'static str, diameter_m: f64) -> Result<(), ConfigError> {
+    check_range(name, diameter_m, *PROPELLER_DIAMETER_M.start(), *PROPELLER_DIAMETER_M.end())
+}
+
+/// Checks that a number is finite and above 0.
+///
+/// # Errors
+/// The number with its name.
+pub fn check_positive(name: &'static str, value: f64) -> Result<(), QuantityError> {
+    check_quantity(name, value, value > 0.0, "a number above 0")
+}
+
+/// Checks that a number is finite and not negative.
+///
+/// # Errors
+/// The number with its name.
+pub fn check_not_negative(name: &'static str, value: f64) -> Result<(), QuantityError> {
+    check_quantity(name, value, value >= 0.0, "0 or more")
+}
+
+fn check_quantity(name: &'static str, value: f64, is_kept: bool, must_be: &'static str) -> Result<(), QuantityError> {
+    if value.is_finite() && is_kept { Ok(()) } else { Err(QuantityError { name, value, must_be }) }
 }

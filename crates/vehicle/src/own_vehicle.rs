@@ -1,7 +1,8 @@
 //! A vehicle that a user describes in a file, beside the presets.
 
 use crate::{
-    Contradiction, Gear, KnownRotor, PROPELLER_DIAMETER_M, RotorSpeed, ShaftSpeedRange, Sourced, Vehicle, check_tips,
+    Contradiction, Gear, KnownRotor, PROPELLER_DIAMETER_M, QuantityError, RotorSpeed, ShaftSpeedRange, Sourced,
+    Vehicle, check_tips,
 };
 use serde::Deserialize;
 
@@ -43,15 +44,8 @@ pub enum OwnVehicleError {
         id: String,
     },
     /// A number out of range.
-    #[error("{name} is {value}, and it {must_be}")]
-    OutOfRange {
-        /// Name of the number.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Allowed values.
-        must_be: &'static str,
-    },
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
     /// An entry that no vehicle has.
     #[error(transparent)]
     Vehicle(#[from] Contradiction),
@@ -101,24 +95,24 @@ impl OwnVehicle {
 
     fn check(&self) -> Result<(), OwnVehicleError> {
         self.gear.map_or(Ok(()), Gear::check)?;
-        let refuse = |name, value, must_be| Err(OwnVehicleError::OutOfRange { name, value, must_be });
+        let refuse = |name, value, must_be| Err(QuantityError { name, value, must_be }.into());
         let of_mass = KnownRotor { mass_kg: self.mass_kg, ..KnownRotor::default() };
         let of_rotors = KnownRotor { rotor_count: Some(self.rotors), ..KnownRotor::default() };
         if of_rotors.check().is_err() {
-            return refuse("rotors", f64::from(self.rotors), "must be from 1 to 64");
+            return refuse("rotors", f64::from(self.rotors), "from 1 to 64");
         }
         match (self.blades, self.propeller_diameter_m, self.mass_kg, self.shaft_speed_rev_s) {
             (Some(blades), ..) if !BLADES_ALLOWED.contains(&blades) => {
-                refuse("blades", f64::from(blades), "must be from 1 to 20")
+                refuse("blades", f64::from(blades), "from 1 to 20")
             }
             (_, Some(diameter_m), ..) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
-                refuse("propeller_diameter_m", diameter_m, "must be from 0.01 to 10: it is in metres")
+                refuse("propeller_diameter_m", diameter_m, "from 0.01 to 10: it is in metres")
             }
             (.., Some(mass_kg), _) if of_mass.check().is_err() => {
-                refuse("mass_kg", mass_kg, "must be from 0.001 to 10000: it is in kilograms")
+                refuse("mass_kg", mass_kg, "from 0.001 to 10000: it is in kilograms")
             }
             (.., Some((low, high))) if !(low > 0.0 && low < high && high.is_finite()) => {
-                refuse("shaft_speed_rev_s", low, "must be above 0, and below the second number")
+                refuse("shaft_speed_rev_s", low, "above 0, and below the second number")
             }
             _ => Ok(()),
         }

@@ -6,7 +6,7 @@ use std::fmt;
 
 /// A quantity out of range.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} is {value}, and it must be {must_be}")]
+#[error("{name} = {value}, and it must be {must_be}")]
 pub struct QuantityError {
     /// Name of the quantity, as in files and flags.
     pub name: &'static str,

@@ -15,7 +15,7 @@ use hovertone::calibration::Judgement;
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_report::{Notice, SpeedRecord};
-use hovertone_vehicle::{Order, RotorSpeed};
+use hovertone_vehicle::{Order, RotorSpeed, check_range};
 use std::ops::{Range, RangeInclusive};
 
 const MILLION: f64 = 1e6;
@@ -55,7 +55,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
     let files = std::slice::from_ref(&arguments.file);
     let jobs = jobs_of(files, &plan.config, plan.discovery, Requests::default())?;
     let [job] = &jobs[..] else {
-        let what = format!("one recording is compared with one speed, and {} match", jobs.len());
+        let what = format!("one recording is compared with one speed, and {} files match the name", jobs.len());
         return Err(Failure::usage(what, "give the one that was made at this speed"));
     };
     let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
@@ -189,33 +189,26 @@ fn assumed_rotors(arguments: &CalibrateArguments) -> Result<Option<Notice>, Fail
 }
 
 fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
-    let positive = |name: &str, value: Option<f64>| {
-        let what = format!("{name} must be a number above 0");
-        value.filter(|value| value.is_finite() && *value > 0.0).ok_or_else(|| Failure::usage(what, SEE_HELP))
-    };
     for (name, value) in [("known_std_ppm", arguments.known_std_ppm), ("clock_ppm", Some(arguments.clock_ppm))] {
-        if let Some(value) = value.filter(|value| !(0.0..=MILLION).contains(value)) {
-            return Err(Failure::usage(format!("{name} is {value}, and it must be 0 to {MILLION}"), SEE_HELP));
-        }
+        value.map_or(Ok(()), |value| check_range(name, value, 0.0, MILLION))?;
     }
     let stated = arguments.known_std_ppm.map(|ppm| ppm / MILLION);
     if let Some(typed) = &arguments.tachometer_rpm {
-        let rpm = positive("tachometer_rpm", typed.trim().parse().ok())?;
-        refuse_outside("tachometer_rpm", rpm, TACHOMETER_RPM)?;
+        let rpm = typed.trim().parse().map_err(|_| {
+            Failure::usage(format!("--tachometer-rpm {typed}: a number is needed, such as 3600"), SEE_HELP)
+        })?;
+        check_known("tachometer_rpm", rpm, TACHOMETER_RPM)?;
         // the last digit is rounded: half a unit of it is the limit of a rectangular distribution
         let decimals = typed.trim().split_once('.').map_or(0, |(_, decimals)| decimals.len().min(9) as i32);
         let rounded = 0.5 * 10f64.powi(-decimals) / 3f64.sqrt() / rpm;
         return Ok(Reference::Speed { rpm, std_share: stated.unwrap_or(rounded) });
     }
-    let hz = positive("true_hz", arguments.true_hz)?;
-    refuse_outside("true_hz", hz, TRUE_HZ)?;
+    let hz = arguments.true_hz.ok_or_else(|| Failure::usage("no known speed is given", SEE_HELP))?;
+    check_known("true_hz", hz, TRUE_HZ)?;
     Ok(Reference::Tone { hz, std_share: stated.unwrap_or(0.0) })
 }
 
-fn refuse_outside(name: &str, value: f64, allowed: RangeInclusive<f64>) -> Result<(), Failure> {
-    if allowed.contains(&value) {
-        return Ok(());
-    }
-    let what = format!("{name} = {value}, and it must be from {} to {}", allowed.start(), allowed.end());
-    Err(Failure::usage(what, "check its unit: of a tachometer rpm, of a tone Hz"))
+fn check_known(name: &'static str, value: f64, allowed: RangeInclusive<f64>) -> Result<(), Failure> {
+    check_range(name, value, *allowed.start(), *allowed.end())
+        .map_err(|error| Failure::usage(error.to_string(), "check its unit: of a tachometer rpm, of a tone Hz"))
 }

@@ -2,7 +2,7 @@
 
 use crate::args::{Typed, rounded, typed_mass_kg};
 use crate::failure::Failure;
-use hovertone_vehicle::MASS_ALONE_KG_MAX;
+use hovertone_vehicle::{KnownRotor, MASS_ALONE_KG_MAX};
 use std::path::Path;
 
 const GRAMS: f64 = 1e3;
@@ -77,6 +77,8 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
             "{mass_kg} kg is heavier than a multirotor for this method: write {mass_kg}g for grams, or {mass_kg}kg"
         ));
     }
+    let of_mass = KnownRotor { mass_kg: Some(mass_kg), ..KnownRotor::default() };
+    of_mass.check().map_err(|error| error.to_string())?;
     Ok(mass_kg)
 }
 
@@ -130,6 +132,7 @@ mod tests {
             (&["0,413=a.mov"], "the decimal sign is a point"),
             (&["413=a.mov"], "413g"),
             (&["-0.4=a.mov"], "is no mass"),
+            (&["0.0005=a.mov"], "mass_kg = 0.0005, and it must be from 0.001"),
             (&["0.4=a.mov", "experiment.toml"], "counts as a recording"),
         ] {
             let what = loads(words).unwrap_err();

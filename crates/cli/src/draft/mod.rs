@@ -9,9 +9,10 @@ pub(crate) use paths::recordings_from;
 
 use crate::args::DraftArguments;
 use crate::failure::Failure;
-use crate::place::gravity_of;
-use hovertone::vehicle::PROPELLER_DIAMETER_M;
-use hovertone_vehicle::{Gear, KnownRotor, SaidOfVehicle, Vehicle};
+use crate::place::{gravity_of, refuse_height_alone};
+use hovertone_vehicle::{
+    Gear, KnownRotor, MASS_FACTOR_MAX, SaidOfVehicle, Vehicle, are_masses_of_one_vehicle, check_diameter,
+};
 
 /// An experiment without its settings.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +39,7 @@ impl Draft {
     /// What the flags say, checked against limits and against the vehicle.
     pub(crate) fn from_arguments(arguments: &DraftArguments, vehicle: Option<&Vehicle>) -> Result<Self, Failure> {
         gravity_of(&arguments.place)?;
+        refuse_height_alone(&arguments.place)?;
         arguments.gear.map_or(Ok(()), Gear::check)?;
         let said = SaidOfVehicle {
             blades: arguments.blades,
@@ -47,10 +49,9 @@ impl Draft {
             ..SaidOfVehicle::default()
         };
         vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
-        if let Some(diameter_m) = arguments.diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
-            let hint = "it is in metres, from tip to tip: 10 inches are 0.254";
-            return Err(Failure::usage(format!("diameter_m is {diameter_m}, and it must be from 0.01 to 10"), hint));
-        }
+        arguments.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m)).map_err(
+            |error| Failure::usage(error.to_string(), "it is in metres, from tip to tip: 10 inches are 0.254"),
+        )?;
         let draft = Self {
             preset: arguments.vehicle.clone(),
             rotors: arguments.rotors,
@@ -62,8 +63,26 @@ impl Draft {
             height_m: arguments.place.height_m,
             loads: loads_from_words(&arguments.mass)?,
         };
+        draft.check_masses(vehicle)?;
         draft.check_hovers(vehicle)?;
         Ok(draft)
+    }
+
+    /// Refuses masses that are not of one vehicle, or not of the known one.
+    fn check_masses(&self, vehicle: Option<&Vehicle>) -> Result<(), Failure> {
+        let masses_kg = || self.loads.iter().map(|load| load.mass_kg);
+        let Some(lightest_kg) = masses_kg().min_by(f64::total_cmp) else { return Ok(()) };
+        let said = SaidOfVehicle { mass_kg: Some(lightest_kg), ..SaidOfVehicle::default() };
+        vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said)).map_err(|contradiction| {
+            Failure::usage(format!("--mass {lightest_kg}: {contradiction}"), contradiction.hint())
+        })?;
+        let Some(heavy_kg) = masses_kg().find(|mass_kg| !are_masses_of_one_vehicle(*mass_kg, lightest_kg)) else {
+            return Ok(());
+        };
+        let what = format!(
+            "--mass {heavy_kg} and --mass {lightest_kg}: the loads of one vehicle differ by no more than {MASS_FACTOR_MAX} times"
+        );
+        Err(Failure::usage(what, format!("masses are in kilograms: write {heavy_kg}g for grams")))
     }
 
     /// Refuses propellers that cannot carry the loads.

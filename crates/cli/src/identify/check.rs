@@ -5,6 +5,7 @@ use super::{ExperimentSource, LoadJob, hearing_of};
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::recording::{Hearing, Job};
+use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::Terminal;
 use hovertone::experiment::Experiment;
 use hovertone::thrust::{Force, Gravity};
@@ -74,6 +75,9 @@ fn planned(job: &Job, hearing: Hearing) -> PlannedRecording {
 /// What makes the analysis impossible.
 fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path) -> Vec<Notice> {
     let missing = missing.iter().map(|Missing { load, name }| {
+        if let Some(folder) = closed_folder(&place_of(name, root)) {
+            return Notice::new(format!("{}: {CLOSED_FOLDER}", folder.display()), GET_RIGHT);
+        }
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
         let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
         Notice::new(what, "correct the name, or put the recordings there")
@@ -113,7 +117,11 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
             "the place is not known: gravity differs by 0.5 % on Earth",
             "write vehicle.latitude_deg and height_m, or give --latitude-deg",
         ),
-        (experiment.air.is_some(), "the air is not known: no C_T", "write [air] with temperature_c and pressure_hpa"),
+        (
+            experiment.air.is_some(),
+            "the air is not known: no C_T",
+            "write [air] with temperature_c and pressure_hpa in an experiment file",
+        ),
         (loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),
     ]
     .into_iter()

@@ -43,11 +43,19 @@ impl ExperimentSource {
     /// Reads and resolves an experiment file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let toml = TomlFile::read(path, KIND, "recording", SEE_EXAMPLE)?;
-        Self::of_text(&toml.text, path.to_owned(), None)
+        Self::of_text(&toml.text, path.to_owned())
     }
 
-    /// The meaning of a text that stands, or would stand, at a path. `typed` are the flags in place of a file.
-    pub(crate) fn of_text(text: &str, path: PathBuf, typed: Option<TypedExperiment>) -> Result<Self, Failure> {
+    /// The meaning of flags of a command, whose text would stand at a path: no file is named where they mean nothing.
+    pub(crate) fn of_flags(text: &str, path: PathBuf, command: &str) -> Result<Self, Failure> {
+        Self::of_text(text, path).map_err(|failure| match failure {
+            Failure::Usage { what, .. } => Failure::usage(what, format!("see `hovertone {command} --help`")),
+            other => other,
+        })
+    }
+
+    /// The meaning of a text that stands at a path.
+    fn of_text(text: &str, path: PathBuf) -> Result<Self, Failure> {
         let file: ExperimentFile = TomlFile::of_text(&path, KIND, SEE_EXAMPLE, text).parse()?;
         let model = file.vehicle.model.as_deref().map(|name| model_of(name, &path)).transpose()?;
         // the user's own file is read only where it is needed: a fault in it does not stop other experiments
@@ -60,7 +68,7 @@ impl ExperimentSource {
             sha256: sha256_of_bytes(text.as_bytes()),
             has_notes: text.trim_start().starts_with('#'),
             experiment,
-            typed,
+            typed: None,
             path,
         })
     }

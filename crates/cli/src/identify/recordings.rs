@@ -7,6 +7,7 @@ use crate::files::{files_of, home_expanded};
 use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::recording::{Job, Requests};
 use crate::recording_files::groups_in;
+use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use hovertone::experiment::ExperimentLoad;
 use std::path::{Path, PathBuf};
 
@@ -111,6 +112,9 @@ fn name_of(path: &Path, root: &Path) -> String {
 }
 
 fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Path, is_root_given: bool) -> Failure {
+    if let Some(folder) = missing.iter().find_map(|missing| closed_folder(&place_of(missing.name, root))) {
+        return Failure::failed(CLOSED_FOLDER, GET_RIGHT, &folder);
+    }
     let listed = missing.iter().take(NAMES_MAX).map(|Missing { load, name }| {
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!(" ({nearby})"));
         format!("{name} of load \"{}\"{nearby}", load.name)
@@ -127,7 +131,7 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     } else if is_root_given {
         format!("put them into the folder that --data-root names, or name another{notes}")
     } else {
-        format!("put them beside the experiment file, or say with --data-root DIR which folder holds them{notes}")
+        format!("put them beside the experiment file, or give the folder that holds them: --data-root DIR{notes}")
     };
     match source.typed {
         Some(_) => Failure::Failed { what, hint, path: None },

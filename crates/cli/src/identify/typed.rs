@@ -36,7 +36,7 @@ impl TypedExperiment {
     /// The same as an experiment file in the current folder.
     pub(crate) fn source(self) -> Result<ExperimentSource, Failure> {
         let text = self.text(&self.draft.loads);
-        let source = ExperimentSource::of_text(&text, PathBuf::from(EXPERIMENT), None)?;
+        let source = ExperimentSource::of_flags(&text, PathBuf::from(EXPERIMENT), "identify")?;
         Ok(ExperimentSource { typed: Some(self), ..source })
     }
 

@@ -10,6 +10,7 @@ use crate::files::files_of;
 use crate::identify::ExperimentSource;
 use crate::outputs::{Outputs, written};
 use crate::recording_files::recordings_of;
+use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::Terminal;
 use crate::typed::quoted;
 use crate::vehicles::preset;
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let vehicle = draft.preset.as_deref().map(preset).transpose()?;
     let text = file_text(&draft, vehicle, &arguments.output)?;
     // a draft that means nothing is refused with its reason, and not written
-    let source = ExperimentSource::of_text(&text, arguments.output.clone(), None)?;
+    let source = ExperimentSource::of_flags(&text, arguments.output.clone(), "init")?;
     let recordings = draft.loads.iter().flat_map(|load| &load.recordings).flat_map(|name| files_of(Path::new(name)));
     Outputs::beside(recordings, arguments.replace.force).write(&arguments.output, &text)?;
     terminal.say(&written(&arguments.output));
@@ -59,6 +60,9 @@ fn with_recordings(mut draft: Draft) -> Result<Draft, Failure> {
         for name in &load.recordings {
             match recordings_of(name, Path::new("")) {
                 names if names.is_empty() => {
+                    if let Some(folder) = closed_folder(Path::new(name)) {
+                        return Err(Failure::failed(CLOSED_FOLDER, GET_RIGHT, &folder));
+                    }
                     let what = "no recording is there, or none that the pattern matches: nothing was written";
                     return Err(Failure::failed(
                         what,

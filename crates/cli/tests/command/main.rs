@@ -32,6 +32,7 @@ mod reading;
 mod real_recordings;
 mod report;
 mod report_fixture;
+mod rights;
 mod roundtrip;
 mod saying_more;
 mod shell;

@@ -178,16 +178,16 @@ fn names_of_loads_cannot_move_the_cursor() {
 #[test]
 fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
     for (arguments, said) in [
-        ("speed a.wav --mass-kg -1", "error: mass_kg is -1, and it must be from 0.001 to 10000 (hint: "),
+        ("speed a.wav --mass-kg -1", "error: mass_kg = -1, and it must be from 0.001 to 10000 (hint: "),
         ("speed a.wav --blades -1", "error: --blades -1: must be a whole number from 1 to 20 (hint: "),
         ("speed a.wav --rotors -1", "error: --rotors -1: must be a whole number, 1 or more (hint: "),
         ("speed a.wav --harmonics -1", "error: --harmonics -1: must be a whole number, 1 or more (hint: "),
         ("speed a.wav --channel -1", "error: --channel -1: must be a whole number, counted from 1 (hint: "),
-        ("fit --plan --mass-kg -1", "error: vehicle_mass_kg = -1"),
+        ("fit --plan --mass-kg -1", "error: mass_kg = -1"),
         ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 64 (hint: "),
         ("identify --vehicle ardrone --mass -1 a.wav", "error: --mass -1: "),
         ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav is negative"),
-        ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m is -1"),
+        ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
         ("sped a.wav", "error: there is no command \"sped\" (hint: did you mean speed?)"),
@@ -197,6 +197,57 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         let all = lines(&run);
         assert!(all.len() == 1 && all[0].starts_with(said) && all[0].ends_with(')'), "{arguments}:\n{}", run.stderr);
         assert!(run.stdout.is_empty(), "{arguments}");
+    }
+}
+
+/// A number out of its range: its name, its value, and the allowed values, in one form for all commands and files.
+#[test]
+fn a_number_out_of_range_is_told_in_one_form() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, content: &str| {
+        fs::write(folder.path().join(name), content).unwrap();
+        folder.path().join(name).display().to_string()
+    };
+    let results =
+        write("r.json", "{\"thrust_constant_per_rotor_n_s2\": {\"value\": 7e-6}, \"rotor_count\": 4, \"methods\": {}}");
+    let vehicle = "[[load]]\nname = \"a\"\nrecordings = [\"a.wav\"]\n[vehicle]\npreset = \"ardrone\"\n";
+    let far = write("far.toml", &format!("{vehicle}latitude_deg = 95.0\n"));
+    let light = write("light.toml", &format!("{vehicle}gravity_m_s2 = 8.0\n"));
+    let large = write("large.toml", &format!("{vehicle}propeller_diameter_m = 254.0\n"));
+    let scenario = write("s.toml", "duration_s = -1.0\n");
+    let weigh = "weigh a.wav --vehicle ardrone --constant-n-s2";
+    for (arguments, said) in [
+        (format!("{weigh} -1"), "constant_n_s2 = -1, and it must be a number above 0"),
+        (format!("{weigh} 2.83e-5 --constant-std-n-s2 nan"), "constant_std_n_s2 = NaN, and it must be 0 or more"),
+        (format!("{weigh} 2.83e-5 --latitude-deg 95"), "latitude_deg = 95, and it must be from -90 to 90"),
+        (format!("{weigh} 2.83e-5 --gravity-m-s2 8"), "gravity_m_s2 = 8, and it must be from 9.7 to 9.9: no place"),
+        ("fit a.csv --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
+        ("fit --plan --mass-kg 1 --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
+        ("speed a.wav --diameter-m 254".to_owned(), "diameter_m = 254, and it must be from 0.01 to 10"),
+        ("speed a.wav --blades 2 --from nan".to_owned(), "--from = NaN, and it must be 0 or more"),
+        (
+            "init --vehicle ardrone --diameter-m 254 --mass 1=a.wav".to_owned(),
+            "diameter_m = 254, and it must be from 0.01 to 10",
+        ),
+        (
+            "calibrate a.wav --blades 2 --tachometer-rpm 1".to_owned(),
+            "tachometer_rpm = 1, and it must be from 60 to 90000",
+        ),
+        (
+            "calibrate a.wav --blades 2 --tachometer-rpm 3600 --clock-ppm -1".to_owned(),
+            "clock_ppm = -1, and it must be from 0 to 1000000",
+        ),
+        (format!("export {results} --to gazebo --hover-command 2"), "hover_command = 2, and it must be from 0 to 1"),
+        (format!("export {results} --to gazebo --diameter-m 254"), "diameter_m = 254, and it must be from 0.01 to 10"),
+        (format!("identify {far}"), "vehicle.latitude_deg = 95, and it must be from -90 to 90"),
+        (format!("identify {light}"), "vehicle.gravity_m_s2 = 8, and it must be from 9.7 to 9.9: no place on Earth"),
+        (format!("identify {large}"), "vehicle.propeller_diameter_m = 254, and it must be from 0.01 to 10"),
+        (format!("simulate {scenario}"), "duration_s = -1, and it must be above 0"),
+    ] {
+        let run = hovertone(&arguments.split(' ').collect::<Vec<_>>()).ends_with(2);
+        let all = lines(&run);
+        assert!(all.len() == 1 && all[0].contains(said) && all[0].contains("(hint: "), "{arguments}:\n{}", run.stderr);
+        assert!(!all[0].contains(" is -") && !all[0].contains(" is N"), "{}", run.stderr);
     }
 }
 

@@ -50,7 +50,7 @@ fn times_are_minutes_and_seconds_too() {
         (line["from_s"].clone(), line["to_s"].clone(), line["speed_rpm"].clone())
     };
     assert_eq!(heard("0:00.5", "0:03"), heard("0.5", "3"));
-    refused_with(&["speed", text(&sound), "--vehicle", "ardrone", "--from", "-0:01"], &["--from is -1 s"]);
+    refused_with(&["speed", text(&sound), "--vehicle", "ardrone", "--from", "-0:01"], &["--from = -1"]);
     let run = hovertone(&["tones", text(&sound), "--from", "1:75"]).ends_with(2);
     assert!(run.stderr.contains("1:02.5"), "{}", run.stderr);
     let experiment = folder.path().join("experiment.toml");

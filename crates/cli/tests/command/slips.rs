@@ -44,7 +44,7 @@ fn lengths_and_masses_are_typed_with_their_units() {
         plan(&["--mass-kg", "413g", "--latitude-deg", "50", "--height-m", "800"])
     );
     refused_with(&["speed", "a.wav", "--rotors", "4", "--mass-kg", "413g", "--diameter-m", "0.5in"], &["Mach"]);
-    refused_with(&["speed", "a.wav", "--blades", "2", "--drift-m-max=-30cm"], &["drift_m_max is -0.3"]);
+    refused_with(&["speed", "a.wav", "--blades", "2", "--drift-m-max=-30cm"], &["drift_m_max = -0.3"]);
     let refused = hovertone(&["speed", "a.wav", "--diameter-m", "8ft"]).ends_with(2);
     assert!(refused.stderr.contains("8in"), "{}", refused.stderr);
 }

@@ -103,7 +103,15 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
     refuses(&["identify", "--mass", "a.wav", "--vehicle", "ardrone"], &["no mass stands before"]);
     refuses(&["identify", "--mass", "413=a.wav", "--vehicle", "ardrone"], &["413g"]);
     refuses(&["identify", "x.toml", "--mass", "0.4=a.wav"], &["cannot be used with"]);
-    refuses(&["identify", "--mass", "5=a.wav", "--vehicle", "ardrone"], &["vehicle.mass_kg"]);
+    refuses(&["identify", "--mass", "5=a.wav", "--vehicle", "ardrone"], &["--mass 5: ", "0.413 kg"]);
+    let flags = |words: &str, said: &[&str]| {
+        refuses(&words.split(' ').collect::<Vec<_>>(), said);
+        let run = run_in(folder.path(), &words.split(' ').collect::<Vec<_>>());
+        assert!(!run.stderr.contains("experiment.toml"), "no file was typed: {}", run.stderr);
+    };
+    flags("identify --mass 0.0005=a.wav --vehicle ardrone", &["--mass 0.0005=a.wav: ", "from 0.001"]);
+    flags("identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone", &["--mass 9 and --mass 0.4: ", "9g"]);
+    flags("identify --mass 0.4=a.wav --vehicle ardrone --height-m 40", &["--height-m 40 alone", "--latitude-deg"]);
     refuses(&["init"], &["without a terminal", "--mass"]);
     refuses(&["init", "--vehicle", "ardron", "--mass", "0.4=a.wav"], &["did you mean \"ardrone\""]);
     refuses(&["init", "--blades", "2", "--rotors", "4", "--diameter-m", "254", "--mass", "1=a.wav"], &["in metres"]);

@@ -13,9 +13,9 @@ fn refuses(arguments: &[&str], words: &[&str]) {
 
 #[test]
 fn what_is_known_of_the_vehicle_must_be_possible() {
-    refuses(&["tones", "a.wav", "--diameter-m", "25"], &["diameter_m is 25", "hint:"]);
-    refuses(&["tones", "a.wav", "--mass-kg", "-1"], &["mass_kg is -1"]);
-    refuses(&["speed", "a.wav", "--rotors", "0"], &["rotors is 0"]);
+    refuses(&["tones", "a.wav", "--diameter-m", "25"], &["diameter_m = 25", "hint:"]);
+    refuses(&["tones", "a.wav", "--mass-kg", "-1"], &["mass_kg = -1"]);
+    refuses(&["speed", "a.wav", "--rotors", "0"], &["rotors = 0"]);
     refuses(&["tones", "a.wav", "--vehicle", "crazyfly"], &["did you mean \"crazyflie\""]);
     refuses(&["tones", "a.wav", "--from", "5", "--to", "3"], &["5 s", "3 s", "hovertone tones --help"]);
 }
@@ -64,16 +64,16 @@ fn an_unknown_key_is_underlined_and_has_a_nearest_name() {
 fn forces_and_places_must_be_possible() {
     refuses(&["fit"], &["TABLE.csv"]);
     refuses(&["fit", "--plan"], &["--mass-kg"]);
-    refuses(&["fit", "--plan", "--mass-kg", "-1"], &["vehicle_mass_kg = -1", "above 0"]);
-    refuses(&["fit", "--plan", "--mass-kg", "NaN"], &["vehicle_mass_kg = NaN"]);
-    refuses(&["fit", "a.csv", "--latitude-deg", "100"], &["latitude_deg is 100", "-90 and 90"]);
+    refuses(&["fit", "--plan", "--mass-kg", "-1"], &["mass_kg = -1", "above 0"]);
+    refuses(&["fit", "--plan", "--mass-kg", "NaN"], &["mass_kg = NaN"]);
+    refuses(&["fit", "a.csv", "--latitude-deg", "100"], &["latitude_deg = 100", "-90 to 90"]);
     refuses(&["fit", "a.csv", "--gravity-m-s2", "1.6"], &["Earth"]);
-    refuses(&["fit", "a.csv", "--temperature-c", "293", "--diameter-m", "0.2"], &["temperature_c is 293"]);
-    refuses(&["fit", "a.csv", "--diameter-m", "25"], &["diameter_m is 25"]);
+    refuses(&["fit", "a.csv", "--temperature-c", "293", "--diameter-m", "0.2"], &["temperature_c = 293"]);
+    refuses(&["fit", "a.csv", "--diameter-m", "25"], &["diameter_m = 25"]);
     refuses(&["export", "a.json"], &["--to"]);
     refuses(&["export", "a.json", "--to", "unreal"], &["gazebo", "rotorpy"]);
     refuses(&["weigh", "a.wav"], &["--constant"]);
-    refuses(&["weigh", "a.wav", "--constant-n-s2", "0", "--blades", "2"], &["constant_n_s2 is 0", "above 0"]);
+    refuses(&["weigh", "a.wav", "--constant-n-s2", "0", "--blades", "2"], &["constant_n_s2 = 0", "above 0"]);
     refuses(&["weigh", "a.wav", "--constant-n-s2", "2.8e-5"], &["the tone of the rotor is not known", "--vehicle"]);
 }
 

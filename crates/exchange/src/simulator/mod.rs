@@ -19,6 +19,7 @@ mod xml;
 pub use into::{ChangedLine, UpdatedModel, updated_model};
 
 use crate::identified::IdentifiedRotor;
+use hovertone_vehicle::{QuantityError, check_positive};
 
 /// Programs whose files are written and read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,13 +163,8 @@ pub enum ModelError {
         reason: String,
     },
     /// A number out of range.
-    #[error("{name} = {value}, which no rotor has: it must be a number above 0")]
-    OutOfRange {
-        /// Name of the number.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
+    #[error(transparent)]
+    Quantity(#[from] QuantityError),
     /// Rotors with different constants.
     #[error("its rotors have different constants, from {least:e} to {most:e} N/(rad/s)^2")]
     UnlikeRotors {
@@ -244,9 +240,7 @@ pub fn model_from_text(text: &str) -> Result<SimulatorModel, ModelError> {
         ("the propellers' diameter", model.propeller_diameter_m),
         ("the number of rotors", model.rotor_count.map(f64::from)),
     ] {
-        if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
-            return Err(ModelError::OutOfRange { name, value });
-        }
+        value.map_or(Ok(()), |value| check_positive(name, value))?;
     }
     Ok(model)
 }

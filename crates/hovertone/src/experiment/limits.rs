@@ -4,27 +4,10 @@ use super::{ExperimentError, ExperimentLoad};
 use hovertone_thrust::VehicleModel;
 use hovertone_vehicle::{KnownRotor, PROPELLER_DIAMETER_M};
 
-/// Smallest gravity, m/s². On the highest equatorial mountain it is 9.764. *Physics.*
-const GRAVITY_M_S2_MIN: f64 = 9.70;
-/// Largest gravity, m/s². At the poles it is 9.832. *Physics.*
-const GRAVITY_M_S2_MAX: f64 = 9.90;
-
 /// Refuses propellers that cannot carry a load.
 pub(super) fn check_hovers(loads: &[ExperimentLoad], known: &KnownRotor) -> Result<(), ExperimentError> {
     let mut masses_kg = loads.iter().filter_map(|load| load.force.mass_kg());
     Ok(masses_kg.try_for_each(|mass_kg| KnownRotor { mass_kg: Some(mass_kg), ..*known }.check_hover())?)
-}
-
-pub(super) fn on_earth(gravity_m_s2: f64) -> Result<f64, ExperimentError> {
-    if (GRAVITY_M_S2_MIN..=GRAVITY_M_S2_MAX).contains(&gravity_m_s2) {
-        Ok(gravity_m_s2)
-    } else {
-        Err(ExperimentError::OutOfRange {
-            name: "vehicle.gravity_m_s2".to_owned(),
-            value: gravity_m_s2,
-            must_be: "is found nowhere on Earth: 9.70 to 9.90",
-        })
-    }
 }
 
 pub(super) fn missing(what: &str, hint: &'static str) -> ExperimentError {

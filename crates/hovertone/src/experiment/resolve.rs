@@ -1,19 +1,17 @@
 //! From the experiment file to a resolved experiment: preset and own numbers, gravity, the order of the tone, the force of each load.
 
-use super::limits::{check_hovers, check_model, missing, not_negative, on_earth, positive};
+use super::limits::{check_hovers, check_model, missing, not_negative, positive};
 use super::{Experiment, ExperimentError, ExperimentFile, ExperimentLoad, LoadSection, OrderSetting};
 use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
-use hovertone_thrust::{Air, Force, Gravity, VehicleModel};
+use hovertone_thrust::{Air, Force, Gravity, VehicleModel, check_gravity, check_latitude};
 use hovertone_vehicle::{
-    CLOCK_CORRECTION_PPM_MAX, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order, PROPELLER_DIAMETER_M,
-    SaidOfVehicle, Vehicle, are_masses_of_one_vehicle, check_range, is_swamped, presets,
+    CLOCK_CORRECTION_PPM_MAX, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order, SaidOfVehicle, Vehicle,
+    are_masses_of_one_vehicle, check_diameter, check_range, is_swamped, presets,
 };
 
 /// Default standard uncertainty of a mass, kg: a kitchen scale that shows whole grams. *Decision.*
 const MASS_STD_KG: f64 = 0.0005;
-/// Latitude of a pole, degrees. *Physics.*
-const LATITUDE_DEG_MAX: f64 = 90.0;
 
 /// Sources of the numbers that the file leaves out.
 #[derive(Clone, Copy)]
@@ -88,14 +86,7 @@ impl ExperimentFile {
         self.vehicle.gear.map_or(Ok(()), Gear::check)?;
         preset.map_or(Ok(()), |preset| self.check_said(preset))?;
         let own_diameter_m = self.vehicle.propeller_diameter_m;
-        if let Some(value) = own_diameter_m.filter(|diameter_m| !PROPELLER_DIAMETER_M.contains(diameter_m)) {
-            let name = "vehicle.propeller_diameter_m".to_owned();
-            return Err(ExperimentError::OutOfRange {
-                name,
-                value,
-                must_be: "must be from 0.01 to 10: it is in metres",
-            });
-        }
+        own_diameter_m.map_or(Ok(()), |diameter_m| check_diameter("vehicle.propeller_diameter_m", diameter_m))?;
         let config = self.resolve_config(known, rotor_count)?;
         if self.loads.is_empty() {
             return Err(missing("the loads", "write at least one [[load]] with its recordings"));
@@ -238,7 +229,7 @@ impl ExperimentFile {
             });
         }
         if load.recordings.is_empty() {
-            return Err(missing(&named("recordings"), "name at least one file or pattern"));
+            return Err(missing(&named("a recording"), "name at least one file or pattern"));
         }
         for (field, time_s) in [("from_s", load.from_s), ("to_s", load.to_s)] {
             not_negative(&named(field), time_s.unwrap_or(0.0))?;
@@ -267,17 +258,11 @@ impl ExperimentFile {
             mass_kg.ok_or_else(|| missing("the vehicle's mass", "weigh it ready to fly and write vehicle.mass_kg"))?;
         let gravity = match (self.vehicle.gravity_m_s2, self.vehicle.latitude_deg, self.vehicle.height_m) {
             (Some(gravity), None, None) => Gravity::given(gravity),
-            (None, Some(latitude_deg), height_m) if latitude_deg.abs() <= LATITUDE_DEG_MAX => {
+            (None, Some(latitude_deg), height_m) => {
+                check_latitude("vehicle.latitude_deg", latitude_deg)?;
                 Gravity::at_place(latitude_deg, height_m.unwrap_or(0.0))
             }
             (None, None, None) => Gravity::UNKNOWN,
-            (None, Some(latitude_deg), _) => {
-                return Err(ExperimentError::OutOfRange {
-                    name: "vehicle.latitude_deg".to_owned(),
-                    value: latitude_deg,
-                    must_be: "must lie between -90 and 90",
-                });
-            }
             (Some(_), _, _) => {
                 return Err(ExperimentError::Contradiction {
                     what: "vehicle has both gravity_m_s2 and a place".to_owned(),
@@ -288,6 +273,7 @@ impl ExperimentFile {
                 return Err(missing("vehicle.latitude_deg", "height_m alone does not tell gravity"));
             }
         };
+        check_gravity("vehicle.gravity_m_s2", gravity.m_s2)?;
         positive("vehicle.mass_kg", mass_kg)?;
         if is_swamped(mass_kg, self.mass_std_kg()?) {
             return Err(ExperimentError::OutOfRange {
@@ -317,7 +303,7 @@ impl ExperimentFile {
             vehicle_mass_kg: mass_kg,
             added_mass_kg,
             mass_std_kg: self.mass_std_kg()?,
-            gravity_m_s2: on_earth(gravity.m_s2)?,
+            gravity_m_s2: gravity.m_s2,
             gravity_std_m_s2: not_negative(
                 "vehicle.gravity_std_m_s2",
                 self.vehicle.gravity_std_m_s2.unwrap_or(gravity.std_m_s2),

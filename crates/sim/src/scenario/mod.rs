@@ -85,16 +85,6 @@ pub enum ScenarioError {
         /// Where to write it.
         hint: &'static str,
     },
-    /// A number out of its range.
-    #[error("{name} is {value}, and it {must_be}")]
-    OutOfRange {
-        /// Which number.
-        name: &'static str,
-        /// The given value.
-        value: f64,
-        /// The allowed values.
-        must_be: &'static str,
-    },
     /// Settings that exclude each other.
     #[error("{what}: {hint}")]
     Contradiction {
@@ -120,6 +110,6 @@ pub enum ScenarioError {
 
 impl ScenarioError {
     fn out_of_range(name: &'static str, value: f64, must_be: &'static str) -> Self {
-        Self::OutOfRange { name, value, must_be }
+        QuantityError { name, value, must_be }.into()
     }
 }

@@ -44,18 +44,18 @@ impl ScenarioFile {
         let duration_s = self.duration_s.unwrap_or(schedule.end_s());
         let steps = duration_s / flight.step_s;
         if !(steps.round() >= 1.0 && duration_s <= DURATION_S_MAX) {
-            return Err(ScenarioError::out_of_range("duration_s", duration_s, "must be above 0 and at most a day"));
+            return Err(ScenarioError::out_of_range("duration_s", duration_s, "above 0 and at most a day"));
         }
         let steps_per_row = 1.0 / (self.truth_rate_hz * flight.step_s);
         if !(steps_per_row.round() >= 1.0 && (steps_per_row - steps_per_row.round()).abs() < 1e-6 * steps_per_row) {
-            let must_be = "must divide the steps of the flight: with steps of 1 ms 1000, 500, 250, 200, 100, 50 …";
+            let must_be = "a divisor of the steps per second: with steps of 1 ms 1000, 500, 250, 200, 100, 50 …";
             return Err(ScenarioError::out_of_range("truth_rate_hz", self.truth_rate_hz, must_be));
         }
         let sound = self.sound_of(&flight)?;
         let format = self.sound.sample_format;
         let bytes_per_s = f64::from(sound.sample_rate_hz * format.byte_count()) * sound.microphones.len() as f64;
         if duration_s * bytes_per_s > SOUND_BYTES_MAX {
-            let must_be = "must make no more than the 4 GiB that a WAV file holds, all channels together";
+            let must_be = "shorter: a WAV file holds 4 GiB, all channels together";
             return Err(ScenarioError::out_of_range("duration_s", duration_s, must_be));
         }
         Ok(Scenario {
@@ -108,7 +108,7 @@ impl ScenarioFile {
             ("spread motor_gain_std_share", section.motor_gain_std_share),
         ] {
             if !(0.0..=0.15).contains(&share) {
-                return Err(ScenarioError::out_of_range(name, share, "must be between 0 and 0.15"));
+                return Err(ScenarioError::out_of_range(name, share, "between 0 and 0.15"));
             }
         }
         let drawn = Spread::random(section.thrust_std_share, section.motor_gain_std_share, self.seed);
@@ -135,11 +135,11 @@ impl ScenarioFile {
             let JitterSection { roll_std, pitch_std, yaw_rate_std, climb_std, time_constant_s } = *jitter;
             for std in [roll_std, pitch_std, yaw_rate_std, climb_std] {
                 if !(0.0..=1.0).contains(&std) {
-                    return Err(ScenarioError::out_of_range("jitter std", std, "must be between 0 and 1"));
+                    return Err(ScenarioError::out_of_range("jitter std", std, "between 0 and 1"));
                 }
             }
             if !(time_constant_s > 0.0 && time_constant_s.is_finite()) {
-                return Err(ScenarioError::out_of_range("jitter time_constant_s", time_constant_s, "must be above 0"));
+                return Err(ScenarioError::out_of_range("jitter time_constant_s", time_constant_s, "above 0"));
             }
         }
         Ok(())

@@ -117,7 +117,7 @@ impl Layout {
             Maneuver::Doublet { axis, amount, half_s, repeat, pause_s } => {
                 let amount = command(*amount)?;
                 if *repeat == 0 {
-                    return Err(ScenarioError::out_of_range("doublet repeat", 0.0, "must be 1 or more"));
+                    return Err(ScenarioError::out_of_range("doublet repeat", 0.0, "1 or more"));
                 }
                 for _ in 0..*repeat {
                     self.leg("doublet half_s", *half_s, self.at, Drive::Axis(*axis, amount), false)?;
@@ -188,10 +188,10 @@ impl Layout {
         is_hover: bool,
     ) -> Result<(), ScenarioError> {
         if !(duration_s > 0.0 && duration_s.is_finite()) {
-            return Err(ScenarioError::out_of_range(name, duration_s, "must be above 0"));
+            return Err(ScenarioError::out_of_range(name, duration_s, "above 0"));
         }
         if let Some(bad) = to.position_m.into_iter().chain([to.yaw_rad]).find(|part| !part.is_finite()) {
-            return Err(ScenarioError::out_of_range("maneuver position_m", bad, "must be a number"));
+            return Err(ScenarioError::out_of_range("maneuver position_m", bad, "a number"));
         }
         let to_s = self.now_s + duration_s;
         let leg = Leg { from_s: self.now_s, to_s, from: self.at, to, motors_on: self.motors_on, drive, is_hover };
@@ -202,11 +202,7 @@ impl Layout {
 }
 
 fn command(amount: f64) -> Result<f64, ScenarioError> {
-    if amount.abs() <= 1.0 {
-        Ok(amount)
-    } else {
-        Err(ScenarioError::out_of_range("amount", amount, "must be within ±1"))
-    }
+    if amount.abs() <= 1.0 { Ok(amount) } else { Err(ScenarioError::out_of_range("amount", amount, "within ±1")) }
 }
 
 #[cfg(test)]
@@ -274,7 +270,7 @@ mod tests {
         assert!(refused(Maneuver::TakeOff { height_m: 1.0, duration_s: 1.0 }, false).contains("flies already"));
         assert!(refused(Maneuver::Hover { duration_s: 0.0 }, false).contains("hover duration_s"));
         let step = Maneuver::Step { axis: Axis::Roll, amount: 1.5, duration_s: 1.0 };
-        assert!(refused(step, false).contains("amount is 1.5, and it "));
+        assert!(refused(step, false).contains("amount = 1.5, and it "));
         assert!(refused(Maneuver::Csv { file: "d.csv".to_owned(), duration_s: None }, false).contains("d.csv"));
     }
 }

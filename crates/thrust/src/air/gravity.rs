@@ -1,6 +1,7 @@
 //! Local gravity, and the force balance of eq 3 of the paper.
 
-use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, RotorSpeed};
+use hovertone_vehicle::{ConfigError, GRAVITY_STANDARD_M_S2, QuantityError, RotorSpeed, check_range};
+use std::ops::RangeInclusive;
 
 /// Normal gravity at the equator, m/s² (WGS 84, NIMA TR8350.2, 2000). *Physics.*
 const GRAVITY_EQUATOR_M_S2: f64 = 9.7803253359;
@@ -10,6 +11,11 @@ const SOMIGLIANA_K: f64 = 0.00193185265241;
 const ECCENTRICITY_SQUARED: f64 = 0.00669437999013;
 /// Decrease of gravity with the height in free air, 1/s². *Physics.*
 const FREE_AIR_GRADIENT_1_S2: f64 = 3.086e-6;
+
+/// Gravity on Earth, m/s², with a margin: 9.764 on the highest equatorial mountain, 9.832 at the poles. *Physics.*
+const GRAVITY_M_S2: RangeInclusive<f64> = 9.70..=9.90;
+/// Latitude of a pole, degrees. *Physics.*
+const LATITUDE_DEG_MAX: f64 = 90.0;
 
 /// Standard uncertainty of gravity from latitude and height, or as stated, m/s²: a typical gravity anomaly of 50 mGal
 /// by local rock, and heights that are known to some 100 m. *Physics.*
@@ -40,6 +46,23 @@ impl Gravity {
     pub fn at_place(latitude_deg: f64, height_m: f64) -> Self {
         Self::given(gravity_m_s2(latitude_deg, height_m))
     }
+}
+
+/// Checks that a gravity is found on Earth.
+///
+/// # Errors
+/// The number with its name.
+pub fn check_gravity(name: &'static str, m_s2: f64) -> Result<(), QuantityError> {
+    let must_be = "from 9.7 to 9.9: no place on Earth has another";
+    if GRAVITY_M_S2.contains(&m_s2) { Ok(()) } else { Err(QuantityError { name, value: m_s2, must_be }) }
+}
+
+/// Checks that a latitude is one.
+///
+/// # Errors
+/// The number with its name.
+pub fn check_latitude(name: &'static str, latitude_deg: f64) -> Result<(), ConfigError> {
+    check_range(name, latitude_deg, -LATITUDE_DEG_MAX, LATITUDE_DEG_MAX)
 }
 
 /// C = f / ω² in N s² (N per (rad/s)²): eq 3 of the paper, solved for the constant.

@@ -7,7 +7,7 @@ mod gravity;
 pub use dimensionless::{
     ThrustCoefficients, TorqueReading, figure_of_merit, is_plausible_merit, torque_constant_n_m_s2,
 };
-pub use gravity::{Gravity, gravity_m_s2, thrust_constant_n_s2};
+pub use gravity::{Gravity, check_gravity, check_latitude, gravity_m_s2, thrust_constant_n_s2};
 
 use hovertone_vehicle::ConfigError;
 use hovertone_vehicle::check_range;
