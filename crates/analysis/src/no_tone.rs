@@ -103,7 +103,7 @@ impl fmt::Display for NoTone {
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in only {} of its frames; a rotor stands out in more than {:.0} %",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames; a rotor stands out in more than {:.0} %",
                 percent_in_words(*line_share),
                 100.0 * line_share_min
             ),
@@ -132,7 +132,7 @@ impl fmt::Display for NoTone {
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in only {} of its frames, and none of its harmonics is heard",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames, and none of its harmonics is heard",
                 percent_in_words(*line_share)
             ),
         }

@@ -9,7 +9,7 @@ use crate::speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};
 use crate::square_law::force_ratio_for_intercept;
 use hovertone_analysis::{Method, Span};
 use hovertone_vehicle::{
-    ConfigError, MASS_FACTOR_MAX, QuantityError, RotorSpeed, check_diameter, check_not_negative, check_positive,
+    MASS_FACTOR_MAX, QuantityError, RotorSpeed, check_diameter, check_not_negative, check_positive,
 };
 use serde::Serialize;
 
@@ -78,9 +78,6 @@ pub enum PlanError {
     /// A mass or a share out of range.
     #[error(transparent)]
     Quantity(#[from] QuantityError),
-    /// A setting out of range.
-    #[error(transparent)]
-    Config(#[from] ConfigError),
     /// No number of flights reaches the wanted uncertainty.
     #[error(
         "no number of flights brings the uncertainty below {:.2} % (k = 2); the largest contribution that remains: {}",

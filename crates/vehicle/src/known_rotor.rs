@@ -2,8 +2,8 @@
 
 use crate::contradiction::HOVER_REV_S_MIN;
 use crate::{
-    ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, SOUND_M_S, ShaftSpeedRange,
-    THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_diameter, check_range,
+    ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, SOUND_M_S,
+    ShaftSpeedRange, THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range,
 };
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -91,7 +91,7 @@ impl KnownRotor {
         let within = |name, value: Option<f64>, allowed: RangeInclusive<f64>| {
             value.map_or(Ok(()), |value| check_range(name, value, *allowed.start(), *allowed.end()))
         };
-        self.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
+        within("diameter_m", self.diameter_m, PROPELLER_DIAMETER_M)?;
         within("mass_kg", self.mass_kg, MASS_KG_ALLOWED)?;
         within("rotors", self.rotor_count.map(f64::from), ROTORS_ALLOWED)
     }

@@ -102,9 +102,10 @@ pub fn check_range(name: &'static str, value: f64, min: f64, max: f64) -> Result
 /// Checks the tip-to-tip diameter of a propeller against [`PROPELLER_DIAMETER_M`].
 ///
 /// # Errors
-/// [`ConfigError::OutOfRange`].
-pub fn check_diameter(name: &'static str, diameter_m: f64) -> Result<(), ConfigError> {
-    check_range(name, diameter_m, *PROPELLER_DIAMETER_M.start(), *PROPELLER_DIAMETER_M.end())
+/// The diameter with its name.
+pub fn check_diameter(name: &'static str, diameter_m: f64) -> Result<(), QuantityError> {
+    let must_be = "from 0.01 to 10, in metres: 10 inches are 0.254";
+    check_quantity(name, diameter_m, PROPELLER_DIAMETER_M.contains(&diameter_m), must_be)
 }
 
 /// Checks that a number is finite and above 0.

@@ -1,8 +1,8 @@
 //! A vehicle that a user describes in a file, beside the presets.
 
 use crate::{
-    Contradiction, Gear, KnownRotor, PROPELLER_DIAMETER_M, QuantityError, RotorSpeed, ShaftSpeedRange, Sourced,
-    Vehicle, check_tips,
+    Contradiction, Gear, KnownRotor, QuantityError, RotorSpeed, ShaftSpeedRange, Sourced, Vehicle, check_diameter,
+    check_tips,
 };
 use serde::Deserialize;
 
@@ -101,14 +101,13 @@ impl OwnVehicle {
         if of_rotors.check().is_err() {
             return refuse("rotors", f64::from(self.rotors), "from 1 to 64");
         }
-        match (self.blades, self.propeller_diameter_m, self.mass_kg, self.shaft_speed_rev_s) {
+        let diameter_m = self.propeller_diameter_m;
+        diameter_m.map_or(Ok(()), |diameter_m| check_diameter("propeller_diameter_m", diameter_m))?;
+        match (self.blades, self.mass_kg, self.shaft_speed_rev_s) {
             (Some(blades), ..) if !BLADES_ALLOWED.contains(&blades) => {
                 refuse("blades", f64::from(blades), "from 1 to 20")
             }
-            (_, Some(diameter_m), ..) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
-                refuse("propeller_diameter_m", diameter_m, "from 0.01 to 10: it is in metres")
-            }
-            (.., Some(mass_kg), _) if of_mass.check().is_err() => {
+            (_, Some(mass_kg), _) if of_mass.check().is_err() => {
                 refuse("mass_kg", mass_kg, "from 0.001 to 10000: it is in kilograms")
             }
             (.., Some((low, high))) if !(low > 0.0 && low < high && high.is_finite()) => {

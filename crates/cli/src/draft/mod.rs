@@ -49,9 +49,7 @@ impl Draft {
             ..SaidOfVehicle::default()
         };
         vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
-        arguments.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m)).map_err(
-            |error| Failure::usage(error.to_string(), "it is in metres, from tip to tip: 10 inches are 0.254"),
-        )?;
+        arguments.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
         let draft = Self {
             preset: arguments.vehicle.clone(),
             rotors: arguments.rotors,

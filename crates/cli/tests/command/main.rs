@@ -13,6 +13,7 @@ mod examples;
 mod exit_codes;
 mod folded;
 mod identify;
+mod interrupts;
 mod into;
 mod labels;
 mod lighthouse;

@@ -1,12 +1,10 @@
-//! Nothing of the user's is lost: outputs that are inputs, files that exist, folders of something else, interrupts, copies.
+//! Nothing of the user's is lost: outputs that are inputs, files that exist, folders of something else, copies.
 
-use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{hovertone, hovertone_with, refused_with, steady_hover, text, write_hover, write_noise};
 use hovertone_vehicle::RotorSpeed;
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 const RESULTS: &str = r#"{"thrust_constant_per_rotor_n_s2":{"value":7e-6},"rotor_count":4}"#;
 
@@ -17,7 +15,7 @@ fn noise(folder: &Path, name: &str) -> PathBuf {
 }
 
 /// Refused for these words, and the file is as before.
-fn keeps(file: &Path, arguments: &[&str], words: &[&str]) {
+pub(crate) fn keeps(file: &Path, arguments: &[&str], words: &[&str]) {
     let before = fs::read(file).unwrap();
     refused_with(arguments, words);
     assert_eq!(fs::read(file).unwrap(), before, "{arguments:?}");
@@ -40,7 +38,20 @@ fn an_output_that_is_an_input_is_refused_also_by_force() {
     .unwrap();
     let with_log = ["speed", "--vehicle", "ardrone", text(&wav), "--log", text(&log), "--track", text(&log), "--force"];
     keeps(&log, &with_log, &["the same command reads it", "flight.csv"]);
-    // a picture may be a recording by its name
+    for log in [text(&log), "./flight.csv"] {
+        let run = |words: &[&str]| {
+            let at = folder.path();
+            let before = fs::read(at.join("flight.csv")).unwrap();
+            let run = hovertone_with(words, |command| command.current_dir(at)).ends_with(2);
+            assert!(run.stderr.contains("the same command reads it"), "{words:?}: {}", run.stderr);
+            assert_eq!(fs::read(at.join("flight.csv")).unwrap(), before, "{words:?}");
+        };
+        run(&["log", "flight.csv", "--signal", "motor_1_rpm", "-o", log, "--force"]);
+    }
+    // a picture may be a recording or a log by its name
+    let steps = folder.path().join("steps.png");
+    fs::copy(&log, &steps).unwrap();
+    keeps(&steps, &["motor", text(&steps), "--figure", text(&steps), "--force"], &["the same command reads it"]);
     let png = noise(folder.path(), "x.png");
     keeps(&png, &["spectrogram", text(&png), "-o", text(&png), "--force"], &["the same command reads it"]);
     let results = folder.path().join("results.json");
@@ -208,57 +219,6 @@ fn an_experiment_file_that_was_changed_is_no_demos() {
         .unwrap();
     keeps(&experiment, &["demo", "-o", text(folder.path())], &["was changed", "--force"]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
-}
-
-/// A demo that is stopped while it writes its recordings leaves whole files only, and the next one takes its folder and clears up.
-#[cfg(unix)]
-#[test]
-fn an_interrupted_demo_leaves_no_half_file_and_runs_again() {
-    let folder = tempfile::tempdir().unwrap();
-    let demo = folder.path().join("demo");
-    let names = || -> Vec<String> {
-        let files = demo.join("no_hull").read_dir().into_iter().flatten();
-        files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect()
-    };
-    // begins a demo, kills it while it writes and, if wanted, has finished a recording; returns the ending of the names of what it left
-    let old = demo.join("no_hull/trial_1.wav");
-    let interrupted = |seed: &str, waits_for_recording: bool| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_hovertone"));
-        command.args(["demo", "-o", text(&demo), "--seed", seed]).stdout(Stdio::null()).stderr(Stdio::null());
-        let mut run = command.spawn().unwrap();
-        let unfinished = format!(".{}.hovertone-unfinished", run.id());
-        let is_writing = || names().iter().any(|name| name.ends_with(&unfinished));
-        let is_far_enough = || is_writing() && (!waits_for_recording || old.exists());
-        let begun = Instant::now();
-        while !is_far_enough() && begun.elapsed() < Duration::from_secs(60) {
-            assert!(run.try_wait().unwrap().is_none(), "the folder was refused");
-            std::thread::sleep(Duration::from_millis(2));
-        }
-        run.kill().unwrap();
-        run.wait().unwrap();
-        assert!(is_far_enough(), "it was not stopped while it wrote");
-        unfinished
-    };
-    let first = interrupted("1", false);
-    assert!(demo.join("experiment.toml").exists() && !old.exists());
-    interrupted("1", true);
-    // a recording of an earlier demo stays whole
-    let before = fs::read(&old).unwrap();
-    interrupted("2", false);
-    assert_eq!(fs::read(&old).unwrap(), before);
-    assert!(names().iter().all(|name| !name.ends_with(&first)), "{:?}", names());
-    // a recording of the user's in place of the demo's, or beside its others, is not replaced
-    for name in ["no_hull/trial_1.wav", "big_hull/trial_5.wav"] {
-        let own = demo.join(name);
-        let of_demo = fs::read(&own).ok();
-        fs::create_dir_all(own.parent().unwrap()).unwrap();
-        write_noise(&own, 1.0);
-        keeps(&own, &["demo", "-o", text(&demo), "--seed", "2"], &["trial_", "was changed", "-o DIR", "--force"]);
-        of_demo.map_or_else(|| fs::remove_file(&own), |of_demo| fs::write(&own, of_demo)).unwrap();
-    }
-    let experiment = demo.join("experiment.toml");
-    fs::write(&experiment, fs::read_to_string(&experiment).unwrap() + "# my notes\n").unwrap();
-    keeps(&experiment, &["demo", "-o", text(&demo)], &["experiment.toml", "was changed", "--force"]);
 }
 
 /// The files of a folder and their bytes.

@@ -146,6 +146,15 @@ fn recordings_are_a_short_table_on_a_phone(browser: &mut Browser) {
     let row = browser.text("document.querySelector('table.recordings tbody tr').innerText");
     assert!(row.contains("payload number") && row.contains(".wav") && row.contains(" ± "), "{row}");
     browser.screen(SCREEN);
+    browser.draw();
+    // one long name does not take the width of the decisions of all others
+    let heights = browser.value(
+        "(() => { const [first, ...rows] = document.querySelector('table.recordings').tBodies[0].rows;
+          const link = first.querySelector('a'), name = link.textContent, height = () => Math.max(...rows.map(row => row.offsetHeight));
+          const before = height(); link.textContent = 'a_long_name_'.repeat(8); const after = height(); link.textContent = name;
+          return [before, after]; })()",
+    );
+    assert_eq!(heights[0], heights[1], "px high");
 }
 
 fn figures_scroll_by_keyboard_on_a_phone(browser: &mut Browser) {

@@ -229,7 +229,7 @@ impl ExperimentFile {
             });
         }
         if load.recordings.is_empty() {
-            return Err(missing(&named("a recording"), "name at least one file or pattern"));
+            return Err(missing(&named("a recording"), "name at least one file or pattern in recordings = [...]"));
         }
         for (field, time_s) in [("from_s", load.from_s), ("to_s", load.to_s)] {
             not_negative(&named(field), time_s.unwrap_or(0.0))?;
