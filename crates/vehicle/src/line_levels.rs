@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Distribution of the levels of the lines of a rotor, in dB over the local floor in frames of 0.1 s, measured on real recordings
+/// Distribution of the powers of the lines of a rotor, in dB over the mean floor of the recording in frames of 0.1 s, measured on real recordings
 /// (`docs/measurements.md`). All distributions are normal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -75,20 +75,20 @@ impl LineLevels {
 impl Default for LineLevels {
     fn default() -> Self {
         Self {
-            blade_pass_db: 20.0,
-            blade_pass_std_db: 15.0,
+            blade_pass_db: 25.0,
+            blade_pass_std_db: 25.0,
             rotors_std_db: 12.0,
-            fall: 1.3,
+            fall: 1.5,
             fall_std: 1.0,
             smeared: 0.3,
             line_std_db: 3.0,
-            shaft_db: -7.0,
-            shaft_std_db: 4.5,
+            shaft_db: -9.0,
+            shaft_std_db: 5.5,
             faint_shaft_db: -18.0,
             faint_shaft_std_db: 7.0,
             faint_shaft: 0.45,
             shaft_line_std_db: 5.5,
-            below_db: -14.0,
+            below_db: -18.0,
             below_std_db: 6.0,
             below_missing: 0.2,
             shaft_inaudible: 0.15,

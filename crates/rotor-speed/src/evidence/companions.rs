@@ -56,7 +56,7 @@ pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &Ow
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::excess::{Excess, ExcessFrame};
+    use crate::evidence::excess::Excess;
     use crate::evidence::level_table::level_of;
     use hovertone_vehicle::LineLevels;
 
@@ -69,8 +69,7 @@ mod tests {
             }
         }
         let frames = (2.0 / hop_s) as u32;
-        let frame = |index: u32| ExcessFrame::of_levels(hop_s * f64::from(index), levels.clone());
-        Excess { bin_hz, frames: (0..frames).map(frame).collect() }
+        Excess::of_levels(bin_hz, hop_s, frames, &levels)
     }
 
     fn nats(speeds_rev_s: &[f64]) -> f64 {

@@ -1,6 +1,6 @@
 //! Sound → power over the local floor, in short and long frames, in bounded memory and time.
 
-use super::floor::Floor;
+use super::floor::{Floor, FloorShape, FloorSums};
 use super::level_table::{Level, LevelTable};
 use super::rounding::Rounding;
 use hovertone_signal::spectrogram::{Stft, Window};
@@ -56,6 +56,8 @@ pub(crate) struct Excess {
     pub(crate) bin_hz: f64,
     /// The frames in order of time; quiet ones are left out.
     pub(crate) frames: Vec<ExcessFrame>,
+    /// The floor of the whole recording.
+    pub(super) floor: Arc<FloorShape>,
 }
 
 /// One frame.
@@ -69,10 +71,16 @@ pub(crate) struct ExcessFrame {
 }
 
 #[cfg(test)]
-impl ExcessFrame {
-    /// A frame with these levels.
-    pub(super) fn of_levels(centre_s: f64, levels: Vec<Level>) -> Self {
-        Self { centre_s, levels: levels.into(), mean_power: 1.0 }
+impl Excess {
+    /// Frames that all have these levels over a flat floor.
+    pub(super) fn of_levels(bin_hz: f64, hop_s: f64, frames: u32, levels: &[Level]) -> Self {
+        let levels: Arc<[Level]> = levels.into();
+        let frame = |index: u32| ExcessFrame {
+            centre_s: hop_s * f64::from(index),
+            levels: Arc::clone(&levels),
+            mean_power: 1.0,
+        };
+        Self { bin_hz, frames: (0..frames).map(frame).collect(), floor: Arc::default() }
     }
 }
 
@@ -80,7 +88,8 @@ impl Excess {
     /// The frames whose middle is in one of these spans of time.
     pub(crate) fn within(&self, spans_s: &[Range<f64>]) -> Self {
         let is_within = |frame: &&ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
-        Self { bin_hz: self.bin_hz, frames: self.frames.iter().filter(is_within).cloned().collect() }
+        let frames = self.frames.iter().filter(is_within).cloned().collect();
+        Self { bin_hz: self.bin_hz, frames, floor: Arc::clone(&self.floor) }
     }
 
     /// Resolution of a frame, Hz.
@@ -182,6 +191,7 @@ struct Frames {
     floor: Floor,
     /// Power of a line that rounding makes.
     rounding_power: f64,
+    floors: FloorSums,
     levels: LevelTable,
     frames: Vec<ExcessFrame>,
 }
@@ -193,6 +203,7 @@ impl Frames {
             bins: (HZ_MAX.min(RATE_SHARE_MAX * sample_rate_hz) / stft.bin_hz()) as usize,
             floor: Floor::of_bins(stft.bin_hz()),
             rounding_power: rounding.line_power(),
+            floors: FloorSums::default(),
             levels: LevelTable::new(),
             frames: Vec::new(),
             stft,
@@ -201,14 +212,18 @@ impl Frames {
 
     /// Takes in a section. Where it does not follow the last one, its start is given.
     fn push(&mut self, samples: &[f32], start_s: Option<f64>) {
-        let Self { stft, bins, floor, rounding_power, levels, frames } = self;
+        let Self { stft, bins, floor, rounding_power, floors, levels, frames } = self;
         if let Some(start_s) = start_s {
             stft.restart(start_s);
         }
+        let bin_hz = stft.bin_hz();
         stft.push(samples, |frame| {
             let mean_power = frame.power.iter().sum::<f64>() / frame.power.len() as f64;
-            let added = (ADDED_NOISE_SHARE * mean_power).max(*rounding_power);
-            let excess = over_floor(&frame.power[..frame.power.len().min(*bins)], floor, added);
+            let added = (ADDED_NOISE_SHARE * mean_power).max(*rounding_power).max(f64::MIN_POSITIVE);
+            let power = &frame.power[..frame.power.len().min(*bins)];
+            let under = floor.of(power);
+            floors.add(&under, added, bin_hz);
+            let excess = over_floor(power, &under, added);
             let levels = excess.into_iter().map(|excess| levels.of(excess)).collect();
             frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
         });
@@ -221,16 +236,14 @@ impl Frames {
         let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
         let power_min = QUIET_SHARE * median(&powers).unwrap_or(0.0);
         frames.retain(|frame| frame.mean_power > power_min);
-        Excess { bin_hz, frames }
+        Excess { bin_hz, frames, floor: Arc::new(self.floors.shape()) }
     }
 }
 
 /// Power over the floor, with noise added to both. A skirt or a side lobe of a line counts as noise at most.
-fn over_floor(power: &[f64], floor: &mut Floor, added: f64) -> Vec<f64> {
-    let added = added.max(f64::MIN_POSITIVE);
+fn over_floor(power: &[f64], floors: &[f64], added: f64) -> Vec<f64> {
     // the median of noise is ln 2 of its mean
-    let floors = floor.of(power);
-    let over = |(power, floor): (&f64, f64)| (power + added) / (floor / LN_2 + added);
+    let over = |(power, floor): (&f64, &f64)| (power + added) / (floor / LN_2 + added);
     let excess: Vec<f64> = power.iter().zip(floors).map(over).collect();
     let limits = skirt_limits(&excess);
     let without_skirts = |(&excess, limit): (&f64, f64)| if excess < limit { excess.min(1.0) } else { excess };

@@ -1,6 +1,7 @@
-//! The local floor of the power of a frame.
+//! The local floor of the power of a frame, and the shape of the floor of a recording.
 
 use std::collections::VecDeque;
+use std::f64::consts::LN_10;
 
 /// Width of the running median of the floor, Hz: wider than several lines of a small rotor's comb, narrower than the slope of noise.
 /// *Decision.*
@@ -68,6 +69,53 @@ impl Floor {
     }
 }
 
+/// Step of the frequencies at which the shape of the floor is kept, Hz: the floor is a median over a wider band. *Numeric.*
+const SHAPE_HZ: f64 = 20.0;
+
+/// Sums of the floors of frames, from which the shape of the floor comes.
+#[derive(Default)]
+pub(super) struct FloorSums {
+    /// Sums of the logarithm of the floor, in nats, every [`SHAPE_HZ`].
+    nats: Vec<f64>,
+    frames: u32,
+}
+
+impl FloorSums {
+    /// Takes in the floor of each bin of a frame.
+    pub(super) fn add(&mut self, floors: &[f64], added: f64, bin_hz: f64) {
+        let bin = |point: usize| (point as f64 * SHAPE_HZ / bin_hz).round() as usize;
+        self.nats.resize((0..).take_while(|&point| bin(point) < floors.len()).count(), 0.0);
+        for (point, sum) in self.nats.iter_mut().enumerate() {
+            *sum += (floors[bin(point)] + added).ln();
+        }
+        self.frames += 1;
+    }
+
+    /// The shape of the mean floor. Octaves count alike in the level against which it is told: half of the lines of a rotor lie in the lowest.
+    pub(super) fn shape(&self) -> FloorShape {
+        let octaves = || self.nats.iter().zip(1u32..).map(|(nats, point)| (nats, 1.0 / f64::from(point)));
+        let weights: f64 = octaves().map(|(_, weight)| weight).sum();
+        let mean = octaves().map(|(nats, weight)| weight * nats).sum::<f64>() / weights;
+        let db = |nats: &f64| 10.0 / LN_10 * (nats - mean) / f64::from(self.frames);
+        FloorShape { levels_db: self.nats.iter().map(db).collect() }
+    }
+}
+
+/// The floor of a recording at each frequency, against its mean over all octaves.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FloorShape {
+    /// Every [`SHAPE_HZ`], dB.
+    levels_db: Vec<f64>,
+}
+
+impl FloorShape {
+    /// The floor at a frequency, dB; beyond the band that of its end, and 0 of no recording.
+    pub(super) fn db(&self, hz: f64) -> f64 {
+        let point = (hz / SHAPE_HZ).round() as usize;
+        self.levels_db.get(point).or(self.levels_db.last()).copied().unwrap_or_default()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,5 +143,23 @@ mod tests {
             assert!((46..=50).contains(&(2 * floor.half)), "{bin_hz}: {}", floor.half);
         }
         assert!(Floor::of_bins(1.0).of(&[]).is_empty());
+    }
+
+    #[test]
+    fn the_shape_of_the_floor_is_that_of_the_noise_at_any_loudness() {
+        let bin_hz = 2.5;
+        // 6 dB louder below 1000 Hz, in loud and in soft frames
+        let floors = |loudness: f64| -> Vec<f64> {
+            (0..800).map(|bin| if f64::from(bin) * bin_hz < 1000.0 { 4.0 * loudness } else { loudness }).collect()
+        };
+        let mut sums = FloorSums::default();
+        [1.0, 100.0, 3.0].into_iter().for_each(|loudness| sums.add(&floors(loudness), 0.0, bin_hz));
+        let shape = sums.shape();
+        let step_db = 10.0 * 4f64.log10();
+        assert!((shape.db(500.0) - shape.db(1500.0) - step_db).abs() < 1e-9);
+        // 50 of 100 points, with 4.50 of 5.19 of the weights
+        assert!((shape.db(500.0) - 0.133 * step_db).abs() < 0.01, "{}", shape.db(500.0));
+        assert_eq!(shape.db(1e5), shape.db(1990.0));
+        assert_eq!(FloorShape::default().db(100.0), 0.0);
     }
 }

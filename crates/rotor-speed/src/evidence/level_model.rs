@@ -1,9 +1,10 @@
 //! Levels of the lines of a rotor, against levels of nothing.
 //!
 //! With the loudness g, the fall s, the smear c and the offset d of the shaft lines, the line of order k of a propeller with B blades has the
-//! mean level `g − s · 10 log₁₀(k/B) − c · (k/B − 1)`, plus d where k is no multiple of B; it scatters about its mean, in some recordings more
-//! than in others. Lines below the blade pass are weaker, as a slow force radiates little: their mean is g less some dB. A measured level has
-//! the noise of the frames.
+//! mean level `g − s · 10 log₁₀(k/B) − c · (k/B − 1) − F(k)` over the local floor, plus d where k is no multiple of B. F(k) is the floor at the
+//! line against the mean floor of the recording: noise falls with frequency, and hides the lowest lines. A line scatters about its mean, in some
+//! recordings more than in others. Lines below the blade pass are weaker, as a slow force radiates little: their mean is g less some dB. A
+//! measured level has the noise of the frames.
 //! The evidence is the integral of the product of all likelihood ratios over g, s, c, d and the scatter, on a grid. Lines may be missing, all
 //! shaft lines may be inaudible, so may all lines above some harmonic, and a place without a line may hold a line of something else. A
 //! reflection may take most of a line of the blade pass away (a notch), or weaken every other one: an echo that comes half a period of the
@@ -15,7 +16,7 @@ use hovertone_signal::statistics::log_sum_exp;
 use hovertone_vehicle::LineLevels;
 
 /// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
-const LINE_DB: std::ops::RangeInclusive<i32> = -45..=80;
+const LINE_DB: std::ops::RangeInclusive<i32> = -45..=95;
 /// Steps of a measured level to a dB. *Numeric.*
 const STEPS_PER_DB: f64 = 16.0;
 /// Number of these steps: to 90 dB. *Numeric.*
@@ -27,7 +28,7 @@ const FOREIGN_RANGE_DB: f64 = 45.0;
 /// Step of the levels of the integrals, dB. *Numeric.*
 const STEP_DB: i32 = 3;
 /// Steps of the integral over the loudness, dB. *Numeric.*
-const LOUDNESS_DB: [i32; 20] = [-4, -1, 2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32, 35, 38, 41, 47, 53, 59, 65];
+const LOUDNESS_DB: [i32; 22] = [-4, -1, 2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32, 35, 38, 41, 47, 53, 59, 65, 71, 77];
 /// Steps of the integral over the fall. *Numeric.*
 const FALLS: [f64; 5] = [0.0, 0.6, 1.2, 2.0, 3.0];
 /// Steps of the integral over the smear, dB for each harmonic. *Numeric.*
@@ -39,7 +40,7 @@ const ECHO_DB: [i32; 3] = [-6, -12, -18];
 /// Lowest sum of loudness and offset, dB. *Numeric.*
 const SUM_DB_MIN: i32 = LOUDNESS_DB[0] + SHAFT_DB[0];
 /// Number of sums of loudness and offset. *Numeric.*
-const SUMS: usize = 39;
+const SUMS: usize = 43;
 /// Harmonics of the blade pass above which all lines are inaudible: wander smears them, and recorders and codecs cut them. Each is as
 /// probable. *Decision.*
 const LAST_HARMONICS: [u32; 13] = [2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 28, 40, LAST_HARMONIC];
@@ -53,6 +54,8 @@ pub struct OrderLevel {
     pub order: u32,
     /// Mean over the frames of the level over the floor.
     pub level_db: f64,
+    /// The floor there, against the mean floor of the recording, in dB.
+    pub floor_db: f64,
 }
 
 /// Sums of log-likelihood ratios of the lines up to each of the last harmonics, in nats.
@@ -125,7 +128,7 @@ impl<'a> LevelModel<'a> {
             let shaft = scatter.shaft.sums(&lines.shaft, blades, fall);
             let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
                 let mean_db = f64::from(loudness_db) + self.prior.below_db;
-                let below_nats: f64 = below.iter().map(|line| self.below.ratio(line, mean_db)).sum();
+                let below_nats: f64 = below.iter().map(|line| self.below.ratio(line, mean_db - line.floor_db)).sum();
                 let blade_nats = self.blade_nats(&even, &odd, loudness_db);
                 let shaft_nats = self.shaft_nats(&shaft, loudness_db);
                 let up_to = blade_nats.iter().zip(shaft_nats).map(|(blade, shaft)| blade + shaft);
@@ -199,6 +202,7 @@ fn sum_index(sum_db: i32) -> usize {
 struct Line {
     order: u32,
     row: usize,
+    floor_db: f64,
 }
 
 /// The lines of each class.
@@ -224,7 +228,7 @@ impl LinesOfClasses {
 /// The lines of the wanted orders.
 fn lines_of(table: &mut RatioTable, levels: &[OrderLevel], is_wanted: impl Fn(u32) -> bool) -> Vec<Line> {
     let wanted = levels.iter().filter(|level| is_wanted(level.order));
-    wanted.map(|level| Line { order: level.order, row: table.row(level.level_db) }).collect()
+    wanted.map(|level| Line { order: level.order, row: table.row(level.level_db), floor_db: level.floor_db }).collect()
 }
 
 /// How the lines of one class scatter about their mean level.
@@ -298,7 +302,8 @@ impl RatioTable {
     /// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of
     /// the order. The orders rise.
     fn sums(&self, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpTo> {
-        let falls_db: Vec<f64> = lines.iter().map(|line| fall.db(f64::from(line.order) / f64::from(blades))).collect();
+        let falls_db: Vec<f64> =
+            lines.iter().map(|line| line.floor_db + fall.db(f64::from(line.order) / f64::from(blades))).collect();
         (0..SUMS)
             .map(|index| {
                 let sum_db = f64::from(SUM_DB_MIN + STEP_DB * index as i32);
@@ -357,7 +362,7 @@ mod tests {
 
     fn evidence(levels_db: &[f64], blades: u32) -> f64 {
         let levels: Vec<OrderLevel> =
-            (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db }).collect();
+            (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db, floor_db: 0.0 }).collect();
         LevelModel::new(NOISE, blades, &LineLevels::default()).evidence_nats(&levels)
     }
 

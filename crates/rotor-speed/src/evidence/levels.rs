@@ -3,7 +3,7 @@
 use super::excess::Excess;
 use super::level_model::{LAST_HARMONIC, OrderLevel};
 use super::level_table;
-use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, median};
+use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
 
 /// Share of frames in which a line must be inside the band. *Decision.*
 const INSIDE_SHARE_MIN: f64 = 0.8;
@@ -38,9 +38,30 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
 
 /// Levels of all orders that are compared, along a path.
 pub(super) fn levels_of_orders(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Vec<OrderLevel> {
-    (1..=LAST_HARMONIC * blades)
-        .filter_map(|order| Some(OrderLevel { order, level_db: level_db(excess, speeds_rev_s, f64::from(order))? }))
-        .collect()
+    let floors = FloorAlong::of(excess, speeds_rev_s);
+    let level = |order: u32| {
+        let level_db = level_db(excess, speeds_rev_s, f64::from(order))?;
+        Some(OrderLevel { order, level_db, floor_db: floors.db(order) })
+    };
+    (1..=LAST_HARMONIC * blades).filter_map(level).collect()
+}
+
+/// The floor of a recording at the orders of a path.
+pub(super) struct FloorAlong<'a> {
+    excess: &'a Excess,
+    mean_rev_s: f64,
+}
+
+impl<'a> FloorAlong<'a> {
+    /// Along the mean of these speeds.
+    pub(super) fn of(excess: &'a Excess, speeds_rev_s: &[f64]) -> Self {
+        Self { excess, mean_rev_s: mean(speeds_rev_s).unwrap_or_default() }
+    }
+
+    /// Against the mean floor, dB.
+    pub(super) fn db(&self, order: u32) -> f64 {
+        self.excess.floor.db(f64::from(order) * self.mean_rev_s)
+    }
 }
 
 /// Level where no line is, and its standard deviation.

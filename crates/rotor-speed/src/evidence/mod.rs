@@ -8,7 +8,8 @@
 //!    cannot outweigh the absence of all other lines.
 //! 2. *Paths* (`path`): in each window of speeds, the path with the most votes, by dynamic programming. With one path over all speeds, wide
 //!    lines of several rotors pass for those of a slow comb.
-//! 3. *Levels* (`levels`): the level of each order along a path, with the noise from orders where no rotor has a line.
+//! 3. *Levels* (`levels`): the level of each order along a path over the local floor (`floor`), the floor there, and the noise from orders where
+//!    no rotor has a line.
 //! 4. *Level model* (`level_model`): the log-likelihood ratio of these levels, as lines of a rotor, against levels of nothing, integrated
 //!    over loudness, slope, and the level of the shaft lines against the blade pass.
 //! 5. *Hypotheses* (`hypotheses`): each path at its octaves and families, compared on the same frames, with the prior of mass, diameter and

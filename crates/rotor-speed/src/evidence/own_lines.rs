@@ -3,7 +3,7 @@
 use super::excess::Excess;
 use super::level_model::{LevelModel, OrderLevel};
 use super::level_table;
-use super::levels::{level_db, noise_level};
+use super::levels::{FloorAlong, level_db, noise_level};
 use super::votes::HARMONICS;
 use hovertone_vehicle::LineLevels;
 
@@ -17,12 +17,15 @@ pub(super) fn is_apart(excess: &Excess, hz: f64, shaft_rev_s: f64) -> bool {
     (hz - (hz / shaft_rev_s).round() * shaft_rev_s).abs() >= APART_RESOLUTIONS * excess.resolution_hz()
 }
 
-/// Level of the loudest line of the blade pass of a rotor, dB over the floor. `None` outside the band.
+/// Level of the line of the blade pass of a rotor that stands out most, dB over the mean floor. `None` outside the band.
 ///
 /// - `speeds_rev_s`: speed of the rotor in each frame.
 pub(crate) fn loudness_db(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Option<f64> {
-    let levels = (1..=HARMONICS).filter_map(|harmonic| level_db(excess, speeds_rev_s, f64::from(harmonic * blades)));
-    levels.max_by(f64::total_cmp)
+    let floors = FloorAlong::of(excess, speeds_rev_s);
+    let orders = (1..=HARMONICS).map(|harmonic| harmonic * blades);
+    let levels = orders.filter_map(|order| Some((order, level_db(excess, speeds_rev_s, f64::from(order))?)));
+    let loudest = levels.max_by(|(_, a), (_, b)| a.total_cmp(b));
+    loudest.map(|(order, level_db)| level_db + floors.db(order))
 }
 
 /// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: negative where they are
@@ -40,6 +43,7 @@ pub(crate) fn own_lines_nats(
     propeller: &OwnPropeller<'_>,
 ) -> Option<f64> {
     let OwnPropeller { blades, prior } = *propeller;
+    let floors = FloorAlong::of(excess, speeds_rev_s);
     let own_level = |harmonic: u32| {
         let order = harmonic * blades;
         let (mut sum, mut count) = (0u32, 0u32);
@@ -54,7 +58,7 @@ pub(crate) fn own_lines_nats(
         }
         let is_often_apart = f64::from(count) >= APART_SHARE_MIN * excess.frames.len() as f64;
         let level_db = level_table::level_db(f64::from(sum) / f64::from(count.max(1)));
-        is_often_apart.then_some(OrderLevel { order, level_db })
+        is_often_apart.then(|| OrderLevel { order, level_db, floor_db: floors.db(order) })
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
     let noise = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty())?;
@@ -72,7 +76,6 @@ pub(crate) struct OwnPropeller<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evidence::excess::ExcessFrame;
     use crate::evidence::level_table::level_of;
 
     /// Forty frames of 9 kHz, with lines 20 dB over noise.
@@ -80,8 +83,7 @@ mod tests {
         let bin_hz = 2.5;
         let mut levels = vec![level_of(0.8); 3600];
         lines_hz.iter().for_each(|hz| levels[(hz / bin_hz).round() as usize] = level_of(100.0));
-        let frame = |index: u32| ExcessFrame::of_levels(0.05 * f64::from(index), levels.clone());
-        Excess { bin_hz, frames: (0..40).map(frame).collect() }
+        Excess::of_levels(bin_hz, 0.05, 40, &levels)
     }
 
     fn nats(excess: &Excess, speed_rev_s: f64, others_rev_s: &[f64]) -> Option<f64> {

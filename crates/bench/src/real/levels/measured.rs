@@ -18,6 +18,7 @@ const SAME_OCTAVE_SHARE: f64 = 0.15;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Measured {
     pub(super) first_db: Option<f64>,
+    pub(super) first_power_db: Option<f64>,
     pub(super) fall: Option<f64>,
     pub(super) scatter_db: Option<f64>,
     pub(super) shaft_offset_db: Option<f64>,
@@ -48,8 +49,9 @@ pub(super) struct Quantity {
     pub(super) of: fn(&Measured) -> Option<f64>,
 }
 
-pub(super) const QUANTITIES: [Quantity; 12] = [
+pub(super) const QUANTITIES: [Quantity; 13] = [
     Quantity { title: "first line of the blade pass over the floor (dB)", of: |it| it.first_db },
+    Quantity { title: "the same over the mean floor of the recording (dB)", of: |it| it.first_power_db },
     Quantity { title: "fall for a tenfold order (10 dB)", of: |it| it.fall },
     Quantity { title: "scatter of blade pass lines (dB)", of: |it| it.scatter_db },
     Quantity { title: "offset of audible shaft lines (dB)", of: |it| it.shaft_offset_db },
@@ -80,6 +82,7 @@ impl Measured {
                 harmonic: f64::from(line.order) / f64::from(blades),
                 is_blade_pass: line.order.is_multiple_of(blades),
                 level_db: line.level_db,
+                power_db: line.level_db + line.floor_db,
             })
             .collect();
         let of_class = |is_of: fn(&Line) -> bool| -> Class {
@@ -91,18 +94,20 @@ impl Measured {
         let shaft = of_class(|line| !line.is_blade_pass && line.harmonic > 1.0);
         let below = of_class(|line| line.harmonic < 1.0);
         let fit = Fit::of(&blade_pass.audible);
-        let first_db = all.iter().find(|line| line.harmonic == 1.0).map(|line| line.level_db);
-        let loud_db = first_db.filter(|&first_db| first_db >= BELOW_FIRST_DB_MIN);
+        let first = all.iter().find(|line| line.harmonic == 1.0).copied();
+        let first_db = first.map(|line| line.level_db);
+        let loud = first.filter(|first| first.level_db >= BELOW_FIRST_DB_MIN);
         Self {
             first_db,
+            first_power_db: first.map(|line| line.power_db),
             fall: fit.map(|fit| fit.fall),
             scatter_db: fit.and_then(|fit| fit.scatter_db),
             shaft_offset_db: fit
-                .and_then(|fit| mean(shaft.audible.iter().map(|line| line.level_db - fit.level_db(line.harmonic)))),
-            below_db: loud_db.and_then(|first_db| mean(below.audible.iter().map(|line| line.level_db - first_db))),
+                .and_then(|fit| mean(shaft.audible.iter().map(|line| line.power_db - fit.level_db(line.harmonic)))),
+            below_db: loud.and_then(|first| mean(below.audible.iter().map(|line| line.power_db - first.power_db))),
             blade_pass_share: blade_pass.audible_share(),
             shaft_share: shaft.audible_share(),
-            below_share: loud_db.and_then(|_| below.audible_share()),
+            below_share: loud.and_then(|_| below.audible_share()),
             noise_lines_share: Some(lines.noise.lines_share),
             votes_nats: Some(lines.votes_nats),
             ..Self::default()
@@ -115,7 +120,10 @@ struct Line {
     /// Its order over the blades.
     harmonic: f64,
     is_blade_pass: bool,
+    /// Over the floor.
     level_db: f64,
+    /// Over the mean floor of the recording.
+    power_db: f64,
 }
 
 struct Class {
@@ -143,13 +151,13 @@ impl Fit {
             return None;
         }
         let decades = |line: &Line| 10.0 * line.harmonic.log10();
-        let (middle, mean_db) = (mean(lines.iter().map(decades))?, mean(lines.iter().map(|line| line.level_db))?);
-        let product = |line: &Line| (decades(line) - middle) * (line.level_db - mean_db);
+        let (middle, mean_db) = (mean(lines.iter().map(decades))?, mean(lines.iter().map(|line| line.power_db))?);
+        let product = |line: &Line| (decades(line) - middle) * (line.power_db - mean_db);
         let products: f64 = lines.iter().map(product).sum();
         let squares: f64 = lines.iter().map(|line| (decades(line) - middle).powi(2)).sum();
         let slope = products / squares;
         let fit = Self { first_db: mean_db - slope * middle, fall: -slope, scatter_db: None };
-        let left: f64 = lines.iter().map(|line| (line.level_db - fit.level_db(line.harmonic)).powi(2)).sum();
+        let left: f64 = lines.iter().map(|line| (line.power_db - fit.level_db(line.harmonic)).powi(2)).sum();
         let scatter_db = (lines.len() > FALL_LINES_MIN).then(|| (left / (lines.len() - 2) as f64).sqrt());
         Some(Self { scatter_db, ..fit })
     }
@@ -191,7 +199,7 @@ mod tests {
                 _ => 14.0 - fall_db,
             }
         };
-        let levels = (1..=40).map(|order| OrderLevel { order, level_db: level_db(order) }).collect();
+        let levels = (1..=40).map(|order| OrderLevel { order, level_db: level_db(order), floor_db: 0.0 }).collect();
         let noise = NoiseLevel { mean_db: -2.0, std_db: 0.5, lines_share: 0.1 };
         let lines = LinesNear { speed_rev_s: 80.0, votes_nats: 3.0, levels, noise, levels_nats: 50.0 };
         let speed = |speed_rev_s, belief| ComparedSpeed { speed_rev_s, belief };

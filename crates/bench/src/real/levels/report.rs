@@ -129,7 +129,8 @@ const LEVELS: &str = "Each simulated flight is a hover with levels drawn from th
     (`line_levels = \"drawn\"`), of a vehicle, place, wind, voices and recorder that are drawn as well, through AAC or Opus in four of five cases \
     (`crates/bench/src/real/levels/simulated.rs`). The real recordings are the trusted ones with known blades. The same code measures all: along the \
     best path within 10 % of the true speed, in frames of 0.1 s. A line is audible if it is 2.5 standard deviations above the level between the \
-    orders. Fall and scatter come from a straight line in log order through the audible lines of the blade pass, up to the 12th harmonic; shaft \
+    orders. The power of a line is its level over the local floor, plus the local floor against the mean floor of the recording. Fall and scatter \
+    come from a straight line in log order through the powers of the audible lines of the blade pass, up to the 12th harmonic; shaft \
     lines above the blade pass are measured against it, lines below the blade pass against its first line, where that is at least 15 dB. Each cell has \
     the 10, 50 and 90 % quantiles and the number of recordings with a value. The evidence of the levels is the sum of frames of 0.1 and 0.4 s. The last \
     quantity is the logarithm of the odds of the true octave against its best rival, where a rotor is heard; it is −∞ where the truth is not among \
@@ -149,7 +150,6 @@ The first line of the blade pass, the audible share of blade pass lines and the 
 Where it is harder:
 
 - Lines of the blade pass scatter more than in real flights, and less than on real benches: the table has one distribution for both.
-- The fall is smaller than the drawn one (1.3 ± 1.0), probably because wind and the noise of the place make a floor that falls with frequency too.
 - The loudness has a wider range. The silent simulated flights have a first line within 3 dB of the floor and votes below 0: they are not
   audible. Nine of ten real flights have votes of 3 nats and more.
 - More places between the orders hold lines of something else, probably of voices and of rotors that are further apart.
