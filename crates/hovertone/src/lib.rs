@@ -35,6 +35,7 @@
 
 pub mod calibration;
 pub mod experiment;
+pub mod motors;
 
 /// Sound: a source of samples, and the passes over it.
 ///

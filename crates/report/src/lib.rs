@@ -68,7 +68,7 @@ pub use folded_warnings::{
 };
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
-pub use motor::{LoggedMotor, MotorRecord, motor_text};
+pub use motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource, motor_text};
 pub use motor_json::motor_json;
 pub use names::short_names;
 pub use notice::Notice;
