@@ -209,7 +209,7 @@ fn commands_of(path: &Path, names: &ColumnNames) -> Result<LoggedMotors, Failure
 }
 
 /// The motors of a log; `None` if the file is none.
-fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<LoggedFlight>, Failure> {
+pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<LoggedFlight>, Failure> {
     let stream = open_stream(file, "the log or recording")?;
     let flight = match flight_from_log(stream, names) {
         Ok(flight) => flight,

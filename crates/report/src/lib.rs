@@ -51,6 +51,7 @@ mod tones;
 mod typeset;
 mod units;
 mod vehicles;
+mod verification;
 mod version;
 mod weighed;
 
@@ -87,5 +88,6 @@ pub use tones::{tones_json, tones_text};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use units::{ConstantInUnit, constants_in_units};
 pub use vehicles::{vehicles_json, vehicles_text};
+pub use verification::{VerificationRecord, verification_json, verification_text};
 pub use version::VERSION;
 pub use weighed::{weighed_json, weighed_text};

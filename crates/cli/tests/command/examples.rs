@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "init",
     "speed",
     "tones",
@@ -21,6 +21,7 @@ const COMMANDS: [&str; 17] = [
     "demo",
     "log",
     "motor",
+    "verify",
     "simulate",
     "vehicles",
     "completions",

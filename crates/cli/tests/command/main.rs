@@ -44,3 +44,4 @@ mod testkit;
 mod thrust;
 mod tones;
 mod usage;
+mod verify;
