@@ -17,7 +17,7 @@ Examples:
   hovertone motor steps.csv --json | jq '.time_constant_up_s.value'
   hovertone motor bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm
   hovertone motor bench.wav --blades 2
-  hovertone motor bench.wav --blades 2 --commands steps.csv --offset 0";
+  hovertone motor bench.wav --blades 2 --commands commands.csv --offset 0";
 
 /// Time constants, dead time and gain of the motors, from steps in a log or in the sound of a bench
 #[derive(Args, Debug)]

@@ -12,8 +12,8 @@ The clocks are aligned by the changes of the speeds.
 
 Examples:
   hovertone verify hover.mp4 flight.ulg --vehicle iris
-  hovertone verify hover.wav esc.csv --blades 2 --rotors 4 --json
-  hovertone verify hover.wav esc.csv --blades 2 --log-offset-s -5:5";
+  hovertone verify hover.mp4 flight.csv --vehicle ardrone --json
+  hovertone verify hover.mp4 flight.csv --vehicle ardrone --log-offset-s -5:5";
 
 /// Sound against telemetry: bias, scatter and coverage of heard speeds, and whether order and clock are right
 #[derive(Args, Debug)]

@@ -59,10 +59,9 @@ impl CoarseListener {
     fn take_path(&mut self, margin: usize) {
         let path = best_path(&self.scores, STEP_STD);
         let end = path.len().saturating_sub(margin);
-        for at in self.done..end {
-            self.path.time_s.push(self.times_s[at]);
-            self.path.speed_rev_s.push(self.speeds_rev_s[path[at]]);
-        }
+        let is_final = self.done..end.max(self.done);
+        self.path.time_s.extend_from_slice(&self.times_s[is_final.clone()]);
+        self.path.speed_rev_s.extend(path[is_final].iter().map(|&point| self.speeds_rev_s[point]));
         let from = end.saturating_sub(margin);
         self.scores.drain(..from);
         self.times_s.drain(..from);
