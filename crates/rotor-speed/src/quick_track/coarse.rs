@@ -17,6 +17,10 @@ const STEP_STD: f64 = 3.0;
 const LINE_SCORE_MAX: f64 = 4.0;
 /// Score of a line that is absent: half the speed has all lines and as many absent ones between them. *Decision.*
 const ABSENT_SCORE: f64 = -1.0;
+/// Largest height of a line, in nats, by which even and odd lines are compared. *Decision.*
+const HEIGHT_MAX: f64 = 8.0;
+/// Even lines may be higher than odd ones by this, in nats; more is half the speed of a shaft whose own lines are heard. *Decision.*
+const ALTERNATION_MAX: f64 = 3.0;
 /// Width of the stretches of a spectrum whose median is the floor: wide against lines. *Decision.*
 const FLOOR_HZ: f64 = 400.0;
 /// Median power of noise over its mean: ln 2. *Physics.*
@@ -112,12 +116,23 @@ impl Comb {
         let power = &power[..self.bin_count.min(power.len())];
         let floors = power.chunks(self.floor_bins).map(|part| (median(part).unwrap_or(0.0) / MEDIAN_SHARE).ln());
         let floors: Vec<f64> = floors.collect();
-        let score = |(bin, power): (usize, &f64)| {
+        let height = |(bin, power): (usize, &f64)| {
             let over = power.ln() - floors[bin / self.floor_bins];
-            if over.is_finite() { over.clamp(0.0, LINE_SCORE_MAX) + ABSENT_SCORE } else { ABSENT_SCORE }
+            if over.is_finite() { over.clamp(0.0, HEIGHT_MAX) } else { 0.0 }
         };
-        let scores: Vec<f64> = power.iter().enumerate().map(score).collect();
-        let sum = |bins: &Vec<usize>| bins.iter().filter_map(|&bin| scores.get(bin)).sum();
-        self.bins.iter().map(sum).collect()
+        let heights: Vec<f64> = power.iter().enumerate().map(height).collect();
+        self.bins.iter().map(|bins| score_of(bins, &heights)).collect()
     }
+}
+
+/// The score of one speed, whose lines are at these bins, from the heights of all bins.
+fn score_of(bins: &[usize], heights: &[f64]) -> f64 {
+    let of_lines = || bins.iter().filter_map(|&bin| heights.get(bin).copied());
+    let mean = |values: &mut dyn Iterator<Item = f64>| {
+        let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+        if count > 0.0 { sum / count } else { 0.0 }
+    };
+    let (odd, even) = (mean(&mut of_lines().step_by(2)), mean(&mut of_lines().skip(1).step_by(2)));
+    let alternation = (even - odd - ALTERNATION_MAX).max(0.0);
+    of_lines().map(|height| height.min(LINE_SCORE_MAX) + ABSENT_SCORE - alternation).sum()
 }
