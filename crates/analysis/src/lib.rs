@@ -17,6 +17,7 @@ mod speed;
 mod speed_analysis;
 mod tone_family;
 mod uncertainty;
+mod verification;
 mod warning;
 mod weighed_speed;
 
@@ -33,5 +34,6 @@ pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint};
 pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
 pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use uncertainty::{UncertaintySource, UncertaintyTerm};
+pub use verification::{Verification, VerifiedRotor};
 pub use warning::Warning;
 pub use weighed_speed::WeighedSpeed;

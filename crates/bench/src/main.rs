@@ -7,6 +7,7 @@ mod cost;
 mod document;
 mod labels;
 mod logs;
+mod motor;
 mod real;
 mod rotors;
 mod rotors_report;
@@ -24,6 +25,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--minutes N] for shorter files
   logs       speed and memory of `hovertone log` on long logs of each format: docs/logs.md
              [--mb N] for shorter logs
+  motor      time constants from the sound of steps, on simulated benches: a section of docs/motor.md
+             [--count N] for fewer benches
   accuracy   one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
              [--draws N] [--coverage N] for fewer draws, [--only PART] to print one part,
              [--install-peers] to install the other programs
@@ -57,6 +60,7 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["speed", options @ ..] => speed::run(&root(), options),
         ["logs", options @ ..] => logs::run(&root(), options),
+        ["motor", options @ ..] => motor::run(&root(), options),
         ["accuracy", options @ ..] => accuracy::run(&root(), options),
         ["rotors", options @ ..] => rotors::run(&root(), options),
         ["real", options @ ..] => real::run(&root(), options),

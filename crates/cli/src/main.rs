@@ -48,6 +48,7 @@ mod toml_words;
 mod tones;
 mod typed;
 mod vehicles;
+mod verify;
 mod wav;
 mod weigh;
 
@@ -83,6 +84,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(arguments, &mut terminal),
         Command::Log(arguments) => log::run(arguments, &mut terminal),
         Command::Motor(arguments) => motor::run(arguments, &mut terminal),
+        Command::Verify(arguments) => verify::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),

@@ -1,31 +1,39 @@
-//! `hovertone motor`: constants of motors from the steps in a log.
+//! `hovertone motor`: constants of motors from the steps in a log or in a recording.
 
-use crate::args::MotorArguments;
+use crate::args::{AnalysisArguments, MotorArguments};
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, open_stream};
-use crate::log::{THE_LOG, column_names, log_failure, loss_notice};
+use crate::jobs::jobs_of;
+use crate::log::{column_names, log_failure, loss_notice};
 use crate::outputs::{Outputs, written};
+use crate::progress::Progress;
+use crate::recording::{Hearing, Requests, motor_in};
+use crate::settings::config_of;
 use crate::terminal::Terminal;
+use hovertone::motors::HeardCommands;
+use hovertone::speed::Config;
+use hovertone::tones::Discovery;
 use hovertone_dynamics::{CommandSeries, MotorConfig, MotorSeries, command_of_speed, motor_from_series};
 use hovertone_figures::{DOTS_PER_INCH, DrawnStep, motor_steps_figure};
 use hovertone_logs::{ColumnNames, LogError, LoggedFlight, LoggedMotors, flight_from_log};
-use hovertone_report::{LoggedMotor, MotorRecord, motor_json, motor_text};
+use hovertone_report::{LoggedMotor, MotorRecord, MotorSound, MotorSource, Notice, motor_json, motor_text};
 use std::path::Path;
 
 /// Largest speed of a log, rev/s. *Physics*: the electrical speed of the fastest motors, which logs hold where the pole pairs are not known, stays
 /// below a million rpm.
 const SPEED_REV_S_MAX: f64 = 17_000.0;
+/// Name of the one motor of a recording.
+const ALL_ROTORS: &str = "all rotors";
 
-/// Tells the constants of the motors of all logs.
+/// Tells the constants of the motors of all files.
 pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let names = column_names(&arguments.column)?;
-    let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, arguments)).transpose()?;
+    let plan = Plan::of(arguments)?;
     let mut ending = Ending::Done;
     for (index, file) in arguments.files.iter().enumerate() {
-        let flight = match flight_of(file, &names) {
-            Ok(flight) => flight,
-            // the other logs are read all the same
+        let told = match plan.told_of(file) {
+            Ok(told) => told,
+            // the other files are read all the same
             Err(failure @ Failure::Failed { .. }) if arguments.files.len() > 1 => {
                 terminal.failure(&failure);
                 ending = ending.max(Ending::FilesFailed);
@@ -33,29 +41,122 @@ pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result
             }
             Err(failure) => return Err(failure),
         };
-        let file = if is_stdin(file) { STDIN.to_owned() } else { file.display().to_string() };
-        let record = MotorRecord { file, motors: motors_of(&flight) };
-        if !record.has_time_constant() {
+        if !told.record.has_time_constant() {
             ending = ending.max(Ending::Incomplete);
         }
         if arguments.json {
-            terminal.data(&motor_json(&record).map_err(Failure::internal)?)?;
+            terminal.data(&motor_json(&told.record).map_err(Failure::internal)?)?;
         } else {
             let gap = if index > 0 { "\n" } else { "" };
             let width = terminal.fold_width();
-            terminal.text(&format!("{gap}{}", motor_text(&record, width)))?;
+            terminal.text(&format!("{gap}{}", motor_text(&told.record, width)))?;
         }
-        if !flight.notes.is_empty() {
+        if !told.notices.is_empty() {
             terminal.flush()?;
-            flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
-            ending = ending.max(Ending::Incomplete);
+            told.notices.iter().for_each(|notice| terminal.warning(notice, ""));
+            ending = ending.max(if told.is_whole { Ending::Done } else { Ending::Incomplete });
         }
-        if let Some(figure) = &figure {
+        if let Some(figure) = &plan.figure {
             terminal.flush()?;
-            figure.write(&record, &flight, terminal)?;
+            figure.write(&told, terminal)?;
         }
     }
     Ok(ending)
+}
+
+/// The meaning of the arguments.
+struct Plan<'a> {
+    arguments: &'a MotorArguments,
+    names: ColumnNames,
+    figure: Option<FigureFile<'a>>,
+    config: Config,
+    discovery: Option<Discovery>,
+    commands: Option<LoggedMotors>,
+}
+
+/// What a file tells of its motors.
+struct Told {
+    record: MotorRecord,
+    /// The speeds of each motor of the record.
+    rows: Vec<MotorRows>,
+    notices: Vec<Notice>,
+    /// Whether nothing of the file is lost.
+    is_whole: bool,
+}
+
+#[derive(Clone, Debug, Default)]
+struct MotorRows {
+    time_s: Vec<f64>,
+    speed_rev_s: Vec<f64>,
+}
+
+impl<'a> Plan<'a> {
+    fn of(arguments: &'a MotorArguments) -> Result<Self, Failure> {
+        let names = column_names(&arguments.column)?;
+        let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, arguments)).transpose()?;
+        let analysis = AnalysisArguments {
+            from: arguments.from,
+            to: arguments.to,
+            mean_only: true,
+            ..AnalysisArguments::default()
+        };
+        let (config, discovery) = config_of(&arguments.tone, &arguments.known, &analysis)?;
+        let commands = arguments.commands.as_deref().map(|path| commands_of(path, &names)).transpose()?;
+        Ok(Self { arguments, names, figure, config, discovery, commands })
+    }
+
+    fn told_of(&self, file: &Path) -> Result<Told, Failure> {
+        match flight_of(file, &self.names)? {
+            Some(flight) => Ok(told_by_log(file, &flight)),
+            None => self.told_by_sound(file),
+        }
+    }
+
+    fn told_by_sound(&self, file: &Path) -> Result<Told, Failure> {
+        let jobs = jobs_of(&[file.to_owned()], &self.config, self.discovery, Requests::default())?;
+        let Some(job) = jobs.first() else { return Err(Failure::internal("a file without a job")) };
+        let hearing = Hearing::of(&self.arguments.hearing);
+        let progress = Progress::new("listening to", 1, !self.arguments.hearing.no_progress);
+        // one microphone hears all rotors together: the first command stands for all
+        let commands = self.commands.as_ref().and_then(|commands| Some((commands, commands.values.first()?)));
+        let heard_commands = commands.map(|(commands, command)| HeardCommands {
+            series: CommandSeries { time_s: &commands.time_s, command },
+            offset_s: self.arguments.offset,
+        });
+        let heard = motor_in(job, hearing, heard_commands, &progress);
+        progress.finish();
+        let heard = heard.map_err(|reason| {
+            let what = format!("this is no log, and no recording that can be heard: {reason}");
+            Failure::failed(what, "give a log, or a video or audio file", file)
+        })?;
+        let mut sound = MotorSound::default();
+        let (mut motors, mut rows) = (Vec::new(), Vec::new());
+        match heard.motor {
+            Err(reason) => sound.no_tone = Some(reason.to_string()),
+            Ok(motor) => {
+                (sound.frame_s, sound.offset_s) = (motor.frame_s, motor.offset_s);
+                let is_used = motor.model.as_ref().is_some_and(|model| model.static_map.is_some());
+                let command = commands.and_then(|(commands, _)| commands.names.first()).filter(|_| is_used).cloned();
+                motors.extend(motor.model.map(|model| LoggedMotor { name: ALL_ROTORS.to_owned(), command, model }));
+                rows.push(MotorRows { time_s: motor.time_s, speed_rev_s: motor.speed_rev_s });
+            }
+        }
+        let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors };
+        Ok(Told { record, rows, notices: heard.notices, is_whole: true })
+    }
+}
+
+fn told_by_log(file: &Path, flight: &LoggedFlight) -> Told {
+    let name = if is_stdin(file) { STDIN.to_owned() } else { file.display().to_string() };
+    let record = MotorRecord { file: name, source: MotorSource::Log, motors: motors_of(flight) };
+    let values_of = |name: &str| {
+        let speeds = flight.speeds_rev_s.as_ref()?;
+        let (_, values) = speeds.names.iter().zip(&speeds.values).find(|(of, _)| *of == name)?;
+        Some(MotorRows { time_s: speeds.time_s.clone(), speed_rev_s: values.clone() })
+    };
+    let rows = record.motors.iter().map(|motor| values_of(&motor.name).unwrap_or_default()).collect();
+    let notices: Vec<Notice> = flight.notes.iter().map(|words| loss_notice(words)).collect();
+    Told { record, rows, is_whole: notices.is_empty(), notices }
 }
 
 /// Where the steps are drawn.
@@ -66,25 +167,23 @@ struct FigureFile<'a> {
 }
 
 impl<'a> FigureFile<'a> {
-    /// Checks, before any log is read, that the figure can be written.
+    /// Checks, before any file is read, that the figure can be written.
     fn of(place: &'a Path, arguments: &MotorArguments) -> Result<Self, Failure> {
         let kind = FigureKind::of(place, "use --figure steps.png or --figure steps.svg")?;
         if arguments.files.len() > 1 {
-            let what = format!("--figure draws one log, and {} are given", arguments.files.len());
-            return Err(Failure::usage(what, "give one log at a time"));
+            let what = format!("--figure draws one file, and {} are given", arguments.files.len());
+            return Err(Failure::usage(what, "give one file at a time"));
         }
-        let outputs = Outputs::beside(&arguments.files, arguments.replace.force);
+        let outputs = Outputs::beside(arguments.files.iter().chain(&arguments.commands), arguments.replace.force);
         outputs.check(place)?;
         Ok(Self { place, kind, outputs })
     }
 
-    fn write(&self, record: &MotorRecord, flight: &LoggedFlight, terminal: &mut Terminal) -> Result<(), Failure> {
-        let Some(speeds) = &flight.speeds_rev_s else { return Ok(()) };
-        let values_of = |name: &str| speeds.names.iter().zip(&speeds.values).find(|(of, _)| *of == name);
-        let drawn = record.motors.iter().filter_map(|motor| Some((motor, values_of(&motor.name)?.1)));
-        let steps: Vec<DrawnStep> = drawn
-            .flat_map(|(motor, values)| {
-                let drawn = |step| DrawnStep { motor: &motor.name, step, time_s: &speeds.time_s, speed_rev_s: values };
+    fn write(&self, told: &Told, terminal: &mut Terminal) -> Result<(), Failure> {
+        let steps: Vec<DrawnStep> = (told.record.motors.iter().zip(&told.rows))
+            .flat_map(|(motor, rows)| {
+                let MotorRows { time_s, speed_rev_s } = rows;
+                let drawn = move |step| DrawnStep { motor: &motor.name, step, time_s, speed_rev_s };
                 motor.model.steps.iter().map(drawn)
             })
             .collect();
@@ -98,15 +197,28 @@ impl<'a> FigureFile<'a> {
     }
 }
 
-fn flight_of(file: &Path, names: &ColumnNames) -> Result<LoggedFlight, Failure> {
-    let stream = open_stream(file, THE_LOG)?;
-    let flight = flight_from_log(stream, names).map_err(|error| match error {
-        LogError::UnknownFormat => {
-            let what = "`motor` reads logs, and this is none; recordings are not supported";
-            Failure::failed(what, error.hint(), file)
+/// The commands of a log.
+fn commands_of(path: &Path, names: &ColumnNames) -> Result<LoggedMotors, Failure> {
+    let flight = flight_of(path, names)?;
+    let commands = flight.and_then(|flight| flight.commands).filter(|commands| !commands.values.is_empty());
+    commands.ok_or_else(|| Failure::Usage {
+        what: "--commands names a file without commands of motors".to_owned(),
+        hint: "give a log, or a CSV with columns such as time_s and motor1_pwm (see --column)".to_owned(),
+        path: Some(path.to_owned()),
+    })
+}
+
+/// The motors of a log; `None` if the file is none.
+pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<LoggedFlight>, Failure> {
+    let stream = open_stream(file, "the log or recording")?;
+    let flight = match flight_from_log(stream, names) {
+        Ok(flight) => flight,
+        Err(LogError::UnknownFormat) if !is_stdin(file) => return Ok(None),
+        Err(LogError::UnknownFormat) => {
+            return Err(Failure::failed("this is no log", "give a recording as a file, not on stdin", file));
         }
-        error => log_failure(&error, file),
-    })?;
+        Err(error) => return Err(log_failure(&error, file)),
+    };
     let speeds = flight.speeds_rev_s.iter().flat_map(|speeds| speeds.values.iter().flatten());
     let fastest_rev_s = speeds.copied().fold(0.0, f64::max);
     if fastest_rev_s > SPEED_REV_S_MAX {
@@ -115,7 +227,7 @@ fn flight_of(file: &Path, names: &ColumnNames) -> Result<LoggedFlight, Failure> 
         let hint = "check the unit in the header of the speed, or name it: --column HEADER=rotor1_rpm".to_owned();
         return Err(Failure::Usage { what, hint, path: Some(file.to_owned()) });
     }
-    Ok(flight)
+    Ok(Some(flight))
 }
 
 /// The motors that turn, each with its command: that of the same name, else the one that its speed follows best.

@@ -3,9 +3,12 @@
 use crate::args::HearingArguments;
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
+use hovertone::motors::{
+    HeardCommands, HeardMotor, HeardTone, PASSES_OF_MOTOR, level_of_analysis, level_of_rotors, motor_from_sound,
+};
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::{LineFrequency, Passes, line_frequency};
-use hovertone::speed::{Config, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
+use hovertone::speed::{Config, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, OpenOptions, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
@@ -143,6 +146,53 @@ pub(crate) fn line_in_band(
         .map_err(|error| error.to_string())?;
     let notices = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
     Ok((line, notices.collect()))
+}
+
+/// What a recording tells of its motors.
+pub(crate) struct SoundOfMotor {
+    /// The motor, or why no rotor is heard.
+    pub(crate) motor: Result<HeardMotor, NoTone>,
+    /// What weakens the recording.
+    pub(crate) notices: Vec<Notice>,
+}
+
+/// The motors of a recording with steps; a failure is its reason.
+pub(crate) fn motor_in(
+    job: &Job,
+    hearing: Hearing,
+    commands: Option<HeardCommands<'_>>,
+    progress: &Progress,
+) -> Result<SoundOfMotor, String> {
+    let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
+    let mut share = progress.recording();
+    let mut on_progress = progress_of(&recording, &mut share);
+    let planned = passes_of_speed(&job.config) + PASSES_OF_MOTOR;
+    let motor = Passes::planned(&mut recording, planned, &mut on_progress)
+        .map_err(hovertone::speed::Error::from)
+        .and_then(|mut passes| motor_of_passes(&mut passes, job, commands))
+        .map_err(|error| error.to_string())?;
+    let notices = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
+    Ok(SoundOfMotor { motor, notices: notices.collect() })
+}
+
+fn motor_of_passes(
+    passes: &mut Passes<'_>,
+    job: &Job,
+    commands: Option<HeardCommands<'_>>,
+) -> Result<Result<HeardMotor, NoTone>, hovertone::speed::Error> {
+    let (level, config) = match job.discovery {
+        Some(discovery) => {
+            let FoundSpeed { config, analysis, .. } = tones_from_passes(passes, &job.config, &discovery)?;
+            (level_of_analysis(&analysis), config)
+        }
+        None => (level_of_rotors(passes, &job.config)?, job.config.clone()),
+    };
+    let speed_rev_s = match level {
+        Ok(speed_rev_s) => speed_rev_s,
+        Err(reason) => return Ok(Err(reason)),
+    };
+    let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
+    motor_from_sound(passes, &HeardTone { tone: &config.tone, speed_rev_s, span_s }, commands).map(Ok)
 }
 
 fn opened(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {

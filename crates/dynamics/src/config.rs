@@ -31,6 +31,9 @@ pub struct MotorConfig {
     pub saturated_gain_share: f64,
     /// Smallest correlation of commands and speeds in flight that makes a static map. *Decision.*
     pub correlation_min: f64,
+    /// Length of the Hann frames of sound in which the speeds were measured, along a path near the true one; 0 for speeds of an instant, as in
+    /// logs. *Physics.*
+    pub frame_s: f64,
 }
 
 impl Default for MotorConfig {
@@ -49,6 +52,7 @@ impl Default for MotorConfig {
             residual_share_max: 0.05,
             saturated_gain_share: 0.6,
             correlation_min: 0.7,
+            frame_s: 0.0,
         }
     }
 }

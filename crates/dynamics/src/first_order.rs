@@ -1,5 +1,6 @@
 //! One step as a curve of first order.
 
+use crate::frame_response::FrameResponse;
 use crate::search::{Interval, minimum};
 use crate::series::{MotorSeries, std_uncertainty_of_long_mean};
 use hovertone_signal::statistics::{mean, std};
@@ -43,7 +44,13 @@ pub(crate) struct FirstOrderFit {
 /// time constant are found by a coarse search and golden sections.
 ///
 /// `None` for fewer rows than the curve has parameters and one, or where the speed does not change.
-pub(crate) fn first_order_from_rows(rows: &MotorSeries, range: FitRange) -> Option<FirstOrderFit> {
+///
+/// `frame`: how a row sees the speed around its time.
+pub(crate) fn first_order_from_rows(
+    rows: &MotorSeries,
+    frame: &FrameResponse,
+    range: FitRange,
+) -> Option<FirstOrderFit> {
     if rows.time_s.len() <= PARAMETERS || std(rows.speed_rev_s)? == 0.0 {
         return None;
     }
@@ -55,24 +62,58 @@ pub(crate) fn first_order_from_rows(rows: &MotorSeries, range: FitRange) -> Opti
     let (mut best, mut lowest) = ((range.start_s.low, logarithm.low), f64::INFINITY);
     for start_s in range.start_s.points(START_COUNT) {
         for logarithm in logarithm.points(TIME_CONSTANT_COUNT) {
-            let squares = residual_squares(&coarse, start_s, logarithm.exp());
+            let squares = residual_squares(&coarse, &Curve { frame, start_s, time_constant_s: logarithm.exp() });
             if squares < lowest {
                 (best, lowest) = ((start_s, logarithm), squares);
             }
         }
     }
-    let cost = |start_s: f64, logarithm: f64| residual_squares(rows, start_s, logarithm.exp());
+    let curve = |start_s: f64, logarithm: f64| Curve { frame, start_s, time_constant_s: logarithm.exp() };
+    let cost = |start_s: f64, logarithm: f64| residual_squares(rows, &curve(start_s, logarithm));
     // the valley of start and time constant is oblique: the fine search covers two coarse steps on both sides
     let near_start = range.start_s.around(best.0, 2.0 * range.start_s.step(START_COUNT));
     let near_logarithm = logarithm.around(best.1, 2.0 * logarithm.step(TIME_CONSTANT_COUNT));
     let best_start = |logarithm: f64| minimum(near_start, FINE_SHARE, |start_s| cost(start_s, logarithm));
     let fine = minimum(near_logarithm, FINE_SHARE, |logarithm| cost(best_start(logarithm), logarithm));
-    fitted(rows, best_start(fine), fine.exp())
+    fitted(rows, &curve(best_start(fine), fine))
 }
 
 /// Share of the step that is done.
 pub(crate) fn response(time_s: f64, start_s: f64, time_constant_s: f64) -> f64 {
     if time_s > start_s { 1.0 - (-(time_s - start_s) / time_constant_s).exp() } else { 0.0 }
+}
+
+/// A step as the rows see it.
+struct Curve<'a> {
+    frame: &'a FrameResponse,
+    start_s: f64,
+    time_constant_s: f64,
+}
+
+/// The curve at the time of a row.
+struct CurvePoint {
+    /// Share of the step that is done.
+    done: f64,
+    /// The rest, where the step has begun.
+    left: f64,
+    /// The rest times the time since the start, in time constants.
+    left_moment: f64,
+}
+
+impl Curve<'_> {
+    fn done(&self, time_s: f64) -> f64 {
+        self.frame.mean(|offset_s| response(time_s + offset_s, self.start_s, self.time_constant_s))
+    }
+
+    fn at(&self, time_s: f64) -> CurvePoint {
+        let since = |offset_s: f64| (time_s + offset_s - self.start_s) / self.time_constant_s;
+        let left = |offset_s: f64| if since(offset_s) > 0.0 { (-since(offset_s)).exp() } else { 0.0 };
+        CurvePoint {
+            done: self.done(time_s),
+            left: self.frame.mean(left),
+            left_moment: self.frame.mean(|offset_s| left(offset_s) * since(offset_s)),
+        }
+    }
 }
 
 /// Sums for the straight line of speed over response.
@@ -84,12 +125,12 @@ struct LineSums {
     speed_squares: f64,
 }
 
-fn line_sums(rows: &MotorSeries, start_s: f64, time_constant_s: f64) -> LineSums {
+fn line_sums(rows: &MotorSeries, curve: &Curve<'_>) -> LineSums {
     let count = rows.time_s.len() as f64;
     let speed_mean = rows.speed_rev_s.iter().sum::<f64>() / count;
     let (mut sum, mut squares, mut products, mut speed_squares) = (0.0, 0.0, 0.0, 0.0);
     for (&time_s, &speed_rev_s) in rows.time_s.iter().zip(rows.speed_rev_s) {
-        let (response, speed) = (response(time_s, start_s, time_constant_s), speed_rev_s - speed_mean);
+        let (response, speed) = (curve.done(time_s), speed_rev_s - speed_mean);
         sum += response;
         squares += response * response;
         products += response * speed;
@@ -100,29 +141,27 @@ fn line_sums(rows: &MotorSeries, start_s: f64, time_constant_s: f64) -> LineSums
 }
 
 /// Sum of the squared residuals at the best two speeds.
-fn residual_squares(rows: &MotorSeries, start_s: f64, time_constant_s: f64) -> f64 {
-    let sums = line_sums(rows, start_s, time_constant_s);
+fn residual_squares(rows: &MotorSeries, curve: &Curve<'_>) -> f64 {
+    let sums = line_sums(rows, curve);
     let explained = if sums.response_squares > 0.0 { sums.products.powi(2) / sums.response_squares } else { 0.0 };
     sums.speed_squares - explained
 }
 
-fn fitted(rows: &MotorSeries, start_s: f64, time_constant_s: f64) -> Option<FirstOrderFit> {
-    let sums = line_sums(rows, start_s, time_constant_s);
+fn fitted(rows: &MotorSeries, curve: &Curve<'_>) -> Option<FirstOrderFit> {
+    let &Curve { start_s, time_constant_s, .. } = curve;
+    let sums = line_sums(rows, curve);
     let size = sums.products / sums.response_squares;
     let from_rev_s = sums.speed_mean - size * sums.response_mean;
     let gradient = |&time_s: &f64| {
-        let done = response(time_s, start_s, time_constant_s);
-        let left = if time_s > start_s { 1.0 - done } else { 0.0 };
-        let by_start = -size * left / time_constant_s;
-        RowVector4::new(1.0 - done, done, by_start, by_start * (time_s - start_s) / time_constant_s)
+        let CurvePoint { done, left, left_moment } = curve.at(time_s);
+        let slope = -size / time_constant_s;
+        RowVector4::new(1.0 - done, done, slope * left, slope * left_moment)
     };
     let gradients: Vec<RowVector4<f64>> = rows.time_s.iter().map(gradient).collect();
     let information: Matrix4<f64> = gradients.iter().map(|gradient| gradient.transpose() * gradient).sum();
     let inverse = information.try_inverse()?;
     let speeds = rows.time_s.iter().zip(rows.speed_rev_s);
-    let residuals: Vec<f64> = speeds
-        .map(|(&time_s, &speed)| speed - from_rev_s - size * response(time_s, start_s, time_constant_s))
-        .collect();
+    let residuals: Vec<f64> = speeds.map(|(&time_s, &speed)| speed - from_rev_s - size * curve.done(time_s)).collect();
     let variance = residual_variance(&residuals, &gradients, &inverse).max(rounding_variance(rows.speed_rev_s));
     let deviation = |at: usize| (variance * inverse[(at, at)]).sqrt();
     let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();

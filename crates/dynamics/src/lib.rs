@@ -9,9 +9,11 @@
 //!
 //! `motor.rs` is the whole chain, `config.rs` has all settings.
 
+mod alignment;
 mod combined;
 mod config;
 mod first_order;
+mod frame_response;
 mod load;
 mod motor;
 mod plateaus;
@@ -21,6 +23,7 @@ mod static_map;
 mod step;
 mod transitions;
 
+pub use alignment::offset_of_commands;
 pub use combined::CombinedEstimate;
 pub use config::MotorConfig;
 pub use load::LoadTerm;

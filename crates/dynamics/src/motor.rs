@@ -4,6 +4,7 @@ use crate::combined::{CombinedEstimate, combined};
 use crate::config::MotorConfig;
 use crate::load::{LoadTerm, load_term_of};
 use crate::plateaus::{HeldCommand, Plateau, held_commands, plateaus_of};
+use crate::search::Interval;
 use crate::series::{CommandSeries, MotorSeries, pairs_of};
 use crate::static_map::{StaticMap, map_of_plateaus, map_of_rows};
 use crate::step::{MotorStep, StepContext, StepVerdict, step_of_transition};
@@ -94,7 +95,13 @@ fn transitions_of(
     config: &MotorConfig,
 ) -> Vec<Transition> {
     let of_commands = transitions_of_commands(held, interval_s, config);
-    if of_commands.is_empty() { transitions_of_speeds(series, interval_s, config) } else { of_commands }
+    let all = if of_commands.is_empty() { transitions_of_speeds(series, interval_s, config) } else { of_commands };
+    // nobody saw the curve where the rows have a gap
+    let is_seen = |transition: &Transition| {
+        let Interval { low, high } = transition.start_s;
+        series.between(low, high).longest_interval_s() <= config.interval_s_max.max(3.0 * interval_s)
+    };
+    all.into_iter().filter(is_seen).collect()
 }
 
 fn saturated_plateaus(plateaus: &[Plateau], map: Option<&StaticMap>) -> Vec<Plateau> {

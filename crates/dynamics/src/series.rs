@@ -26,6 +26,11 @@ impl MotorSeries<'_> {
         interval_s(self.time_s)
     }
 
+    /// Longest time between rows; 0 for fewer than two.
+    pub(crate) fn longest_interval_s(&self) -> f64 {
+        self.time_s.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+    }
+
     /// Largest speed.
     pub(crate) fn speed_rev_s_max(&self) -> f64 {
         self.speed_rev_s.iter().copied().fold(0.0, f64::max)

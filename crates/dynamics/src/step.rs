@@ -2,6 +2,7 @@
 
 use crate::config::MotorConfig;
 use crate::first_order::{EVEN_VARIANCE, FirstOrderFit, FitRange, first_order_from_rows, response};
+use crate::frame_response::FrameResponse;
 use crate::plateaus::Plateau;
 use crate::search::Interval;
 use crate::series::MotorSeries;
@@ -137,13 +138,14 @@ fn fit_of_window(context: &StepContext, transition: &Transition) -> Option<First
     let shortest_s = TIME_CONSTANT_INTERVALS_MIN * context.interval_s;
     let mut about_s = config.window_s_first;
     let mut start_s = transition.start_s.low;
+    let frame = FrameResponse::of_frame(config.frame_s);
     let mut fit = None;
     for _ in 0..ROUNDS {
         let from_s = transition.window_from_s.max(start_s - about_s);
         let to_s = transition.window_to_s.min(start_s + about_s);
         let rows = context.series.between(from_s, to_s);
         let time_constant_s = Interval { low: shortest_s, high: shortest_s.max((to_s - start_s) / 2.0) };
-        let found = first_order_from_rows(&rows, FitRange { start_s: transition.start_s, time_constant_s })?;
+        let found = first_order_from_rows(&rows, &frame, FitRange { start_s: transition.start_s, time_constant_s })?;
         start_s = found.start_s;
         about_s = (config.window_time_constants * found.time_constant_s).max(config.hold_s_min);
         fit = Some(found);

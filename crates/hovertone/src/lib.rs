@@ -35,6 +35,7 @@
 
 pub mod calibration;
 pub mod experiment;
+pub mod motors;
 
 /// Sound: a source of samples, and the passes over it.
 ///
@@ -204,8 +205,11 @@ pub mod rotors {
     pub use hovertone_analysis::{
         LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorCondition, RotorLabel, RotorLabels, ShaftLine,
     };
+    pub use hovertone_analysis::{Verification, VerifiedRotor};
     pub use hovertone_rotor_id::LabelsConfig;
-    pub use hovertone_rotor_id::by_log::{FlightLog, LogError, LogSignals, MotorSignal, labels_from_log};
+    pub use hovertone_rotor_id::by_log::{
+        FlightLog, LogError, LogSignals, LoggedSpeeds, MotorSignal, NotVerified, labels_from_log, verification_from_log,
+    };
     pub use hovertone_rotor_id::by_microphones::{
         ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, labels_from_microphones,
         microphone_lines_from_source,

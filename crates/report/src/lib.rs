@@ -51,6 +51,7 @@ mod tones;
 mod typeset;
 mod units;
 mod vehicles;
+mod verification;
 mod version;
 mod weighed;
 
@@ -68,7 +69,7 @@ pub use folded_warnings::{
 };
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
-pub use motor::{LoggedMotor, MotorRecord, motor_text};
+pub use motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource, motor_text};
 pub use motor_json::motor_json;
 pub use names::short_names;
 pub use notice::Notice;
@@ -87,5 +88,6 @@ pub use tones::{tones_json, tones_text};
 pub use typeset::{TitledTable, tables_latex, tables_markdown};
 pub use units::{ConstantInUnit, constants_in_units};
 pub use vehicles::{vehicles_json, vehicles_text};
+pub use verification::{VerificationRecord, verification_json, verification_text};
 pub use version::VERSION;
 pub use weighed::{weighed_json, weighed_text};

@@ -1,4 +1,4 @@
-//! Constants of motors from a log: tables for people, and lines for simulators.
+//! Constants of motors from a log or a recording: tables for people, and lines for simulators.
 
 use crate::number::{DASH, expanded, fixed, rounded, significant, with_uncertainty};
 use crate::printable::printable;
@@ -18,7 +18,7 @@ const MS_PER_S: f64 = 1e3;
 /// A motor of a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedMotor {
-    /// Its name in the log.
+    /// Its name in the log; for a recording a name of our own.
     pub name: String,
     /// Name of its command in the log, where it has one.
     pub command: Option<String>,
@@ -26,11 +26,34 @@ pub struct LoggedMotor {
     pub model: MotorModel,
 }
 
-/// A log and its motors.
+/// Where the speeds of motors come from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum MotorSource {
+    /// A log.
+    #[default]
+    Log,
+    /// The sound of a recording: all rotors together are one motor.
+    Sound(MotorSound),
+}
+
+/// What the sound adds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MotorSound {
+    /// Length of the frames in which the speed is heard.
+    pub frame_s: f64,
+    /// Reason why no rotor is heard.
+    pub no_tone: Option<String>,
+    /// Time that was added to the clock of the commands, where it was found from the steps.
+    pub offset_s: Option<f64>,
+}
+
+/// A log or a recording, and its motors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotorRecord {
-    /// Name of the log as given.
+    /// Name of the file as given.
     pub file: String,
+    /// Where the speeds come from.
+    pub source: MotorSource,
     /// Motors that turn.
     pub motors: Vec<LoggedMotor>,
 }
@@ -49,12 +72,11 @@ impl MotorRecord {
     }
 }
 
-/// The motors of a log as text.
+/// The motors of a log or a recording as text.
 pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let mut text = format!("{}\n", printable(&record.file));
-    let Some(first) = record.motors.first() else { return text + "no rotor speed in this log\n" };
-    let interval_ms = significant(first.model.interval_s * MS_PER_S, 3);
-    text += &format!("{}, log rows every {interval_ms} ms\n", counted(record.motors.len(), "motor"));
+    let Some(first) = record.motors.first() else { return text + &nothing_in_words(&record.source) };
+    text += &source_in_words(record, first);
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
@@ -73,6 +95,33 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     }
     text += &maps_text(record, width);
     text + &simulator_lines(&record.constants())
+}
+
+fn nothing_in_words(source: &MotorSource) -> String {
+    match source {
+        MotorSource::Log => "no rotor speed in this log\n".to_owned(),
+        MotorSource::Sound(sound) => {
+            format!("no rotor tone: {}\n", sound.no_tone.as_deref().unwrap_or("no level is held for a second"))
+        }
+    }
+}
+
+fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
+    match &record.source {
+        MotorSource::Log => {
+            let interval_ms = significant(first.model.interval_s * MS_PER_S, 3);
+            format!("{}, log rows every {interval_ms} ms\n", counted(record.motors.len(), "motor"))
+        }
+        MotorSource::Sound(sound) => {
+            let frame_ms = significant(sound.frame_s * MS_PER_S, 3);
+            let heard = format!("from the sound of all rotors together, in frames of {frame_ms} ms\n");
+            let offset = sound.offset_s.map_or(String::new(), |offset_s| {
+                let offset_s = fixed(offset_s, 3);
+                format!("offset of the commands {offset_s} s, found from the steps: no dead time (give --offset)\n")
+            });
+            heard + &offset
+        }
+    }
 }
 
 /// All steps but those of a flight: changes of the speed, without a step of the command, that are no curve of first order.
@@ -170,7 +219,10 @@ fn load_text(constants: &MotorConstants) -> String {
 /// The static maps: the gain of each motor, and the plateaus behind it.
 fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if record.motors.iter().all(|motor| motor.command.is_none()) {
-        return "\nno static map: this log has no command that changes\n".to_owned();
+        return match record.source {
+            MotorSource::Log => "\nno static map: this log has no command that changes\n".to_owned(),
+            MotorSource::Sound(_) => "\nno static map: no commands (give --commands LOG)\n".to_owned(),
+        };
     }
     let mut text = format!("\nstatic map\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
@@ -247,6 +299,6 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     }
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nfor Gazebo and PX4 (the largest speed is that of this log)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+        "\nfor Gazebo and PX4 (the largest speed is that of this file)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
     )
 }

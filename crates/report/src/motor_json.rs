@@ -1,6 +1,6 @@
 //! Constants of motors from a log as a JSON line for programs.
 
-use crate::motor::{LoggedMotor, MotorRecord};
+use crate::motor::{LoggedMotor, MotorRecord, MotorSource};
 use crate::version::VERSION;
 use hovertone_dynamics::{
     CombinedEstimate, LoadTerm, MapOrigin, MapPoint, MotorStep, StaticMap, StepVerdict, constants_of,
@@ -11,7 +11,11 @@ use serde::Serialize;
 #[derive(Serialize)]
 struct MotorLine<'a> {
     file: &'a str,
+    source: &'static str,
     has_rotor_speed: bool,
+    frame_s: Option<f64>,
+    offset_s: Option<f64>,
+    reason: Option<&'a str>,
     time_constant_up_s: Option<CombinedLine>,
     time_constant_down_s: Option<CombinedLine>,
     dead_time_s: Option<CombinedLine>,
@@ -92,8 +96,16 @@ pub fn motor_json(record: &MotorRecord) -> Result<String, serde_json::Error> {
     let constants = record.constants();
     let steps =
         record.motors.iter().flat_map(|motor| motor.model.steps.iter().map(|step| step_line(&motor.name, step)));
+    let sound = match &record.source {
+        MotorSource::Log => None,
+        MotorSource::Sound(sound) => Some(sound),
+    };
     let line = MotorLine {
         file: &record.file,
+        source: if sound.is_some() { "sound" } else { "log" },
+        frame_s: sound.map(|sound| sound.frame_s).filter(|frame_s| *frame_s > 0.0),
+        offset_s: sound.and_then(|sound| sound.offset_s),
+        reason: sound.and_then(|sound| sound.no_tone.as_deref()),
         has_rotor_speed: !record.motors.is_empty(),
         time_constant_up_s: constants.time_constant_up_s.map(combined_line),
         time_constant_down_s: constants.time_constant_down_s.map(combined_line),

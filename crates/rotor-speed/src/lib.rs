@@ -14,6 +14,7 @@ mod exam;
 mod harmonic;
 mod hover;
 mod pipeline;
+mod quick_track;
 mod ridge;
 mod rotors;
 mod speed;
@@ -30,6 +31,10 @@ pub use hover::{HoverConfig, HoverPart};
 pub use pipeline::{
     HoverRotors, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source, speed_from_survey,
     survey_from_passes,
+};
+pub use quick_track::{
+    PASSES_OF_QUICK_TRACK, QuickStretch, QuickTrack, SpeedPath, held_spans_from_passes, quick_track_along,
+    quick_track_from_passes,
 };
 pub use ridge::{RidgeConfig, SpectrogramConfig};
 pub use rotors::RotorsConfig;

@@ -43,7 +43,10 @@ const TABLE: [Row; 19] = [
     Row { crate_name: "rotor-id", may_use: &["rotor-speed", "signal", "analysis", "vehicle"] },
     Row { crate_name: "dynamics", may_use: &["signal", "analysis", "vehicle"] },
     Row { crate_name: "thrust", may_use: &["analysis", "vehicle"] },
-    Row { crate_name: "hovertone", may_use: &["rotor-id", "rotor-speed", "thrust", "signal", "analysis", "vehicle"] },
+    Row {
+        crate_name: "hovertone",
+        may_use: &["rotor-id", "rotor-speed", "thrust", "dynamics", "signal", "analysis", "vehicle"],
+    },
     Row { crate_name: "media", may_use: &["signal"] },
     // The simulator does not know the estimator: so that recovering a simulated speed proves something.
     Row { crate_name: "sim", may_use: &["vehicle"] },

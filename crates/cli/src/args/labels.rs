@@ -44,7 +44,7 @@ pub(crate) enum FrameLayout {
 }
 
 /// "-5:5", or "-0:05..1:10".
-fn offsets(text: &str) -> Result<(f64, f64), String> {
+pub(super) fn offsets(text: &str) -> Result<(f64, f64), String> {
     let limit = |text: &str| time_s(text).ok().filter(|offset_s| offset_s.is_finite());
     let halves = text.split_once("..").or_else(|| text.split_once(':'));
     halves.and_then(|(low, high)| Some((limit(low)?, limit(high)?))).ok_or_else(|| {

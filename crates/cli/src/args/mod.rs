@@ -15,6 +15,7 @@ mod thrust;
 mod tones;
 mod units;
 mod vehicles;
+mod verify;
 
 pub(crate) use calibrate::CalibrateArguments;
 pub(crate) use draft::DraftArguments;
@@ -33,6 +34,7 @@ pub(crate) use thrust::{
 pub(crate) use tones::TonesArguments;
 pub(crate) use units::{Typed, length_m, rounded, typed_mass_kg};
 pub(crate) use vehicles::VehiclesArguments;
+pub(crate) use verify::VerifyArguments;
 
 use clap::{Parser, Subcommand};
 
@@ -90,7 +92,8 @@ pub(crate) enum Command {
     Export(ExportArguments),
     Compare(CompareArguments),
     Log(LogArguments),
-    Motor(MotorArguments),
+    Motor(Box<MotorArguments>),
+    Verify(Box<VerifyArguments>),
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),

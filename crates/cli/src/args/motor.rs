@@ -1,37 +1,62 @@
 //! Arguments of `motor`.
 
-use super::groups::{ReplaceArguments, typed_path};
+use super::groups::{HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, finite, time_s, typed_path};
 use super::log::{ColumnName, column_name};
 use clap::Args;
 use std::path::PathBuf;
 
 const MOTOR_EXAMPLES: &str = "\
 A log of PX4 (.ulg), ArduPilot (.bin), Betaflight and INAV (.bbl, .bfl), RCbenchmark's CSV, or any CSV with
-the speeds of the rotors; commands in the same log add dead time and gain. A step is one change of the speed
-between two levels that are held. Log rows every 20 ms or faster tell the time constant of any motor.
+the speeds of the rotors; or a recording of a bench. A step is one change of the speed between two levels that
+are held, in a recording for about a second. Commands, in the same log or beside a recording, add the gain, and
+the dead time where the clocks are the same.
 
 Examples:
   hovertone motor steps.csv
   hovertone motor steps.csv --figure steps.svg
   hovertone motor steps.csv --json | jq '.time_constant_up_s.value'
-  hovertone motor bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm";
+  hovertone motor bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm
+  hovertone motor bench.wav --blades 2
+  hovertone motor bench.wav --blades 2 --commands commands.csv --offset 0";
 
-/// Time constants, dead time and gain of the motors, from steps in a log
+/// Time constants, dead time and gain of the motors, from steps in a log or in the sound of a bench
 #[derive(Args, Debug)]
 #[command(after_help = MOTOR_EXAMPLES)]
 pub(crate) struct MotorArguments {
-    /// Logs; - is stdin
-    #[arg(required = true, value_name = "LOG", value_parser = typed_path())]
+    /// Logs or recordings; - is a log from stdin
+    #[arg(required = true, value_name = "FILE", value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// Print one JSON object per line and log, in the order given
+    /// Log with the commands of the motors in a recording
+    #[arg(long, value_name = "LOG", value_parser = typed_path())]
+    pub(crate) commands: Option<PathBuf>,
+    /// Seconds to add to the clock of the commands to get the recording's [default: found from the steps, without dead time]
+    #[arg(long, value_name = "S", requires = "commands", value_parser = offset_s)]
+    pub(crate) offset: Option<f64>,
+    #[command(flatten)]
+    pub(crate) tone: ToneArguments,
+    #[command(flatten)]
+    pub(crate) known: KnownArguments,
+    /// Hear the recording from here, in seconds or as 1:02.5
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
+    pub(crate) from: Option<f64>,
+    /// Hear the recording up to here
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
+    pub(crate) to: Option<f64>,
+    #[command(flatten)]
+    pub(crate) hearing: HearingArguments,
+    /// Print one JSON object per line and file, in the order given
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
-    /// Draw the steps of one log, with their curves
+    /// Draw the steps of one file, with their curves
     #[arg(long, value_name = "FILE.svg|png", value_parser = typed_path(), help_heading = "Output")]
     pub(crate) figure: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
+}
+
+fn offset_s(text: &str) -> Result<f64, String> {
+    finite(text).ok_or_else(|| "must be a number of seconds".to_owned())
 }

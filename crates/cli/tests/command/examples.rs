@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "init",
     "speed",
     "tones",
@@ -21,6 +21,7 @@ const COMMANDS: [&str; 17] = [
     "demo",
     "log",
     "motor",
+    "verify",
     "simulate",
     "vehicles",
     "completions",
@@ -128,6 +129,8 @@ fn lay_out(folder: &Path) {
     let step = |row: i32| 6000.0 + 3000.0 * (1.0 - (-0.2 * f64::from(row - 50).max(0.0)).exp());
     let steps: String = (0..150).map(|row| format!("{:.2},{:.0}\n", 0.01 * f64::from(row), step(row))).collect();
     fs::write(file("steps.csv"), format!("time_s,rotor1_rpm\n{steps}")).unwrap();
+    let commands: String = (0..150).map(|row| format!("{:.2},{}\n", 0.01 * f64::from(row), 1000 + row / 75)).collect();
+    fs::write(file("commands.csv"), format!("time_s,motor1_pwm\n{commands}")).unwrap();
     fs::write(file("bench.csv"), "Zeit;Drehzahl\n0;3600\n500;3610\n").unwrap();
     let places = ["[0.9, 0.35, -0.1]", "[-0.7, 0.7, 0.1]"];
     fs::write(file("stands.toml"), places.map(|place| format!("[[microphone]]\nposition_m = {place}\n")).concat())

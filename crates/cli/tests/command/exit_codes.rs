@@ -5,7 +5,7 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Words of a command, its exit code, and a word of its message.
-const CASES: [(&str, i32, &str); 45] = [
+const CASES: [(&str, i32, &str); 47] = [
     // what is read is not there, or of another kind
     ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
     ("speed *.mov --blades 2", 1, "no file matches"),
@@ -33,7 +33,9 @@ const CASES: [(&str, i32, &str); 45] = [
     ("log empty", 1, "a folder"),
     ("log a.wav", 1, "neither a CSV"),
     ("motor nowhere.ulg", 1, "nowhere.ulg"),
-    ("motor a.wav", 1, "recordings are not supported"),
+    ("motor a.wav", 3, ""),
+    ("verify a.wav nowhere.ulg", 1, "nowhere.ulg"),
+    ("verify a.wav a.wav", 1, "this is no log"),
     // what would be written cannot be
     ("identify good.toml -o a.wav", 1, "no folder"),
     ("demo -o a.wav", 1, "no folder"),

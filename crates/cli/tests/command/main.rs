@@ -46,3 +46,4 @@ mod testkit;
 mod thrust;
 mod tones;
 mod usage;
+mod verify;

@@ -80,7 +80,7 @@ fn the_steps_are_drawn_with_their_curves() {
     assert!(fs::read(&png).unwrap().starts_with(b"\x89PNG"));
     refused_with(&["motor", &log, "--figure", text(&svg)], &["exists already"]);
     refused_with(&["motor", &log, "--figure", "steps.pdf"], &["neither with .png nor with .svg", "steps.svg"]);
-    refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 are given", "one log at a time"]);
+    refused_with(&["motor", &log, &log, "--figure", "x.svg"], &["2 are given", "one file at a time"]);
     refused_with(&["motor", &log, "--figure", &log, "--force"], &["neither with .png"]);
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n0.02,600\n");
     let nothing = folder.path().join("nothing.svg");
@@ -146,7 +146,11 @@ fn what_is_no_log_is_refused_and_the_others_are_read() {
     let log = written(folder.path(), "log.csv", steps_csv(true));
     let sound = written(folder.path(), "sound.wav", b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0\x01\0\x01\0");
     let run = hovertone(&["motor", &sound]).ends_with(1);
-    assert!(run.stderr.contains("recordings are not supported") && run.stdout.is_empty(), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("no log, and no recording that can be heard") && run.stdout.is_empty(),
+        "{}",
+        run.stderr
+    );
     assert_eq!(run.stderr.trim_end().lines().count(), 1, "{}", run.stderr);
     let run = hovertone(&["motor", "--json", &sound, &log]).ends_with(1);
     assert_eq!(run.json_lines().len(), 1);
@@ -184,4 +188,44 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
     assert!(!run.stdout.contains("timeConstant"));
     let run = hovertone(&["motor", text(&logs.join("px4_sample_small.ulg"))]).ends_with(3);
     assert!(run.stdout.contains("no rotor speed in this log"), "{}", run.stdout);
+}
+
+#[test]
+fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
+    let Some(folder) = recordings("motor-step") else { return };
+    let wav = text(&folder.join("motor_step.wav")).to_owned();
+    let scratch = tempfile::tempdir().unwrap();
+    let rows: String = (0..200)
+        .map(|row| format!("{:.1},{}\n", f64::from(row) * 0.1, if (129..179).contains(&row) { 1400 } else { 1200 }))
+        .collect();
+    let commands = written(scratch.path(), "commands.csv", format!("time_s,motor1_pwm\n{rows}"));
+    let line =
+        hovertone(&["motor", "--json", &wav, "--blades", "2", "--commands", &commands]).ends_with(0).json_lines();
+    let line = &line[0];
+    assert_eq!((&line["source"], line["steps"].as_array().unwrap().len()), (&"sound".into(), 2));
+    for (step, time_s, time_constant_s) in [(0, 12.935, 0.057), (1, 17.945, 0.154)] {
+        let step = &line["steps"][step];
+        assert!((step["time_s"].as_f64().unwrap() - time_s).abs() < 0.02, "{step}");
+        assert!((step["time_constant_s"].as_f64().unwrap() - time_constant_s).abs() < 0.005, "{step}");
+        assert!(step["dead_time_s"].is_null());
+    }
+    near(&line["motors"][0]["static_map"]["gain_rev_s"], 0.195, 0.01);
+    let on_clock = ["motor", "--json", &wav, "--blades", "2", "--commands", &commands, "--offset", "0"];
+    let dead_time_s = &hovertone(&on_clock).ends_with(0).json_lines()[0]["dead_time_s"]["value"];
+    assert!((dead_time_s.as_f64().unwrap() - 0.035).abs() < 0.02, "{dead_time_s}");
+}
+
+#[test]
+fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = written(folder.path(), "other.bin", b"\0\x01\xfe\xd5\x13\x41");
+    let run = hovertone(&["motor", &other]).ends_with(1);
+    assert!(run.stderr.contains("no log, and no recording"), "{}", run.stderr);
+    let noise = folder.path().join("noise.wav");
+    crate::testkit::write_noise(&noise, 6.0);
+    let run = hovertone(&["motor", text(&noise), "--blades", "2"]).ends_with(3);
+    assert!(run.stdout.contains("no rotor tone"), "{}", run.stdout);
+    let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n");
+    refused_with(&["motor", text(&noise), "--commands", &flat], &["without commands of motors", "motor1_pwm"]);
+    refused_with(&["motor", text(&noise), "--offset", "1"], &["--commands"]);
 }

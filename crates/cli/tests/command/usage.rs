@@ -98,6 +98,7 @@ fn help_and_version_are_data() {
         "demo",
         "log",
         "motor",
+        "verify",
         "simulate",
         "vehicles",
         "Exit codes",
@@ -120,6 +121,7 @@ fn help_and_version_are_data() {
         "demo",
         "log",
         "motor",
+        "verify",
         "simulate",
         "vehicles",
     ] {

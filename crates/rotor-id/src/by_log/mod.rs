@@ -18,6 +18,9 @@ mod log_rows;
 mod motor_model;
 mod noise_model;
 mod nuisance;
+mod verification;
+
+pub use verification::{LoggedSpeeds, NotVerified, verification_from_log};
 
 pub use flight_log::{FlightLog, LogError, LogSignals, MotorSignal};
 

@@ -16,7 +16,7 @@ pub use band_limit::band_limit_hz;
 pub use decimator::Decimator;
 pub use whitening::whitened_db;
 pub use window::Window;
-pub use window::hann_weights;
+pub use window::{hann_frequency_weight, hann_weights};
 
 use hovertone_fft::TransformNumber;
 use realfft::RealToComplex;

@@ -1,0 +1,60 @@
+//! `hovertone verify`: sound against telemetry.
+
+use crate::args::VerifyArguments;
+use crate::failure::{Ending, Failure};
+use crate::jobs::jobs_of;
+use crate::log::{column_names, loss_notice};
+use crate::motor::flight_of;
+use crate::progress::Progress;
+use crate::recording::{Hearing, Requests, records_of};
+use crate::settings::config_of;
+use crate::terminal::Terminal;
+use hovertone::rotors::{LoggedSpeeds, verification_from_log};
+use hovertone::speed::TrackPoint;
+use hovertone_report::{SpeedRecord, VerificationRecord, verification_json, verification_text};
+
+/// Hears the recording and compares it with the log.
+pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let names = column_names(&arguments.column)?;
+    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    let jobs = jobs_of(std::slice::from_ref(&arguments.recording), &config, discovery, Requests::default())?;
+    let log = &arguments.log;
+    let Some(flight) = flight_of(log, &names)? else {
+        return Err(Failure::failed("this is no log", "give the recording first, then the log", log));
+    };
+    let Some(speeds) = &flight.speeds_rev_s else {
+        let what = "no rotor speed in this log: there is nothing to compare with";
+        return Err(Failure::failed(what, "let the ESCs report their speeds (telemetry), and log them", log));
+    };
+    let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
+    let records = records_of(&jobs, Hearing::of(&arguments.hearing), &progress);
+    progress.finish();
+    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
+    flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
+    let Some(record) = records.first() else { return Err(Failure::internal("a recording without a record")) };
+    if let Some(reason) = record.reason().filter(|_| record.speed().is_none()) {
+        if record.has_failed() {
+            return Err(Failure::failed(reason, "check the recording", &arguments.recording));
+        }
+        terminal.say(&format!("no rotor tone, nothing to compare: {reason}"));
+        return Ok(Ending::Incomplete);
+    }
+    let logged = LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };
+    let offsets_s = arguments.log_offset_s.map(|(low_s, high_s)| [low_s, high_s]);
+    let verification = verification_from_log(&tracks_of(record), logged, offsets_s)
+        .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
+    let is_right = verification.is_right();
+    let told = VerificationRecord { file: record.file.clone(), log: log.display().to_string(), verification };
+    if arguments.json {
+        terminal.data(&verification_json(&told).map_err(Failure::internal)?)?;
+    } else {
+        terminal.text(&verification_text(&told, terminal.fold_width()))?;
+    }
+    Ok(if is_right && flight.notes.is_empty() { Ending::Done } else { Ending::Incomplete })
+}
+
+/// The tracks of the separated rotors, else of the one tone.
+fn tracks_of(record: &SpeedRecord) -> Vec<&[TrackPoint]> {
+    let separated: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+    if separated.is_empty() { record.tone().iter().map(|tone| tone.track.as_slice()).collect() } else { separated }
+}

@@ -1,0 +1,71 @@
+//! `hovertone verify`: sound of a simulated flight against a log of it.
+
+use crate::testkit::{flown_hover, hovertone, refused_with, text};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+const OFFSET_S: f64 = -12.34;
+
+/// A log of the flight with 10 rows per second, on a clock of its own; the speeds are rounded to 1 rpm and multiplied.
+fn write_log(flown: &Path, path: &Path, factor: f64) {
+    let mut truth = csv::Reader::from_path(flown.join("truth.csv")).unwrap();
+    let headers = truth.headers().unwrap().clone();
+    let place = |name: &str| headers.iter().position(|header| header == name).unwrap();
+    let places = [1, 2, 3, 4].map(|rotor| place(&format!("speed_{rotor}_rad_s")));
+    let mut log = String::from("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n");
+    for row in truth.records().step_by(10) {
+        let row = row.unwrap();
+        let value = |at: usize| row[at].parse::<f64>().unwrap();
+        write!(log, "{:.3}", value(place("time_s")) - OFFSET_S).unwrap();
+        for at in places {
+            write!(log, ",{:.0}", factor * value(at) * 60.0 / std::f64::consts::TAU).unwrap();
+        }
+        log += "\n";
+    }
+    fs::write(path, log).unwrap();
+}
+
+#[test]
+fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, _) = flown_hover(folder.path(), 5, 12.0, 0.02);
+    let vehicle = file.vehicle.preset.as_str();
+    let flown = folder.path().join("flown");
+    let (right, half) = (folder.path().join("right.csv"), folder.path().join("half.csv"));
+    write_log(&flown, &right, 1.0);
+    write_log(&flown, &half, 0.5);
+    let sound = fs::read_dir(&flown).unwrap().map(|entry| entry.unwrap().path());
+    let sound = sound.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "wav")).unwrap();
+    let asked = ["verify", text(&sound), text(&right), "--vehicle", vehicle];
+    let line = hovertone(&[&asked[..], &["--json"]].concat()).ends_with(0).json_lines().remove(0);
+    assert_eq!(line["status"], "passed");
+    // the sound takes some ms to the microphone
+    assert!((line["offset_s"].as_f64().unwrap() - OFFSET_S).abs() < 0.05 && line["is_offset_told"] == true, "{line}");
+    let rotors = line["rotors"].as_array().unwrap();
+    assert!(rotors.len() >= 3, "{line}");
+    for rotor in rotors {
+        assert!(rotor["bias_rev_s"].as_f64().unwrap().abs() < 0.1, "{rotor}");
+        assert!(rotor["scatter_rev_s"].as_f64().unwrap() < 0.5, "{rotor}");
+    }
+    assert!(hovertone(&asked).ends_with(0).stdout.contains("passed: order and clock are right"));
+    let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
+    assert!(wrong.stdout.contains("failed: heard speeds are 2.00 times the logged ones"), "{}", wrong.stdout);
+}
+
+#[test]
+fn nothing_to_compare_ends_with_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let noise = folder.path().join("noise.wav");
+    crate::testkit::write_noise(&noise, 5.0);
+    let log = folder.path().join("log.csv");
+    fs::write(&log, "time_s,rotor1_rpm\n0,4000\n1,4100\n2,4200\n").unwrap();
+    let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(3);
+    assert!(run.stderr.contains("no rotor tone, nothing to compare"), "{}", run.stderr);
+    let run = hovertone(&["verify", text(&log), text(&noise), "--blades", "2"]).ends_with(1);
+    assert!(run.stderr.contains("give the recording first, then the log"), "{}", run.stderr);
+    fs::write(&log, "time_s,motor1_pwm\n0,1000\n1,1100\n").unwrap();
+    let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(1);
+    assert!(run.stderr.contains("no rotor speed in this log"), "{}", run.stderr);
+    refused_with(&["verify", text(&noise)], &["LOG"]);
+}

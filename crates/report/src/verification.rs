@@ -1,0 +1,129 @@
+//! Sound against telemetry: text for people, JSON for programs.
+
+use crate::number::{fixed, signed, significant};
+use crate::printable::printable;
+use crate::table_lines::table_text;
+use crate::text_table::{Column, TextTable};
+use crate::version::VERSION;
+use hovertone_analysis::{Verification, percent_in_words};
+use serde::Serialize;
+
+const PPM: f64 = 1e6;
+
+/// A verification with the names of its files.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VerificationRecord {
+    /// The recording as given.
+    pub file: String,
+    /// The log as given.
+    pub log: String,
+    /// The comparison.
+    pub verification: Verification,
+}
+
+/// The verification as text.
+pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> String {
+    let found = &record.verification;
+    let mut shown = TextTable::new(vec![
+        Column::words("rotor"),
+        Column::words("motor of the log"),
+        Column::numbers("speed", "rev/s"),
+        Column::numbers("bias", "rev/s"),
+        Column::numbers("scatter", "rev/s"),
+        Column::numbers("within ±", ""),
+        Column::numbers("points", ""),
+    ]);
+    for (number, rotor) in (1..).zip(&found.rotors) {
+        shown.push(vec![
+            number.to_string(),
+            rotor.name.clone(),
+            significant(rotor.speed_rev_s, 5),
+            signed(rotor.bias_rev_s, 3),
+            fixed(rotor.scatter_rev_s, 3),
+            percent_in_words(rotor.coverage),
+            rotor.point_count.to_string(),
+        ]);
+    }
+    let offset = if found.is_offset_told {
+        format!("offset of the log {} s: time to be added to its clock\n", signed(found.offset_s, 3))
+    } else {
+        format!("offset of the log {} s, or another: the speeds are too steady to tell it\n", signed(found.offset_s, 1))
+    };
+    let rate = found
+        .clock_rate_share
+        .map_or(String::new(), |share| format!("the clocks drift by {} millionths\n", signed(share * PPM, 0)));
+    format!(
+        "{} against {}\n{}\n{offset}{rate}{}\n",
+        printable(&record.file),
+        printable(&record.log),
+        table_text(&shown, width),
+        verdict_in_words(found)
+    )
+}
+
+fn verdict_in_words(found: &Verification) -> String {
+    let percent = signed(100.0 * (found.speed_ratio - 1.0), 2);
+    match found.near_ratio {
+        _ if found.is_right() => format!("passed: order and clock are right; heard speeds differ by {percent} %"),
+        Some(ratio) => format!(
+            "failed: heard speeds are {} times the logged ones; check the blades or the order, or the pole pairs of the log",
+            significant(ratio, 3)
+        ),
+        None => format!(
+            "failed: heard speeds differ by {percent} %; check the order, the clock of the recorder, or the log"
+        ),
+    }
+}
+
+#[derive(Serialize)]
+struct VerificationLine<'a> {
+    file: &'a str,
+    log: &'a str,
+    status: &'static str,
+    offset_s: f64,
+    is_offset_told: bool,
+    clock_rate_share: Option<f64>,
+    speed_ratio: f64,
+    near_ratio: Option<f64>,
+    rotors: Vec<RotorLine<'a>>,
+    version: &'static str,
+}
+
+#[derive(Serialize)]
+struct RotorLine<'a> {
+    motor: &'a str,
+    speed_rev_s: f64,
+    bias_rev_s: f64,
+    scatter_rev_s: f64,
+    coverage: f64,
+    point_count: usize,
+}
+
+/// The verification as one JSON object on a line.
+///
+/// # Errors
+/// None is known, since all types can be serialised.
+pub fn verification_json(record: &VerificationRecord) -> Result<String, serde_json::Error> {
+    let found = &record.verification;
+    let rotors = found.rotors.iter().map(|rotor| RotorLine {
+        motor: &rotor.name,
+        speed_rev_s: rotor.speed_rev_s,
+        bias_rev_s: rotor.bias_rev_s,
+        scatter_rev_s: rotor.scatter_rev_s,
+        coverage: rotor.coverage,
+        point_count: rotor.point_count,
+    });
+    let line = VerificationLine {
+        file: &record.file,
+        log: &record.log,
+        status: if found.is_right() { "passed" } else { "failed" },
+        offset_s: found.offset_s,
+        is_offset_told: found.is_offset_told,
+        clock_rate_share: found.clock_rate_share,
+        speed_ratio: found.speed_ratio,
+        near_ratio: found.near_ratio,
+        rotors: rotors.collect(),
+        version: VERSION,
+    };
+    Ok(serde_json::to_string(&line)? + "\n")
+}

@@ -1,0 +1,350 @@
+//! Heard speeds against the speeds in a log of the same flight: offset of the clocks, which track is which motor, bias, scatter and coverage.
+//!
+//! For each offset, each track is compared with each motor; the assignment with the least squares counts. A log whose speeds are a simple multiple
+//! of the heard ones is scaled first, so that a wrong order is told as such.
+
+use hovertone_analysis::{TrackPoint, Verification, VerifiedRotor};
+
+/// Step of the coarse search of the offset, in s. *Numeric.*
+const OFFSET_STEP_S: f64 = 0.1;
+/// Steps of the fine search. *Numeric.*
+const FINE_STEP_S: f64 = 0.004;
+/// Points of a track in the coarse search. *Numeric.*
+const COARSE_POINTS: usize = 300;
+/// Most offsets. *Decision.*
+const OFFSETS_MAX: usize = 40_000;
+/// Share of the shorter series that both must cover. *Decision.*
+const OVERLAP_SHARE_MIN: f64 = 0.5;
+/// Longest time between log rows over which the speed is straight, in s. *Decision.*
+const GAP_S_MAX: f64 = 1.0;
+/// Fewest compared points. *Decision.*
+const POINTS_MIN: usize = 20;
+/// Offsets this far away must be worse by this factor. *Decision.*
+const ELSEWHERE_S: f64 = 1.0;
+const ELSEWHERE_FACTOR: f64 = 1.2;
+/// Ratios that a wrong order, wrong blades or wrong pole pairs make. *Physics.*
+const RATIOS: [f64; 9] = [0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0, 1.5, 2.0, 3.0, 4.0];
+/// A ratio of speeds is one of these if it is nearer than this. *Decision.*
+const RATIO_SHARE: f64 = 0.05;
+/// Shortest comparison that tells the rate of the clocks, in s. *Decision.*
+const RATE_S_MIN: f64 = 60.0;
+/// A measure of agreement is within the ± at this many standard uncertainties. *Decision.*
+const COVERAGE_FACTOR: f64 = 2.0;
+
+/// Speeds of the motors in a log.
+#[derive(Clone, Copy, Debug)]
+pub struct LoggedSpeeds<'a> {
+    /// Times of the rows, increasing.
+    pub time_s: &'a [f64],
+    /// Names of the motors.
+    pub names: &'a [String],
+    /// `speeds_rev_s[motor][row]`.
+    pub speeds_rev_s: &'a [Vec<f64>],
+}
+
+/// Why nothing can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NotVerified {
+    /// No speed was heard.
+    #[error("no track of a rotor's speed was heard")]
+    NoTrack,
+    /// The log has fewer motors than rotors were heard.
+    #[error("{tracks} rotors were heard, and the log has {motors} motors that turn")]
+    TooFewMotors {
+        /// Heard rotors.
+        tracks: usize,
+        /// Motors of the log.
+        motors: usize,
+    },
+    /// Both never overlap for long enough.
+    #[error("log and recording share too little time")]
+    NoOverlap,
+    /// The range of offsets is too wide.
+    #[error("log and recording are too long to try all offsets of their clocks")]
+    TooLong,
+}
+
+impl NotVerified {
+    /// What to do.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::NoTrack => "check the recording with `hovertone speed`",
+            Self::TooFewMotors { .. } => "give the log of the same vehicle, or the number of rotors with --rotors",
+            Self::NoOverlap => "give the log of the same flight, at least half as long as the hover",
+            Self::TooLong => "give the range of offsets: --log-offset-s LOW:HIGH",
+        }
+    }
+}
+
+/// Compares tracks with a log. `offsets_s` limits the offset, where it is known.
+///
+/// # Errors
+/// Nothing to compare.
+pub fn verification_from_log(
+    tracks: &[&[TrackPoint]],
+    log: LoggedSpeeds<'_>,
+    offsets_s: Option<[f64; 2]>,
+) -> Result<Verification, NotVerified> {
+    let tracks: Vec<&[TrackPoint]> = tracks.iter().copied().filter(|track| track.len() >= POINTS_MIN).collect();
+    if tracks.is_empty() {
+        return Err(NotVerified::NoTrack);
+    }
+    let motors = log.speeds_rev_s.len();
+    if motors < tracks.len() {
+        return Err(NotVerified::TooFewMotors { tracks: tracks.len(), motors });
+    }
+    let near_ratio = near_ratio(&tracks, log);
+    let comparison = Comparison { tracks: &tracks, log, scale: near_ratio.unwrap_or(1.0) };
+    let offsets = comparison.offsets(offsets_s)?;
+    let costs: Vec<f64> = offsets.iter().map(|&offset_s| comparison.cost(offset_s, COARSE_POINTS)).collect();
+    let best = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).ok_or(NotVerified::NoOverlap)?;
+    if !costs[best].is_finite() {
+        return Err(NotVerified::NoOverlap);
+    }
+    let elsewhere = offsets.iter().zip(&costs).filter(|(offset_s, _)| (*offset_s - offsets[best]).abs() > ELSEWHERE_S);
+    let elsewhere = elsewhere.map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
+    let offset_s = comparison.fine_offset(offsets[best]);
+    let rotors = comparison.rotors(offset_s);
+    let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
+    let logged: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s - rotor.bias_rev_s).sum();
+    Ok(Verification {
+        offset_s,
+        is_offset_told: elsewhere.is_finite() && elsewhere > ELSEWHERE_FACTOR * costs[best],
+        clock_rate_share: comparison.clock_rate_share(offset_s),
+        rotors,
+        speed_ratio: heard / logged,
+        near_ratio: near_ratio.filter(|ratio| *ratio != 1.0),
+    })
+}
+
+/// The simple ratio of the heard and the logged speeds.
+fn near_ratio(tracks: &[&[TrackPoint]], log: LoggedSpeeds<'_>) -> Option<f64> {
+    let heard = mean(tracks.iter().flat_map(|track| track.iter().map(|point| point.speed_rev_s)))?;
+    let turning = log.speeds_rev_s.iter().flatten().copied().filter(|speed_rev_s| *speed_rev_s > 0.0);
+    let fastest = turning.clone().fold(0.0, f64::max);
+    // rows on the ground and at rest are no flight
+    let logged = mean(turning.filter(|speed_rev_s| *speed_rev_s > 0.5 * fastest))?;
+    RATIOS.into_iter().find(|ratio| (heard / logged / ratio - 1.0).abs() < RATIO_SHARE)
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0_usize), |(sum, count), value| (sum + value, count + 1));
+    (count > 0).then(|| sum / count as f64)
+}
+
+struct Comparison<'a> {
+    tracks: &'a [&'a [TrackPoint]],
+    log: LoggedSpeeds<'a>,
+    /// Factor of the logged speeds during alignment.
+    scale: f64,
+}
+
+impl Comparison<'_> {
+    fn offsets(&self, limits_s: Option<[f64; 2]>) -> Result<Vec<f64>, NotVerified> {
+        let (Some(&log_from_s), Some(&log_to_s)) = (self.log.time_s.first(), self.log.time_s.last()) else {
+            return Err(NotVerified::NoOverlap);
+        };
+        let points = || self.tracks.iter().flat_map(|track| track.iter().map(|point| point.time_s));
+        let (from_s, to_s) = (points().fold(f64::INFINITY, f64::min), points().fold(f64::NEG_INFINITY, f64::max));
+        let shared_s = OVERLAP_SHARE_MIN * (to_s - from_s).min(log_to_s - log_from_s);
+        let [low_s, high_s] = limits_s.unwrap_or([from_s + shared_s - log_to_s, to_s - shared_s - log_from_s]);
+        let count = ((high_s - low_s) / OFFSET_STEP_S).ceil().max(0.0) + 1.0;
+        if count > OFFSETS_MAX as f64 {
+            return Err(NotVerified::TooLong);
+        }
+        Ok((0..count as usize).map(|at| low_s + at as f64 * OFFSET_STEP_S).collect())
+    }
+
+    /// Heard less logged speed at the points of a track that the log covers.
+    fn differences(&self, track: &[TrackPoint], motor: usize, offset_s: f64, stride: usize) -> Vec<Difference> {
+        let difference = |point: &TrackPoint| {
+            let logged_rev_s = self.logged_at(motor, point.time_s - offset_s)?;
+            Some(Difference { point: *point, logged_rev_s })
+        };
+        track.iter().step_by(stride).filter_map(difference).collect()
+    }
+
+    fn logged_at(&self, motor: usize, time_s: f64) -> Option<f64> {
+        let times_s = self.log.time_s;
+        let behind = times_s.partition_point(|&row_s| row_s < time_s);
+        let before = behind.checked_sub(1)?;
+        let (from_s, to_s) = (times_s[before], *times_s.get(behind)?);
+        let speeds = &self.log.speeds_rev_s[motor];
+        let share = (time_s - from_s) / (to_s - from_s);
+        (to_s - from_s <= GAP_S_MAX).then(|| speeds[before] + share * (speeds[behind] - speeds[before]))
+    }
+
+    /// Mean square of the differences of a track and a motor; infinite with too little in common.
+    fn square(&self, track: &[TrackPoint], motor: usize, offset_s: f64, points_max: usize) -> f64 {
+        let stride = track.len().div_ceil(points_max);
+        let differences = self.differences(track, motor, offset_s, stride);
+        let expected = track.len().div_ceil(stride);
+        if differences.len() < POINTS_MIN || (differences.len() as f64) < 0.5 * OVERLAP_SHARE_MIN * expected as f64 {
+            return f64::INFINITY;
+        }
+        let square =
+            |difference: &Difference| (difference.point.speed_rev_s - self.scale * difference.logged_rev_s).powi(2);
+        differences.iter().map(square).sum::<f64>() / differences.len() as f64
+    }
+
+    /// Which motor each track is, by least squares at an offset: the best pair first, then the best of the rest.
+    fn assignment(&self, offset_s: f64, points_max: usize) -> Assignment {
+        let mut squares: Vec<PairSquare> = Vec::new();
+        for (track, points) in self.tracks.iter().enumerate() {
+            for motor in 0..self.log.speeds_rev_s.len() {
+                squares.push(PairSquare { track, motor, square: self.square(points, motor, offset_s, points_max) });
+            }
+        }
+        squares.sort_by(|a, b| a.square.total_cmp(&b.square));
+        let (mut motors, mut cost) = (vec![None; self.tracks.len()], 0.0);
+        for pair in squares {
+            if motors[pair.track].is_none() && !motors.contains(&Some(pair.motor)) {
+                motors[pair.track] = Some(pair.motor);
+                cost += pair.square;
+            }
+        }
+        Assignment { motors, cost }
+    }
+
+    fn cost(&self, offset_s: f64, points_max: usize) -> f64 {
+        self.assignment(offset_s, points_max).cost
+    }
+
+    fn fine_offset(&self, coarse_s: f64) -> f64 {
+        let steps = (OFFSET_STEP_S / FINE_STEP_S) as i32;
+        let places = (-steps..=steps).map(|step| coarse_s + f64::from(step) * FINE_STEP_S);
+        let costs = places.map(|offset_s| (offset_s, self.cost(offset_s, 4 * COARSE_POINTS)));
+        costs.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(coarse_s, |(offset_s, _)| offset_s)
+    }
+
+    /// Change of the offset from the first to the second half, over the time between their middles.
+    fn clock_rate_share(&self, offset_s: f64) -> Option<f64> {
+        let points = self.tracks.first()?;
+        let (from_s, to_s) = (points.first()?.time_s, points.last()?.time_s);
+        if to_s - from_s < RATE_S_MIN {
+            return None;
+        }
+        let half = |is_second: bool| -> Vec<&[TrackPoint]> {
+            let cut = |track: &&[TrackPoint]| track.partition_point(|point| point.time_s < 0.5 * (from_s + to_s));
+            let part = |track: &&'_ [TrackPoint]| cut(track);
+            self.tracks
+                .iter()
+                .map(|track| if is_second { &track[part(track)..] } else { &track[..part(track)] })
+                .collect()
+        };
+        let offset_of = |tracks: &[&[TrackPoint]]| Comparison { tracks, ..*self }.fine_offset(offset_s);
+        Some((offset_of(&half(true)) - offset_of(&half(false))) / (0.5 * (to_s - from_s)))
+    }
+
+    fn rotors(&self, offset_s: f64) -> Vec<VerifiedRotor> {
+        let assignment = self.assignment(offset_s, usize::MAX);
+        let rotor = |(track, motor): (&&[TrackPoint], Option<usize>)| {
+            let motor = motor?;
+            let differences = self.differences(track, motor, offset_s, 1);
+            let count = differences.len() as f64;
+            let of = |difference: &Difference| difference.point.speed_rev_s - difference.logged_rev_s;
+            let bias_rev_s = differences.iter().map(of).sum::<f64>() / count;
+            let squares: f64 = differences.iter().map(|difference| (of(difference) - bias_rev_s).powi(2)).sum();
+            let is_covered = |one: &&Difference| of(one).abs() <= COVERAGE_FACTOR * one.point.std_uncertainty_rev_s;
+            Some(VerifiedRotor {
+                motor,
+                name: self.log.names[motor].clone(),
+                speed_rev_s: differences.iter().map(|one| one.point.speed_rev_s).sum::<f64>() / count,
+                bias_rev_s,
+                scatter_rev_s: (squares / (count - 1.0).max(1.0)).sqrt(),
+                coverage: differences.iter().filter(is_covered).count() as f64 / count,
+                point_count: differences.len(),
+            })
+        };
+        self.tracks.iter().zip(assignment.motors).filter_map(rotor).collect()
+    }
+}
+
+struct Difference {
+    point: TrackPoint,
+    logged_rev_s: f64,
+}
+
+struct PairSquare {
+    track: usize,
+    motor: usize,
+    square: f64,
+}
+
+struct Assignment {
+    motors: Vec<Option<usize>>,
+    cost: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn speed_rev_s(motor: usize, time_s: f64) -> f64 {
+        let phase = motor as f64;
+        80.0 + 1.5 * phase + 2.0 * (0.9 * time_s + phase).sin() + 1.2 * (0.23 * time_s - phase).cos()
+    }
+
+    fn track(motor: usize, factor: f64) -> Vec<TrackPoint> {
+        let point = |at: usize| {
+            let time_s = 1.0 + 0.04 * at as f64;
+            let error = 0.05 * ((at * 7919 % 100) as f64 / 50.0 - 1.0) * 3f64.sqrt();
+            let speed_rev_s = factor * (speed_rev_s(motor, time_s) + error);
+            TrackPoint { time_s, tone_hz: 2.0 * speed_rev_s, speed_rev_s, std_uncertainty_rev_s: 0.05, level_db: -30.0 }
+        };
+        (0..2000).map(point).collect()
+    }
+
+    fn verified(factor: f64, rate: f64) -> Verification {
+        let time_s: Vec<f64> = (0..1000).map(|row| 40.0 + 0.1 * f64::from(row)).collect();
+        // the log's clock is 37.3 s ahead and runs faster by `rate`
+        let of_recording = |row_s: f64| (row_s - 37.3) / (1.0 + rate);
+        let speeds_rev_s: Vec<Vec<f64>> =
+            (0..4).map(|motor| time_s.iter().map(|&row_s| speed_rev_s(motor, of_recording(row_s))).collect()).collect();
+        let names: Vec<String> = (1..=4).map(|motor| format!("motor {motor}")).collect();
+        let tracks = [track(2, factor), track(0, factor), track(3, factor), track(1, factor)];
+        let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
+        verification_from_log(
+            &tracks,
+            LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s },
+            None,
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn offset_motors_and_coverage_are_found() {
+        let found = verified(1.0, 0.0);
+        assert!((found.offset_s + 37.3).abs() < 0.01 && found.is_offset_told && found.is_right(), "{found:?}");
+        assert_eq!(found.rotors.iter().map(|rotor| rotor.motor).collect::<Vec<_>>(), [2, 0, 3, 1]);
+        for rotor in &found.rotors {
+            assert!(rotor.bias_rev_s.abs() < 0.01 && (rotor.scatter_rev_s - 0.05).abs() < 0.02, "{rotor:?}");
+            assert!(rotor.coverage > 0.9, "{rotor:?}");
+        }
+        assert!(found.clock_rate_share.unwrap().abs() < 3e-4);
+    }
+
+    #[test]
+    fn a_wrong_order_and_a_wrong_clock_are_told() {
+        let half = verified(0.5, 0.0);
+        assert!(!half.is_right() && half.near_ratio == Some(0.5) && (half.offset_s + 37.3).abs() < 0.01, "{half:?}");
+        let clock = verified(1.01, 0.0);
+        assert!(!clock.is_right() && (clock.speed_ratio - 1.01).abs() < 1e-3, "{clock:?}");
+        let rate = verified(1.0, 1e-3).clock_rate_share.unwrap();
+        assert!((rate + 1e-3).abs() < 3e-4, "{rate}");
+    }
+
+    #[test]
+    fn nothing_to_compare_has_a_reason() {
+        let names = ["motor 1".to_owned()];
+        let speeds = [vec![80.0; 3]];
+        let log = LoggedSpeeds { time_s: &[0.0, 0.1, 0.2], names: &names, speeds_rev_s: &speeds };
+        let one = track(0, 1.0);
+        assert_eq!(verification_from_log(&[], log, None), Err(NotVerified::NoTrack));
+        assert!(matches!(
+            verification_from_log(&[&one, &one], log, None),
+            Err(NotVerified::TooFewMotors { tracks: 2, motors: 1 })
+        ));
+        assert_eq!(verification_from_log(&[&one], log, None), Err(NotVerified::NoOverlap));
+    }
+}
