@@ -16,6 +16,7 @@ mod figure_file;
 mod file_list;
 mod files;
 mod fit;
+mod greybox;
 mod identify;
 mod init;
 mod inputs;
@@ -82,6 +83,7 @@ fn main() -> ExitCode {
         Command::Compare(arguments) => compare::run(arguments, &mut terminal),
         Command::Log(arguments) => log::run(arguments, &mut terminal),
         Command::Motor(arguments) => motor::run(arguments, &mut terminal),
+        Command::GreyBox(arguments) => greybox::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),
