@@ -5,6 +5,7 @@ use crate::printable::printable;
 use crate::quote::counted;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
+use crate::typeset::TitledTable;
 use crate::version::VERSION;
 use hovertone_dynamics::{Advice, Axis, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
 use hovertone_vehicle::{Estimate, RotorSpeed};
@@ -63,18 +64,32 @@ pub fn grey_box_text(record: &GreyBoxRecord, width: Option<usize>) -> String {
         counted(record.fit.observations, "observation"),
         if record.are_speeds_logged { "logged" } else { "heard" }
     );
-    text += &format!("\nEq 1, gains about hover\n{}", table_text(&gains_table(record), width));
-    text += &format!("\nEq 2 and hover\n{}", table_text(&motor_table(record), width));
-    text += &format!("\n{}", torque_line(&record.torque_constant));
-    text += &format!("{}\n", rank_line(record));
-    for advice in &record.advice {
-        text += &format!("{}; {}\n", advice.what, advice.hint);
+    for titled in grey_box_tables(record) {
+        text += &format!("\n{}\n{}", titled.title, table_text(&titled.table, width));
     }
-    text += &check_lines(record);
+    text += "\n";
+    for note in grey_box_notes(record) {
+        text += &format!("{note}\n");
+    }
     text
 }
 
-/// Volts are those of the vehicle's motor; only gain times speed per volt is heard.
+/// The two tables of a grey box: gains of eq 1, and eq 2 with hover.
+pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
+    let gains = TitledTable::new("Eq 1, gains about hover", gains_table(record));
+    [gains, TitledTable::new("Eq 2 and hover", motor_table(record))]
+}
+
+/// Lines beside the tables: C_τ, rank, gaps, checks.
+pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
+    let advice = record.advice.iter().map(|advice| format!("{}; {}", advice.what, advice.hint));
+    let torque = torque_line(&record.torque_constant).trim_end().to_owned();
+    let checks = check_lines(record);
+    let checks = checks.lines().map(str::to_owned);
+    [torque, rank_line(record)].into_iter().chain(checks).chain(advice).collect()
+}
+
+/// Volts are by the vehicle's motor: the sound holds a gain times the speed per volt.
 fn gains_table(record: &GreyBoxRecord) -> TextTable {
     let mut shown = TextTable::new(vec![
         Column::words("loop"),
@@ -128,10 +143,9 @@ fn motor_table(record: &GreyBoxRecord) -> TextTable {
 fn torque_line(constant: &TorqueConstant) -> String {
     match constant {
         TorqueConstant::Told(told) => {
-            format!(
-                "C_τ of one rotor: {} N m s², if the vehicle's I_zz is right\n",
-                scaled_number(told.value, told.std_uncertainty).superscript()
-            )
+            let scaled = scaled_number(told.value, told.std_uncertainty);
+            let (digits, exponent) = (&scaled.digits, scaled.exponent);
+            format!("C_τ of one rotor: ({digits}) 1e{exponent} N m s², if the vehicle's I_zz is right\n")
         }
         other => format!("C_τ: not identifiable, because {}\n", other.reason().unwrap_or_default()),
     }

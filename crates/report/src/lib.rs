@@ -68,7 +68,9 @@ pub use flight_plan::flight_plan_text;
 pub use folded_warnings::{
     FoldedWarning, distinct_notices, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, warning_count,
 };
-pub use grey_box::{CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_text};
+pub use grey_box::{
+    CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables, grey_box_text,
+};
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
 pub use motor::{LoggedMotor, MotorRecord, motor_text};

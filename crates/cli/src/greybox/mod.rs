@@ -3,8 +3,8 @@
 mod flight;
 mod scenario;
 
-pub(crate) use flight::{FlightFiles, FlownLog, GreyBoxVehicle, fit_of, speeds_of};
-pub(crate) use scenario::scenario_toml;
+pub(crate) use flight::{FlightFiles, FlownLog, GreyBoxVehicle, Heard, Speeds, fit_of, speeds_of};
+pub(crate) use scenario::{scenario_file, scenario_toml};
 
 use crate::args::{BodyAxes, GreyBoxArguments};
 use crate::failure::{Ending, Failure};
@@ -39,24 +39,8 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
         .map(|(files, flown)| speeds_of(files, flown, &heard, &vehicle, hearing, &progress));
     let checked_speeds = checked_speeds.transpose()?;
     progress.finish();
-    let record = GreyBoxRecord {
-        recording: files.recording_name(),
-        log: files.log_name(),
-        vehicle: vehicle.id().to_owned(),
-        are_speeds_logged: files.recording.is_none(),
-        fit: heard.fit.clone(),
-        slope_v_s_rad: vehicle.slope_v_s_rad(&heard.fit),
-        places: vehicle.parameters.layout.value.place_names(),
-        names_nats: heard.names_nats,
-        torque_constant: torque_constant(&flown.log, &flown.inputs, &heard.fit, &YawInertia::of(&vehicle.parameters)),
-        advice: advice_of(&heard.fit, &flown.inputs),
-        fitted: checked(&heard.observations, &heard.fit.prediction(&flown.inputs)),
-        other_flight: other.as_ref().zip(checked_speeds.as_ref()).map(|(files, speeds)| CheckedFlight {
-            recording: files.recording_name(),
-            log: files.log_name(),
-            result: checked(&speeds.observations, &speeds.prediction),
-        }),
-    };
+    let compared = other.as_ref().zip(checked_speeds.as_ref());
+    let record = record_of(&files, &flown, &heard, &vehicle, compared);
     match arguments.json {
         true => terminal.data(&grey_box_json(&record).map_err(Failure::internal)?)?,
         false => terminal.text(&grey_box_text(&record, terminal.fold_width()))?,
@@ -79,6 +63,35 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
         [Some(&flown), other_flown.as_ref()].into_iter().flatten().filter_map(|flown| flown.loss.as_ref()).collect();
     losses.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
     Ok(if losses.is_empty() { Ending::Done } else { Ending::Incomplete })
+}
+
+/// The record of a fit, with the flight that was not used.
+pub(crate) fn record_of(
+    files: &FlightFiles,
+    flown: &FlownLog,
+    heard: &Heard,
+    vehicle: &GreyBoxVehicle,
+    other: Option<(&FlightFiles, &Speeds)>,
+) -> GreyBoxRecord {
+    let body = YawInertia::of(&vehicle.parameters);
+    GreyBoxRecord {
+        recording: files.recording_name(),
+        log: files.log_name(),
+        vehicle: vehicle.id().to_owned(),
+        are_speeds_logged: files.recording.is_none(),
+        fit: heard.fit.clone(),
+        slope_v_s_rad: vehicle.slope_v_s_rad(&heard.fit),
+        places: vehicle.parameters.layout.value.place_names(),
+        names_nats: heard.names_nats,
+        torque_constant: torque_constant(&flown.log, &flown.inputs, &heard.fit, &body),
+        advice: advice_of(&heard.fit, &flown.inputs),
+        fitted: checked(&heard.observations, &heard.fit.prediction(&flown.inputs)),
+        other_flight: other.map(|(files, speeds)| CheckedFlight {
+            recording: files.recording_name(),
+            log: files.log_name(),
+            result: checked(&speeds.observations, &speeds.prediction),
+        }),
+    }
 }
 
 /// Checks, before any work, that all outputs can be written.

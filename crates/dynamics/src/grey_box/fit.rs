@@ -94,6 +94,21 @@ impl GreyBoxFit {
         })
     }
 
+    /// The same with a standard uncertainty of the time of all changes, such as that of echoes, which arrive later than the sound
+    /// itself: it is one of the time constant and of the delays, and P times it is one of D.
+    #[must_use]
+    pub(crate) fn with_time_uncertainty(mut self, std_s: f64) -> Self {
+        for (std_uncertainty, parameter) in self.std_uncertainty.iter_mut().zip(Parameter::all()) {
+            let by_time = match parameter {
+                Parameter::TimeConstant | Parameter::CommandDelay | Parameter::MeasuredDelay => std_s,
+                Parameter::Derivative(axis) => std_s * self.model.loops[axis as usize].proportional,
+                _ => 0.0,
+            };
+            *std_uncertainty = std_uncertainty.map(|std_uncertainty| std_uncertainty.hypot(by_time));
+        }
+        self
+    }
+
     /// The speeds that the model predicts for a flight.
     pub fn prediction(&self, inputs: &LoopInputs) -> SpeedPrediction {
         SpeedPrediction::new(inputs, &self.model)

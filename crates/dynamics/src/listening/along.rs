@@ -35,6 +35,8 @@ pub struct SoundConfig {
     pub hover_share: f64,
     /// Half of the range of the rotors about their mean, as a share. *Decision.*
     pub spread_share: f64,
+    /// Standard uncertainty of the time of changes by echoes. *Physics*: the ground reflects half of the sound 2 ms later.
+    pub echo_std_s: f64,
     /// The fit.
     pub fit: GreyBoxConfig,
 }
@@ -50,6 +52,7 @@ impl Default for SoundConfig {
             time_error_s_last: 3e-4,
             hover_share: 0.12,
             spread_share: 0.03,
+            echo_std_s: 1e-3,
             fit: GreyBoxConfig::default(),
         }
     }
@@ -102,7 +105,7 @@ pub fn grey_box_from_sound(
         last = Some((fit, observations));
     }
     let (fit, observations) = last.ok_or(GreyBoxStop::NotConverged)?;
-    Ok(SoundFit { fit, observations, names_nats })
+    Ok(SoundFit { fit: fit.with_time_uncertainty(config.echo_std_s), observations, names_nats })
 }
 
 /// The speeds of another flight, heard along the prediction of a fitted model, and the prediction. The clocks of log and recording may
