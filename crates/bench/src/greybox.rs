@@ -4,7 +4,7 @@
 use hovertone::sound::{Passes, Signal};
 use hovertone_dynamics::{
     Axis, Checked, ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, LineOrders, LoopInputs,
-    Parameter, SoundConfig, checked, grey_box_from_sound, grey_box_from_speeds, lines_from_passes,
+    MotorVolts, Parameter, SoundConfig, checked, grey_box_from_sound, grey_box_from_speeds, lines_from_passes,
     observations_of_rows,
 };
 use hovertone_sim::FlightState;
@@ -12,7 +12,7 @@ use hovertone_sim::scenario::{
     ControllerSection, DoubletAmounts, GainsSection, MicrophoneSection, RoomSection, ScenarioFile, ScenarioRun,
     SpreadSection,
 };
-use hovertone_vehicle::{GRAVITY_STANDARD_M_S2, LoopGains, find_flight_parameters, find_preset};
+use hovertone_vehicle::{FlightParameters, GRAVITY_STANDARD_M_S2, LoopGains, find_flight_parameters, find_preset};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;
@@ -166,13 +166,30 @@ fn flown(scenario: &ScenarioFile, has_sound: bool) -> Option<Flown> {
         ],
         tilt_rate_rad_s: [rate(0), rate(1)],
     };
+    let speeds = [0, 1, 2, 3].map(|rotor| column(&|row| row.speed_rad_s[rotor]));
+    let gains = scenario.spread.and_then(|spread| spread.motor_gains).unwrap_or([1.0; 4]);
+    let hovers = [0, 1, 2, 3].map(|rotor: usize| speeds[rotor].first().copied().unwrap_or_default());
     Some(Flown {
         inputs: LoopInputs::from_log(&log, &ControlKnowns::of(&vehicle))?,
-        speeds: [0, 1, 2, 3].map(|rotor| column(&|row| row.speed_rad_s[rotor])),
-        truth: GreyBoxModel::of(&vehicle, vehicle.mass_kg.value, GRAVITY_STANDARD_M_S2),
+        truth: truth_of(&vehicle, hovers, gains.iter().sum::<f64>() / 4.0),
+        speeds,
         sound: Signal::new(channels.into_iter().next().unwrap_or_default(), rate_hz),
         time_s: log.time_s,
     })
+}
+
+/// The model of the vehicle as flown: about its own hover, with the mean gain of its motors.
+fn truth_of(vehicle: &FlightParameters, hover_rad_s: [f64; 4], motor_gain: f64) -> GreyBoxModel {
+    let mut truth = GreyBoxModel::of(vehicle, vehicle.mass_kg.value, GRAVITY_STANDARD_M_S2);
+    let (volts, nominal_rad_s) = (MotorVolts::of(vehicle), truth.mean_hover_rad_s());
+    truth.hover_rad_s = hover_rad_s;
+    let slopes = volts.slope_v_s_rad(nominal_rad_s) / volts.slope_v_s_rad(truth.mean_hover_rad_s());
+    for of_loop in &mut truth.loops {
+        of_loop.proportional *= motor_gain * slopes;
+        of_loop.derivative *= motor_gain * slopes;
+    }
+    truth.time_constant_s *= slopes;
+    truth
 }
 
 fn fit_of(flown: &mut Flown, preset: &str, source: Source) -> Option<GreyBoxFit> {

@@ -1,5 +1,7 @@
 //! The grey box on simulated flights whose gains are known.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // what tests share has no attribute by which the lints know it
+
 use hovertone_dynamics::{
     Axis, ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, LineOrders, LoopInputs,
     Parameter, SoundConfig, TorqueConstant, YawInertia, advice_of, checked, grey_box_from_sound, grey_box_from_speeds,

@@ -12,6 +12,9 @@ use hovertone_vehicle::{Ending, Estimate};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
+/// Standard deviation of an even distribution over its width. *Physics.*
+const EVEN_STD: f64 = 0.288_675;
+
 /// Settings of the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GreyBoxConfig {
@@ -125,7 +128,9 @@ pub fn grey_box_from_speeds(
     start: &GreyBoxModel,
     config: &GreyBoxConfig,
 ) -> Result<GreyBoxFit, GreyBoxStop> {
-    grey_box_near(observations, inputs, start, start, config)
+    // a command takes effect at some moment between two log rows
+    let between_rows_s = inputs.step_s * EVEN_STD;
+    Ok(grey_box_near(observations, inputs, start, start, config)?.with_time_uncertainty(between_rows_s))
 }
 
 /// The same from another first guess.

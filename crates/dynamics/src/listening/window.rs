@@ -116,8 +116,8 @@ fn sums_of<const MOMENTS: bool>(
             if MOMENTS {
                 sums.products_s[i] += weighed * sample * s;
             }
-            for k in i..4 {
-                let product = weighed * lines[k];
+            for (k, other) in lines.iter().enumerate().skip(i) {
+                let product = weighed * other;
                 sums.gram[(i, k)] += product;
                 if MOMENTS {
                     sums.gram_s[(i, k)] += product * s;
