@@ -311,8 +311,11 @@ pub fn grey_box_against_truth(fit: &GreyBoxFit, truth: &[f64]) -> TextTable {
         Column::numbers("off by", "%"),
     ]);
     for (parameter, &truth) in Parameter::all().into_iter().zip(truth) {
-        let is_shown = !matches!(parameter, Parameter::CommandDelay | Parameter::MeasuredDelay | Parameter::Limit(_));
-        let Some(told) = fit.estimate(parameter).filter(|_| is_shown) else { continue };
+        let is_hidden = matches!(
+            parameter,
+            Parameter::CommandDelay | Parameter::MeasuredDelay | Parameter::Limit(_) | Parameter::MotorGain(_)
+        );
+        let Some(told) = fit.estimate(parameter).filter(|_| !is_hidden) else { continue };
         let off = if truth == 0.0 { DASH.to_owned() } else { fixed(PERCENT * (told.value / truth - 1.0), 2) };
         shown.push(vec![parameter.in_words(), shown_estimate(told), significant(truth, 4), off]);
     }

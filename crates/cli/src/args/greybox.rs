@@ -13,9 +13,9 @@ pitch_deg, yaw_rate_rad_s, velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s 
 no recording is needed. Fly doublets about all four axes, short and long, for a minute.
 
 Examples:
-  hovertone greybox flight.wav flight.csv --vehicle ardrone
-  hovertone greybox flight.csv --vehicle ardrone --scenario identified.toml
-  hovertone greybox flight.wav flight.csv --vehicle ardrone --check other.wav other.csv --figure check.svg";
+  hovertone greybox doublets.wav doublets.csv --vehicle ardrone
+  hovertone greybox doublets.csv --vehicle ardrone --scenario identified.toml
+  hovertone greybox doublets.wav doublets.csv --vehicle ardrone --check other.wav other.csv";
 
 /// The low-level model: gains of eq 1, time constant of eq 2 and C_τ, from a flight of doublets and its log
 ///

@@ -55,7 +55,7 @@ Examples:
   hovertone compare out/results.json iris.sdf              a simulator's model against it
   hovertone log flight.ulg                    what a log of a flight holds
   hovertone motor steps.csv                   time constants of a motor, from steps in a log
-  hovertone greybox flight.wav flight.csv --vehicle ardrone   gains and motors from doublets
+  hovertone greybox doublets.csv --vehicle ardrone  gains and motors from doublets
   hovertone simulate scenario.toml -o flight  a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
 

@@ -10,7 +10,7 @@ const HEAD: &str = "# The identified vehicle of `hovertone greybox`. Gains and i
 
 /// The identified vehicle, to be flown by `hovertone simulate`: a hover, to which manoeuvres can be added.
 pub(crate) fn scenario_file(fit: &GreyBoxFit, vehicle: &GreyBoxVehicle) -> ScenarioFile {
-    let IdentifiedVehicle { vehicle: identified, thrust_shares } =
+    let IdentifiedVehicle { vehicle: identified, thrust_shares, motor_gains } =
         fit.vehicle(&vehicle.parameters, vehicle.mass_kg * GRAVITY_STANDARD_M_S2);
     let controller = &identified.controller;
     ScenarioFile {
@@ -28,7 +28,11 @@ pub(crate) fn scenario_file(fit: &GreyBoxFit, vehicle: &GreyBoxVehicle) -> Scena
             climb: Some(controller.climb.value.into()),
             ..ControllerSection::default()
         }),
-        spread: Some(SpreadSection { thrust_shares: Some(thrust_shares), ..SpreadSection::default() }),
+        spread: Some(SpreadSection {
+            thrust_shares: Some(thrust_shares),
+            motor_gains: Some(motor_gains),
+            ..SpreadSection::default()
+        }),
         ..ScenarioFile::default()
     }
 }

@@ -12,6 +12,8 @@ use hovertone_vehicle::{Ending, Estimate};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
+/// Fewest observations. *Numeric*: some ten for each parameter that counts.
+const OBSERVATIONS_MIN: usize = 200;
 /// Standard deviation of an even distribution over its width. *Physics.*
 const EVEN_STD: f64 = 0.288_675;
 
@@ -172,7 +174,7 @@ fn used_observations(
         inputs.knows(observation.time_s - half_s, observation.time_s + half_s)
     };
     let known: Vec<&SpeedObservation> = observations.iter().filter(is_known).collect();
-    let needed = 10 * PARAMETER_COUNT;
+    let needed = OBSERVATIONS_MIN;
     if known.len() < needed {
         return Err(GreyBoxStop::TooFew { found: known.len(), needed });
     }
@@ -189,6 +191,8 @@ fn prior_std(parameter: Parameter) -> f64 {
         Parameter::TimeConstant => 2.0,
         Parameter::CommandDelay | Parameter::MeasuredDelay => 10.0,
         Parameter::Hover(_) => 20.0,
+        // motors of one vehicle
+        Parameter::MotorGain(_) => 5.0,
     }
 }
 

@@ -4,7 +4,7 @@ use super::axis::Axis;
 use hovertone_vehicle::FlightParameters;
 
 /// Number of parameters.
-pub const PARAMETER_COUNT: usize = 20;
+pub const PARAMETER_COUNT: usize = 23;
 
 /// One loop of eq 1, in rad/s of the rotors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,8 @@ pub struct GreyBoxModel {
     pub measured_delay_s: f64,
     /// Speed of each rotor in hover.
     pub hover_rad_s: [f64; 4],
+    /// Gain of each motor over their mean: its share of the voltage.
+    pub motor_gain: [f64; 4],
 }
 
 /// One parameter.
@@ -53,6 +55,8 @@ pub enum Parameter {
     MeasuredDelay,
     /// Hover speed of a rotor, counted from 0.
     Hover(usize),
+    /// Gain of the motor of rotor 0, 1 or 2 over the mean; that of rotor 3 follows.
+    MotorGain(usize),
 }
 
 impl Parameter {
@@ -66,7 +70,8 @@ impl Parameter {
             13 => Self::Load,
             14 => Self::CommandDelay,
             15 => Self::MeasuredDelay,
-            _ => Self::Hover(at - 16),
+            16..20 => Self::Hover(at - 16),
+            _ => Self::MotorGain(at - 20),
         })
     }
 
@@ -81,6 +86,7 @@ impl Parameter {
             Self::CommandDelay => "command_delay_s".to_owned(),
             Self::MeasuredDelay => "measured_delay_s".to_owned(),
             Self::Hover(rotor) => format!("hover_{}_rad_s", rotor + 1),
+            Self::MotorGain(rotor) => format!("motor_gain_{}", rotor + 1),
         }
     }
 
@@ -95,6 +101,7 @@ impl Parameter {
             Self::CommandDelay => "the delay of commands".to_owned(),
             Self::MeasuredDelay => "the delay of measured values".to_owned(),
             Self::Hover(rotor) => format!("the hover speed of rotor {}", rotor + 1),
+            Self::MotorGain(rotor) => format!("the gain of motor {}", rotor + 1),
         }
     }
 
@@ -126,6 +133,7 @@ impl GreyBoxModel {
             command_delay_s: 0.0,
             measured_delay_s: 0.0,
             hover_rad_s: [hover_rad_s; 4],
+            motor_gain: [1.0; 4],
         }
     }
 
@@ -140,6 +148,7 @@ impl GreyBoxModel {
             Parameter::CommandDelay => self.command_delay_s,
             Parameter::MeasuredDelay => self.measured_delay_s,
             Parameter::Hover(rotor) => self.hover_rad_s[rotor],
+            Parameter::MotorGain(rotor) => self.motor_gain[rotor],
         })
     }
 
@@ -156,6 +165,7 @@ impl GreyBoxModel {
             command_delay_s: vector[14],
             measured_delay_s: vector[15],
             hover_rad_s: std::array::from_fn(|rotor| vector[16 + rotor]),
+            motor_gain: [vector[20], vector[21], vector[22], 4.0 - vector[20] - vector[21] - vector[22]],
         }
     }
 
@@ -170,6 +180,7 @@ impl GreyBoxModel {
                 Parameter::TimeConstant | Parameter::CommandDelay | Parameter::MeasuredDelay => 0.01,
                 Parameter::Load => 0.1 / hover,
                 Parameter::Hover(_) => 1e-2 * hover,
+                Parameter::MotorGain(_) => 1e-2,
             };
             *scale = match parameter {
                 Parameter::TimeConstant | Parameter::Proportional(_) | Parameter::Derivative(_) | Parameter::Load => {

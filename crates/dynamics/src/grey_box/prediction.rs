@@ -35,7 +35,8 @@ impl SpeedPrediction {
             for (rotor, delta) in delta.iter_mut().enumerate() {
                 let moved = |axis: usize| inputs.mixer[rotor][axis] * (of_before * before[axis] + of_now * now[axis]);
                 let load = model.load_s_rad * *delta * *delta;
-                *delta = keep * *delta + (0..4).map(moved).sum::<f64>() - (1.0 - keep) * load;
+                let moved = model.motor_gain[rotor] * (0..4).map(moved).sum::<f64>();
+                *delta = keep * *delta + moved - (1.0 - keep) * load;
             }
             before = now;
             speed_rad_s.push(std::array::from_fn(|rotor| model.hover_rad_s[rotor] + delta[rotor]));

@@ -62,7 +62,7 @@ impl GreyBoxFit {
         let squares = model.hover_rad_s.map(|speed| speed * speed);
         vehicle.rotor.thrust_constant_n_s2.value = weight_n / squares.iter().sum::<f64>();
         let mean_square = squares.iter().sum::<f64>() / 4.0;
-        IdentifiedVehicle { vehicle, thrust_shares: thrust_shares(model, mean_square) }
+        IdentifiedVehicle { vehicle, thrust_shares: thrust_shares(model, mean_square), motor_gains: model.motor_gain }
     }
 }
 
@@ -73,6 +73,8 @@ pub struct IdentifiedVehicle {
     pub vehicle: FlightParameters,
     /// C_f of each rotor over the mean of them: each rotor bears a quarter of the weight.
     pub thrust_shares: [f64; 4],
+    /// Gain of each motor over their mean.
+    pub motor_gains: [f64; 4],
 }
 
 fn thrust_shares(model: &GreyBoxModel, mean_square: f64) -> [f64; 4] {
