@@ -5,6 +5,7 @@
 mod accuracy;
 mod cost;
 mod document;
+mod greybox;
 mod labels;
 mod logs;
 mod motor;
@@ -46,6 +47,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--semi-real DIR] for recordings made before, [--flights N] for fewer flights
   levels     levels of the lines and evidence of simulated flights beside real recordings: docs/synthetic-and-real.md
              [--data DIR] for other recordings, [--flights N] for fewer flights
+  greybox    the low-level model of simulated flights against its truth, from logged speeds and from sound: docs/greybox.md
+             [--logged N] for another number of flights with logged speeds, [--heard N] for those that are heard
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         ["levels", options @ ..] => real::levels::run(&root(), options),
         ["saying-more", options @ ..] => real::saying_more::run(&root(), options),
         ["labels", options @ ..] => labels::run(&root(), options),
+        ["greybox", options @ ..] => greybox::run(options),
         ["roundtrip", options @ ..] => roundtrip::run(&root(), options),
         [speed::DECODE_TASK, file] => speed::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),

@@ -16,6 +16,7 @@ mod figure_file;
 mod file_list;
 mod files;
 mod fit;
+mod greybox;
 mod identify;
 mod init;
 mod inputs;
@@ -85,6 +86,7 @@ fn main() -> ExitCode {
         Command::Log(arguments) => log::run(arguments, &mut terminal),
         Command::Motor(arguments) => motor::run(arguments, &mut terminal),
         Command::Verify(arguments) => verify::run(arguments, &mut terminal),
+        Command::GreyBox(arguments) => greybox::run(arguments, &mut terminal),
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),

@@ -1,6 +1,7 @@
 //! From recordings to records. No other file of the command line decodes sound.
 
 use crate::args::HearingArguments;
+use crate::failure::Failure;
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
 use hovertone::motors::{
@@ -10,6 +11,7 @@ use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, spe
 use hovertone::sound::{LineFrequency, Passes, line_frequency};
 use hovertone::speed::{Config, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
+use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
 use hovertone_media::{Decoder, OpenOptions, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use rayon::prelude::*;
@@ -193,6 +195,27 @@ fn motor_of_passes(
     };
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     motor_from_sound(passes, &HeardTone { tone: &config.tone, speed_rev_s, span_s }, commands).map(Ok)
+}
+
+/// The lines of all rotors of a recording, in a range of shaft speeds.
+pub(crate) fn lines_of(
+    path: &Path,
+    hearing: Hearing,
+    orders: &LineOrders,
+    speed_rev_s: Range<f64>,
+    progress: &Progress,
+) -> Result<HeardLines, Failure> {
+    let failed = |what: String| Failure::failed(what, "give a recording of the same flight", path);
+    if let Some(reason) = wrong_kind(path) {
+        return Err(failed(reason));
+    }
+    let mut recording = Recording::open(path, &hearing.open_options()).map_err(|error| failed(error.to_string()))?;
+    let start_s = recording.info().start_s;
+    let mut share = progress.recording();
+    let mut on_progress = progress_of(&recording, &mut share);
+    Passes::planned(&mut recording, 1, &mut on_progress)
+        .and_then(|mut passes| lines_from_passes(&mut passes, start_s..f64::INFINITY, orders, speed_rev_s))
+        .map_err(|error| failed(error.to_string()))
 }
 
 fn opened(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {

@@ -14,6 +14,8 @@ mod combined;
 mod config;
 mod first_order;
 mod frame_response;
+mod grey_box;
+mod listening;
 mod load;
 mod motor;
 mod plateaus;
@@ -26,6 +28,10 @@ mod transitions;
 pub use alignment::offset_of_commands;
 pub use combined::CombinedEstimate;
 pub use config::MotorConfig;
+pub use grey_box::*;
+pub use listening::{
+    HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, speeds_along,
+};
 pub use load::LoadTerm;
 pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series};
 pub use series::{CommandSeries, MotorSeries, command_of_speed};

@@ -25,6 +25,7 @@ mod figure;
 mod fit;
 mod gaussian;
 mod geometry;
+mod grey_box;
 mod joined;
 mod load_spectrograms;
 mod maximum_trace;
@@ -42,6 +43,7 @@ pub use colour::{LEVEL_COUNT, level_colours, method_colour};
 pub use distributions::{Distribution, distributions_figure};
 pub use experiment::{ExperimentFigures, figures_of_experiment};
 pub use figure::{Figure, FigureError};
+pub use grey_box::{DrawnSpeeds, grey_box_figure};
 pub use motor_steps::{DrawnStep, motor_steps_figure};
 pub use picture::{
     MeanSpectrum, Picture, PictureConfig, PictureError, PictureView, Pictures, pictures_from_source, views_of_recording,

@@ -11,6 +11,7 @@
 
 mod blackbox;
 mod byte_window;
+mod control;
 mod dataflash;
 mod error;
 mod flight;
@@ -25,6 +26,7 @@ mod table_text;
 mod time_line;
 mod ulog;
 
+pub use control::{LoggedControl, control_from_log};
 pub use error::LogError;
 pub use flight::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
 pub use format::LogFormat;

@@ -5,6 +5,7 @@
 //! filters    filters of the templates
 //! view       the results as words and cells of templates      recordings   the same for the recordings
 //! warnings   all warnings, linked to their places
+//! low_level  the page of the low-level model
 //! sound      a recording, small enough for the page       seal      content security policy: the page loads nothing
 //! ```
 //!
@@ -12,6 +13,7 @@
 
 mod filters;
 mod input;
+mod low_level;
 mod recordings;
 mod report;
 mod seal;
@@ -20,6 +22,7 @@ mod view;
 mod warnings;
 
 pub use input::{Report, SimulatorLines, TrialReport};
+pub use low_level::{LowLevelPage, low_level_html};
 pub use recordings::names_of;
 pub use report::{PageError, experiment_tables, report_html};
 pub use sound::{SOUND_S_MAX, SoundClip, clip_from_source};

@@ -19,14 +19,14 @@ use hovertone_report::{
 };
 use serde_json::{Map, Value};
 
-const STYLE: &str = concat!(
+pub(crate) const STYLE: &str = concat!(
     include_str!("../templates/style/page.css"),
     include_str!("../templates/style/answer.css"),
     include_str!("../templates/style/figures.css"),
     include_str!("../templates/style/tables.css"),
     include_str!("../templates/style/print.css"),
 );
-const SCRIPT: &str = concat!(
+pub(crate) const SCRIPT: &str = concat!(
     "(() => {\n\"use strict\";\n",
     include_str!("../templates/script/values.js"),
     include_str!("../templates/script/picture.js"),

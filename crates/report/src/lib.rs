@@ -17,6 +17,7 @@
 //! decision     why this shaft speed, and which was second  units         the constant in units of programs
 //! names        short names of recordings                logged        what a log holds
 //! motor        constants of motors, from steps in a log   motor_json    the same for programs
+//! grey_box     the low-level model of eqs 1 and 2
 //! ```
 
 mod adequacy;
@@ -30,6 +31,7 @@ mod fitted_table;
 mod flight;
 mod flight_plan;
 mod folded_warnings;
+mod grey_box;
 mod logged;
 mod models;
 mod motor;
@@ -66,6 +68,9 @@ pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
 pub use flight_plan::flight_plan_text;
 pub use folded_warnings::{
     FoldedWarning, distinct_notices, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, warning_count,
+};
+pub use grey_box::{
+    CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables, grey_box_text,
 };
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod draft;
+mod greybox;
 mod groups;
 mod init;
 mod labels;
@@ -19,6 +20,7 @@ mod verify;
 
 pub(crate) use calibrate::CalibrateArguments;
 pub(crate) use draft::DraftArguments;
+pub(crate) use greybox::GreyBoxArguments;
 pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments, gear};
 pub(crate) use init::InitArguments;
 pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
@@ -55,6 +57,7 @@ Examples:
   hovertone compare out/results.json iris.sdf              a simulator's model against it
   hovertone log flight.ulg                    what a log of a flight holds
   hovertone motor steps.csv                   time constants of a motor, from steps in a log
+  hovertone greybox doublets.csv --vehicle ardrone  gains and motors from doublets
   hovertone simulate scenario.toml -o flight  a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
 
@@ -94,6 +97,8 @@ pub(crate) enum Command {
     Log(LogArguments),
     Motor(Box<MotorArguments>),
     Verify(Box<VerifyArguments>),
+    #[command(name = "greybox")]
+    GreyBox(Box<GreyBoxArguments>),
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),

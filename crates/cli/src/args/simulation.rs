@@ -17,6 +17,9 @@ pub(crate) struct DemoArguments {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
+    /// The low-level model instead: fly doublets, hear them, identify eqs 1 and 2, fly the identified model beside the true one
+    #[arg(long)]
+    pub(crate) low_level: bool,
     /// Everything random comes from here
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,

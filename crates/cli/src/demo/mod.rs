@@ -1,6 +1,7 @@
 //! `hovertone demo`: the paper's experiment in simulated flight, identified like any other recordings.
 
 mod folder;
+mod low_level;
 mod render;
 
 use crate::args::DemoArguments;
@@ -20,6 +21,9 @@ use hovertone_sim::paper::{LOADS, PaperLoad};
 
 /// Simulates, writes, identifies and compares.
 pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    if arguments.low_level {
+        return low_level::run(arguments, terminal);
+    }
     let folder = &folder::prepare(&arguments.output, arguments.replace.force)?;
     // the experiment file marks the folder: after an interrupt the demo can simply be run again
     let experiment = folder::write_experiment(folder, arguments.seed)?;

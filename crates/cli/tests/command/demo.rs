@@ -12,6 +12,25 @@ const ERROR_SHARE_MAX: f64 = 0.005;
 const PAGE_BYTES_MAX: usize = 4_000_000;
 
 #[test]
+#[ignore = "exam: a minute of doublets, heard and identified"]
+fn the_low_level_model_flies_like_the_true_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let demo = folder.path().join("low");
+    let run = hovertone(&["demo", "--low-level", "-o", text(&demo), "--no-progress"]).ends_with(0);
+    for words in ["Eq 1", "k_p", "not used for the fit", "Identified beside the truth", "C_τ of one rotor"] {
+        assert!(run.stdout.contains(words), "{words}:\n{}", run.stdout);
+    }
+    let results: Value = serde_json::from_str(&fs::read_to_string(demo.join("results.json")).unwrap()).unwrap();
+    assert!(results["check"]["rms_share"].as_f64().unwrap() < 0.005, "{}", results["check"]);
+    let page = fs::read_to_string(demo.join("report.html")).unwrap();
+    assert!(page.contains("<svg") && page.contains("Identified beside the truth") && page.len() < PAGE_BYTES_MAX);
+    let identified = demo.join("identified.toml");
+    hovertone(&["simulate", text(&identified), "-o", text(&folder.path().join("flown")), "--no-progress"]).ends_with(0);
+    // the folder belongs to another demo
+    assert_eq!(hovertone(&["demo", "-o", text(&demo), "--no-progress"]).code, 2);
+}
+
+#[test]
 #[ignore = "exam: fifteen flights, identified twice"]
 fn both_methods_find_the_truth_in_every_load() {
     let folder = tempfile::tempdir().unwrap();

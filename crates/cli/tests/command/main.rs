@@ -12,6 +12,7 @@ mod demo;
 mod examples;
 mod exit_codes;
 mod folded;
+mod greybox;
 mod identify;
 mod interrupts;
 mod into;

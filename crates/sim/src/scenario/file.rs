@@ -3,6 +3,7 @@
 //! Every key is optional; the defaults are the paper's flight in a free field. The presence of a section switches its
 //! effect on. Unknown keys are refused.
 
+use super::controller_section::ControllerSection;
 use super::maneuver::Maneuver;
 use super::sections::{
     AirSection, AmbientSection, GroundSection, GustSection, JitterSection, MicrophoneSection, MotorWanderSection,
@@ -23,6 +24,8 @@ pub struct ScenarioFile {
     pub truth_rate_hz: f64,
     /// The vehicle.
     pub vehicle: VehicleSection,
+    /// The embedded controller, where it differs from the preset's.
+    pub controller: Option<ControllerSection>,
     /// Masses on the vehicle.
     #[serde(rename = "payload")]
     pub payloads: Vec<PayloadSection>,
@@ -65,6 +68,7 @@ impl Default for ScenarioFile {
             seed: 1,
             truth_rate_hz: 100.0,
             vehicle: VehicleSection::default(),
+            controller: None,
             payloads: Vec::new(),
             flight: FlightSection::default(),
             pilot: PilotSection::default(),

@@ -9,6 +9,8 @@
 //! The caller reads and writes files. Memory does not grow with the length of the flight.
 
 mod command_table;
+mod controller_section;
+mod doublets;
 mod file;
 mod jitter;
 mod maneuver;
@@ -23,6 +25,8 @@ mod tests;
 mod truth;
 mod truth_table;
 
+pub use controller_section::{ControllerSection, GainsSection};
+pub use doublets::DoubletAmounts;
 pub use file::{FlightSection, PilotSection, ScenarioFile};
 pub use maneuver::{Axis, Maneuver};
 pub use run::ScenarioRun;

@@ -33,7 +33,10 @@ impl ScenarioFile {
     /// bounds. Numbers of the flight and of the sound are checked later
     /// ([`ScenarioRun::new`](super::ScenarioRun::new)).
     pub fn resolve(&self, tables: &BTreeMap<String, String>) -> Result<Scenario, ScenarioError> {
-        let vehicle = vehicle_of(&self.vehicle)?;
+        let mut vehicle = vehicle_of(&self.vehicle)?;
+        if let Some(controller) = &self.controller {
+            controller.apply(&mut vehicle.controller);
+        }
         let flight = self.flight_of(vehicle)?;
         let start = match flight.start {
             Start::Hover(setpoint) => setpoint,
@@ -226,14 +229,15 @@ fn bare_hover_speed(flight: &FlightSettings) -> RotorSpeed {
     RotorSpeed::from_rad_s((mass_kg * flight.gravity_m_s2 / (4.0 * constant)).sqrt())
 }
 
+pub(super) fn set<T>(own: &mut Sourced<T>, value: Option<T>) {
+    if let Some(value) = value {
+        *own = Sourced { value, source: SOURCE };
+    }
+}
+
 fn vehicle_of(section: &VehicleSection) -> Result<FlightParameters, ScenarioError> {
     let unknown = || ScenarioError::UnknownPreset { name: section.preset.clone() };
     let mut vehicle = find_flight_parameters(&section.preset).ok_or_else(unknown)?.clone();
-    fn set<T>(own: &mut Sourced<T>, value: Option<T>) {
-        if let Some(value) = value {
-            *own = Sourced { value, source: SOURCE };
-        }
-    }
     set(&mut vehicle.mass_kg, section.mass_kg);
     set(&mut vehicle.inertia_kg_m2, section.inertia_kg_m2);
     set(&mut vehicle.layout, section.layout.map(Into::into));

@@ -1,0 +1,264 @@
+//! A flight: its log as inputs of the model, and the speeds of its rotors.
+
+use super::shown;
+use crate::failure::Failure;
+use crate::inputs::open_stream;
+use crate::log::{THE_LOG, log_failure};
+use crate::nearest::nearest;
+use crate::progress::Progress;
+use crate::recording::{Hearing, lines_of};
+use hovertone_dynamics::{
+    ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, HeardLines, LineOrders,
+    LoopInputs, MotorVolts, SoundConfig, SpeedObservation, SpeedPrediction, grey_box_from_sound, grey_box_from_speeds,
+    observations_of_rows, speeds_along,
+};
+use hovertone_logs::{ColumnNames, LoggedControl, RateAxes, control_from_log};
+use hovertone_vehicle::{
+    FlightParameters, GRAVITY_STANDARD_M_S2, RotorSpeed, find_flight_parameters, find_preset, flight_presets,
+};
+use std::path::{Path, PathBuf};
+
+/// Standard uncertainty of a logged speed as a share: half of the last digit of most telemetry. *Decision*: larger errors count as wander.
+const LOGGED_STD_SHARE: f64 = 2e-4;
+/// Beyond the range that the vehicle's numbers predict, the rotors are sought by this share. *Decision.*
+const RANGE_SHARE: f64 = 0.15;
+
+/// Recording and log of a flight.
+pub(crate) struct FlightFiles {
+    /// The recording; absent where the log has the speeds.
+    pub(crate) recording: Option<PathBuf>,
+    /// The log.
+    pub(crate) log: PathBuf,
+}
+
+impl FlightFiles {
+    pub(crate) fn typed(files: &[PathBuf]) -> Self {
+        match files {
+            [recording, log, ..] => Self { recording: Some(recording.clone()), log: log.clone() },
+            [log] => Self { recording: None, log: log.clone() },
+            [] => Self { recording: None, log: PathBuf::new() },
+        }
+    }
+
+    pub(crate) fn recording_name(&self) -> Option<String> {
+        self.recording.as_deref().map(shown)
+    }
+
+    pub(crate) fn log_name(&self) -> String {
+        shown(&self.log)
+    }
+}
+
+/// The vehicle, whose numbers are the start.
+pub(crate) struct GreyBoxVehicle {
+    pub(crate) parameters: FlightParameters,
+    pub(crate) mass_kg: f64,
+    pub(crate) orders: LineOrders,
+}
+
+impl GreyBoxVehicle {
+    /// A vehicle that can fly.
+    pub(crate) fn find(name: &str, mass_kg: Option<f64>) -> Result<Self, Failure> {
+        let unknown = || {
+            let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
+            let list = known.join(", ");
+            let hint = match nearest(name, known) {
+                Some(nearest) => format!("did you mean \"{nearest}\"? These can fly: {list}"),
+                None => format!("these can fly: {list}"),
+            };
+            Failure::usage(format!("there is no vehicle \"{name}\" that can fly"), hint)
+        };
+        let parameters = find_flight_parameters(name).ok_or_else(unknown)?.clone();
+        let orders = find_preset(name).and_then(LineOrders::of).ok_or_else(unknown)?;
+        Ok(Self { mass_kg: mass_kg.unwrap_or(parameters.mass_kg.value), parameters, orders })
+    }
+
+    pub(crate) fn id(&self) -> &'static str {
+        self.parameters.id
+    }
+
+    pub(crate) fn start(&self) -> GreyBoxModel {
+        GreyBoxModel::of(&self.parameters, self.mass_kg, GRAVITY_STANDARD_M_S2)
+    }
+
+    pub(crate) fn slope_v_s_rad(&self, fit: &GreyBoxFit) -> f64 {
+        MotorVolts::of(&self.parameters).slope_v_s_rad(fit.model.mean_hover_rad_s())
+    }
+}
+
+/// A log that was read.
+pub(crate) struct FlownLog {
+    pub(crate) log: ControlLog,
+    pub(crate) inputs: LoopInputs,
+    /// Logged speeds, rad/s, of all four rotors.
+    pub(crate) speeds_rad_s: Option<[Vec<f64>; 4]>,
+    pub(crate) loss: Option<String>,
+}
+
+impl FlownLog {
+    pub(crate) fn read(
+        path: &Path,
+        names: &ColumnNames,
+        axes: RateAxes,
+        offset_s: f64,
+        vehicle: &GreyBoxVehicle,
+    ) -> Result<Self, Failure> {
+        let control =
+            control_from_log(open_stream(path, THE_LOG)?, names, axes).map_err(|error| log_failure(&error, path))?;
+        let refused = |what: &str| {
+            let hint = "`hovertone greybox --help` lists the columns it reads, `hovertone log FILE --signals` the columns of a log";
+            Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(path.to_owned()) }
+        };
+        let beyond = control.command.iter().flatten().flatten().find(|command| command.abs() > 1.0 + 1e-9);
+        if let Some(command) = beyond {
+            return Err(refused(&format!("a command of this log is {command}, and commands are within ±1")));
+        }
+        let speeds_rad_s = speeds_rad_s(&control);
+        let log = control_log(control.clone(), offset_s);
+        let inputs = LoopInputs::from_log(&log, &ControlKnowns::of(&vehicle.parameters))
+            .ok_or_else(|| refused("this log has fewer than two whole rows of commands and measurements"))?;
+        if !inputs.has_loop.contains(&true) {
+            return Err(refused("this log has no command together with the angle or rate that it commands"));
+        }
+        Ok(Self { log, inputs, speeds_rad_s, loss: control.loss })
+    }
+}
+
+fn speeds_rad_s(control: &LoggedControl) -> Option<[Vec<f64>; 4]> {
+    let in_rad_s = |speeds: &Vec<f64>| speeds.iter().map(|rev_s| RotorSpeed::from_rev_s(*rev_s).rad_s()).collect();
+    let [Some(one), Some(two), Some(three), Some(four)] = &control.speeds_rev_s else { return None };
+    Some([one, two, three, four].map(in_rad_s))
+}
+
+/// Euler rates from the body rates where these are logged, and the clock of the recording.
+fn control_log(control: LoggedControl, offset_s: f64) -> ControlLog {
+    let LoggedControl { time_s, command, tilt_rad, rates_rad_s, climb_m_s, .. } = control;
+    let rows = time_s.len();
+    let at = |series: &Option<Vec<f64>>, row: usize| series.as_ref().map(|values| values[row]);
+    let angle = |axis: usize, row: usize| at(&tilt_rad[axis], row).unwrap_or(0.0);
+    let euler = |row: usize| -> Option<[f64; 3]> {
+        let [p, q, r] = [at(&rates_rad_s[0], row)?, at(&rates_rad_s[1], row)?, at(&rates_rad_s[2], row)?];
+        let ((sin_roll, cos_roll), (sin_pitch, cos_pitch)) = (angle(0, row).sin_cos(), angle(1, row).sin_cos());
+        let turn = (q * sin_roll + r * cos_roll) / cos_pitch;
+        Some([p + turn * sin_pitch, q * cos_roll - r * sin_roll, turn])
+    };
+    let whole: Option<Vec<[f64; 3]>> = (0..rows).map(euler).collect();
+    let rate = |axis: usize| match &whole {
+        Some(rates) => Some(rates.iter().map(|rates| rates[axis]).collect::<Vec<f64>>()),
+        None => rates_rad_s[axis].clone(),
+    };
+    ControlLog {
+        time_s: time_s.iter().map(|time_s| time_s + offset_s).collect(),
+        command,
+        measured: [tilt_rad[0].clone(), tilt_rad[1].clone(), rate(2), climb_m_s],
+        tilt_rate_rad_s: [rate(0), rate(1)],
+    }
+}
+
+/// A fit with the speeds that it was made from.
+pub(crate) struct Heard {
+    pub(crate) fit: GreyBoxFit,
+    pub(crate) observations: Vec<SpeedObservation>,
+    pub(crate) names_nats: Option<f64>,
+}
+
+impl Heard {
+    pub(crate) fn speeds(&self, flown: &FlownLog) -> Speeds {
+        Speeds { observations: self.observations.clone(), prediction: self.fit.prediction(&flown.inputs) }
+    }
+}
+
+/// Observed and predicted speeds.
+pub(crate) struct Speeds {
+    pub(crate) observations: Vec<SpeedObservation>,
+    pub(crate) prediction: SpeedPrediction,
+}
+
+/// Fits the model to a flight.
+pub(crate) fn fit_of(
+    files: &FlightFiles,
+    flown: &FlownLog,
+    vehicle: &GreyBoxVehicle,
+    hearing: Hearing,
+    progress: &Progress,
+) -> Result<Heard, Failure> {
+    let start = vehicle.start();
+    let stopped = |stop: GreyBoxStop| {
+        let hint = "log commands and attitude over a minute of doublets about all axes".to_owned();
+        Failure::Usage { what: stop.to_string(), hint, path: Some(files.log.clone()) }
+    };
+    match &files.recording {
+        None => {
+            let observations = logged_observations(flown, files)?;
+            let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default())
+                .map_err(stopped)?;
+            Ok(Heard { fit, observations, names_nats: None })
+        }
+        Some(recording) => {
+            let lines = heard_lines(recording, flown, &start, vehicle, hearing, progress)?;
+            let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).map_err(stopped)?;
+            Ok(Heard { fit: heard.fit, observations: heard.observations, names_nats: Some(heard.names_nats) })
+        }
+    }
+}
+
+/// Observed and predicted speeds of another flight.
+pub(crate) fn speeds_of(
+    files: &FlightFiles,
+    flown: &FlownLog,
+    fitted: &Heard,
+    vehicle: &GreyBoxVehicle,
+    hearing: Hearing,
+    progress: &Progress,
+) -> Result<Speeds, Failure> {
+    match &files.recording {
+        None => Ok(Speeds {
+            observations: logged_observations(flown, files)?,
+            prediction: fitted.fit.prediction(&flown.inputs),
+        }),
+        Some(recording) => {
+            let lines = heard_lines(recording, flown, &fitted.fit.model, vehicle, hearing, progress)?;
+            let (observations, prediction) = speeds_along(&lines, &flown.inputs, &fitted.fit, &SoundConfig::default());
+            Ok(Speeds { observations, prediction })
+        }
+    }
+}
+
+fn logged_observations(flown: &FlownLog, files: &FlightFiles) -> Result<Vec<SpeedObservation>, Failure> {
+    let Some(speeds) = &flown.speeds_rad_s else {
+        let what = "this log has no speeds of four rotors, and there is no recording".to_owned();
+        let hint = "give the recording before the log, or a log with speed_1_rad_s to speed_4_rad_s".to_owned();
+        return Err(Failure::Usage { what, hint, path: Some(files.log.clone()) });
+    };
+    let finite = speeds.iter().flatten().copied().filter(|speed| speed.is_finite());
+    let (sum, count) = finite.fold((0.0, 0.0), |(sum, count), speed| (sum + speed, count + 1.0));
+    let std_rad_s = LOGGED_STD_SHARE * sum / f64::max(count, 1.0);
+    if std_rad_s <= 0.0 {
+        let what = "the rotors of this log do not turn".to_owned();
+        return Err(Failure::Usage {
+            what,
+            hint: "give the log of a flight".to_owned(),
+            path: Some(files.log.clone()),
+        });
+    }
+    let speeds = std::array::from_fn(|rotor| speeds[rotor].as_slice());
+    Ok(observations_of_rows(&flown.log.time_s, speeds, std_rad_s))
+}
+
+/// The lines of a recording, in the range of speeds that a model predicts.
+fn heard_lines(
+    recording: &Path,
+    flown: &FlownLog,
+    model: &GreyBoxModel,
+    vehicle: &GreyBoxVehicle,
+    hearing: Hearing,
+    progress: &Progress,
+) -> Result<HeardLines, Failure> {
+    let prediction = SpeedPrediction::new(&flown.inputs, model);
+    let (slowest, fastest) = prediction.range_rad_s();
+    let rev_s = |rad_s: f64| RotorSpeed::from_rad_s(rad_s).rev_s();
+    let mean_rad_s = model.mean_hover_rad_s();
+    let (slowest, fastest) = (slowest.clamp(0.5 * mean_rad_s, mean_rad_s), fastest.clamp(mean_rad_s, 1.6 * mean_rad_s));
+    let range = rev_s(slowest * (1.0 - RANGE_SHARE))..rev_s(fastest * (1.0 + RANGE_SHARE));
+    lines_of(recording, hearing, &vehicle.orders, range, progress)
+}

@@ -1,0 +1,138 @@
+//! `hovertone greybox`: the low-level model from a flight of doublets.
+
+mod flight;
+mod scenario;
+
+pub(crate) use flight::{FlightFiles, FlownLog, GreyBoxVehicle, Heard, Speeds, fit_of, speeds_of};
+pub(crate) use scenario::{scenario_file, scenario_toml};
+
+use crate::args::{BodyAxes, GreyBoxArguments};
+use crate::failure::{Ending, Failure};
+use crate::figure_file::FigureKind;
+use crate::log::{column_names, loss_notice};
+use crate::outputs::{Outputs, written};
+use crate::progress::Progress;
+use crate::recording::Hearing;
+use crate::terminal::Terminal;
+use hovertone_dynamics::{YawInertia, advice_of, checked, torque_constant};
+use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
+use hovertone_logs::RateAxes;
+use hovertone_report::{CheckedFlight, GreyBoxRecord, grey_box_json, grey_box_text};
+use std::path::{Path, PathBuf};
+
+/// Fits, prints, and writes what was asked for.
+pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let vehicle = GreyBoxVehicle::find(&arguments.vehicle, arguments.mass_kg)?;
+    let files = FlightFiles::typed(&arguments.files);
+    let other = (!arguments.check.is_empty()).then(|| FlightFiles::typed(&arguments.check));
+    let outputs = Outputs::beside(arguments.files.iter().chain(&arguments.check), arguments.replace.force);
+    let kind = checked_outputs(arguments, &outputs)?;
+    let reader = LogReader::of(arguments)?;
+    let flown = reader.read(&files, &vehicle)?;
+    let other_flown = other.as_ref().map(|files| reader.read(files, &vehicle)).transpose()?;
+    let progress = Progress::new("listening", 1, !arguments.hearing.no_progress);
+    let hearing = Hearing::of(&arguments.hearing);
+    let heard = fit_of(&files, &flown, &vehicle, hearing, &progress)?;
+    let checked_speeds = other
+        .as_ref()
+        .zip(other_flown.as_ref())
+        .map(|(files, flown)| speeds_of(files, flown, &heard, &vehicle, hearing, &progress));
+    let checked_speeds = checked_speeds.transpose()?;
+    progress.finish();
+    let compared = other.as_ref().zip(checked_speeds.as_ref());
+    let record = record_of(&files, &flown, &heard, &vehicle, compared);
+    match arguments.json {
+        true => terminal.data(&grey_box_json(&record).map_err(Failure::internal)?)?,
+        false => terminal.text(&grey_box_text(&record, terminal.fold_width()))?,
+    }
+    terminal.flush()?;
+    if let Some(place) = &arguments.scenario {
+        outputs.write(place, scenario_toml(&heard.fit, &vehicle)?)?;
+        terminal.say(&written(place));
+    }
+    if let (Some(place), Some(kind)) = (&arguments.figure, kind) {
+        let own = heard.speeds(&flown);
+        let drawn = checked_speeds.as_ref().unwrap_or(&own);
+        let drawn =
+            DrawnSpeeds { observations: &drawn.observations, prediction: &drawn.prediction, places: record.places };
+        let figure = grey_box_figure(&drawn).map_err(Failure::internal)?;
+        outputs.write(place, kind.bytes(figure, DOTS_PER_INCH)?)?;
+        terminal.say(&written(place));
+    }
+    let losses: Vec<&String> =
+        [Some(&flown), other_flown.as_ref()].into_iter().flatten().filter_map(|flown| flown.loss.as_ref()).collect();
+    losses.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
+    Ok(if losses.is_empty() { Ending::Done } else { Ending::Incomplete })
+}
+
+/// The record of a fit, with the flight that was not used.
+pub(crate) fn record_of(
+    files: &FlightFiles,
+    flown: &FlownLog,
+    heard: &Heard,
+    vehicle: &GreyBoxVehicle,
+    other: Option<(&FlightFiles, &Speeds)>,
+) -> GreyBoxRecord {
+    let body = YawInertia::of(&vehicle.parameters);
+    GreyBoxRecord {
+        recording: files.recording_name(),
+        log: files.log_name(),
+        vehicle: vehicle.id().to_owned(),
+        are_speeds_logged: files.recording.is_none(),
+        fit: heard.fit.clone(),
+        slope_v_s_rad: vehicle.slope_v_s_rad(&heard.fit),
+        places: vehicle.parameters.layout.value.place_names(),
+        names_nats: heard.names_nats,
+        torque_constant: torque_constant(&flown.log, &flown.inputs, &heard.fit, &body),
+        advice: advice_of(&heard.fit, &flown.inputs),
+        fitted: checked(&heard.observations, &heard.fit.prediction(&flown.inputs)),
+        other_flight: other.map(|(files, speeds)| CheckedFlight {
+            recording: files.recording_name(),
+            log: files.log_name(),
+            result: checked(&speeds.observations, &speeds.prediction),
+        }),
+    }
+}
+
+/// Checks, before any work, that all outputs can be written.
+fn checked_outputs(arguments: &GreyBoxArguments, outputs: &Outputs) -> Result<Option<FigureKind>, Failure> {
+    let kind = |place: &PathBuf| FigureKind::of(place, "use --figure check.png or --figure check.svg");
+    let kind = arguments.figure.as_ref().map(kind).transpose()?;
+    arguments.figure.iter().chain(&arguments.scenario).try_for_each(|place| outputs.check(place))?;
+    Ok(kind)
+}
+
+/// How logs are read.
+struct LogReader {
+    names: hovertone_logs::ColumnNames,
+    axes: RateAxes,
+    offset_s: f64,
+}
+
+impl LogReader {
+    fn of(arguments: &GreyBoxArguments) -> Result<Self, Failure> {
+        let offset_s = arguments.log_offset_s.unwrap_or(0.0);
+        if !offset_s.is_finite() {
+            return Err(Failure::usage(
+                "--log-offset-s is no number of seconds",
+                "give seconds, as in --log-offset-s 2.5",
+            ));
+        }
+        let axes = match arguments.log_axes {
+            Some(BodyAxes::Frd) => RateAxes::ForwardRightDown,
+            _ => RateAxes::ForwardLeftUp,
+        };
+        Ok(Self { names: column_names(&arguments.column)?, axes, offset_s })
+    }
+
+    fn read(&self, files: &FlightFiles, vehicle: &GreyBoxVehicle) -> Result<FlownLog, Failure> {
+        // logged speeds have the clock of the log
+        let offset_s = if files.recording.is_some() { self.offset_s } else { 0.0 };
+        FlownLog::read(&files.log, &self.names, self.axes, offset_s, vehicle)
+    }
+}
+
+/// Name of a file in the output.
+fn shown(path: &Path) -> String {
+    path.display().to_string()
+}

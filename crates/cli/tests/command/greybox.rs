@@ -1,0 +1,74 @@
+//! `hovertone greybox`: the low-level model from a flight of doublets.
+
+use crate::testkit::{hovertone, refused_with, text};
+use hovertone_sim::scenario::{ControllerSection, DoubletAmounts, GainsSection, ScenarioFile};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+const ROLL: GainsSection = GainsSection { proportional: 0.09, derivative: 0.08, limit_v: 0.6552 };
+
+/// Flies doublets of an AR.Drone with another roll gain; returns the folder.
+fn flown(folder: &Path, name: &str, seed: u64, duration_s: f64) -> String {
+    let controller = ControllerSection { roll: Some(ROLL), ..ControllerSection::default() };
+    let scenario = ScenarioFile {
+        controller: Some(controller),
+        ..ScenarioFile::doublets("ardrone", seed, duration_s, DoubletAmounts::default())
+    };
+    let path = folder.join(format!("{name}.toml"));
+    fs::write(&path, toml::to_string(&scenario).unwrap()).unwrap();
+    let place = folder.join(name);
+    hovertone(&["simulate", text(&path), "-o", text(&place), "--no-progress"]).ends_with(0);
+    text(&place).to_owned()
+}
+
+fn parameter<'a>(line: &'a Value, name: &str) -> &'a Value {
+    line["parameters"].as_array().unwrap().iter().find(|parameter| parameter["name"] == name).unwrap()
+}
+
+#[test]
+fn a_log_with_speeds_tells_a_model_that_can_be_flown_and_predicts_another_flight() {
+    let folder = tempfile::tempdir().unwrap();
+    let (first, second) = (flown(folder.path(), "first", 1, 25.0), flown(folder.path(), "second", 2, 12.0));
+    let (log, other) = (format!("{first}/truth.csv"), format!("{second}/truth.csv"));
+    let place = |name: &str| text(&folder.path().join(name)).to_owned();
+    let (scenario, figure) = (place("identified.toml"), place("check.svg"));
+    let common = ["--vehicle", "ardrone", "--check", &other];
+    let run =
+        hovertone(&[&["greybox", &log, "--json", "--scenario", &scenario, "--figure", &figure], &common[..]].concat());
+    let line = run.ends_with(0).json_lines().remove(0);
+    let roll = line["loops"].as_array().unwrap().iter().find(|of| of["name"] == "roll").unwrap();
+    let gain_v = roll["proportional_v"]["value"].as_f64().unwrap();
+    assert!((gain_v / ROLL.proportional - 1.0).abs() < 0.03, "{gain_v}");
+    assert!(parameter(&line, "time_constant_s")["is_told"].as_bool().unwrap());
+    assert!(line["check"]["rms_share"].as_f64().unwrap() < 0.002, "{}", line["check"]);
+    assert!(line["torque_constant_n_m_s2"]["value"].as_f64().unwrap() > 2e-7);
+    assert!(fs::read_to_string(&figure).unwrap().contains("front left"));
+    let fly = hovertone(&["simulate", &scenario, "-o", &place("identified"), "--no-progress"]).ends_with(0);
+    assert!(fly.stdout.contains("ardrone"), "{}", fly.stdout);
+    let words = hovertone(&[&["greybox", &log], &common[..]].concat()).ends_with(0).stdout;
+    assert!(words.contains("k_p") && words.contains("not used for the fit") && words.contains("C_τ"), "{words}");
+}
+
+#[test]
+fn what_is_no_flight_is_refused_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = |name: &str, content: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, content).unwrap();
+        text(&path).to_owned()
+    };
+    let head = "time_s,command_roll,roll_deg";
+    let rows = |command: &str| (0..30).map(|row| format!("\n0.{row:02},{command},0")).collect::<String>();
+    let short = log("short.csv", &format!("{head}{}", rows("0")));
+    refused_with(&["greybox", &short, "--vehicle", "ardrone"], &["no speeds of four rotors"]);
+    let wild = log("wild.csv", &format!("{head}{}", rows("7")));
+    refused_with(&["greybox", &wild, "--vehicle", "ardrone"], &["within ±1"]);
+    let other = log("other.csv", "time_s,rotor1_rpm\n0,6000\n1,6000\n");
+    refused_with(&["greybox", &other, "--vehicle", "ardrone"], &["no command together with"]);
+    refused_with(&["greybox", &short, "--vehicle", "ardron"], &["did you mean \"ardrone\"?"]);
+    let turning = format!("{head},speed_1_rad_s,speed_2_rad_s,speed_3_rad_s,speed_4_rad_s");
+    let few = (0..30).map(|row| format!("\n0.{row:02},0,0,300,300,300,300")).collect::<String>();
+    let few = log("few.csv", &(turning + &few));
+    refused_with(&["greybox", &few, "--vehicle", "ardrone"], &["speeds lie within the log", "200 are needed"]);
+}

@@ -1,0 +1,85 @@
+//! What a flight does not tell, and the manoeuvre that would.
+
+use super::axis::Axis;
+use super::fit::GreyBoxFit;
+use super::inputs::LoopInputs;
+use super::parameters::Parameter;
+
+/// A gap of the result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Advice {
+    /// What is not told, and why.
+    pub what: String,
+    /// What to fly, or to log.
+    pub hint: String,
+}
+
+/// The gaps of a fit, in the order of the loops.
+pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
+    let mut advice = Vec::new();
+    for axis in Axis::ALL {
+        if !inputs.has_loop[axis as usize] {
+            advice.push(Advice {
+                what: format!("{} is not told: the log has no command or no measurement of it", axis.in_words()),
+                hint: format!("log the command and the {} of the vehicle", measurement(axis)),
+            });
+            continue;
+        }
+        let gains = [Parameter::Proportional(axis), Parameter::Derivative(axis)];
+        let untold: Vec<String> =
+            gains.into_iter().filter(|gain| fit.estimate(*gain).is_none()).map(Parameter::in_words).collect();
+        if !untold.is_empty() {
+            advice.push(Advice {
+                what: format!("{} is not told: this flight moves the rotors too little by it", untold.join(" and ")),
+                hint: doublet(axis),
+            });
+        }
+        if fit.estimate(Parameter::Limit(axis)).is_none() {
+            advice.push(Advice {
+                what: format!("the limit of {} is not told: the commands stay far below it", axis.in_words()),
+                hint: format!(
+                    "fly {} with the largest command, or keep to commands as large as in this flight",
+                    axis.in_words()
+                ),
+            });
+        }
+    }
+    if fit.estimate(Parameter::TimeConstant).is_none() {
+        advice.push(Advice {
+            what: "the time constant is not told: the speeds change too slowly".to_owned(),
+            hint: "fly doublets of yaw and climb, whose commands change at once".to_owned(),
+        });
+    }
+    if fit.estimate(Parameter::Load).is_none() {
+        advice.push(Advice {
+            what: "the square term of the load is not told: the range of speeds is too small".to_owned(),
+            hint: "fly climbs and descents with the largest command".to_owned(),
+        });
+    }
+    advice.extend(fit.information.correlations.iter().map(|pair| Advice {
+        what: format!(
+            "{} and {} go together (correlation {:.2})",
+            pair.first.in_words(),
+            pair.second.in_words(),
+            pair.correlation
+        ),
+        hint: match pair.first.axis() {
+            Some(axis) => format!("fly {} doublets of two lengths, 0.2 and 0.6 s", axis.in_words()),
+            None => "fly doublets of different lengths".to_owned(),
+        },
+    }));
+    advice
+}
+
+fn measurement(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Roll => "roll angle",
+        Axis::Pitch => "pitch angle",
+        Axis::YawRate => "yaw rate",
+        Axis::Climb => "vertical rate",
+    }
+}
+
+fn doublet(axis: Axis) -> String {
+    format!("fly more {} doublets with a large command, half of them 0.2 s and half 0.6 s long", axis.in_words())
+}

@@ -1,0 +1,334 @@
+//! The grey box of eqs 1 and 2: a table for people, a JSON line for programs.
+
+use crate::number::{DASH, fixed, scaled_number, significant, with_uncertainty};
+use crate::printable::printable;
+use crate::quote::counted;
+use crate::table_lines::table_text;
+use crate::text_table::{Column, TextTable};
+use crate::typeset::TitledTable;
+use crate::version::VERSION;
+use hovertone_dynamics::{Advice, Axis, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
+use hovertone_vehicle::{Estimate, RotorSpeed};
+use serde::Serialize;
+
+const MS_PER_S: f64 = 1e3;
+const PERCENT: f64 = 100.0;
+
+/// A fitted grey box and what belongs to it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GreyBoxRecord {
+    /// The recording, where the speeds were heard.
+    pub recording: Option<String>,
+    /// The log.
+    pub log: String,
+    /// The vehicle whose numbers were the start.
+    pub vehicle: String,
+    /// Whether the log has speeds of the rotors, and these were used.
+    pub are_speeds_logged: bool,
+    /// The fit.
+    pub fit: GreyBoxFit,
+    /// Volts per rad/s of the rotor about hover, by the vehicle's numbers.
+    pub slope_v_s_rad: f64,
+    /// Names of the rotors' places, in the order of their numbers.
+    pub places: [&'static str; 4],
+    /// Loss of likelihood by the best swap of two names, nats; absent for logged speeds.
+    pub names_nats: Option<f64>,
+    /// C_τ, or why not.
+    pub torque_constant: TorqueConstant,
+    /// What is missing.
+    pub advice: Vec<Advice>,
+    /// Rms on the flight of the fit.
+    pub fitted: Option<Checked>,
+    /// Rms on another flight.
+    pub other_flight: Option<CheckedFlight>,
+}
+
+/// The check on another flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CheckedFlight {
+    /// Its recording, where speeds were heard.
+    pub recording: Option<String>,
+    /// Its log.
+    pub log: String,
+    /// The result; `None` where no speed was certain enough.
+    pub result: Option<Checked>,
+}
+
+/// The grey box as text.
+pub fn grey_box_text(record: &GreyBoxRecord, width: Option<usize>) -> String {
+    let source = record.recording.as_deref().map_or(String::new(), |recording| format!("{}, ", printable(recording)));
+    let mut text = format!("{source}{}\n", printable(&record.log));
+    text += &format!(
+        "{}, {}, from {} speeds of the rotors\n",
+        record.vehicle,
+        counted(record.fit.observations, "observation"),
+        if record.are_speeds_logged { "logged" } else { "heard" }
+    );
+    for titled in grey_box_tables(record) {
+        text += &format!("\n{}\n{}", titled.title, table_text(&titled.table, width));
+    }
+    text += "\n";
+    for note in grey_box_notes(record) {
+        text += &format!("{note}\n");
+    }
+    text
+}
+
+/// The two tables of a grey box: gains of eq 1, and eq 2 with hover.
+pub fn grey_box_tables(record: &GreyBoxRecord) -> [TitledTable; 2] {
+    let gains = TitledTable::new("Eq 1, gains about hover", gains_table(record));
+    [gains, TitledTable::new("Eq 2 and hover", motor_table(record))]
+}
+
+/// How far the ± can be trusted: shares of errors within 2 u in simulated flights (`docs/greybox.md`).
+fn trust(record: &GreyBoxRecord) -> &'static str {
+    if record.are_speeds_logged {
+        "the ± is too small: in simulated flights 55 to 87 % of the errors were within it"
+    } else {
+        "the ± is too small, and a single gain can be wrong: in simulated flights 33 to 56 % of the errors were within the ±; compare with another flight (--check)"
+    }
+}
+
+/// Lines beside the tables: what to trust, C_τ, rank, gaps, checks.
+pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
+    let advice = record.advice.iter().map(|advice| format!("{}; {}", advice.what, advice.hint));
+    let torque = torque_line(&record.torque_constant).trim_end().to_owned();
+    let checks = check_lines(record);
+    let checks = checks.lines().map(str::to_owned);
+    [trust(record).to_owned(), torque, rank_line(record)].into_iter().chain(checks).chain(advice).collect()
+}
+
+/// Volts are by the vehicle's motor: the sound holds a gain times the speed per volt.
+fn gains_table(record: &GreyBoxRecord) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("loop"),
+        Column::words("gain"),
+        Column::numbers("speed per error", ""),
+        Column::words("unit"),
+        Column::numbers("in volts", ""),
+        Column::words("unit"),
+    ]);
+    for axis in Axis::ALL {
+        for (name, parameter, per) in [
+            ("k_p", Parameter::Proportional(axis), axis.unit().to_owned()),
+            ("k_d", Parameter::Derivative(axis), format!("({}/s)", axis.unit())),
+        ] {
+            let told = record.fit.estimate(parameter);
+            shown.push(vec![
+                axis.in_words().to_owned(),
+                name.to_owned(),
+                told.map_or(DASH.to_owned(), shown_estimate),
+                format!("rad/s per {per}"),
+                told.map_or(DASH.to_owned(), |told| shown_estimate(told.scaled(record.slope_v_s_rad))),
+                format!("V per {per}"),
+            ]);
+        }
+    }
+    shown
+}
+
+fn shown_estimate(estimate: Estimate) -> String {
+    with_uncertainty(estimate.value, estimate.std_uncertainty)
+}
+
+fn motor_table(record: &GreyBoxRecord) -> TextTable {
+    let mut shown =
+        TextTable::new(vec![Column::words("quantity"), Column::numbers("value", ""), Column::words("unit")]);
+    let mut push = |name: String, parameter: Parameter, scale: f64, unit: &str| {
+        let told = record.fit.estimate(parameter).map(|told| told.scaled(scale));
+        shown.push(vec![name, told.map_or(DASH.to_owned(), shown_estimate), unit.to_owned()]);
+    };
+    push("time constant".to_owned(), Parameter::TimeConstant, MS_PER_S, "ms");
+    push("square term of the load, b/s".to_owned(), Parameter::Load, MS_PER_S, "ms/rad");
+    push("delay of commands".to_owned(), Parameter::CommandDelay, MS_PER_S, "ms");
+    push("delay of measured values".to_owned(), Parameter::MeasuredDelay, MS_PER_S, "ms");
+    for (rotor, place) in record.places.iter().enumerate() {
+        let rev_s = RotorSpeed::from_rad_s(1.0).rev_s();
+        push(format!("hover speed {}, {place}", rotor + 1), Parameter::Hover(rotor), rev_s, "rev/s");
+    }
+    shown
+}
+
+fn torque_line(constant: &TorqueConstant) -> String {
+    match constant {
+        TorqueConstant::Told(told) => {
+            let scaled = scaled_number(told.value, told.std_uncertainty);
+            let (digits, exponent) = (&scaled.digits, scaled.exponent);
+            format!("C_τ of one rotor: ({digits}) 1e{exponent} N m s², if the vehicle's I_zz is right\n")
+        }
+        other => format!("C_τ: not identifiable, because {}\n", other.reason().unwrap_or_default()),
+    }
+}
+
+fn rank_line(record: &GreyBoxRecord) -> String {
+    let information = &record.fit.information;
+    let rank = if information.rank == information.parameters {
+        format!("the flight identifies all {} parameters", information.parameters)
+    } else {
+        format!("the flight identifies {} of {} combinations of parameters", information.rank, information.parameters)
+    };
+    let names = match record.names_nats {
+        Some(nats) if nats < NAMES_NATS_MIN => "; the names of two rotors may be swapped",
+        _ => "",
+    };
+    format!("{rank}{names}")
+}
+
+/// Odds of 99 to 1.
+const NAMES_NATS_MIN: f64 = 4.6;
+
+fn check_lines(record: &GreyBoxRecord) -> String {
+    let line = |of: &Checked| {
+        format!(
+            "predicted speeds are off by {} % rms; the speeds change by {} %",
+            significant(PERCENT * of.rms_share, 2),
+            significant(PERCENT * of.change_share, 2)
+        )
+    };
+    let mut text = record.fitted.as_ref().map_or(String::new(), |fitted| format!("on this flight: {}\n", line(fitted)));
+    if let Some(other) = &record.other_flight {
+        let name = printable(other.recording.as_deref().unwrap_or(&other.log));
+        text += &match &other.result {
+            Some(result) => format!("on {name}, not used for the fit: {}\n", line(result)),
+            None => format!("on {name}: no rotor could be heard by itself, so that nothing is compared\n"),
+        };
+    }
+    text
+}
+
+#[derive(Serialize)]
+struct GreyBoxLine<'a> {
+    recording: Option<&'a str>,
+    log: &'a str,
+    vehicle: &'a str,
+    are_speeds_logged: bool,
+    observation_count: usize,
+    parameters: Vec<ParameterLine>,
+    loops: Vec<LoopLine>,
+    torque_constant_n_m_s2: Option<Estimate>,
+    torque_constant_reason: Option<String>,
+    rank: usize,
+    condition: f64,
+    correlations: Vec<CorrelationLine>,
+    names_nats: Option<f64>,
+    advice: Vec<AdviceLine<'a>>,
+    rms_share: Option<f64>,
+    check: Option<CheckLine<'a>>,
+    warnings: [&'static str; 1],
+    version: &'static str,
+}
+
+#[derive(Serialize)]
+struct ParameterLine {
+    name: String,
+    value: f64,
+    std_uncertainty: Option<f64>,
+    is_told: bool,
+}
+
+#[derive(Serialize)]
+struct LoopLine {
+    name: &'static str,
+    proportional_v: Option<Estimate>,
+    derivative_v: Option<Estimate>,
+}
+
+#[derive(Serialize)]
+struct CorrelationLine {
+    first: String,
+    second: String,
+    correlation: f64,
+}
+
+#[derive(Serialize)]
+struct AdviceLine<'a> {
+    what: &'a str,
+    hint: &'a str,
+}
+
+#[derive(Serialize)]
+struct CheckLine<'a> {
+    recording: Option<&'a str>,
+    log: &'a str,
+    rms_share: Option<f64>,
+    change_share: Option<f64>,
+    compared_share: Option<f64>,
+}
+
+/// The grey box as one line of JSON. Gains are in rad/s of the rotor, and in volts by the vehicle's motor.
+///
+/// # Errors
+/// A number that JSON cannot hold.
+pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
+    let fit = &record.fit;
+    let parameters = Parameter::all().into_iter().zip(fit.model.to_vector());
+    let volts = |parameter| Some(fit.estimate(parameter)?.scaled(record.slope_v_s_rad));
+    let correlation = |pair: &Correlation| CorrelationLine {
+        first: pair.first.name(),
+        second: pair.second.name(),
+        correlation: pair.correlation,
+    };
+    let line = GreyBoxLine {
+        recording: record.recording.as_deref(),
+        log: &record.log,
+        vehicle: &record.vehicle,
+        are_speeds_logged: record.are_speeds_logged,
+        observation_count: fit.observations,
+        parameters: parameters
+            .map(|(parameter, value)| {
+                let told = fit.estimate(parameter);
+                let std_uncertainty = told.and_then(|told| told.std_uncertainty);
+                ParameterLine { name: parameter.name(), value, std_uncertainty, is_told: told.is_some() }
+            })
+            .collect(),
+        loops: Axis::ALL
+            .into_iter()
+            .map(|axis| LoopLine {
+                name: axis.name(),
+                proportional_v: volts(Parameter::Proportional(axis)),
+                derivative_v: volts(Parameter::Derivative(axis)),
+            })
+            .collect(),
+        torque_constant_n_m_s2: match &record.torque_constant {
+            TorqueConstant::Told(told) => Some(*told),
+            _ => None,
+        },
+        torque_constant_reason: record.torque_constant.reason(),
+        rank: fit.information.rank,
+        condition: fit.information.condition,
+        correlations: fit.information.correlations.iter().map(correlation).collect(),
+        names_nats: record.names_nats.filter(|nats| nats.is_finite()),
+        advice: record.advice.iter().map(|advice| AdviceLine { what: &advice.what, hint: &advice.hint }).collect(),
+        rms_share: record.fitted.map(|fitted| fitted.rms_share),
+        check: record.other_flight.as_ref().map(|other| CheckLine {
+            recording: other.recording.as_deref(),
+            log: &other.log,
+            rms_share: other.result.map(|result| result.rms_share),
+            change_share: other.result.map(|result| result.change_share),
+            compared_share: other.result.map(|result| result.compared_share),
+        }),
+        warnings: [trust(record)],
+        version: VERSION,
+    };
+    serde_json::to_string(&line)
+}
+
+/// The gains beside a truth that is known, for simulated flights: parameter, identified, true, difference.
+pub fn grey_box_against_truth(fit: &GreyBoxFit, truth: &[f64]) -> TextTable {
+    let mut shown = TextTable::new(vec![
+        Column::words("parameter"),
+        Column::numbers("identified", ""),
+        Column::numbers("true", ""),
+        Column::numbers("off by", "%"),
+    ]);
+    for (parameter, &truth) in Parameter::all().into_iter().zip(truth) {
+        let is_hidden = matches!(
+            parameter,
+            Parameter::CommandDelay | Parameter::MeasuredDelay | Parameter::Limit(_) | Parameter::MotorGain(_)
+        );
+        let Some(told) = fit.estimate(parameter).filter(|_| !is_hidden) else { continue };
+        let off = if truth == 0.0 { DASH.to_owned() } else { fixed(PERCENT * (told.value / truth - 1.0), 2) };
+        shown.push(vec![parameter.in_words(), shown_estimate(told), significant(truth, 4), off]);
+    }
+    shown
+}
