@@ -99,7 +99,7 @@ pub(crate) struct Hypothesis {
     pub(crate) votes_nats: f64,
     /// Evidence of the levels of its lines, in nats: of all looks together.
     levels_nats: f64,
-    /// The evidence of the look that has the least.
+    /// The evidence of the lines over the local floor, in the look that has the least: what the floor hides is no evidence that a rotor sounds.
     least_nats: f64,
     /// The same, with what is known of the vehicle.
     nats: f64,
@@ -195,7 +195,7 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
         for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
             let long_nats = model.evidence_nats(&seen.levels);
             it.nats += long_nats;
-            it.least_nats = it.levels_nats.min(long_nats);
+            it.least_nats = it.least_nats.min(model.presence_nats(&seen.levels));
             it.levels_nats += long_nats;
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
@@ -301,7 +301,7 @@ fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut 
         factor,
         votes_nats,
         levels_nats,
-        least_nats: levels_nats,
+        least_nats: model.presence_nats(&levels),
         nats: 0.0,
         levels,
         belief: 0.0,

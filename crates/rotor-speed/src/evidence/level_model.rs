@@ -118,6 +118,13 @@ impl<'a> LevelModel<'a> {
         )
     }
 
+    /// The same as if the floor were flat. Where lines lie close, as those of a slow comb, they are a part of the floor: then it hides lines that
+    /// are not there. So the floor tells octaves apart, and no rotor from none.
+    pub(super) fn presence_nats(&mut self, levels: &[OrderLevel]) -> f64 {
+        let flat: Vec<OrderLevel> = levels.iter().map(|level| OrderLevel { floor_db: 0.0, ..*level }).collect();
+        self.evidence_nats(&flat)
+    }
+
     /// The evidence where the lines scatter as much.
     fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line]) -> f64 {
         let blades = self.blades;

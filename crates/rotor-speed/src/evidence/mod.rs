@@ -20,8 +20,8 @@
 //! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
 //!    in a given band, below 0.
 //!
-//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels, its lines stand apart
-//! in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 7.8 nats a frame more.
+//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor, its lines
+//! stand apart in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 7.8 nats a frame more.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
