@@ -73,7 +73,7 @@ pub struct SoundFit {
 /// Fits the model to a recording. `start` is the vehicle by its numbers.
 ///
 /// # Errors
-/// Those of [`grey_box_from_speeds`].
+/// Those of `grey_box_from_speeds`.
 pub fn grey_box_from_sound(
     heard: &HeardLines,
     inputs: &LoopInputs,
