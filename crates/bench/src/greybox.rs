@@ -3,8 +3,8 @@
 
 use hovertone::sound::{Passes, Signal};
 use hovertone_dynamics::{
-    Axis, Checked, ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, LineOrders, LoopInputs,
-    MotorVolts, Parameter, SoundConfig, checked, grey_box_from_sound, grey_box_from_speeds, lines_from_passes,
+    Checked, ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, LineOrders, LoopInputs, MotorVolts,
+    Parameter, SoundConfig, checked, grey_box_from_sound, grey_box_from_speeds, lines_from_passes,
     observations_of_rows,
 };
 use hovertone_sim::FlightState;
@@ -12,7 +12,9 @@ use hovertone_sim::scenario::{
     ControllerSection, DoubletAmounts, GainsSection, MicrophoneSection, RoomSection, ScenarioFile, ScenarioRun,
     SpreadSection,
 };
-use hovertone_vehicle::{FlightParameters, GRAVITY_STANDARD_M_S2, LoopGains, find_flight_parameters, find_preset};
+use hovertone_vehicle::{
+    Axis, FlightParameters, GRAVITY_STANDARD_M_S2, LoopGains, find_flight_parameters, find_preset,
+};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 use std::collections::BTreeMap;

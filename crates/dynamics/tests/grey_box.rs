@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // what tests share has no attribute by which the lints know it
 
 use hovertone_dynamics::{
-    Axis, ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, LineOrders, LoopInputs,
-    Parameter, SoundConfig, TorqueConstant, YawInertia, advice_of, checked, grey_box_from_sound, grey_box_from_speeds,
+    ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, LineOrders, LoopInputs, Parameter,
+    SoundConfig, TorqueConstant, YawInertia, advice_of, checked, grey_box_from_sound, grey_box_from_speeds,
     lines_from_passes, observations_of_rows, torque_constant,
 };
 use hovertone_signal::Signal;
@@ -13,7 +13,7 @@ use hovertone_sim::FlightState;
 use hovertone_sim::scenario::{
     ControllerSection, DoubletAmounts, GainsSection, ScenarioFile, ScenarioRun, SpreadSection,
 };
-use hovertone_vehicle::{FlightParameters, LoopGains, find_flight_parameters, find_preset};
+use hovertone_vehicle::{Axis, FlightParameters, LoopGains, find_flight_parameters, find_preset};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 

@@ -7,8 +7,8 @@ use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
 use crate::version::VERSION;
-use hovertone_dynamics::{Advice, Axis, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
-use hovertone_vehicle::{Estimate, RotorSpeed};
+use hovertone_dynamics::{Advice, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
+use hovertone_vehicle::{Axis, Estimate, RotorSpeed};
 use serde::Serialize;
 
 const MS_PER_S: f64 = 1e3;

@@ -21,8 +21,8 @@ pub use constants::{GRAVITY_STANDARD_M_S2, SOUND_M_S};
 pub use contradiction::{Contradiction, TIP_MACH_MAX, check_tips};
 pub use estimate::{Ending, Estimate};
 pub use flight::{
-    BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters, RotorParameters,
-    find_flight_parameters, flight_presets,
+    Axis, BatteryParameters, ControllerParameters, FlightParameters, Layout, LoopGains, MotorParameters,
+    RotorParameters, find_flight_parameters, flight_presets,
 };
 pub use frame::RotorPlace;
 pub use known_rotor::KnownRotor;

@@ -1,9 +1,9 @@
 //! What a flight does not tell, and the manoeuvre that would.
 
-use super::axis::Axis;
 use super::fit::GreyBoxFit;
 use super::inputs::LoopInputs;
 use super::parameters::Parameter;
+use hovertone_vehicle::Axis;
 
 /// A gap of the result.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,5 @@
 //! The fit: prediction errors by least squares (Levenberg 1944, Marquardt 1963; Ljung, System Identification, 1999, chapter 7).
 
-use super::axis::Axis;
 use super::information::{Information, information_of};
 use super::inputs::LoopInputs;
 use super::observation::SpeedObservation;
@@ -8,6 +7,7 @@ use super::parameters::{GreyBoxModel, PARAMETER_COUNT, Parameter};
 use super::prediction::SpeedPrediction;
 use super::problem::Problem;
 use super::residuals::{Wander, square_root};
+use hovertone_vehicle::Axis;
 use hovertone_vehicle::{Ending, Estimate};
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};

@@ -1,7 +1,7 @@
 //! What comes in from the log: commands and what the controller measures, on an even grid.
 
-use super::axis::Axis;
 use hovertone_signal::statistics::median;
+use hovertone_vehicle::Axis;
 use hovertone_vehicle::FlightParameters;
 
 /// Limits of the step of the grid on which the model runs, s. *Numeric*: a tenth of the shortest time constant of a motor; a log row of fast logs.

@@ -16,7 +16,6 @@
 //! rad/s of the rotor. No voltage is needed. Where the motor is known, [`MotorVolts`] gives the gains in volts.
 
 mod advice;
-mod axis;
 mod check;
 mod fit;
 mod information;
@@ -30,7 +29,6 @@ mod scenario;
 mod yaw_torque;
 
 pub use advice::{Advice, advice_of};
-pub use axis::Axis;
 pub use check::{Checked, checked};
 pub(crate) use fit::grey_box_near;
 pub use fit::{GreyBoxConfig, GreyBoxFit, GreyBoxStop, grey_box_from_speeds};

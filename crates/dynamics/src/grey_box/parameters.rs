@@ -1,6 +1,6 @@
 //! The parameters of the model, as a structure and as a vector.
 
-use super::axis::Axis;
+use hovertone_vehicle::Axis;
 use hovertone_vehicle::FlightParameters;
 
 /// Number of parameters.

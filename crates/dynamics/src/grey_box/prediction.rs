@@ -1,8 +1,8 @@
 //! The speeds that the model predicts for a log.
 
-use super::axis::Axis;
 use super::inputs::LoopInputs;
 use super::parameters::{GreyBoxModel, LoopModel};
+use hovertone_vehicle::Axis;
 
 /// Shortest time constant of the model, s: shorter ones cannot be told from none on the grid. *Numeric.*
 const TIME_CONSTANT_S_MIN: f64 = 1e-3;

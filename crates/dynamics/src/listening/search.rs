@@ -4,7 +4,8 @@ use super::along::{NEAR_SHARE, SoundConfig, WIDE_SHARE, widest_rad_s};
 use super::heard_lines::HeardLines;
 use super::turns::Turns;
 use super::window::{Window, likelihood_value};
-use crate::grey_box::{Axis, GreyBoxModel, LoopInputs, SpeedPrediction};
+use crate::grey_box::{GreyBoxModel, LoopInputs, SpeedPrediction};
+use hovertone_vehicle::Axis;
 use nalgebra::Vector4;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! Commands from the text of a CSV file.
 
 use super::ScenarioError;
-use super::maneuver::Axis;
+use hovertone_vehicle::Axis;
 
 /// Commands over time; each row holds until the next row.
 #[derive(Clone, Debug, PartialEq)]

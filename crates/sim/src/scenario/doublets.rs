@@ -1,8 +1,9 @@
 //! Flights of doublets, from which the low-level model can be identified.
 
 use super::file::ScenarioFile;
-use super::maneuver::{Axis, Maneuver};
+use super::maneuver::Maneuver;
 use super::sections::{GroundSection, MicrophoneSection, VehicleSection};
+use hovertone_vehicle::Axis;
 
 /// Hover before the first doublet, s.
 const HOVER_S: f64 = 2.0;

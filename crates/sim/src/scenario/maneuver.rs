@@ -1,5 +1,6 @@
 //! The maneuvers of a flight.
 
+use hovertone_vehicle::Axis;
 use serde::{Deserialize, Serialize};
 
 /// A part of the flight. While a maneuver drives one axis, the pilot flies the others.
@@ -80,35 +81,6 @@ pub enum Maneuver {
         #[serde(default)]
         duration_s: Option<f64>,
     },
-}
-
-/// One of the four commands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Axis {
-    /// Leans right.
-    Roll,
-    /// Leans forward.
-    Pitch,
-    /// Turns left.
-    YawRate,
-    /// Up.
-    Climb,
-}
-
-impl Axis {
-    /// All, in the order of [`Command::to_array`](crate::control::Command::to_array).
-    pub const ALL: [Self; 4] = [Self::Roll, Self::Pitch, Self::YawRate, Self::Climb];
-
-    /// Name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Roll => "roll",
-            Self::Pitch => "pitch",
-            Self::YawRate => "yaw_rate",
-            Self::Climb => "climb",
-        }
-    }
 }
 
 fn once() -> u32 {

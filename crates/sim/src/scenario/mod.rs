@@ -28,7 +28,8 @@ mod truth_table;
 pub use controller_section::{ControllerSection, GainsSection};
 pub use doublets::DoubletAmounts;
 pub use file::{FlightSection, PilotSection, ScenarioFile};
-pub use maneuver::{Axis, Maneuver};
+pub use hovertone_vehicle::Axis;
+pub use maneuver::Maneuver;
 pub use run::ScenarioRun;
 pub use schedule::{Instruction, Schedule};
 pub use sections::{

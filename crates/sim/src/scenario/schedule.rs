@@ -2,8 +2,9 @@
 
 use super::ScenarioError;
 use super::command_table::CommandTable;
-use super::maneuver::{Axis, Maneuver};
+use super::maneuver::Maneuver;
 use crate::control::Setpoint;
+use hovertone_vehicle::Axis;
 use std::collections::BTreeMap;
 
 /// Length of a flight without maneuvers: the paper's trial.

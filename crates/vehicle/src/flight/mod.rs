@@ -3,8 +3,10 @@
 //! The symbols are those of section 3 of the paper (Pizetta et al., preprints201808.0313 v1). Every number has its source, which says
 //! where it is an estimate. To override one, write `parameters.mass_kg.value = 0.444`.
 
+mod axis;
 mod presets;
 
+pub use axis::Axis;
 pub use presets::{find_flight_parameters, flight_presets};
 
 use crate::{QuantityError, Sourced, Vehicle};

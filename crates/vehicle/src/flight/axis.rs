@@ -1,7 +1,10 @@
-//! The four loops of eq 1.
+//! The four loops of eq 1 of the paper.
 
-/// A loop of the embedded controller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use serde::{Deserialize, Serialize};
+
+/// A loop of the embedded controller, and the command that it follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Axis {
     /// Roll angle, rad; positive leans right.
     Roll,
