@@ -162,6 +162,40 @@ pub mod tones {
     pub use hovertone_vehicle::KnownRotor;
 }
 
+/// Sound as it arrives: the speed of the rotors now.
+///
+/// ```
+/// use hovertone::live::{Listener, LiveConfig, LiveStatus};
+/// use hovertone::speed::{Config, ToneConfig};
+/// use hovertone::vehicle::Order;
+/// # fn hover(rev_s: f64) -> Vec<f32> {
+/// #     let (mut state, rate_hz) = (1_u32, 16_000.0);
+/// #     let sample = |n: usize| {
+/// #         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+/// #         let noise = f64::from(state) / f64::from(u32::MAX) - 0.5;
+/// #         let line = |k: f64| 0.1 / k * (std::f64::consts::TAU * 2.0 * k * rev_s * n as f64 / rate_hz).cos();
+/// #         (0.03 * noise + (1..7).map(|k| line(f64::from(k))).sum::<f64>()) as f32
+/// #     };
+/// #     (0..80_000).map(sample).collect()
+/// # }
+/// let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2)?));
+/// let mut listener = Listener::new(16_000.0, LiveConfig::of_analysis(config, None))?;
+/// let mut last = None;
+/// for block in hover(61.3).chunks(1_600) {
+///     listener.push(block, &mut |speed| last = Some(speed)); // allocates nothing once rotors are followed
+///     if listener.wants_review() {
+///         listener.review()?; // the analysis of the last seconds
+///     }
+/// }
+/// let now = last.expect("a live speed every tenth of a second");
+/// assert_eq!(now.status, LiveStatus::Ok);
+/// assert!((now.speed_rev_s.expect("a speed") - 61.3).abs() < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub mod live {
+    pub use hovertone_live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
+}
+
 /// Which track is which rotor, and the condition of each rotor.
 ///
 /// Two tracks, and a log of the same flight on a clock of its own, 3.2 s behind:

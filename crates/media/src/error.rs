@@ -34,6 +34,20 @@ pub enum MediaError {
         first_bytes: String,
     },
 
+    /// A pipe that holds no sound of a known kind.
+    #[error(
+        "the pipe holds no sound that can be heard as it arrives ({why}); send WAVE, FLAC, Ogg, Matroska or MP3, as \
+         `ffmpeg -i INPUT -f wav -` does"
+    )]
+    UnknownStream {
+        /// The reason of the decoder.
+        why: String,
+    },
+
+    /// A pipe with pictures only.
+    #[error("the pipe holds no audio track: there is nothing to hear; record again with the microphone on")]
+    NoAudioInStream,
+
     /// A picture without sound.
     #[error("the {container} has no audio track: there is nothing to hear; record again with the microphone on")]
     NoAudioTrack {

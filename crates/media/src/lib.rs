@@ -11,6 +11,8 @@
 //! recording   trims, mixes, counts errors             frames, mix, warning
 //! ```
 //!
+//! [`PipedSound`] is the same for sound that arrives through a pipe, once.
+//!
 //! Files that Symphonia and opus-pure cannot read go through an `ffmpeg`, if one is available ([`FfmpegUse`]).
 
 mod choose;
@@ -29,6 +31,7 @@ mod native;
 mod ogg;
 mod opus;
 mod pcm_layout;
+mod piped;
 mod plan;
 mod quicktime;
 mod recording;
@@ -40,5 +43,6 @@ mod wave;
 pub use container::Container;
 pub use error::MediaError;
 pub use ffmpeg::FfmpegUse;
+pub use piped::PipedSound;
 pub use recording::{Decoder, OpenOptions, Recording, RecordingInfo};
 pub use warning::MediaWarning;

@@ -1,0 +1,254 @@
+//! Follows a heard rotor, or several that move alike, from frame to frame.
+//!
+//! The lines of all rotors make a pattern over the logarithm of the speed, which a review gives: the mean of the scores of its frames, each
+//! shifted by the speed that the review found there. In each later frame the shift of the pattern is the most probable one by the likeness of
+//! the scores to the pattern, and by the shift before: a motor may change its speed at any time, but seldom does.
+
+use crate::comb::{Comb, Lines};
+use crate::steady_mean::{MeanSpeed, SteadyMean};
+use hovertone_signal::spectrogram::{Stft, Window};
+
+/// Length of a frame: most rotors in flight are clearest in 0.1 s. *Decision.*
+const FRAME_S: f64 = 0.1;
+/// Step between frames. *Numeric.*
+pub(crate) const HOP_S: f64 = 0.025;
+/// Hops in a frame. *Numeric.*
+const HOPS_PER_FRAME: usize = 4;
+/// Zero padding of the transforms. *Numeric.*
+const ZERO_PAD_FACTOR: u32 = 4;
+/// Step of the logarithm of the speed: a fifth of the width of the twentieth line of a fast rotor. *Numeric.*
+const STEP: f64 = 5e-4;
+/// Steps on either side of the middle of the grid: 20 %. *Numeric.*
+const HALF_GRID: usize = 400;
+/// Steps on either side of the middle of the pattern: rotors of one vehicle are less than 6 % from their mean. *Decision.*
+const HALF_PATTERN: usize = 120;
+/// Shifts on either side of 0 at which the whole pattern is on the grid. *Numeric.*
+const HALF_SHIFTS: usize = HALF_GRID - HALF_PATTERN;
+/// The grid moves after the pattern once that is further from the middle. *Numeric.*
+const RECENTRE_SHIFTS: isize = 100;
+/// Scale of the change of the speed from frame to frame, in steps: 0.3 %, as rotors wander. Larger changes cost the logarithm of their square, so
+/// that a motor may step. *Decision.*
+const CHANGE_STEPS: f64 = 6.0;
+/// Largest difference between the beliefs in two shifts that is kept, in nats: what is less probable may become the truth again. *Numeric.*
+const BELIEF_RANGE: f64 = 60.0;
+/// Frames over which the height of the pattern is a mean: 0.3 s. *Decision.*
+const HEIGHT_FRAMES: f64 = 12.0;
+/// A rotor is lost where its pattern stands no higher than this share of its height at the review. *Decision.*
+const HEIGHT_SHARE_MIN: f64 = 0.3;
+
+const SHIFTS: usize = 2 * HALF_SHIFTS + 1;
+
+/// A speed over time at the review, by which the frames are shifted.
+pub(crate) trait SpeedAt {
+    /// The speed at a time; `None` where the review has none.
+    fn speed_rev_s_at(&self, time_s: f64) -> Option<f64>;
+}
+
+/// The state of following. It takes no more memory after its start.
+pub(crate) struct Follower {
+    stft: Stft<f32>,
+    pattern: Pattern,
+    mean: SteadyMean,
+    /// Mean height of the pattern over the last frames, and at the review.
+    height: f64,
+    review_height: f64,
+}
+
+impl Follower {
+    /// Learns the pattern of the rotors from the sound of a review, and follows them to the end of that sound. `None` where the review has no
+    /// speed in any frame.
+    pub(crate) fn of_review(
+        sound: &[f32],
+        start_s: f64,
+        sample_rate_hz: f64,
+        order: f64,
+        speeds: &dyn SpeedAt,
+    ) -> Option<Self> {
+        let mut stft = Stft::new(sample_rate_hz, Window::Hann, FRAME_S, HOP_S, ZERO_PAD_FACTOR);
+        let mut at_review = Vec::new();
+        stft.restart(start_s);
+        stft.push(sound, |frame| at_review.extend(speeds.speed_rev_s_at(frame.centre_s)));
+        let slowest_rev_s = at_review.iter().copied().reduce(f64::min)?;
+        let mut pattern = Pattern::new(slowest_rev_s, order, stft.bin_hz(), sample_rate_hz);
+        stft.restart(start_s);
+        stft.push(sound, |frame| {
+            if let Some(speed_rev_s) = speeds.speed_rev_s_at(frame.centre_s) {
+                pattern.learn(frame.power, speed_rev_s);
+            }
+        });
+        pattern.start(at_review[0]);
+        let mut follower =
+            Self { stft, pattern, mean: SteadyMean::new(HOPS_PER_FRAME), height: 0.0, review_height: 0.0 };
+        let mut heights = Vec::new();
+        follower.stft.restart(start_s);
+        follower.push_with(sound, &mut |centre_s, height| {
+            heights.extend(speeds.speed_rev_s_at(centre_s).map(|_| height));
+        });
+        follower.review_height = heights.iter().sum::<f64>() / heights.len() as f64;
+        Some(follower)
+    }
+
+    /// Takes in the next samples. Allocates nothing.
+    pub(crate) fn push(&mut self, samples: &[f32]) {
+        self.push_with(samples, &mut |_, _| {});
+    }
+
+    fn push_with(&mut self, samples: &[f32], on_height: &mut dyn FnMut(f64, f64)) {
+        let Self { stft, pattern, mean, height, .. } = self;
+        stft.push(samples, |frame| {
+            let seen = pattern.follow(frame.power);
+            mean.push(seen.speed_rev_s);
+            *height += (seen.height - *height) / HEIGHT_FRAMES;
+            on_height(frame.centre_s, seen.height);
+        });
+    }
+
+    /// The speed now. `None` where the rotors are lost.
+    pub(crate) fn now(&mut self) -> Option<MeanSpeed> {
+        if self.is_lost() { None } else { self.mean.now() }
+    }
+
+    /// Whether the rotors are no longer heard.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.height < HEIGHT_SHARE_MIN * self.review_height
+    }
+}
+
+/// The pattern of the lines and its most probable shift.
+struct Pattern {
+    comb: Comb,
+    /// Speed in the middle of the grid.
+    middle_rev_s: f64,
+    /// Scores of the speeds of the grid in this frame.
+    scores: Vec<f64>,
+    /// Weights of the pattern, with the sum 1.
+    weights: Vec<f64>,
+    likeness: Vec<f64>,
+    belief: Vec<f64>,
+    next_belief: Vec<f64>,
+    /// Cost of a change by so many steps.
+    change_nats: Vec<f64>,
+}
+
+/// What a frame shows of the pattern.
+#[derive(Clone, Copy, Debug)]
+struct SeenPattern {
+    speed_rev_s: f64,
+    /// Likeness over its mean over all shifts, in nats.
+    height: f64,
+}
+
+impl Pattern {
+    fn new(slowest_rev_s: f64, order: f64, bin_hz: f64, sample_rate_hz: f64) -> Self {
+        let lines = Lines::new(order, slowest_rev_s, sample_rate_hz);
+        let change = |steps: usize| (steps as f64 / CHANGE_STEPS).powi(2).ln_1p();
+        Self {
+            comb: Comb::new(lines, bin_hz, slowest_rev_s),
+            middle_rev_s: slowest_rev_s,
+            scores: vec![0.0; 2 * HALF_GRID + 1],
+            weights: vec![0.0; 2 * HALF_PATTERN + 1],
+            likeness: vec![0.0; SHIFTS],
+            belief: vec![0.0; SHIFTS],
+            next_belief: vec![0.0; SHIFTS],
+            change_nats: (0..SHIFTS).map(change).collect(),
+        }
+    }
+
+    fn speed_rev_s(&self, steps: f64) -> f64 {
+        self.middle_rev_s * (STEP * steps).exp()
+    }
+
+    fn score_all(&mut self, power: &[f64]) {
+        self.comb.take(power);
+        let middle = HALF_GRID as f64;
+        for place in 0..self.scores.len() {
+            self.scores[place] = self.comb.score(self.speed_rev_s(place as f64 - middle));
+        }
+    }
+
+    /// Adds a frame at a known speed to the pattern.
+    fn learn(&mut self, power: &[f64], speed_rev_s: f64) {
+        self.comb.take(power);
+        for (place, weight) in self.weights.iter_mut().enumerate() {
+            let steps = place as f64 - HALF_PATTERN as f64;
+            *weight += self.comb.score(speed_rev_s * (STEP * steps).exp());
+        }
+    }
+
+    /// The pattern is what stands above the median of the mean scores. Following begins at a speed.
+    fn start(&mut self, speed_rev_s: f64) {
+        let mut sorted = self.weights.clone();
+        sorted.sort_by(f64::total_cmp);
+        let median = sorted[sorted.len() / 2];
+        self.weights.iter_mut().for_each(|weight| *weight = (*weight - median).max(0.0));
+        let sum: f64 = self.weights.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        self.weights.iter_mut().for_each(|weight| *weight /= sum);
+        self.middle_rev_s = speed_rev_s;
+        self.belief.fill(-BELIEF_RANGE);
+        self.belief[HALF_SHIFTS] = 0.0;
+    }
+
+    /// The shift of the pattern in the next frame.
+    fn follow(&mut self, power: &[f64]) -> SeenPattern {
+        self.score_all(power);
+        let width = self.weights.len();
+        for (shift, likeness) in self.likeness.iter_mut().enumerate() {
+            let scores = &self.scores[shift..shift + width];
+            *likeness = scores.iter().zip(&self.weights).map(|(score, weight)| score * weight).sum();
+        }
+        self.believe();
+        let best = highest(&self.belief);
+        let shift = best as f64 - HALF_SHIFTS as f64 + vertex(&self.likeness, best);
+        let mean = self.likeness.iter().sum::<f64>() / SHIFTS as f64;
+        let seen = SeenPattern { speed_rev_s: self.speed_rev_s(shift), height: self.likeness[best] - mean };
+        self.recentre(best as isize - HALF_SHIFTS as isize);
+        seen
+    }
+
+    /// Belief in each shift: that of the most probable path to it (Viterbi, IEEE Trans. Inf. Theory 13, 1967).
+    fn believe(&mut self) {
+        for (shift, next) in self.next_belief.iter_mut().enumerate() {
+            let reached = self
+                .belief
+                .iter()
+                .enumerate()
+                .map(|(from, belief)| belief - self.change_nats[from.abs_diff(shift)])
+                .fold(f64::MIN, f64::max);
+            *next = reached + self.likeness[shift];
+        }
+        let most = self.next_belief.iter().copied().fold(f64::MIN, f64::max);
+        self.next_belief.iter_mut().for_each(|belief| *belief = (*belief - most).max(-BELIEF_RANGE));
+        std::mem::swap(&mut self.belief, &mut self.next_belief);
+    }
+
+    /// Moves the grid after a pattern that is far from the middle.
+    fn recentre(&mut self, shift: isize) {
+        if shift.abs() <= RECENTRE_SHIFTS {
+            return;
+        }
+        self.middle_rev_s = self.speed_rev_s(shift as f64);
+        let by = shift.unsigned_abs();
+        if shift > 0 {
+            self.belief.copy_within(by.., 0);
+            self.belief[SHIFTS - by..].fill(-BELIEF_RANGE);
+        } else {
+            self.belief.copy_within(..SHIFTS - by, by);
+            self.belief[..by].fill(-BELIEF_RANGE);
+        }
+    }
+}
+
+fn highest(values: &[f64]) -> usize {
+    (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or_default()
+}
+
+/// The vertex of the parabola through a value and its neighbours, from that value; 0 where there is no maximum near.
+fn vertex(values: &[f64], at: usize) -> f64 {
+    let around = at.checked_sub(1).and_then(|before| values.get(before..at + 2));
+    match around {
+        Some(&[before, here, after]) if 2.0 * here > before + after => {
+            (0.5 * (after - before) / (2.0 * here - before - after)).clamp(-1.0, 1.0)
+        }
+        _ => 0.0,
+    }
+}

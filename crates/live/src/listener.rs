@@ -1,0 +1,173 @@
+//! Sound as it arrives → what is heard now.
+
+use crate::follower::Follower;
+use crate::live_speed::{LiveSpeed, LiveStatus};
+use crate::meter::Meter;
+use crate::recent::Recent;
+use crate::review::{HeardRotors, Reviewed, review};
+use crate::settings::LiveConfig;
+use hovertone_analysis::{NoTone, Reading};
+use hovertone_rotor_speed::Error;
+use hovertone_signal::SignalSource;
+
+/// Largest ratio of a chosen speed and the speeds that are still searched for. *Decision.*
+const CHOSEN_RANGE: f64 = 1.25;
+
+/// Listens to sound that arrives block by block.
+///
+/// [`Listener::push`] follows the rotors that the last review heard; it allocates nothing. [`Listener::review`] analyses the last seconds as a
+/// recording is analysed, and finds the rotors, their octave and their mean speed. It is due when [`Listener::wants_review`] says so. Where blocks
+/// are no longer than [`LiveConfig::every_s`], the answers do not depend on their length.
+pub struct Listener {
+    config: LiveConfig,
+    sample_rate_hz: f64,
+    recent: Recent,
+    meter: Meter,
+    /// Audio samples from one live speed to the next, and up to the next one.
+    every_samples: usize,
+    samples_left: usize,
+    /// When the last review was made.
+    reviewed_at_s: f64,
+    /// Whether the next review is due at once.
+    is_review_due: bool,
+    /// When the last review heard rotors.
+    heard_at_s: f64,
+    follower: Option<Follower>,
+    heard: Option<Box<HeardRotors>>,
+    reason: Option<NoTone>,
+}
+
+impl Listener {
+    /// Sound at this rate.
+    ///
+    /// # Errors
+    /// Settings without a meaning.
+    pub fn new(sample_rate_hz: f64, config: LiveConfig) -> Result<Self, Error> {
+        config.check()?;
+        let every_samples = ((config.every_s * sample_rate_hz).round() as usize).max(1);
+        Ok(Self {
+            sample_rate_hz,
+            recent: Recent::new(config.window_s, sample_rate_hz),
+            meter: Meter::default(),
+            every_samples,
+            samples_left: every_samples,
+            reviewed_at_s: 0.0,
+            is_review_due: false,
+            heard_at_s: 0.0,
+            follower: None,
+            heard: None,
+            reason: None,
+            config,
+        })
+    }
+
+    /// Takes in the next samples, and calls `on_speed` whenever a live speed is due.
+    pub fn push(&mut self, samples: &[f32], on_speed: &mut dyn FnMut(LiveSpeed)) {
+        let mut rest = samples;
+        while !rest.is_empty() {
+            let (now, later) = rest.split_at(rest.len().min(self.samples_left));
+            self.recent.push(now);
+            self.meter.push(now);
+            if let Some(follower) = &mut self.follower {
+                follower.push(now);
+            }
+            self.samples_left -= now.len();
+            if self.samples_left == 0 {
+                self.samples_left = self.every_samples;
+                on_speed(self.live_speed());
+                self.meter = Meter::default();
+            }
+            rest = later;
+        }
+    }
+
+    fn live_speed(&mut self) -> LiveSpeed {
+        let followed = self.follower.as_mut().and_then(Follower::now).zip(self.heard.as_ref());
+        let status = match followed {
+            None => LiveStatus::NoRotorTone,
+            Some((_, heard)) if heard.alternatives.is_empty() => LiveStatus::Ok,
+            Some(_) => LiveStatus::Ambiguous,
+        };
+        LiveSpeed {
+            time_s: self.recent.heard_s(),
+            status,
+            speed_rev_s: followed.map(|(now, _)| now.speed_rev_s),
+            std_uncertainty_rev_s: followed
+                .map(|(now, heard)| now.std_uncertainty_rev_s.hypot(heard.std_uncertainty_rev_s)),
+            level_db: self.meter.level_db(),
+            clipped_share: self.meter.clipped_share(),
+        }
+    }
+
+    /// Whether a review is due.
+    pub fn wants_review(&self) -> bool {
+        let after_s = if self.is_following() { self.config.review_s } else { self.config.search_s };
+        self.is_review_due || self.recent.heard_s() >= self.reviewed_at_s + after_s
+    }
+
+    /// Analyses the last seconds.
+    ///
+    /// # Errors
+    /// A band above half the sample rate.
+    pub fn review(&mut self) -> Result<(), Error> {
+        let now_s = self.recent.heard_s();
+        (self.reviewed_at_s, self.is_review_due) = (now_s, false);
+        let mut sound = self.recent.sound();
+        match review(&mut sound, &self.config)? {
+            Reviewed::Heard(heard) => {
+                let follower = Follower::of_review(
+                    sound.samples(),
+                    sound.start_s(),
+                    self.sample_rate_hz,
+                    heard.followed_order(),
+                    heard.as_ref(),
+                );
+                // a hover without a frame in its track cannot be followed
+                if follower.is_some() {
+                    (self.follower, self.heard, self.reason) = (follower, Some(heard), None);
+                    self.heard_at_s = now_s;
+                }
+            }
+            Reviewed::NotHeard(reason) => {
+                // a manoeuvre leaves no hover to review, while the rotors are followed
+                if !self.is_following() || now_s - self.heard_at_s > self.config.window_s {
+                    (self.follower, self.heard, self.reason) = (None, None, Some(reason));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn is_following(&self) -> bool {
+        self.follower.as_ref().is_some_and(|follower| !follower.is_lost())
+    }
+
+    /// The speeds that remain possible, most probable first, as the last review found them; empty where one is decided.
+    pub fn alternatives(&self) -> &[Reading] {
+        self.heard.as_ref().map_or(&[], |heard| &heard.alternatives)
+    }
+
+    /// Decides for one of the alternatives: from now on, speeds near it are searched for. Without such an alternative, nothing changes.
+    pub fn choose(&mut self, alternative: usize) {
+        let Some(heard) = &self.heard else { return };
+        let Some(reading) = heard.alternatives.get(alternative) else { return };
+        let mut analysis = heard.config.clone();
+        analysis.tone.order = reading.order;
+        analysis.tone.blades = reading.meaning.blades().or(analysis.tone.blades);
+        let at = |factor: f64| hovertone_vehicle::RotorSpeed::from_rev_s(factor * reading.speed.rev_s());
+        (analysis.tone.speed_min, analysis.tone.speed_max) = (at(1.0 / CHOSEN_RANGE), at(CHOSEN_RANGE));
+        self.config.analysis = analysis;
+        self.config.discovery = None;
+        self.is_review_due = true;
+    }
+
+    /// Speeds of the separated rotors in the last review, fastest first; empty where they were not separated, or are lost.
+    pub fn rotors_rev_s(&self) -> &[f64] {
+        self.heard.as_ref().filter(|_| self.is_following()).map_or(&[], |heard| &heard.rotors_rev_s)
+    }
+
+    /// Why the last review heard no rotor.
+    pub fn reason(&self) -> Option<&NoTone> {
+        self.reason.as_ref()
+    }
+}

@@ -1,0 +1,86 @@
+//! The analysis of the last seconds, the same as that of a recording.
+
+use crate::follower::SpeedAt;
+use crate::settings::LiveConfig;
+use hovertone_analysis::{NoTone, Outcome, Reading, RotorTone, Span, SpeedAnalysis, TrackPoint};
+use hovertone_rotor_speed::{Config, Error, FoundSpeed, blades_known, speed_from_source, tones_from_source};
+use hovertone_signal::Signal;
+
+/// What a review found.
+pub(crate) enum Reviewed {
+    /// A rotor, or several.
+    Heard(Box<HeardRotors>),
+    /// None.
+    NotHeard(NoTone),
+}
+
+/// Rotors that a review heard.
+pub(crate) struct HeardRotors {
+    /// Speed of each separated rotor, fastest first.
+    pub(crate) rotors_rev_s: Vec<f64>,
+    /// Combined standard uncertainty of the mean.
+    pub(crate) std_uncertainty_rev_s: f64,
+    /// The speeds that remain possible, most probable first; empty where one is decided.
+    pub(crate) alternatives: Vec<Reading>,
+    /// The settings with the tone that was found.
+    pub(crate) config: Config,
+    hover: Vec<Span>,
+    track: Vec<TrackPoint>,
+}
+
+impl HeardRotors {
+    fn of(tone: RotorTone, analysis_hover: Vec<Span>, alternatives: Vec<Reading>, config: Config) -> Option<Self> {
+        let speed = tone.speed(config.method)?;
+        Some(Self {
+            rotors_rev_s: tone.rotors.iter().map(|rotor| rotor.speed.speed.rev_s()).collect(),
+            std_uncertainty_rev_s: speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s)?,
+            alternatives,
+            config,
+            hover: analysis_hover,
+            track: tone.track,
+        })
+    }
+
+    /// Lines per turn that are followed: of a gear whose blades are known, those of the blades, which rotors at unlike speeds share for longer.
+    pub(crate) fn followed_order(&self) -> f64 {
+        let tone = &self.config.tone;
+        blades_known(tone).map_or(tone.order.lines_per_turn(), f64::from)
+    }
+}
+
+impl SpeedAt for HeardRotors {
+    fn speed_rev_s_at(&self, time_s: f64) -> Option<f64> {
+        let is_hover = self.hover.iter().any(|span| span.contains(time_s));
+        let behind = self.track.partition_point(|point| point.time_s < time_s);
+        let (before, behind) = (self.track.get(behind.checked_sub(1)?)?, self.track.get(behind)?);
+        let share = (time_s - before.time_s) / (behind.time_s - before.time_s).max(f64::MIN_POSITIVE);
+        is_hover.then_some(before.speed_rev_s + share * (behind.speed_rev_s - before.speed_rev_s))
+    }
+}
+
+/// Analyses the sound.
+///
+/// # Errors
+/// Settings without a meaning; a band above half the sample rate.
+pub(crate) fn review(sound: &mut Signal, config: &LiveConfig) -> Result<Reviewed, Error> {
+    let (analysis, alternatives, config) = match &config.discovery {
+        Some(discovery) => {
+            let FoundSpeed { config, analysis, alternatives, .. } =
+                tones_from_source(sound, &config.analysis, discovery, &mut |_| {})?;
+            (analysis, alternatives, config)
+        }
+        None => (speed_from_source(sound, &config.analysis, &mut |_| {})?, Vec::new(), config.analysis.clone()),
+    };
+    let SpeedAnalysis { hover, outcome, .. } = analysis;
+    Ok(match outcome {
+        Outcome::NoRotorTone { reason } => Reviewed::NotHeard(reason),
+        Outcome::Ok(mut tone) => {
+            let own = std::mem::take(&mut tone.alternatives);
+            let alternatives = if alternatives.is_empty() { own } else { alternatives };
+            match HeardRotors::of(tone, hover.segments, alternatives, config) {
+                Some(heard) => Reviewed::Heard(Box::new(heard)),
+                None => Reviewed::NotHeard(NoTone::NoHover),
+            }
+        }
+    })
+}
