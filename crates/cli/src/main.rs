@@ -22,6 +22,7 @@ mod init;
 mod inputs;
 mod jobs;
 mod labels;
+mod listen;
 mod log;
 mod microphones;
 mod misuse;
@@ -75,6 +76,7 @@ fn main() -> ExitCode {
     let ending = match &arguments.command {
         Command::Init(arguments) => init::run(arguments, &mut terminal),
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
+        Command::Listen(arguments) => listen::run(arguments, &mut terminal),
         Command::Tones(arguments) => tones::run(arguments, &mut terminal),
         Command::Spectrogram(arguments) => spectrogram::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),

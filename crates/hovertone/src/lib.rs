@@ -181,10 +181,12 @@ pub mod tones {
 /// let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2)?));
 /// let mut listener = Listener::new(16_000.0, LiveConfig::of_analysis(config, None))?;
 /// let mut last = None;
-/// for block in hover(61.3).chunks(1_600) {
-///     listener.push(block, &mut |speed| last = Some(speed)); // allocates nothing once rotors are followed
-///     if listener.wants_review() {
-///         listener.review()?; // the analysis of the last seconds
+/// for mut block in hover(61.3).chunks(1_000) {
+///     while !block.is_empty() {
+///         block = listener.push(block, &mut |speed| last = Some(speed)); // allocates nothing
+///         if listener.wants_review() {
+///             listener.review()?; // the analysis of the last seconds
+///         }
 ///     }
 /// }
 /// let now = last.expect("a live speed every tenth of a second");
@@ -193,7 +195,7 @@ pub mod tones {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub mod live {
-    pub use hovertone_live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
+    pub use hovertone_live::{Listener, LiveConfig, LiveSpeed, LiveStatus, PossibleSpeed};
 }
 
 /// Which track is which rotor, and the condition of each rotor.

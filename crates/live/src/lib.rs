@@ -15,6 +15,7 @@ mod follower;
 mod listener;
 mod live_speed;
 mod meter;
+mod octave;
 mod recent;
 mod review;
 mod settings;
@@ -22,4 +23,5 @@ mod steady_mean;
 
 pub use listener::Listener;
 pub use live_speed::{LiveSpeed, LiveStatus};
+pub use octave::PossibleSpeed;
 pub use settings::LiveConfig;

@@ -3,12 +3,14 @@
 use crate::follower::Follower;
 use crate::live_speed::{LiveSpeed, LiveStatus};
 use crate::meter::Meter;
+use crate::octave::{Octave, PossibleSpeed};
 use crate::recent::Recent;
 use crate::review::{HeardRotors, Reviewed, review};
 use crate::settings::LiveConfig;
-use hovertone_analysis::{NoTone, Reading};
+use hovertone_analysis::NoTone;
 use hovertone_rotor_speed::Error;
-use hovertone_signal::SignalSource;
+use hovertone_signal::{Signal, SignalSource};
+use hovertone_vehicle::RotorSpeed;
 
 /// Largest ratio of a chosen speed and the speeds that are still searched for. *Decision.*
 const CHOSEN_RANGE: f64 = 1.25;
@@ -16,8 +18,7 @@ const CHOSEN_RANGE: f64 = 1.25;
 /// Listens to sound that arrives block by block.
 ///
 /// [`Listener::push`] follows the rotors that the last review heard; it allocates nothing. [`Listener::review`] analyses the last seconds as a
-/// recording is analysed, and finds the rotors, their octave and their mean speed. It is due when [`Listener::wants_review`] says so. Where blocks
-/// are no longer than [`LiveConfig::every_s`], the answers do not depend on their length.
+/// recording is analysed, and finds the rotors, their octave and their mean speed. It is due when [`Listener::wants_review`] says so.
 pub struct Listener {
     config: LiveConfig,
     sample_rate_hz: f64,
@@ -28,12 +29,13 @@ pub struct Listener {
     samples_left: usize,
     /// When the last review was made.
     reviewed_at_s: f64,
-    /// Whether the next review is due at once.
+    /// Whether a review is due.
     is_review_due: bool,
     /// When the last review heard rotors.
     heard_at_s: f64,
     follower: Option<Follower>,
     heard: Option<Box<HeardRotors>>,
+    octave: Octave,
     reason: Option<NoTone>,
 }
 
@@ -56,16 +58,19 @@ impl Listener {
             heard_at_s: 0.0,
             follower: None,
             heard: None,
+            octave: Octave::default(),
             reason: None,
             config,
         })
     }
 
-    /// Takes in the next samples, and calls `on_speed` whenever a live speed is due.
-    pub fn push(&mut self, samples: &[f32], on_speed: &mut dyn FnMut(LiveSpeed)) {
+    /// Takes in samples up to the next review, and calls `on_speed` whenever a live speed is due. Returns the samples after the review: the answers
+    /// do not depend on the length of the blocks.
+    pub fn push<'a>(&mut self, samples: &'a [f32], on_speed: &mut dyn FnMut(LiveSpeed)) -> &'a [f32] {
         let mut rest = samples;
         while !rest.is_empty() {
             let (now, later) = rest.split_at(rest.len().min(self.samples_left));
+            rest = later;
             self.recent.push(now);
             self.meter.push(now);
             if let Some(follower) = &mut self.follower {
@@ -76,16 +81,21 @@ impl Listener {
                 self.samples_left = self.every_samples;
                 on_speed(self.live_speed());
                 self.meter = Meter::default();
+                let after_s = if self.is_following() { self.config.review_s } else { self.config.search_s };
+                if self.recent.heard_s() >= self.reviewed_at_s + after_s {
+                    self.is_review_due = true;
+                    break;
+                }
             }
-            rest = later;
         }
+        rest
     }
 
     fn live_speed(&mut self) -> LiveSpeed {
         let followed = self.follower.as_mut().and_then(Follower::now).zip(self.heard.as_ref());
         let status = match followed {
             None => LiveStatus::NoRotorTone,
-            Some((_, heard)) if heard.alternatives.is_empty() => LiveStatus::Ok,
+            Some(_) if self.octave.possible().is_empty() => LiveStatus::Ok,
             Some(_) => LiveStatus::Ambiguous,
         };
         LiveSpeed {
@@ -99,10 +109,14 @@ impl Listener {
         }
     }
 
+    /// Length of the sound so far.
+    pub fn heard_s(&self) -> f64 {
+        self.recent.heard_s()
+    }
+
     /// Whether a review is due.
     pub fn wants_review(&self) -> bool {
-        let after_s = if self.is_following() { self.config.review_s } else { self.config.search_s };
-        self.is_review_due || self.recent.heard_s() >= self.reviewed_at_s + after_s
+        self.is_review_due
     }
 
     /// Analyses the last seconds.
@@ -115,17 +129,12 @@ impl Listener {
         let mut sound = self.recent.sound();
         match review(&mut sound, &self.config)? {
             Reviewed::Heard(heard) => {
-                let follower = Follower::of_review(
-                    sound.samples(),
-                    sound.start_s(),
-                    self.sample_rate_hz,
-                    heard.followed_order(),
-                    heard.as_ref(),
-                );
-                // a hover without a frame in its track cannot be followed
-                if follower.is_some() {
-                    (self.follower, self.heard, self.reason) = (follower, Some(heard), None);
-                    self.heard_at_s = now_s;
+                let followed = if self.is_following() { self.follower.as_mut().and_then(Follower::now) } else { None };
+                self.octave.take(&heard.compared, followed.map(|now| now.speed_rev_s));
+                self.heard_at_s = now_s;
+                // the reviews before may know the octave better; then the rotors are followed as before
+                if followed.is_none() || self.octave.is_leading(heard.speed_rev_s) {
+                    self.follow(&sound, heard);
                 }
             }
             Reviewed::NotHeard(reason) => {
@@ -138,26 +147,35 @@ impl Listener {
         Ok(())
     }
 
+    /// Follows the rotors of a review.
+    fn follow(&mut self, sound: &Signal, heard: Box<HeardRotors>) {
+        let (order, start_s) = (heard.followed_order(), sound.start_s());
+        let follower = Follower::of_review(sound.samples(), start_s, self.sample_rate_hz, order, heard.as_ref());
+        // a hover without a frame in its track cannot be followed
+        if follower.is_some() {
+            (self.follower, self.heard, self.reason) = (follower, Some(heard), None);
+        }
+    }
+
     fn is_following(&self) -> bool {
         self.follower.as_ref().is_some_and(|follower| !follower.is_lost())
     }
 
-    /// The speeds that remain possible, most probable first, as the last review found them; empty where one is decided.
-    pub fn alternatives(&self) -> &[Reading] {
-        self.heard.as_ref().map_or(&[], |heard| &heard.alternatives)
+    /// The speeds that remain possible by all reviews of these rotors, most probable first; empty where one is decided.
+    pub fn possible(&self) -> &[PossibleSpeed] {
+        if self.is_following() { self.octave.possible() } else { &[] }
     }
 
-    /// Decides for one of the alternatives: from now on, speeds near it are searched for. Without such an alternative, nothing changes.
-    pub fn choose(&mut self, alternative: usize) {
+    /// Decides for one of the possible speeds: from now on, speeds near it are searched for. Without such a speed, nothing changes.
+    pub fn choose(&mut self, possible: usize) {
+        let Some(&PossibleSpeed { order, blades, speed_rev_s, .. }) = self.possible().get(possible) else { return };
         let Some(heard) = &self.heard else { return };
-        let Some(reading) = heard.alternatives.get(alternative) else { return };
         let mut analysis = heard.config.clone();
-        analysis.tone.order = reading.order;
-        analysis.tone.blades = reading.meaning.blades().or(analysis.tone.blades);
-        let at = |factor: f64| hovertone_vehicle::RotorSpeed::from_rev_s(factor * reading.speed.rev_s());
+        let at = |factor: f64| RotorSpeed::from_rev_s(factor * speed_rev_s);
+        (analysis.tone.order, analysis.tone.blades) = (order, blades.or(analysis.tone.blades));
         (analysis.tone.speed_min, analysis.tone.speed_max) = (at(1.0 / CHOSEN_RANGE), at(CHOSEN_RANGE));
-        self.config.analysis = analysis;
-        self.config.discovery = None;
+        (self.config.analysis, self.config.discovery) = (analysis, None);
+        (self.follower, self.octave) = (None, Octave::default());
         self.is_review_due = true;
     }
 

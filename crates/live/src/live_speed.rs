@@ -25,7 +25,7 @@ pub struct LiveSpeed {
 pub enum LiveStatus {
     /// One speed.
     Ok,
-    /// A rotor, whose speed may be another one: see [`crate::Listener::alternatives`].
+    /// A rotor, whose speed may be another one: see [`crate::Listener::possible`].
     Ambiguous,
     /// No rotor tone.
     NoRotorTone,

@@ -1,6 +1,7 @@
 //! The analysis of the last seconds, the same as that of a recording.
 
 use crate::follower::SpeedAt;
+use crate::octave::PossibleSpeed;
 use crate::settings::LiveConfig;
 use hovertone_analysis::{NoTone, Outcome, Reading, RotorTone, Span, SpeedAnalysis, TrackPoint};
 use hovertone_rotor_speed::{Config, Error, FoundSpeed, blades_known, speed_from_source, tones_from_source};
@@ -20,8 +21,10 @@ pub(crate) struct HeardRotors {
     pub(crate) rotors_rev_s: Vec<f64>,
     /// Combined standard uncertainty of the mean.
     pub(crate) std_uncertainty_rev_s: f64,
-    /// The speeds that remain possible, most probable first; empty where one is decided.
-    pub(crate) alternatives: Vec<Reading>,
+    /// Mean shaft speed.
+    pub(crate) speed_rev_s: f64,
+    /// The speeds that were compared, this one first.
+    pub(crate) compared: Vec<PossibleSpeed>,
     /// The settings with the tone that was found.
     pub(crate) config: Config,
     hover: Vec<Span>,
@@ -29,14 +32,17 @@ pub(crate) struct HeardRotors {
 }
 
 impl HeardRotors {
-    fn of(tone: RotorTone, analysis_hover: Vec<Span>, alternatives: Vec<Reading>, config: Config) -> Option<Self> {
+    /// `None` where the tone has no speed. `alternatives`: the possible readings, most plausible first; empty where one is decided.
+    fn of(tone: RotorTone, hover: Vec<Span>, alternatives: &[Reading], config: Config) -> Option<Self> {
         let speed = tone.speed(config.method)?;
+        let speed_rev_s = speed.speed.rev_s();
         Some(Self {
+            speed_rev_s,
+            compared: compared(&tone, alternatives, speed_rev_s, &config),
             rotors_rev_s: tone.rotors.iter().map(|rotor| rotor.speed.speed.rev_s()).collect(),
             std_uncertainty_rev_s: speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s)?,
-            alternatives,
             config,
-            hover: analysis_hover,
+            hover,
             track: tone.track,
         })
     }
@@ -46,6 +52,25 @@ impl HeardRotors {
         let tone = &self.config.tone;
         blades_known(tone).map_or(tone.order.lines_per_turn(), f64::from)
     }
+}
+
+/// The speeds that were compared: the readings of a tone that nobody has named, else the chosen speed and its runner-up.
+fn compared(tone: &RotorTone, alternatives: &[Reading], speed_rev_s: f64, config: &Config) -> Vec<PossibleSpeed> {
+    let blades = blades_known(&config.tone);
+    let own = PossibleSpeed { order: config.tone.order, blades, speed_rev_s, belief: 1.0 };
+    if !alternatives.is_empty() {
+        let possible = |reading: &Reading| PossibleSpeed {
+            order: reading.order,
+            blades: reading.meaning.blades().or(blades),
+            speed_rev_s: reading.speed.rev_s(),
+            belief: reading.plausibility,
+        };
+        return alternatives.iter().map(possible).collect();
+    }
+    let weighed = tone.weighed.iter().filter_map(|it| Some((it.speed.rev_s(), it.plausibility?)));
+    let weighed: Vec<PossibleSpeed> =
+        weighed.map(|(speed_rev_s, belief)| PossibleSpeed { speed_rev_s, belief, ..own }).collect();
+    if weighed.is_empty() { vec![own] } else { weighed }
 }
 
 impl SpeedAt for HeardRotors {
@@ -77,7 +102,7 @@ pub(crate) fn review(sound: &mut Signal, config: &LiveConfig) -> Result<Reviewed
         Outcome::Ok(mut tone) => {
             let own = std::mem::take(&mut tone.alternatives);
             let alternatives = if alternatives.is_empty() { own } else { alternatives };
-            match HeardRotors::of(tone, hover.segments, alternatives, config) {
+            match HeardRotors::of(tone, hover.segments, &alternatives, config) {
                 Some(heard) => Reviewed::Heard(Box::new(heard)),
                 None => Reviewed::NotHeard(NoTone::NoHover),
             }

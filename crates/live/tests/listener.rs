@@ -33,10 +33,12 @@ fn analysis() -> Config {
 fn live_speeds(samples: &[f32], block: usize) -> Vec<LiveSpeed> {
     let mut listener = Listener::new(RATE_HZ, LiveConfig::of_analysis(analysis(), None)).unwrap();
     let mut speeds = Vec::new();
-    for part in samples.chunks(block) {
-        listener.push(part, &mut |speed| speeds.push(speed));
-        if listener.wants_review() {
-            listener.review().unwrap();
+    for mut rest in samples.chunks(block) {
+        while !rest.is_empty() {
+            rest = listener.push(rest, &mut |speed| speeds.push(speed));
+            if listener.wants_review() {
+                listener.review().unwrap();
+            }
         }
     }
     speeds
@@ -105,7 +107,7 @@ fn where_it_has_settled_it_has_the_numbers_of_the_recording() {
 fn the_length_of_the_blocks_makes_no_difference() {
     let samples = sound(&[Rotor::steady(120.0, lines())], 4.0, 10.0, 1);
     let whole = live_speeds(&samples, 4800);
-    for block in [480, 1200, 2400] {
+    for block in [1152, 7000, 100_000] {
         assert_eq!(live_speeds(&samples, block), whole);
     }
 }

@@ -20,8 +20,9 @@ fn a_block_allocates_nothing() {
     let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
     let mut listener = Listener::new(48_000.0, LiveConfig::of_analysis(config, None)).unwrap();
     let (before, after) = samples.split_at(2 * 48_000 + 4800);
+    // blocks that end where a live speed is due
     for block in before.chunks(480) {
-        listener.push(block, &mut |_| {});
+        assert!(listener.push(block, &mut |_| {}).is_empty());
         if listener.wants_review() {
             listener.review().unwrap();
         }

@@ -6,6 +6,7 @@ mod greybox;
 mod groups;
 mod init;
 mod labels;
+mod listen;
 mod log;
 mod motor;
 mod shell;
@@ -24,6 +25,7 @@ pub(crate) use greybox::GreyBoxArguments;
 pub(crate) use groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments, gear};
 pub(crate) use init::InitArguments;
 pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
+pub(crate) use listen::ListenArguments;
 pub(crate) use log::{ColumnName, LogArguments};
 pub(crate) use motor::MotorArguments;
 pub(crate) use shell::{CompletionsArguments, ManArguments};
@@ -45,6 +47,7 @@ Examples:
   hovertone demo                              the paper's experiment, in simulated flight
   hovertone speed --blades 2 hover.mp4        rotor speed of a recording
   hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
+  hovertone listen --blades 2 --from-file hover.mp4        as it is played, or from a pipe
   hovertone tones hover.mp4                   which tones it holds, and what each can mean
   hovertone spectrogram hover.mp4 -o x.png    the picture, with bands and ridge over it
   hovertone init                              an experiment file, by a few questions
@@ -86,6 +89,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     Init(Box<InitArguments>),
     Speed(Box<SpeedArguments>),
+    Listen(Box<ListenArguments>),
     Tones(Box<TonesArguments>),
     Spectrogram(Box<SpectrogramArguments>),
     Identify(Box<IdentifyArguments>),

@@ -18,6 +18,7 @@ mod interrupts;
 mod into;
 mod labels;
 mod lighthouse;
+mod listen;
 mod log;
 mod messages;
 mod microphones;

@@ -1,0 +1,146 @@
+//! `listen`: sound as it arrives, as lines and on a screen.
+
+use crate::testkit::{hovertone, hovertone_with, refused_with, steady_hover, text, write_hover, write_noise};
+use hovertone_vehicle::RotorSpeed;
+use portable_pty::{CommandBuilder, PtySize, native_pty_system};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::num::NonZero;
+use std::path::Path;
+use std::process::Stdio;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+fn write_ardrone(path: &Path, duration_s: f64) {
+    write_hover(path, steady_hover("ardrone", RotorSpeed::from_rpm(3600.0), duration_s));
+}
+
+#[test]
+fn a_recording_and_a_pipe_give_the_same_speeds() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_ardrone(&sound, 6.0);
+    let words = ["listen", "--vehicle", "ardrone", "--rotors", "1", "--speed", "1000", "--json", "--from-file"];
+    let of_file = hovertone(&[&words[..], &[text(&sound)]].concat()).ends_with(0).json_lines();
+    let pipe = [&words[..], &["-"]].concat();
+    let input = Stdio::from(File::open(&sound).unwrap());
+    assert_eq!(hovertone_with(&pipe, |command| command.stdin(input)).ends_with(0).json_lines(), of_file);
+    assert_eq!(of_file.len(), 60);
+    for (number, line) in of_file.iter().enumerate() {
+        let time_s = line["time_s"].as_f64().unwrap();
+        assert!((time_s - 0.1 * (number + 1) as f64).abs() < 1e-3, "{line}");
+        if time_s > 2.15 {
+            let (speed, std) = (line["speed_rev_s"].as_f64().unwrap(), line["std_uncertainty_rev_s"].as_f64().unwrap());
+            assert!(line["status"] == "ok" && (speed - 60.0).abs() < 0.3 && std > 0.0 && std < 0.3, "{line}");
+        }
+    }
+}
+
+#[test]
+fn lines_for_people_say_when_there_is_no_rotor() {
+    let folder = tempfile::tempdir().unwrap();
+    let noise = folder.path().join("noise.wav");
+    write_noise(&noise, 5.0);
+    let run = hovertone(&["listen", "--blades", "2", "--speed", "1000", "--from-file", text(&noise)]).ends_with(3);
+    let lines: Vec<&str> = run.stdout.lines().collect();
+    assert_eq!(lines.len(), 5, "{}", run.stdout);
+    assert!(lines[0].contains("1.0 s") && lines[0].contains(" dB  no rotor tone so far"), "{}", run.stdout);
+    assert!(lines.iter().any(|line| line.contains("no rotor tone: ")), "{}", run.stdout);
+}
+
+#[test]
+fn what_cannot_be_heard_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_ardrone(&sound, 2.0);
+    let refused = |more: &[&str], words: &[&str]| {
+        refused_with(&[&["listen", "--blades", "2", "--from-file", text(&sound)], more].concat(), words);
+    };
+    refused(&["--speed", "0"], &["--speed = 0"]);
+    refused(&["--plain", "--json"], &["--plain", "--json"]);
+    refused_with(&["listen", "--blades", "2"], &["--from-file"]);
+    let text_file = folder.path().join("notes.txt");
+    std::fs::write(&text_file, "no sound at all, only words\n".repeat(100)).unwrap();
+    let input = Stdio::from(File::open(&text_file).unwrap());
+    let run = hovertone_with(&["listen", "--from-file", "-"], |command| command.stdin(input)).ends_with(1);
+    assert!(run.stderr.contains("the pipe holds no sound"), "{}", run.stderr);
+    hovertone(&["listen", "--from-file", "gone.wav"]).ends_with(1);
+}
+
+fn nonzero(count: u16) -> NonZero<u16> {
+    NonZero::new(count).unwrap()
+}
+
+/// A command in a terminal of a size.
+struct InTerminal {
+    screen: vt100::Parser,
+    bytes: Receiver<Vec<u8>>,
+    keys: Box<dyn Write + Send>,
+    child: Box<dyn portable_pty::Child + Send + Sync>,
+}
+
+impl InTerminal {
+    fn start(arguments: &[&str], rows: u16, cols: u16) -> Self {
+        let pair = native_pty_system().openpty(PtySize { rows, cols, pixel_width: 0, pixel_height: 0 }).unwrap();
+        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_hovertone"));
+        command.args(arguments);
+        command.env("TERM", "xterm-256color");
+        let child = pair.slave.spawn_command(command).unwrap();
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let keys = pair.master.take_writer().unwrap();
+        let (sender, bytes) = channel();
+        std::thread::spawn(move || {
+            let mut buffer = [0; 4096];
+            while let Ok(count @ 1..) = reader.read(&mut buffer) {
+                if sender.send(buffer[..count].to_vec()).is_err() {
+                    break;
+                }
+            }
+        });
+        Self { screen: vt100::Parser::new(nonzero(rows), nonzero(cols), 0), bytes, keys, child }
+    }
+
+    /// Waits until the screen satisfies a condition; returns what it shows.
+    fn until(&mut self, is_met: impl Fn(&str) -> bool) -> String {
+        let begun = Instant::now();
+        loop {
+            let contents = self.screen.screen().contents();
+            if is_met(&contents) {
+                return contents;
+            }
+            assert!(begun.elapsed() < Duration::from_secs(120), "the screen shows\n{contents}");
+            if let Ok(bytes) = self.bytes.recv_timeout(Duration::from_millis(200)) {
+                self.screen.process(&bytes);
+            }
+        }
+    }
+
+    fn press(&mut self, keys: &str) {
+        self.keys.write_all(keys.as_bytes()).unwrap();
+        self.keys.flush().unwrap();
+    }
+}
+
+#[test]
+fn the_screen_shows_the_speed_and_answers_keys() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_ardrone(&sound, 40.0);
+    for (rows, cols) in [(24, 80), (60, 200)] {
+        let arguments =
+            ["listen", "--vehicle", "ardrone", "--rotors", "1", "--speed", "2", "--from-file", text(&sound)];
+        let mut terminal = InTerminal::start(&arguments, rows, cols);
+        let shown = terminal.until(|text| text.contains("(k = 2)") && text.contains("now"));
+        for words in ["hovertone hover.wav", "q quit", "rpm", "rad/s", "level", " dB", "−60 s"] {
+            assert!(shown.contains(words), "{words} at {cols} x {rows}:\n{shown}");
+        }
+        let widest = shown.lines().map(|line| line.chars().count()).max().unwrap_or(0);
+        assert!(widest <= usize::from(cols) && shown.lines().count() <= usize::from(rows));
+        terminal.press("f");
+        terminal.until(|text| text.contains("FROZEN") && text.contains("go on"));
+        terminal.press("q");
+        assert!(terminal.child.wait().unwrap().success());
+        // the terminal is as it was
+        terminal.until(|text| !text.contains("q quit"));
+    }
+}

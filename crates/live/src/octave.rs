@@ -1,0 +1,133 @@
+//! Which octave: the beliefs of all reviews of the rotors that are followed, together.
+//!
+//! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
+//! multiply. A speed that a review does not name may still be the truth: the levels of the lines deceive in one recording of a hundred.
+
+use hovertone_vehicle::Order;
+
+/// Belief in a speed that a review does not name: the share of recordings whose lines deceive. *Decision.*
+const UNNAMED_BELIEF: f64 = 0.01;
+/// Largest difference of the logarithms of two speeds of one rotor: half of that between the nearest families, 4 : 3. *Decision.*
+const SAME_LOG_RATIO: f64 = 0.14;
+/// Largest distance of such a logarithm from that of a family: rotors wander between reviews. *Decision.*
+const FAMILY_LOG_RATIO: f64 = 0.07;
+/// Ratios of speeds that the same lines may mean: octaves, and families of three. *Physics.*
+const FAMILIES: [f64; 4] = [2.0, 3.0, 4.0, 1.5];
+/// Belief with which an octave is decided, and below which one is no longer told: odds of 99 to 1. *Decision.*
+const DECIDED_BELIEF: f64 = 0.99;
+
+/// A possible speed of the rotors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PossibleSpeed {
+    /// Lines per turn of the tone.
+    pub order: Order,
+    /// Blades, where they are known.
+    pub blades: Option<u32>,
+    /// Shaft speed.
+    pub speed_rev_s: f64,
+    /// Probability.
+    pub belief: f64,
+}
+
+impl PossibleSpeed {
+    fn is_same(&self, speed_rev_s: f64) -> bool {
+        (self.speed_rev_s / speed_rev_s).ln().abs() < SAME_LOG_RATIO
+    }
+}
+
+/// Whether two speeds may be readings of the same lines.
+fn is_of_family(a_rev_s: f64, b_rev_s: f64) -> bool {
+    let ratio = (a_rev_s / b_rev_s).ln().abs();
+    FAMILIES.iter().any(|family| (ratio - family.ln()).abs() < FAMILY_LOG_RATIO)
+}
+
+/// The possible speeds of the followed rotors, most probable first.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Octave {
+    speeds: Vec<PossibleSpeed>,
+}
+
+impl Octave {
+    /// Takes in the beliefs of a review, the most probable first, while the rotors are followed at a speed.
+    pub(crate) fn take(&mut self, reviewed: &[PossibleSpeed], followed_rev_s: Option<f64>) {
+        let Some(chosen) = reviewed.first() else { return };
+        let is_conflict = self.speeds.iter().any(|known| is_of_family(known.speed_rev_s, chosen.speed_rev_s));
+        let Some(followed_rev_s) = followed_rev_s.filter(|&speed| is_conflict || chosen.is_same(speed)) else {
+            // other rotors, or the same after a step
+            self.speeds = reviewed.to_vec();
+            return;
+        };
+        self.move_to(followed_rev_s);
+        let unnamed = |speed: &PossibleSpeed| PossibleSpeed { belief: UNNAMED_BELIEF, ..*speed };
+        for named in reviewed {
+            if !self.speeds.iter().any(|known| known.is_same(named.speed_rev_s)) {
+                self.speeds.push(unnamed(named));
+            }
+        }
+        for known in &mut self.speeds {
+            let named = reviewed.iter().find(|named| known.is_same(named.speed_rev_s));
+            known.belief *= named.map_or(UNNAMED_BELIEF, |named| named.belief.max(UNNAMED_BELIEF));
+        }
+        let sum: f64 = self.speeds.iter().map(|speed| speed.belief).sum();
+        // what was improbable may become the truth again
+        self.speeds.iter_mut().for_each(|speed| speed.belief = (speed.belief / sum).max(UNNAMED_BELIEF.powi(2)));
+        self.speeds.sort_by(|a, b| b.belief.total_cmp(&a.belief));
+    }
+
+    /// Scales all speeds as the followed one has changed.
+    fn move_to(&mut self, followed_rev_s: f64) {
+        let followed = self.speeds.iter().find(|speed| speed.is_same(followed_rev_s));
+        let ratio = followed.map_or(1.0, |speed| followed_rev_s / speed.speed_rev_s);
+        self.speeds.iter_mut().for_each(|speed| speed.speed_rev_s *= ratio);
+    }
+
+    /// Whether this speed is the most probable one.
+    pub(crate) fn is_leading(&self, speed_rev_s: f64) -> bool {
+        self.speeds.first().is_none_or(|leading| leading.is_same(speed_rev_s))
+    }
+
+    /// The speeds that remain possible, most probable first; empty where one is decided.
+    pub(crate) fn possible(&self) -> &[PossibleSpeed] {
+        let count = self.speeds.iter().take_while(|speed| speed.belief >= 1.0 - DECIDED_BELIEF).count();
+        let is_decided = self.speeds.first().is_none_or(|leading| leading.belief >= DECIDED_BELIEF);
+        &self.speeds[..if is_decided || count < 2 { 0 } else { count }]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn beliefs(speeds: &[(f64, f64)]) -> Vec<PossibleSpeed> {
+        let order = Order::from_blades(2).unwrap();
+        let speed = |&(speed_rev_s, belief): &(f64, f64)| PossibleSpeed { order, blades: Some(2), speed_rev_s, belief };
+        speeds.iter().map(speed).collect()
+    }
+
+    #[test]
+    fn one_review_of_another_octave_does_not_outvote_two() {
+        let mut octave = Octave::default();
+        octave.take(&beliefs(&[(90.0, 0.996), (180.0, 0.004)]), None);
+        assert!(octave.is_leading(91.0) && octave.possible().is_empty());
+        octave.take(&beliefs(&[(92.0, 0.996)]), Some(92.0));
+        octave.take(&beliefs(&[(183.0, 0.996), (91.5, 0.004)]), Some(91.5));
+        assert!(octave.is_leading(91.5) && octave.possible().is_empty(), "{octave:?}");
+        // as many on both sides decide nothing, and more on the other side decide for it
+        octave.take(&beliefs(&[(184.0, 0.996)]), Some(92.0));
+        assert_eq!(octave.possible().len(), 2, "{octave:?}");
+        octave.take(&beliefs(&[(184.0, 0.996)]), Some(92.0));
+        octave.take(&beliefs(&[(184.0, 0.996)]), Some(184.0));
+        assert!(octave.is_leading(184.0) && octave.possible().is_empty(), "{octave:?}");
+    }
+
+    #[test]
+    fn a_step_or_another_rotor_begins_anew() {
+        let mut octave = Octave::default();
+        octave.take(&beliefs(&[(90.0, 0.6), (180.0, 0.4)]), None);
+        assert_eq!(octave.possible().len(), 2);
+        octave.take(&beliefs(&[(110.0, 0.999)]), Some(90.0));
+        assert!(octave.is_leading(110.0) && octave.possible().is_empty());
+        octave.take(&beliefs(&[(60.0, 0.999)]), None);
+        assert!(octave.is_leading(60.0));
+    }
+}
