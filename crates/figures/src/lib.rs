@@ -46,7 +46,8 @@ pub use figure::{Figure, FigureError};
 pub use grey_box::{DrawnSpeeds, grey_box_figure};
 pub use motor_steps::{DrawnStep, motor_steps_figure};
 pub use picture::{
-    MeanSpectrum, Picture, PictureConfig, PictureError, PictureView, Pictures, pictures_from_source, views_of_recording,
+    MeanSpectrum, Picture, PictureConfig, PictureError, PictureView, Pictures, pictures_from_source,
+    views_of_recording, whitened,
 };
 pub use rotors::rotors_figure;
 pub use spectrogram::recording_figure;

@@ -7,9 +7,11 @@
 mod pooling;
 mod settings;
 mod view;
+mod whitening;
 
 pub use settings::PictureConfig;
 pub use view::{PictureView, views_of_recording};
+pub use whitening::whitened;
 
 use hovertone_analysis::Span;
 use hovertone_signal::passes::{Passes, Piece};

@@ -2,7 +2,6 @@
 
 mod drawing;
 mod tile;
-mod whitening;
 
 use super::cases::TruthSet;
 use super::program::Program;

@@ -1,6 +1,5 @@
 //! One recording of the sheet: its spectrogram, our answer and the truth.
 
-use super::whitening::whitened;
 use crate::real::answer::Status;
 use crate::real::cases::{Mode, SpeedRange, Told, Truth, TruthSet};
 use crate::real::hearing::duration_s;
@@ -9,7 +8,7 @@ use crate::real::program::Program;
 use crate::real::rows::Row;
 use hovertone::sound::SignalSource;
 use hovertone::speed::Span;
-use hovertone_figures::{PictureConfig, PictureView, Thumbnail, pictures_from_source, thumbnail_uri};
+use hovertone_figures::{PictureConfig, PictureView, Thumbnail, pictures_from_source, thumbnail_uri, whitened};
 use hovertone_media::{OpenOptions, Recording};
 use std::fs;
 use std::path::Path;

@@ -1,12 +1,12 @@
 //! A spectrogram with its noise floor flattened, so that weak lines are seen beside loud noise.
 
-use hovertone_figures::Picture;
+use super::Picture;
 
 /// The floor of a cell is the median over this share of the rows around it.
 const FLOOR_SHARE: f64 = 0.2;
 
 /// Each level minus the floor around it in its column.
-pub(super) fn whitened(picture: &Picture) -> Picture {
+pub fn whitened(picture: &Picture) -> Picture {
     let rows = picture.row_count;
     let reach = ((rows as f64 * FLOOR_SHARE / 2.0) as usize).max(1);
     let mut level_db = Vec::with_capacity(picture.level_db.len());
@@ -29,8 +29,8 @@ fn median(values: &[f32]) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::whitened;
-    use hovertone::speed::Span;
-    use hovertone_figures::{Picture, PictureView};
+    use crate::picture::{Picture, PictureView};
+    use hovertone_analysis::Span;
 
     #[test]
     fn a_slope_is_flat_and_a_line_stays() {
