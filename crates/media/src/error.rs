@@ -136,6 +136,25 @@ pub enum MediaError {
     Read(#[source] io::Error),
 }
 
+impl MediaError {
+    /// The kind of error in one word of files for programs.
+    pub fn class(&self) -> &'static str {
+        match self {
+            Self::CannotOpen(error) if error.kind() == io::ErrorKind::NotFound => "not_found",
+            Self::CannotOpen(_) | Self::Read(_) => "unreadable",
+            Self::NotAFile => "not_a_file",
+            Self::Empty => "empty",
+            Self::UnknownFormat { .. } | Self::UnknownStream { .. } => "unknown_format",
+            Self::NoAudioTrack { .. } | Self::NoAudioInStream => "no_audio_track",
+            Self::NoSuchTrack { .. } => "no_such_track",
+            Self::NoSuchChannel { .. } => "no_such_channel",
+            Self::NeedsFfmpeg { .. } => "needs_ffmpeg",
+            Self::FfmpegFailed { .. } | Self::Damaged { .. } | Self::BadHeader { .. } => "damaged",
+            Self::NoSamples { .. } => "no_samples",
+        }
+    }
+}
+
 /// Why a file cannot be opened and what to do, in plain words where they are known.
 fn why_not_opened(error: &io::Error) -> String {
     match error.kind() {
