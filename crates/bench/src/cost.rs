@@ -36,6 +36,12 @@ pub(crate) fn fastest(mut start: impl FnMut() -> std::io::Result<Child>) -> Resu
     best.ok_or_else(|| "nothing was measured".to_owned())
 }
 
+/// The cost of one run, and how it ended.
+pub(crate) fn once(child: std::io::Result<Child>) -> Result<(ExitStatus, Cost), String> {
+    let started = Instant::now();
+    watched(child.map_err(|error| format!("a measured program could not start: {error}"))?, started)
+}
+
 /// Waits for a child. Its processor time is complete once it has ended, and gone once it has been waited for, so it is
 /// read in between.
 fn watched(mut child: Child, started: Instant) -> Result<(ExitStatus, Cost), String> {

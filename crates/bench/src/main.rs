@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
 mod accuracy;
+mod batch;
 mod cost;
 mod document;
 mod greybox;
@@ -26,6 +27,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--minutes N] for shorter files
   logs       speed and memory of `hovertone log` on long logs of each format: docs/logs.md
              [--mb N] for shorter logs
+  batch      `hovertone batch` on 10,000 recordings of 2 s: throughput, memory, and a run that is killed twenty times: docs/batch.md
+             [--count N] for fewer recordings
   motor      time constants from the sound of steps, on simulated benches: a section of docs/motor.md
              [--count N] for fewer benches
   accuracy   one rotor against the Cramér-Rao bound, the ± against the truth, and other programs: docs/accuracy.md
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["speed", options @ ..] => speed::run(&root(), options),
         ["logs", options @ ..] => logs::run(&root(), options),
+        ["batch", options @ ..] => batch::run(&root(), options),
         ["motor", options @ ..] => motor::run(&root(), options),
         ["accuracy", options @ ..] => accuracy::run(&root(), options),
         ["rotors", options @ ..] => rotors::run(&root(), options),

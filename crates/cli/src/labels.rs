@@ -157,7 +157,7 @@ pub(crate) fn note_if_ambiguous(record: &mut SpeedRecord) {
 
 /// Labels the rotors of a recording, with a notice where a label is missing.
 pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
-    let Heard { record, config: heard_with, spin_up } = heard;
+    let Heard { record, config: heard_with, spin_up, .. } = heard;
     if record.speed().is_none() {
         return;
     }

@@ -4,6 +4,8 @@
 //! and to files, all messages for people to stderr.
 
 mod args;
+#[cfg(feature = "archive")]
+mod batch;
 mod calibrate;
 mod compare;
 mod copies;
@@ -35,6 +37,7 @@ mod own_vehicles;
 mod place;
 mod progress;
 mod recording;
+mod recording_facts;
 mod recording_files;
 mod report_folder;
 mod rights;
@@ -45,6 +48,7 @@ mod spectrogram;
 mod speed;
 mod spin_up;
 mod terminal;
+mod thumbnail;
 mod toml_file;
 mod toml_words;
 mod tones;
@@ -77,6 +81,10 @@ fn main() -> ExitCode {
         Command::Init(arguments) => init::run(arguments, &mut terminal),
         Command::Speed(arguments) => speed::run(arguments, &mut terminal),
         Command::Listen(arguments) => listen::run(arguments, &mut terminal),
+        #[cfg(feature = "archive")]
+        Command::Batch(arguments) => batch::run(arguments, &mut terminal),
+        #[cfg(feature = "archive")]
+        Command::BatchCompare(arguments) => batch::compare::run(arguments, &mut terminal),
         Command::Tones(arguments) => tones::run(arguments, &mut terminal),
         Command::Spectrogram(arguments) => spectrogram::run(arguments, &mut terminal),
         Command::Identify(arguments) => identify::run(arguments, &mut terminal),

@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 /// Last part of the name of a file that is not finished.
 const UNFINISHED: &str = ".hovertone-unfinished";
+/// Last part of the name of a file that only keeps runs apart.
+pub(crate) const LOCK: &str = ".hovertone-lock";
 
 /// An output file that is not finished. Dropped without [`OutputFile::keep`], it leaves what was there before.
 pub(crate) struct OutputFile {
@@ -107,9 +109,26 @@ impl Entry {
     }
 }
 
-/// Whether an interrupted run left a file of this name.
-pub(crate) fn is_left_unfinished(name: &OsStr) -> bool {
-    name.as_encoded_bytes().ends_with(UNFINISHED.as_bytes())
+/// A file that only keeps runs apart; it stays empty.
+#[cfg(feature = "archive")]
+pub(crate) fn open_lock(place: &Path) -> Result<File, Failure> {
+    let file = File::options().create(true).append(true).open(place);
+    file.map_err(|error| Failure::cannot_write(&error, place))
+}
+
+/// Removes a file that an earlier run wrote. Returns whether it was there.
+#[cfg(feature = "archive")]
+pub(crate) fn remove_written(place: &Path) -> Result<bool, Failure> {
+    match fs::remove_file(place) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(Failure::cannot_write(&error, place)),
+    }
+}
+
+/// Whether a file of this name is none of the user's: an interrupted run left it, or it is a lock.
+pub(crate) fn is_left_by_run(name: &OsStr) -> bool {
+    [UNFINISHED, LOCK].iter().any(|ending| name.as_encoded_bytes().ends_with(ending.as_bytes()))
 }
 
 impl Drop for OutputFile {

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::file_list::FileList;
-use crate::output_file::{OutputFile, is_left_unfinished};
+use crate::output_file::{OutputFile, is_left_by_run};
 use crate::outputs::{Outputs, refused, write_whole};
 use crate::rights::CLOSED_FOLDER;
 use std::fs;
@@ -30,6 +30,13 @@ impl OutputFolder {
     /// Makes the folder. A folder with files is refused unless an earlier run of the same kind wrote it and nobody changed them, or the
     /// user uses --force.
     pub(crate) fn prepare(path: &Path, outputs: Outputs, content: &FolderContent<'_>) -> Result<Self, Failure> {
+        let folder = Self::checked(path, outputs, content)?;
+        folder.begin()?;
+        Ok(folder)
+    }
+
+    /// The folder, before anything is written.
+    pub(crate) fn checked(path: &Path, outputs: Outputs, content: &FolderContent<'_>) -> Result<Self, Failure> {
         let folder = Self { path: path.to_owned(), outputs, list: FileList::of(path, content.run) };
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
             let what = format!(
@@ -48,16 +55,20 @@ impl OutputFolder {
                 return Err(refused(what, "choose a new folder with -o DIR, or use --force to replace it", &place));
             }
         }
-        fs::create_dir_all(path).map_err(|error| Failure::cannot_write(&error, path))?;
-        // a folder without the right to write is refused now, and not after the work
-        write_whole(folder.outputs.create_over(&folder.list.place())?, folder.list.beginning().as_bytes())?;
         Ok(folder)
+    }
+
+    /// Makes the folder and its list of files.
+    pub(crate) fn begin(&self) -> Result<(), Failure> {
+        fs::create_dir_all(&self.path).map_err(|error| Failure::cannot_write(&error, &self.path))?;
+        // a folder without the right to write is refused now, and not after the work
+        write_whole(self.outputs.create_over(&self.list.place())?, self.list.beginning().as_bytes())
     }
 
     /// Whether nothing is in the folder but what an interrupt may have left, or there is no folder yet.
     fn is_empty(&self) -> Result<bool, Failure> {
         match fs::read_dir(&self.path) {
-            Ok(entries) => Ok(entries.filter_map(Result::ok).all(|entry| is_left_unfinished(&entry.file_name()))),
+            Ok(entries) => Ok(entries.filter_map(Result::ok).all(|entry| is_left_by_run(&entry.file_name()))),
             Err(_) if self.path.is_dir() => {
                 Err(Failure::failed(CLOSED_FOLDER, "choose another with -o DIR", &self.path))
             }

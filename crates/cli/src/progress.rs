@@ -45,6 +45,12 @@ impl Progress {
         Share { progress: self, steps_done: 0, shown: None }
     }
 
+    /// Replaces the words beside the bar.
+    #[cfg(feature = "archive")]
+    pub(crate) fn say(&self, words: String) {
+        self.bar.set_message(words);
+    }
+
     /// Removes the bar before other output.
     pub(crate) fn finish(self) {
         self.bar.finish_and_clear();

@@ -4,6 +4,8 @@ use crate::args::HearingArguments;
 use crate::failure::Failure;
 use crate::files::{is_pattern, sha256_of_file};
 use crate::progress::{Progress, Share};
+use crate::recording_facts::facts_of;
+use crate::thumbnail::thumbnail_of;
 use hovertone::motors::{
     HeardCommands, HeardMotor, HeardTone, PASSES_OF_MOTOR, level_of_analysis, level_of_rotors, motor_from_sound,
 };
@@ -12,7 +14,7 @@ use hovertone::sound::{LineFrequency, Passes, line_frequency};
 use hovertone::speed::{Config, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
-use hovertone_media::{Decoder, OpenOptions, Recording};
+use hovertone_media::{OpenOptions, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -33,6 +35,8 @@ pub(crate) struct Hearing {
     pub(crate) wants_hash: bool,
     /// Whether the samples of the hover are used, and with them their warnings.
     pub(crate) wants_samples: bool,
+    /// Whether a small spectrogram is drawn, in another pass over the sound.
+    pub(crate) wants_thumbnail: bool,
 }
 
 impl Hearing {
@@ -84,6 +88,7 @@ pub(crate) struct Requests {
 }
 
 /// A recording that was analysed.
+#[cfg_attr(not(feature = "archive"), allow(dead_code))] // archives alone have classes of errors and thumbnails
 pub(crate) struct Heard {
     /// The result.
     pub(crate) record: SpeedRecord,
@@ -91,24 +96,37 @@ pub(crate) struct Heard {
     pub(crate) config: Config,
     /// The start of each rotor, where it was requested.
     pub(crate) spin_up: Option<SpinUp>,
+    /// The kind of error in one word, where the recording could not be heard.
+    pub(crate) error_class: Option<&'static str>,
+    /// A small spectrogram as the URI of a PNG, where it was requested.
+    pub(crate) thumbnail: Option<String>,
 }
 
 /// Analyses all recordings in parallel; the results are in the order of the jobs.
 pub(crate) fn hear_all(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<Heard> {
-    jobs.par_iter()
-        .map(|job| {
-            hear(job, hearing, &mut progress.recording()).unwrap_or_else(|failure| Heard {
-                record: record_of(
-                    job,
-                    &job.config,
-                    Answer::Failed { reason: failure.reason },
-                    failure.facts.map(|facts| *facts),
-                ),
-                config: job.config.clone(),
-                spin_up: None,
-            })
-        })
-        .collect()
+    jobs.par_iter().map(|job| heard_or_failed(job, hearing, &mut progress.recording())).collect()
+}
+
+/// Analyses a recording. One that could not be heard has its reason in place of an answer.
+pub(crate) fn heard_or_failed(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Heard {
+    hear(job, hearing, share).unwrap_or_else(|failure| failed(job, failure))
+}
+
+/// A recording that broke the analysis, which is a bug.
+#[cfg(feature = "archive")]
+pub(crate) fn broken(job: &Job) -> Heard {
+    let reason = "this recording broke the analysis: this is a bug of hovertone; please report it";
+    failed(job, NotHeard::because("internal", reason))
+}
+
+fn failed(job: &Job, NotHeard { reason, class, facts }: NotHeard) -> Heard {
+    Heard {
+        record: record_of(job, &job.config, Answer::Failed { reason }, facts.map(|facts| *facts)),
+        config: job.config.clone(),
+        spin_up: None,
+        error_class: Some(class),
+        thumbnail: None,
+    }
 }
 
 /// Analyses all recordings and keeps only the records.
@@ -119,12 +137,14 @@ pub(crate) fn records_of(jobs: &[Job], hearing: Hearing, progress: &Progress) ->
 /// Reason why a recording was not analysed, with its facts where they are known.
 struct NotHeard {
     reason: String,
+    /// The kind of error in one word of files for programs.
+    class: &'static str,
     facts: Option<Box<RecordingFacts>>,
 }
 
 impl NotHeard {
-    fn because(reason: impl ToString) -> Self {
-        Self { reason: reason.to_string(), facts: None }
+    fn because(class: &'static str, reason: impl ToString) -> Self {
+        Self { reason: reason.to_string(), class, facts: None }
     }
 }
 
@@ -220,8 +240,10 @@ pub(crate) fn lines_of(
 
 fn opened(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
     match wrong_kind(&job.path) {
-        Some(reason) => Err(NotHeard::because(reason)),
-        None => Recording::open(&job.path, &hearing.open_options()).map_err(NotHeard::because),
+        Some(reason) => Err(NotHeard::because(if job.path.is_dir() { "not_a_file" } else { "not_found" }, reason)),
+        None => {
+            Recording::open(&job.path, &hearing.open_options()).map_err(|error| NotHeard::because(error.class(), error))
+        }
     }
 }
 
@@ -229,13 +251,15 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
     let mut recording = opened(job, hearing)?;
     let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
     let sha256 = hearing.wants_hash.then(hashed).transpose().map_err(|error| {
-        NotHeard::because(format!("the file could not be read to its end: {error}; check the disk"))
+        NotHeard::because("unreadable", format!("the file could not be read to its end: {error}; check the disk"))
     })?;
     let analysed = analysed(&mut recording, job, share);
     let facts = facts_of(&recording, sha256);
     let Analysed { analysis, config, found, spin_up } = match analysed {
         Ok(analysed) => analysed,
-        Err(error) => return Err(NotHeard { reason: error.to_string(), facts: Some(Box::new(facts)) }),
+        Err(error) => {
+            return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
+        }
     };
     let of_the_file = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
     let matters =
@@ -244,7 +268,16 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
     let record = record_of(job, &config, Answer::Heard(Box::new(analysis)), Some(facts));
     let mut record = SpeedRecord { found, notices, ..record };
     record.notices.extend(notice_of_reading(&record));
-    Ok(Heard { record, config, spin_up })
+    let thumbnail = hearing.wants_thumbnail.then(|| thumbnail_of(&mut recording, record.analysis()?)).flatten();
+    Ok(Heard { record, config, spin_up, error_class: None, thumbnail })
+}
+
+/// The kind of an error of the analysis: its settings do not fit the recording, or the sound could not be read to its end.
+fn class_of(error: &hovertone::speed::Error) -> &'static str {
+    match error {
+        hovertone::speed::Error::Signal(_) => "unreadable",
+        _ => "unfit_settings",
+    }
 }
 
 fn record_of(job: &Job, config: &Config, answer: Answer, recording: Option<RecordingFacts>) -> SpeedRecord {
@@ -347,25 +380,4 @@ fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Resu
         }
     }
     Ok(analysed)
-}
-
-fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts {
-    let info = recording.info();
-    RecordingFacts {
-        sha256,
-        container: info.container.to_string(),
-        codec: info.codec.clone(),
-        decoder: match info.decoder {
-            Decoder::Native => "hovertone",
-            Decoder::Ffmpeg => "ffmpeg",
-            _ => "other",
-        }
-        .to_owned(),
-        sample_rate_hz: info.sample_rate_hz,
-        channel_count: info.channel_count,
-        channel: info.channel,
-        audio_track: info.audio_track,
-        audio_track_count: info.audio_track_count,
-        is_prefix: recording.is_prefix(),
-    }
 }

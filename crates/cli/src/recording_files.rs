@@ -53,6 +53,23 @@ pub(crate) fn groups_below(folder: &Path) -> Vec<RecordingGroup> {
     folders.iter().flat_map(|folder| groups_in(folder)).collect()
 }
 
+/// All recordings in a folder and the folders below it, by their endings; links to folders are not followed.
+#[cfg(feature = "archive")]
+pub(crate) fn recordings_below(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(folder) = open.pop() {
+        for path in entries_of(&folder) {
+            match path.is_dir() {
+                true if !path.is_symlink() => open.push(path),
+                false if ending_of(&path).is_some() => found.push(path),
+                _ => {}
+            }
+        }
+    }
+    found
+}
+
 /// The ending of a recording as it is spelled; `None` for other files.
 fn ending_of(path: &Path) -> Option<String> {
     let ending = path.extension()?.to_str()?;

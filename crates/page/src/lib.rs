@@ -5,12 +5,13 @@
 //! filters    filters of the templates
 //! view       the results as words and cells of templates      recordings   the same for the recordings
 //! warnings   all warnings, linked to their places
-//! low_level  the page of the low-level model
+//! low_level  the page of the low-level model          archive      the page of an archive
 //! sound      a recording, small enough for the page       seal      content security policy: the page loads nothing
 //! ```
 //!
 //! `templates/style` and `templates/script` are copied into the page unchanged.
 
+mod archive;
 mod filters;
 mod input;
 mod low_level;
@@ -21,6 +22,7 @@ mod sound;
 mod view;
 mod warnings;
 
+pub use archive::{ArchivePage, ArchiveRecording, ArchiveRecordings, HeardSpeed, archive_html};
 pub use input::{Report, SimulatorLines, TrialReport};
 pub use low_level::{LowLevelPage, low_level_html};
 pub use recordings::names_of;

@@ -59,7 +59,7 @@ pub fn folded(text: &str, width: Option<usize>) -> String {
 }
 
 /// The folder that all names share, with its last separator; empty where they share none, or for a single name.
-pub(crate) fn shared_folder<'a>(names: &[&'a str]) -> &'a str {
+pub fn shared_folder<'a>(names: &[&'a str]) -> &'a str {
     let [first, others @ ..] = names else { return "" };
     if others.is_empty() {
         return "";

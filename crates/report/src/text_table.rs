@@ -16,12 +16,12 @@ pub struct Column {
 
 impl Column {
     /// A column of words.
-    pub(crate) fn words(title: &str) -> Self {
+    pub fn words(title: &str) -> Self {
         Self { title: title.to_owned(), unit: String::new(), side: Side::Left }
     }
 
     /// A column of numbers in a unit.
-    pub(crate) fn numbers(title: &str, unit: &str) -> Self {
+    pub fn numbers(title: &str, unit: &str) -> Self {
         Self { title: title.to_owned(), unit: unit.to_owned(), side: Side::Right }
     }
 
@@ -58,12 +58,13 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    pub(crate) fn new(columns: Vec<Column>) -> Self {
+    /// A table without rows.
+    pub fn new(columns: Vec<Column>) -> Self {
         Self { columns, rows: Vec::new() }
     }
 
     /// A row with one cell for each column.
-    pub(crate) fn push(&mut self, cells: Vec<String>) {
+    pub fn push(&mut self, cells: Vec<String>) {
         self.rows.push(Row::Cells(cells));
     }
 

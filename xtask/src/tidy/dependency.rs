@@ -12,7 +12,7 @@ struct Row {
 }
 
 /// All crates but the two at the top, `cli` and `bench`.
-const LIBRARIES: [&str; 17] = [
+const LIBRARIES: [&str; 18] = [
     "vehicle",
     "fft",
     "signal",
@@ -28,6 +28,7 @@ const LIBRARIES: [&str; 17] = [
     "exchange",
     "logs",
     "report",
+    "archive",
     "figures",
     "page",
 ];
@@ -35,7 +36,7 @@ const LIBRARIES: [&str; 17] = [
 /// The line of the table.
 const TABLE_LINE: usize = line!() as usize + 2;
 /// From the lowest crate to the highest.
-const TABLE: [Row; 20] = [
+const TABLE: [Row; 21] = [
     Row { crate_name: "vehicle", may_use: &[] },
     Row { crate_name: "fft", may_use: &[] },
     Row { crate_name: "signal", may_use: &["fft"] },
@@ -55,6 +56,7 @@ const TABLE: [Row; 20] = [
     Row { crate_name: "exchange", may_use: &["vehicle"] },
     Row { crate_name: "logs", may_use: &[] },
     Row { crate_name: "report", may_use: &["analysis", "thrust", "vehicle", "exchange", "logs", "dynamics"] },
+    Row { crate_name: "archive", may_use: &["analysis", "report", "vehicle"] },
     Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal", "dynamics"] },
     Row { crate_name: "page", may_use: &["analysis", "thrust", "vehicle", "signal", "figures", "report"] },
     Row { crate_name: "cli", may_use: &LIBRARIES },

@@ -4,7 +4,7 @@ use super::fault::Fault;
 use super::paths::{NamedPath, faults_of_paths};
 use crate::tree::{Source, Tree};
 
-const PURE: [&str; 15] = [
+const PURE: [&str; 16] = [
     "vehicle",
     "fft",
     "signal",
@@ -18,6 +18,7 @@ const PURE: [&str; 15] = [
     "exchange",
     "logs",
     "report",
+    "archive",
     "figures",
     "page",
 ];

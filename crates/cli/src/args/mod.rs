@@ -1,5 +1,7 @@
 //! The command line as it was typed. The `resolve` function of each command finds its meaning.
 
+#[cfg(feature = "archive")]
+mod batch;
 mod calibrate;
 mod draft;
 mod greybox;
@@ -19,6 +21,8 @@ mod units;
 mod vehicles;
 mod verify;
 
+#[cfg(feature = "archive")]
+pub(crate) use batch::{BatchArguments, BatchCompareArguments};
 pub(crate) use calibrate::CalibrateArguments;
 pub(crate) use draft::DraftArguments;
 pub(crate) use greybox::GreyBoxArguments;
@@ -48,6 +52,8 @@ Examples:
   hovertone speed --blades 2 hover.mp4        rotor speed of a recording
   hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
   hovertone listen --blades 2 --from-file hover.mp4        as it is played, or from a pipe
+  hovertone batch archive -o speeds --blades 2     of a whole archive, as Parquet
+  hovertone batch-compare january february    which rotors have changed between two archives
   hovertone tones hover.mp4                   which tones it holds, and what each can mean
   hovertone spectrogram hover.mp4 -o x.png    the picture, with bands and ridge over it
   hovertone init                              an experiment file, by a few questions
@@ -90,6 +96,10 @@ pub(crate) enum Command {
     Init(Box<InitArguments>),
     Speed(Box<SpeedArguments>),
     Listen(Box<ListenArguments>),
+    #[cfg(feature = "archive")]
+    Batch(Box<BatchArguments>),
+    #[cfg(feature = "archive")]
+    BatchCompare(BatchCompareArguments),
     Tones(Box<TonesArguments>),
     Spectrogram(Box<SpectrogramArguments>),
     Identify(Box<IdentifyArguments>),

@@ -8,10 +8,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 22] = [
     "init",
     "speed",
     "listen",
+    "batch",
+    "batch-compare",
     "tones",
     "spectrogram",
     "identify",
@@ -99,6 +101,11 @@ fn lay_out(folder: &Path) {
     write_stereo(&file("hover.wav"), hover(0.413, 3.0, 3));
     for seed in [4, 5] {
         write_hover(&file(&format!("demo/big_hull/trial_{seed}.wav")), hover(0.462, 3.0, seed));
+    }
+    write_hover(&file("archive/flight/1.wav"), hover(0.413, 2.0, 7));
+    fs::write(file("list.txt"), "ardrone/1.mov\n").unwrap();
+    for out in ["january", "february", "old-propeller", "new-propeller"] {
+        run_in(folder, &["batch", "archive", "-o", out, "--vehicle", "ardrone"].map(str::to_owned)).ends_with(0);
     }
     write_noise(&file("DRONE_006.wav"), 2.0);
     write_noise(&file("tone.wav"), 2.0);

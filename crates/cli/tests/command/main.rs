@@ -4,6 +4,10 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
 mod absurd_numbers;
+#[cfg(feature = "archive")]
+mod batch;
+#[cfg(feature = "archive")]
+mod batch_docs;
 mod calibrate;
 mod chromium;
 mod codecs;

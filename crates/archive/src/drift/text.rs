@@ -1,0 +1,98 @@
+//! Changes between two archives as text for people and as JSON.
+
+use super::{Change, Drift, FALSE_ALARM_CHANCE};
+use hovertone_report::{Column, TextTable, VERSION, counted, printable, table_text};
+use serde_json::json;
+
+/// Most recordings that the text names; the JSON has all.
+const RECORDINGS_MAX: usize = 20;
+
+/// All changes as one JSON object, without a line feed.
+pub fn drift_json(drift: &Drift) -> String {
+    let mut all = json!(drift);
+    all["false_alarm_chance"] = json!(FALSE_ALARM_CHANCE);
+    all["version"] = json!(VERSION);
+    all.to_string()
+}
+
+/// The changes of the rotors, and the recordings that have changed.
+pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
+    let mut table = TextTable::new(vec![
+        Column::words("rotor, by speed"),
+        Column::numbers("recordings", ""),
+        Column::numbers("change", "%"),
+        Column::numbers("± (k = 2)", "%"),
+        Column::numbers("p, all tests", ""),
+        Column::words(""),
+    ]);
+    for row in &drift.rotors {
+        let count = match row.earlier_count == row.later_count {
+            true => row.earlier_count.to_string(),
+            false => format!("{}, {}", row.earlier_count, row.later_count),
+        };
+        let mut cells = vec![rotor_name(row.rotor), count];
+        cells.extend(cells_of(&row.change));
+        table.push(cells);
+    }
+    let how = if drift.is_paired {
+        "recordings of the same name, one by one"
+    } else {
+        "all recordings of one archive with all of the other, since no name is in both"
+    };
+    let unused = format!(
+        "not compared: {} of the earlier archive, {} of the later\n",
+        counted(drift.earlier_unused, "recording"),
+        drift.later_unused
+    );
+    format!("compared: {how}\n{}{unused}{}", table_text(&table, width), recordings_text(drift, width))
+}
+
+fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
+    let mut changed: Vec<_> = drift.recordings.iter().filter(|row| row.change.has_changed).collect();
+    if !drift.is_paired {
+        return String::new();
+    }
+    if changed.is_empty() {
+        return "no single recording has changed by more than its uncertainty\n".to_owned();
+    }
+    changed.sort_by(|one, other| other.change.change_share.abs().total_cmp(&one.change.change_share.abs()));
+    let mut table = TextTable::new(vec![
+        Column::words("recording"),
+        Column::words("rotor, by speed"),
+        Column::numbers("change", "%"),
+        Column::numbers("± (k = 2)", "%"),
+        Column::numbers("p, all tests", ""),
+        Column::words(""),
+    ]);
+    for row in changed.iter().take(RECORDINGS_MAX) {
+        let mut cells = vec![printable(&row.file), rotor_name(row.rotor)];
+        cells.extend(cells_of(&row.change));
+        table.push(cells);
+    }
+    let more = match changed.len().saturating_sub(RECORDINGS_MAX) {
+        0 => String::new(),
+        more => format!("and {more} more; --json has all\n"),
+    };
+    format!(
+        "\nspeeds of single recordings that have changed, largest change first\n{}{more}",
+        table_text(&table, width)
+    )
+}
+
+fn rotor_name(rotor: usize) -> String {
+    if rotor == 0 { "mean of all".to_owned() } else { format!("rotor {rotor}") }
+}
+
+fn cells_of(change: &Change) -> Vec<String> {
+    let in_percent = |share: f64| share * 100.0;
+    let chance = match change.p_value_holm {
+        small if small < 1e-4 => "< 0.0001".to_owned(),
+        chance => format!("{chance:.4}"),
+    };
+    vec![
+        format!("{:+.3}", in_percent(change.change_share)),
+        format!("{:.3}", in_percent(2.0 * change.std_uncertainty_share)),
+        chance,
+        if change.has_changed { "has changed" } else { "no change seen" }.to_owned(),
+    ]
+}

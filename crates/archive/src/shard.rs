@@ -1,0 +1,70 @@
+//! One of several jobs that hear an archive together.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Most jobs of one archive.
+const COUNT_MAX: usize = 100_000;
+
+/// The job `number` of `count`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    number: usize,
+    count: usize,
+}
+
+impl Shard {
+    /// All of it by one job.
+    pub const WHOLE: Self = Self { number: 1, count: 1 };
+
+    /// Whether this job hears the recording at a place of the plan. Neighbours go to different jobs, so that all jobs last equally long.
+    pub fn has(self, index: usize) -> bool {
+        index % self.count == self.number - 1
+    }
+
+    /// Whether it is the only job.
+    pub fn is_whole(self) -> bool {
+        self.count == 1
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.count)
+    }
+}
+
+impl FromStr for Shard {
+    type Err = String;
+
+    fn from_str(typed: &str) -> Result<Self, String> {
+        let parts = typed.split_once('/').and_then(|(number, count)| Some((number.parse().ok()?, count.parse().ok()?)));
+        match parts {
+            Some((number, count)) if (1..=count).contains(&number) && count <= COUNT_MAX => Ok(Self { number, count }),
+            _ => Err(format!(
+                "must be the number of a job and how many there are, as 1/8 to 8/8, of at most {COUNT_MAX}"
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Shard;
+
+    #[test]
+    fn each_recording_belongs_to_one_job() {
+        let shards: Vec<Shard> = ["1/3", "2/3", "3/3"].map(|typed| typed.parse().unwrap()).to_vec();
+        for index in 0..10 {
+            assert_eq!(shards.iter().filter(|shard| shard.has(index)).count(), 1);
+        }
+        assert!((0..10).all(|index| Shard::WHOLE.has(index)) && Shard::WHOLE.is_whole());
+    }
+
+    #[test]
+    fn a_job_beyond_their_number_is_refused() {
+        for typed in ["0/3", "4/3", "1", "1/0", "a/b", "-1/3", "1/3/3", "", "1/100001"] {
+            assert!(typed.parse::<Shard>().is_err(), "{typed}");
+        }
+    }
+}

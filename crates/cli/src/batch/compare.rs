@@ -1,0 +1,92 @@
+//! `hovertone batch-compare`: which rotors have changed between two archives.
+
+use super::folder::IDENTITY;
+use super::tables::RECORDINGS;
+use crate::args::BatchCompareArguments;
+use crate::failure::{Ending, Failure};
+use crate::terminal::Terminal;
+use hovertone_archive::{Archives, BatchIdentity, Summary, drift_json, drift_of, drift_text, summaries_of_parquet};
+use hovertone_report::{Notice, shared_folder};
+use std::fs::{self, File};
+use std::io;
+use std::path::Path;
+
+/// Most different settings that a warning names.
+const DIFFERENCES_MAX: usize = 4;
+
+/// Compares two folders of results.
+pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let (earlier, later) = (Results::read(&arguments.earlier)?, Results::read(&arguments.later)?);
+    if let Some(notice) = earlier.other_settings(&later) {
+        terminal.warning(&notice, "");
+    }
+    let drift = drift_of(Archives { earlier: &earlier.summaries, later: &later.summaries });
+    if arguments.json {
+        terminal.data(&(drift_json(&drift) + "\n"))?;
+    } else if !drift.rotors.is_empty() {
+        terminal.text(&drift_text(&drift, terminal.fold_width()))?;
+    }
+    if drift.rotors.is_empty() {
+        let notice = Notice::new(
+            "there is nothing to compare: no recording of the same name has a speed in both, and one of the folders has fewer than two speeds",
+            "see why in the overview.html of both",
+        );
+        terminal.warning(&notice, "");
+        return Ok(Ending::Incomplete);
+    }
+    Ok(Ending::Done)
+}
+
+/// The results of a batch, with names of recordings below the folder that was heard.
+struct Results {
+    identity: BatchIdentity,
+    summaries: Vec<Summary>,
+}
+
+impl Results {
+    fn read(folder: &Path) -> Result<Self, Failure> {
+        let is_none =
+            |what: &str| Failure::failed(what, "give the folder -o of a `hovertone batch` that has ended", folder);
+        let text = fs::read_to_string(folder.join(IDENTITY)).map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound if !folder.exists() => is_none("there is no such folder"),
+            _ => is_none("this is no folder of results"),
+        })?;
+        let identity: BatchIdentity =
+            serde_json::from_str(&text).map_err(|_| is_none("this folder does not say what its results are of"))?;
+        let place = folder.join(RECORDINGS);
+        let file = File::open(&place).map_err(|_| is_none("this folder has no recordings.parquet"))?;
+        let read = summaries_of_parquet(file);
+        let mut summaries = read.map_err(|error| {
+            let hint = "hear the archive again with `hovertone batch`";
+            Failure::failed(format!("this is no table of recordings: {error}"), hint, &place)
+        })?;
+        name_below_inputs(&mut summaries, &identity.inputs);
+        Ok(Self { identity, summaries })
+    }
+
+    /// The warning that the recordings were heard in another way.
+    fn other_settings(&self, later: &Self) -> Option<Notice> {
+        let there = BatchIdentity { inputs: later.identity.inputs.clone(), ..self.identity.clone() };
+        let differences = there.differences(&later.identity);
+        if differences.is_empty() {
+            return None;
+        }
+        let shown = differences.iter().take(DIFFERENCES_MAX).cloned().collect::<Vec<_>>().join("; ");
+        let text = format!("the two archives were heard with other settings: a change may come from them ({shown})");
+        Some(Notice::new(text, "hear both with the same settings"))
+    }
+}
+
+/// Names each recording below the folder that was typed; below the folder that all share where the typed names are no folders above it.
+fn name_below_inputs(summaries: &mut [Summary], inputs: &[String]) {
+    let files: Vec<String> = summaries.iter().map(|summary| summary.file.clone()).collect();
+    let shared = shared_folder(&files.iter().map(String::as_str).collect::<Vec<_>>()).to_owned();
+    for summary in summaries {
+        let of_input = |input: &String| Path::new(&summary.file).strip_prefix(input).ok();
+        let below = inputs.iter().find_map(of_input).filter(|below| !below.as_os_str().is_empty());
+        summary.file = match below {
+            Some(below) => below.to_string_lossy().into_owned(),
+            None => summary.file.strip_prefix(&shared).unwrap_or(&summary.file).to_owned(),
+        };
+    }
+}

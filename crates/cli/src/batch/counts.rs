@@ -1,0 +1,55 @@
+//! How many recordings have a speed, and how many have none and why.
+
+use serde::Serialize;
+use std::fmt;
+
+/// Numbers of recordings by their status.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub(crate) struct Counts {
+    /// With a speed.
+    pub(crate) ok: usize,
+    /// With a tone of which the order is open.
+    pub(crate) ambiguous: usize,
+    /// Without a rotor tone.
+    pub(crate) no_rotor_tone: usize,
+    /// That could not be heard.
+    pub(crate) error: usize,
+    /// That end before their sound does, whatever their status.
+    pub(crate) cut_short: usize,
+}
+
+impl Counts {
+    /// Counts a recording.
+    pub(crate) fn add(&mut self, status: &str, is_prefix: bool) {
+        match status {
+            "ok" => self.ok += 1,
+            "ambiguous" => self.ambiguous += 1,
+            "error" => self.error += 1,
+            _ => self.no_rotor_tone += 1,
+        }
+        self.cut_short += usize::from(is_prefix);
+    }
+
+    /// Number of recordings.
+    pub(crate) fn total(&self) -> usize {
+        self.ok + self.ambiguous + self.no_rotor_tone + self.error
+    }
+
+    /// Whether every recording has a speed, and was heard to its end.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.ok == self.total() && self.cut_short == 0
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} done, {} no tone, {} failed", self.ok, self.no_rotor_tone, self.error)?;
+        if self.ambiguous > 0 {
+            write!(f, ", {} ambiguous", self.ambiguous)?;
+        }
+        if self.cut_short > 0 {
+            write!(f, ", {} cut short", self.cut_short)?;
+        }
+        Ok(())
+    }
+}

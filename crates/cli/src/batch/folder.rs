@@ -1,0 +1,187 @@
+//! The folder of a batch: what it is of, the parts of finished recordings, and the locks that keep runs apart.
+
+use crate::failure::Failure;
+use crate::files::sha256_of_bytes;
+use crate::output_file::{LOCK, OutputFile, open_lock, remove_written};
+use crate::output_folder::{FolderContent, OutputFolder};
+use crate::outputs::{Outputs, refused, write_whole};
+use hovertone_archive::{BatchIdentity, Part, Planned, Shard};
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What the folder is of.
+pub(crate) const IDENTITY: &str = "batch.json";
+/// Folder of the parts.
+const PARTS: &str = "parts";
+/// Ending of a part.
+const PART_ENDING: &str = "part";
+/// Most differences that a message names.
+const DIFFERENCES_MAX: usize = 4;
+
+/// A folder that this run may write.
+pub(crate) struct BatchFolder {
+    folder: OutputFolder,
+    /// Held until the run ends.
+    _locks: [File; 2],
+}
+
+impl BatchFolder {
+    /// Makes the folder, or opens that of an earlier run of the same recordings and settings.
+    pub(crate) fn open(path: &Path, outputs: Outputs, identity: &BatchIdentity, shard: Shard) -> Result<Self, Failure> {
+        let begins_anew = outputs.may_replace();
+        if !begins_anew {
+            refuse_other(path, identity)?;
+        }
+        let text = serde_json::to_string_pretty(identity).map_err(Failure::internal)?;
+        let run = format!("batch {}", sha256_of_bytes(text.as_bytes()));
+        let files = [IDENTITY, super::tables::RECORDINGS, super::tables::OVERVIEW];
+        let content = FolderContent { name: "recordings and settings", run: &run, files: &files };
+        let folder = OutputFolder::checked(path, outputs, &content)?;
+        fs::create_dir_all(path).map_err(|error| Failure::cannot_write(&error, path))?;
+        let locks = [lock_of_run(path, shard)?, lock_of_shard(path, shard)?];
+        let folder = Self { folder, _locks: locks };
+        folder.begin(&text, begins_anew)?;
+        Ok(folder)
+    }
+
+    fn begin(&self, identity: &str, begins_anew: bool) -> Result<(), Failure> {
+        let _alone = self.alone()?;
+        if begins_anew && self.place(IDENTITY).is_file() {
+            self.remove_results()?;
+        }
+        self.folder.begin()?;
+        let is_there = fs::read_to_string(self.place(IDENTITY)).is_ok_and(|there| there == identity);
+        if is_there { Ok(()) } else { self.folder.write(IDENTITY, identity) }
+    }
+
+    /// Removes what an earlier batch wrote, and nothing else.
+    fn remove_results(&self) -> Result<(), Failure> {
+        for name in [IDENTITY, super::tables::RECORDINGS, super::tables::OVERVIEW] {
+            remove_written(&self.place(name))?;
+        }
+        let tracks = entries_of(&self.place(super::tables::TRACKS));
+        let parts = entries_of(&self.place(PARTS)).into_iter().flat_map(|folder| entries_of(&folder));
+        let parts = parts.filter(|path| path.extension().is_some_and(|ending| ending == PART_ENDING));
+        let tracks = tracks.into_iter().filter(|path| super::tables::is_of_tracks(path));
+        tracks.chain(parts).try_for_each(|path| remove_written(&path).map(drop))
+    }
+
+    /// Keeps other runs from writing tables until the lock is dropped; waits for them.
+    pub(crate) fn alone(&self) -> Result<File, Failure> {
+        let (file, place) = lock_file(self.folder.path(), "tables")?;
+        // a disk without locks has no other runs, as far as can be known
+        match file.lock() {
+            Err(error) if error.kind() != io::ErrorKind::Unsupported => Err(Failure::cannot_write(&error, &place)),
+            _ => Ok(file),
+        }
+    }
+
+    /// Path of a file in the folder.
+    pub(crate) fn place(&self, name: &str) -> PathBuf {
+        self.folder.place(name)
+    }
+
+    /// Begins a file of results.
+    pub(crate) fn create(&self, name: &str) -> Result<OutputFile, Failure> {
+        self.folder.create(name)
+    }
+
+    /// Writes a whole file of results.
+    pub(crate) fn write(&self, name: &str, content: &str) -> Result<(), Failure> {
+        self.folder.write(name, content)
+    }
+
+    fn place_of_part(&self, recording: &Planned) -> PathBuf {
+        self.place(PARTS).join(&recording.part).with_extension(PART_ENDING)
+    }
+
+    /// Whether a recording is finished.
+    pub(crate) fn has(&self, recording: &Planned) -> bool {
+        fs::metadata(self.place_of_part(recording)).is_ok_and(|facts| facts.len() > 0)
+    }
+
+    /// Keeps a finished recording: after an interrupt it is there as a whole, or not at all.
+    pub(crate) fn keep(&self, recording: &Planned, part: &Part) -> Result<(), Failure> {
+        let place = self.place_of_part(recording);
+        if let Some(folder) = place.parent() {
+            fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
+        }
+        write_whole(OutputFile::create(&place)?, &part.to_bytes().map_err(Failure::internal)?)
+    }
+
+    /// The part of a finished recording. One that is not whole, such as after a loss of power, is removed.
+    pub(crate) fn part(&self, recording: &Planned) -> Result<Part, Failure> {
+        let place = self.place_of_part(recording);
+        let bytes = fs::read(&place).map_err(|error| {
+            Failure::failed(format!("a finished recording cannot be read: {error}"), "check the disk", &place)
+        })?;
+        Part::from_bytes(&bytes).map_err(|error| {
+            // where it cannot be removed, the next run says the same
+            let _ = remove_written(&place);
+            let what = format!("a finished recording was damaged and is removed: {error}");
+            Failure::failed(what, "run the same command again: it hears this recording again", &place)
+        })
+    }
+}
+
+/// Refuses a folder of other recordings or settings, with what differs.
+fn refuse_other(path: &Path, identity: &BatchIdentity) -> Result<(), Failure> {
+    let place = path.join(IDENTITY);
+    let Ok(text) = fs::read_to_string(&place) else { return Ok(()) };
+    let hint = "choose a new folder with -o DIR, or use --force to begin anew";
+    let Ok(there) = serde_json::from_str::<BatchIdentity>(&text) else {
+        return Err(refused(
+            "this file does not say what the results in its folder are of: nothing was written",
+            hint,
+            &place,
+        ));
+    };
+    let differences = there.differences(identity);
+    if differences.is_empty() {
+        return Ok(());
+    }
+    let shown = differences.iter().take(DIFFERENCES_MAX).cloned().collect::<Vec<_>>().join("; ");
+    let more = match differences.len().saturating_sub(DIFFERENCES_MAX) {
+        0 => String::new(),
+        more => format!("; and {more} more"),
+    };
+    let what =
+        format!("this folder holds results of other recordings or settings: nothing was written ({shown}{more})");
+    Err(refused(&what, hint, path))
+}
+
+/// One run that hears everything, or several jobs.
+fn lock_of_run(path: &Path, shard: Shard) -> Result<File, Failure> {
+    let (file, place) = lock_file(path, "run")?;
+    let locked = if shard.is_whole() { file.try_lock() } else { file.try_lock_shared() };
+    taken(locked, file, &place, "another run of hovertone hears for this folder")
+}
+
+fn lock_of_shard(path: &Path, shard: Shard) -> Result<File, Failure> {
+    let (file, place) = lock_file(path, &format!("job-{shard}").replace('/', "-of-"))?;
+    let locked = file.try_lock();
+    taken(locked, file, &place, "another run of hovertone is the same job for this folder")
+}
+
+fn taken(locked: Result<(), TryLockError>, file: File, place: &Path, other: &str) -> Result<File, Failure> {
+    match locked {
+        Err(TryLockError::WouldBlock) => {
+            let hint = "wait for it; several jobs share a folder with --shard 1/N to N/N";
+            Err(Failure::failed(other, hint, place.parent().unwrap_or(place)))
+        }
+        Err(TryLockError::Error(error)) if error.kind() != io::ErrorKind::Unsupported => {
+            Err(Failure::cannot_write(&error, place))
+        }
+        _ => Ok(file),
+    }
+}
+
+fn lock_file(path: &Path, name: &str) -> Result<(File, PathBuf), Failure> {
+    let place = path.join(format!(".{name}{LOCK}"));
+    Ok((open_lock(&place)?, place))
+}
+
+fn entries_of(folder: &Path) -> Vec<PathBuf> {
+    fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path())).collect()
+}

@@ -1,0 +1,109 @@
+//! The recordings of an archive, from what was typed.
+
+use crate::failure::Failure;
+use crate::files::{files_of, home_expanded, is_pattern};
+use crate::inputs::{is_stdin, read_text};
+use crate::recording_files::recordings_below;
+use hovertone_archive::Plan;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::UNIX_EPOCH;
+
+/// Ending of a list of recordings.
+const LIST: &str = "txt";
+
+/// The names of recordings in the tables, and how to find them.
+pub(crate) struct Names {
+    names: Vec<String>,
+    /// The paths that are no text, which their names only resemble.
+    odd: BTreeMap<String, PathBuf>,
+}
+
+impl Names {
+    /// Of these recordings.
+    pub(crate) fn of(recordings: &[PathBuf]) -> Result<Self, Failure> {
+        let (mut names, mut odd) = (Vec::new(), BTreeMap::new());
+        for path in recordings {
+            let name = path.to_string_lossy().into_owned();
+            if path.to_str().is_none() && odd.insert(name.clone(), path.clone()).is_some_and(|other| other != *path) {
+                let what = "the names of two recordings are no text in UTF-8, and look alike in a table";
+                return Err(Failure::failed(what, "rename one of them", path));
+            }
+            names.push(name);
+        }
+        Ok(Self { names, odd })
+    }
+
+    /// The plan, in the order of the names.
+    pub(crate) fn plan(&self) -> Plan {
+        Plan::of(self.names.clone(), |name| state_of(&self.path(name)))
+    }
+
+    /// The path of a recording.
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
+        self.odd.get(name).cloned().unwrap_or_else(|| PathBuf::from(name))
+    }
+}
+
+/// The recordings in the order in which they were found. A name of a list that leads nowhere stays, so that it has a row with its error.
+pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut found = Vec::new();
+    for input in typed {
+        let of_input = recordings_of_one(input)?;
+        if of_input.is_empty() {
+            let (what, hint) = match input {
+                input if input.is_dir() => {
+                    ("no recording is in this folder", "recordings are known by their endings, such as .wav or .mp4")
+                }
+                input if is_list(input) => {
+                    ("this list names no recording", "write the name of a recording on each line")
+                }
+                _ => ("no file matches this pattern", "check the folder and the ending of its files"),
+            };
+            return Err(Failure::failed(what, hint, input));
+        }
+        found.extend(of_input);
+    }
+    Ok(found)
+}
+
+fn recordings_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if input.is_dir() {
+        return Ok(recordings_below(input));
+    }
+    if is_list(input) {
+        return names_in(input);
+    }
+    let files = files_of(input);
+    let is_missing = |path: &PathBuf| !path.exists();
+    match files.iter().find(|path| is_missing(path)) {
+        Some(path) if !is_pattern(&path.to_string_lossy()) => {
+            let hint = "give a folder, a pattern, a recording, or a list of names that ends in .txt";
+            Err(Failure::failed("there is no such file or folder", hint, path))
+        }
+        _ => Ok(files
+            .into_iter()
+            .flat_map(|path| if path.is_dir() { recordings_below(&path) } else { vec![path] })
+            .collect()),
+    }
+}
+
+fn is_list(input: &Path) -> bool {
+    is_stdin(input) || input.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(LIST))
+}
+
+/// The names in a list. Those in a file are relative to its folder, those from stdin to the current one.
+fn names_in(list: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let text = read_text(list, "a list of recordings")?;
+    let folder = if is_stdin(list) { Path::new("") } else { list.parent().unwrap_or(Path::new("")) };
+    let names = text.lines().map(str::trim_end).filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    Ok(names.map(|name| folder.join(home_expanded(Path::new(name)))).collect())
+}
+
+/// Length and time of change of a file, by which one that changed is heard again. They stand in no table.
+fn state_of(path: &Path) -> String {
+    let Ok(facts) = fs::metadata(path) else { return "absent".to_owned() };
+    let changed = facts.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    format!("{} {}", facts.len(), changed.unwrap_or_default().as_nanos())
+}

@@ -1,0 +1,112 @@
+//! `hovertone batch`: the speeds of an archive of recordings as Parquet, resumable.
+
+pub(crate) mod compare;
+mod counts;
+mod folder;
+mod hearing;
+mod inputs;
+mod overview;
+mod tables;
+
+use crate::args::BatchArguments;
+use crate::failure::{Ending, Failure};
+use crate::outputs::Outputs;
+use crate::recording::{Hearing, Requests};
+use crate::settings::config_of;
+use crate::terminal::Terminal;
+use counts::Counts;
+use folder::BatchFolder;
+use hearing::{Manner, hear_missing};
+use hovertone_archive::{BatchIdentity, FORMAT, Plan, Shard};
+use hovertone_report::{VERSION, counted, printable};
+use inputs::Names;
+use serde_json::json;
+use tables::write_tables;
+
+/// Hears what is missing, and writes the tables where nothing is missing any more.
+pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    if arguments.replace.force && arguments.shard.is_some() {
+        let what = "--force begins anew, and would remove what the other jobs have heard";
+        return Err(Failure::usage(what, "leave --force out, or remove the folder before the jobs start"));
+    }
+    let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    let requests = Requests { condition: arguments.analysis.condition, spin_up: false };
+    let hearing = Hearing { wants_hash: true, wants_thumbnail: true, ..Hearing::of(&arguments.hearing) };
+    let recordings = inputs::recordings_of(&arguments.inputs)?;
+    let identity = BatchIdentity {
+        format: FORMAT,
+        version: VERSION.to_owned(),
+        inputs: arguments.inputs.iter().map(|input| input.to_string_lossy().into_owned()).collect(),
+        settings: json!({
+            "analysis": config,
+            "search": discovery,
+            "audio_track": hearing.audio_track,
+            "channel": hearing.channel,
+            "clock_correction_ppm": hearing.clock_correction_ppm,
+            "condition": requests.condition,
+        }),
+    };
+    let shard = arguments.shard.unwrap_or(Shard::WHOLE);
+    let outputs = Outputs::beside(&recordings, arguments.replace.force);
+    let folder = BatchFolder::open(&arguments.output, outputs, &identity, shard)?;
+    let names = Names::of(&recordings)?;
+    let plan = names.plan();
+    let manner = Manner {
+        names,
+        config,
+        discovery,
+        requests,
+        hearing,
+        shard,
+        threads: arguments.threads,
+        retries: arguments.retry,
+        wants_progress: !arguments.hearing.no_progress,
+    };
+    let of_run = hear_missing(&plan, &folder, &manner)?;
+    let counts = write_tables(&plan, &folder, &identity)?;
+    say(&Said { heard: of_run, all: counts.as_ref(), plan: &plan, shard, folder: &folder }, arguments.json, terminal)?;
+    Ok(if counts.unwrap_or(of_run).is_complete() { Ending::Done } else { Ending::Incomplete })
+}
+
+/// What a run has to say at its end.
+struct Said<'a> {
+    /// The recordings that this run heard.
+    heard: Counts,
+    /// All recordings of the tables; absent where other jobs still hear.
+    all: Option<&'a Counts>,
+    plan: &'a Plan,
+    shard: Shard,
+    folder: &'a BatchFolder,
+}
+
+fn say(said: &Said<'_>, wants_json: bool, terminal: &mut Terminal) -> Result<(), Failure> {
+    let recording_count = said.plan.recordings().len();
+    if wants_json {
+        let line = json!({
+            "recording_count": recording_count,
+            "heard_count": said.heard.total(),
+            "is_complete": said.all.is_some(),
+            "counts": said.all,
+            "version": VERSION,
+        });
+        return terminal.data(&format!("{line}\n"));
+    }
+    let place = |name: &str| printable(&said.folder.place(name).display().to_string());
+    let text = match said.all {
+        Some(counts) => format!(
+            "{}: {counts}\nheard in this run: {}\ntables: {}, {}\npage: {}\n",
+            counted(recording_count, "recording"),
+            said.heard.total(),
+            place(tables::RECORDINGS),
+            place(tables::TRACKS),
+            place(tables::OVERVIEW)
+        ),
+        None => format!(
+            "job {} has ended: {} heard: {}\nthe tables are written when the last of all jobs ends\n",
+            said.shard,
+            counted(said.heard.total(), "recording"),
+            said.heard
+        ),
+    };
+    terminal.text(&text)
+}
