@@ -69,6 +69,10 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> 
 }
 
 fn recordings_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !input.exists() && input.to_string_lossy().contains("://") {
+        let hint = "copy the recordings to a disk first, or mount the store as a folder";
+        return Err(Failure::usage(format!("{}: hovertone reads files and no stores", input.display()), hint));
+    }
     if input.is_dir() {
         return Ok(recordings_below(input));
     }

@@ -270,6 +270,7 @@ fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
     let words = ["batch", text(&archive), "-o", "none", "--shard"];
     refused_with(&[&words[..], &["3/2"]].concat(), &["--shard", "1/8"]);
     refused_with(&[&words[..], &["1/2", "--force"]].concat(), &["other jobs"]);
+    refused_with(&["batch", "s3://bucket/flights", "-o", "none"], &["s3://bucket/flights", "files and no stores"]);
 }
 
 #[test]
