@@ -7,11 +7,12 @@ use std::path::PathBuf;
 const LISTEN_EXAMPLES: &str = "\
 Keys on the screen: q ends, f freezes the numbers, 1 to 9 decides for a speed where several are possible.
 
+A pipe is heard as it arrives. Linux: `arecord -q -f S16_LE -r 48000 | hovertone listen --blades 2 --from-file -`.
+A Mac: `ffmpeg -v quiet -f avfoundation -i :0 -f wav - | hovertone listen --blades 2 --from-file -`.
+
 Examples:
   hovertone listen --blades 2 --from-file hover.mp4
-  hovertone listen --vehicle ardrone --from-file flight.wav --speed 20 --json
-  arecord -q -f S16_LE -r 48000 | hovertone listen --blades 2 --from-file -
-  ffmpeg -v quiet -f avfoundation -i :0 -f wav - | hovertone listen --from-file -";
+  hovertone listen --vehicle ardrone --from-file hover.mov --speed 20 --json";
 
 /// Rotor speed of sound as it arrives: a pipe or a microphone, or a recording played as if it were live
 ///
