@@ -7,6 +7,8 @@ const RIGHT_SHARE: f64 = 0.005;
 /// One track against its motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerifiedRotor {
+    /// Index of the track among all tracks.
+    pub track: usize,
     /// Index of the motor in the log.
     pub motor: usize,
     /// Its name.

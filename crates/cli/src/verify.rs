@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
 }
 
 /// The tracks of the separated rotors, else of the one tone.
-fn tracks_of(record: &SpeedRecord) -> Vec<&[TrackPoint]> {
+pub(crate) fn tracks_of(record: &SpeedRecord) -> Vec<&[TrackPoint]> {
     let separated: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
     if separated.is_empty() { record.tone().iter().map(|tone| tone.track.as_slice()).collect() } else { separated }
 }

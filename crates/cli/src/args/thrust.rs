@@ -25,7 +25,7 @@ An experiment file:
   [[load]]
   name = \"small hull\"
   added_mass_kg = 0.031
-  recordings = [\"small_hull/*.mov\"]
+  recordings = [\"small_hull/*.mov\", { file = \"logged.mov\", log = \"logged.ulg\" }]  # with the flight's log
 
   [air]                       # for C_T; or height_m alone
   temperature_c = 22.0

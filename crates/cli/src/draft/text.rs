@@ -10,6 +10,9 @@ use toml::Value;
 
 /// Column of the comments.
 const COMMENT_COLUMN: usize = 32;
+/// How a recording names its log.
+const LOG_LINES: &str = "\n# A log of the flight (ULog, DataFlash, blackbox, CSV) names the rotors and checks order and clock:\n\
+                         # recordings = [{ file = \"hover.wav\", log = \"hover.ulg\" }]\n";
 
 impl Draft {
     /// The text of an experiment file: valid, and commented for the person who changes it. `head` is its first comment.
@@ -46,7 +49,7 @@ impl Draft {
         for (load, name) in self.loads.iter().zip(names) {
             text += &self.load_lines(load, &name);
         }
-        text
+        text + LOG_LINES
     }
 
     /// The diameter, and why it matters.

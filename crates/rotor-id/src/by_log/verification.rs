@@ -85,7 +85,9 @@ pub fn verification_from_log(
     log: LoggedSpeeds<'_>,
     offsets_s: Option<[f64; 2]>,
 ) -> Result<Verification, NotVerified> {
-    let tracks: Vec<&[TrackPoint]> = tracks.iter().copied().filter(|track| track.len() >= POINTS_MIN).collect();
+    let is_long = |index: &usize| tracks[*index].len() >= POINTS_MIN;
+    let indices: Vec<usize> = (0..tracks.len()).filter(is_long).collect();
+    let tracks: Vec<&[TrackPoint]> = indices.iter().map(|&index| tracks[index]).collect();
     if tracks.is_empty() {
         return Err(NotVerified::NoTrack);
     }
@@ -104,7 +106,8 @@ pub fn verification_from_log(
     let elsewhere = offsets.iter().zip(&costs).filter(|(offset_s, _)| (*offset_s - offsets[best]).abs() > ELSEWHERE_S);
     let elsewhere = elsewhere.map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
     let offset_s = comparison.fine_offset(offsets[best]);
-    let rotors = comparison.rotors(offset_s);
+    let mut rotors = comparison.rotors(offset_s);
+    rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
     let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
     let logged: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s - rotor.bias_rev_s).sum();
     Ok(Verification {
@@ -238,8 +241,8 @@ impl Comparison<'_> {
 
     fn rotors(&self, offset_s: f64) -> Vec<VerifiedRotor> {
         let assignment = self.assignment(offset_s, usize::MAX);
-        let rotor = |(track, motor): (&&[TrackPoint], Option<usize>)| {
-            let motor = motor?;
+        let rotor = |(index, motor): (usize, &Option<usize>)| {
+            let (track, motor) = (self.tracks[index], (*motor)?);
             let differences = self.differences(track, motor, offset_s, 1);
             let count = differences.len() as f64;
             let of = |difference: &Difference| difference.point.speed_rev_s - difference.logged_rev_s;
@@ -247,6 +250,7 @@ impl Comparison<'_> {
             let squares: f64 = differences.iter().map(|difference| (of(difference) - bias_rev_s).powi(2)).sum();
             let is_covered = |one: &&Difference| of(one).abs() <= COVERAGE_FACTOR * one.point.std_uncertainty_rev_s;
             Some(VerifiedRotor {
+                track: index,
                 motor,
                 name: self.log.names[motor].clone(),
                 speed_rev_s: differences.iter().map(|one| one.point.speed_rev_s).sum::<f64>() / count,
@@ -256,7 +260,7 @@ impl Comparison<'_> {
                 point_count: differences.len(),
             })
         };
-        self.tracks.iter().zip(assignment.motors).filter_map(rotor).collect()
+        assignment.motors.iter().enumerate().filter_map(rotor).collect()
     }
 }
 
