@@ -48,7 +48,13 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
         assert!(rotor["bias_rev_s"].as_f64().unwrap().abs() < 0.1, "{rotor}");
         assert!(rotor["scatter_rev_s"].as_f64().unwrap() < 0.5, "{rotor}");
     }
-    assert!(hovertone(&asked).ends_with(0).stdout.contains("passed: order and clock are right"));
+    let figure = folder.path().join("check.svg");
+    let drawn = hovertone(&[&asked[..], &["--figure", text(&figure)]].concat()).ends_with(0);
+    assert!(drawn.stdout.contains("passed: order and clock are right"));
+    assert!(fs::read_to_string(&figure).unwrap().contains("difference rotor-1"));
+    let refused = |figure: &str, words: &[&str]| refused_with(&[&asked[..], &["--figure", figure]].concat(), words);
+    refused("check.gif", &["neither with .png nor with .svg"]);
+    refused(text(&figure), &["exists already"]);
     let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
     assert!(wrong.stdout.contains("failed: heard speeds are 2.00 times the logged ones"), "{}", wrong.stdout);
 }
