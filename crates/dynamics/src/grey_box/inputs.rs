@@ -4,8 +4,8 @@ use hovertone_signal::statistics::median;
 use hovertone_vehicle::Axis;
 use hovertone_vehicle::FlightParameters;
 
-/// Limits of the step of the grid on which the model runs, s. *Numeric*: between two points the model is straight, so that it smooths gains by the square
-/// of the step; a tenth of the shortest time constant of a motor makes that 0.1 %, a twentieth 0.02 %.
+/// Limits of the step of the grid on which the model runs, s. *Numeric*: between two points the model is straight, so that gains are off by the
+/// square of the step; a tenth of the shortest time constant of a motor makes that 0.1 %, a twentieth 0.02 %.
 const STEP_S_MIN: f64 = 0.001;
 const STEP_S_MAX: f64 = 0.002;
 /// Longest interval between log rows over which a signal is known, s. *Physics*: an attitude changes within that.
