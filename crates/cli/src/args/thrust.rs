@@ -25,7 +25,8 @@ An experiment file:
   [[load]]
   name = \"small hull\"
   added_mass_kg = 0.031
-  recordings = [\"small_hull/*.mov\", { file = \"logged.mov\", log = \"logged.ulg\" }]  # with the flight's log
+  recordings = [\"small_hull/*.mov\"]
+  # a recording with the log of its flight: { file = \"a.mov\", log = \"a.ulg\" }
 
   [air]                       # for C_T; or height_m alone
   temperature_c = 22.0
