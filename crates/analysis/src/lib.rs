@@ -34,6 +34,6 @@ pub use speed::{HarmonicSpeed, RotorEstimate, SpeedEstimate, TrackPoint};
 pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
 pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use uncertainty::{UncertaintySource, UncertaintyTerm};
-pub use verification::{Verification, VerifiedRotor};
+pub use verification::{ComparedPoint, Verification, VerifiedRotor};
 pub use warning::Warning;
 pub use weighed_speed::WeighedSpeed;

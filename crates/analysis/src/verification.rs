@@ -4,10 +4,25 @@
 /// its rounding. *Decision.*
 const RIGHT_SHARE: f64 = 0.005;
 
+/// A heard and a logged speed at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ComparedPoint {
+    /// Time on the clock of the recording.
+    pub time_s: f64,
+    /// Heard speed.
+    pub heard_rev_s: f64,
+    /// Its standard uncertainty.
+    pub std_uncertainty_rev_s: f64,
+    /// Logged speed.
+    pub logged_rev_s: f64,
+}
+
 /// One track against its motor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VerifiedRotor {
-    /// Index of the motor in the log.
+    /// Index of the track among all tracks.
+    pub track: usize,
+    /// Index of the motor in the log; the number of motors for their mean, which the one tone of all rotors may follow.
     pub motor: usize,
     /// Its name.
     pub name: String,
@@ -17,10 +32,12 @@ pub struct VerifiedRotor {
     pub bias_rev_s: f64,
     /// Standard deviation of heard less logged speed.
     pub scatter_rev_s: f64,
-    /// Share of the points within ± of the logged speed.
+    /// Share of the points within ± of the logged speed, whose rounding counts.
     pub coverage: f64,
     /// Compared points.
     pub point_count: usize,
+    /// The points.
+    pub points: Vec<ComparedPoint>,
 }
 
 /// Sound against telemetry.

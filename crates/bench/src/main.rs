@@ -15,6 +15,7 @@ mod rotors;
 mod rotors_report;
 mod roundtrip;
 mod speed;
+mod verify;
 mod workspace;
 
 use std::path::Path;
@@ -52,6 +53,8 @@ const HELP: &str = "cargo run --release -p hovertone-bench -- EXAM
              [--data DIR] for other recordings, [--flights N] for fewer flights
   greybox    the low-level model of simulated flights against its truth, from logged speeds and from sound: docs/greybox.md
              [--logged N] for another number of flights with logged speeds, [--heard N] for those that are heard
+  verify     sound against telemetry on simulated flights, with right and wrong orders and clocks: a section of docs/verify.md
+             [--count N] for fewer flights
   roundtrip  simulate, identify, compare with the truth: a hundred random hovers
              [--count N] for fewer hovers, [--spread SHARE] for another spread of the rotors
 ";
@@ -76,6 +79,7 @@ fn main() -> ExitCode {
         ["saying-more", options @ ..] => real::saying_more::run(&root(), options),
         ["labels", options @ ..] => labels::run(&root(), options),
         ["greybox", options @ ..] => greybox::run(options),
+        ["verify", options @ ..] => verify::run(options),
         ["roundtrip", options @ ..] => roundtrip::run(&root(), options),
         [speed::DECODE_TASK, file] => speed::decode(Path::new(file)),
         _ => Err(HELP.to_owned()),

@@ -70,15 +70,8 @@ fn logs_of(
     vehicle: Option<&Vehicle>,
     path: &Path,
 ) -> Result<Vec<FlightLog>, Failure> {
-    let failed = |error: hovertone::rotors::LogError| Failure::failed(error.to_string(), "correct the log", path);
-    let motors = |logged: LoggedMotors, signal| {
-        let LoggedMotors { time_s, names, values } = logged;
-        FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(failed)
-    };
     let LoggedFlight { speeds_rev_s: speeds, commands, rates, .. } = logged;
-    let speeds = speeds.map(|speeds| motors(in_rad_s(speeds), MotorSignal::Speed)).transpose()?;
-    let commands = commands.map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
-    let mut logs: Vec<FlightLog> = speeds.into_iter().chain(commands).collect();
+    let mut logs = logs_of_motors(speeds, commands, path)?;
     if let Some(LoggedRates { time_s, rates_rad_s: [x, y, z], axes }) = rates {
         match (axes_of(axes, arguments.log_axes)?, places_of(arguments.layout, vehicle)) {
             (Some(axes), Some(places)) => {
@@ -88,7 +81,7 @@ fn logs_of(
                 };
                 let rates_rad_s = [x, turned(y), turned(z)];
                 let signals = LogSignals::BodyRates { places: places.to_vec(), rates_rad_s };
-                logs.push(FlightLog::new(time_s, signals).map_err(failed)?);
+                logs.push(FlightLog::new(time_s, signals).map_err(|error| wrong_log(&error, path))?);
             }
             // speeds or commands are enough
             _ if !logs.is_empty() => {}
@@ -107,6 +100,25 @@ fn logs_of(
         }
     }
     Ok(logs)
+}
+
+/// The speeds and commands of motors in a log, the more informative first.
+pub(crate) fn logs_of_motors(
+    speeds_rev_s: Option<LoggedMotors>,
+    commands: Option<LoggedMotors>,
+    path: &Path,
+) -> Result<Vec<FlightLog>, Failure> {
+    let motors = |logged: LoggedMotors, signal| {
+        let LoggedMotors { time_s, names, values } = logged;
+        FlightLog::new(time_s, LogSignals::Motors { signal, names, values }).map_err(|error| wrong_log(&error, path))
+    };
+    let speeds = speeds_rev_s.map(|speeds| motors(in_rad_s(speeds), MotorSignal::Speed)).transpose()?;
+    let commands = commands.map(|commands| motors(commands, MotorSignal::Command)).transpose()?;
+    Ok(speeds.into_iter().chain(commands).collect())
+}
+
+fn wrong_log(error: &hovertone::rotors::LogError, path: &Path) -> Failure {
+    Failure::failed(error.to_string(), "correct the log", path)
 }
 
 fn in_rad_s(speeds_rev_s: LoggedMotors) -> LoggedMotors {
@@ -164,9 +176,7 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
     let labels = match plan {
         LabelPlan::Log { logs, notes, config } => {
             record.notices.extend(notes.iter().map(|note| loss_notice(note)));
-            let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
-            let rotor_count = heard_with.rotors.count as usize;
-            best_of(logs.iter().map(|log| labels_from_log(&tracks, rotor_count, log, config)))
+            labels_of_record(record, heard_with.rotors.count, logs, config)
         }
         LabelPlan::SpinUp(names) => spin_up
             .as_ref()
@@ -177,6 +187,17 @@ pub(crate) fn label(heard: &mut Heard, plan: &LabelPlan) {
         record.notices.push(Notice::new(text, reason.hint()));
     }
     record.labels = labels;
+}
+
+/// The labels of the separated rotors of a recording by the best of the signals of a log.
+pub(crate) fn labels_of_record(
+    record: &SpeedRecord,
+    rotor_count: u32,
+    logs: &[FlightLog],
+    config: &LabelsConfig,
+) -> Option<RotorLabels> {
+    let tracks: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
+    best_of(logs.iter().map(|log| labels_from_log(&tracks, rotor_count as usize, log, config)))
 }
 
 /// The first set of labels that is complete; else the set with the most labels.

@@ -231,7 +231,7 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
 }
 
 /// The motors that turn, each with its command: that of the same name, else the one that its speed follows best.
-fn motors_of(flight: &LoggedFlight) -> Vec<LoggedMotor> {
+pub(crate) fn motors_of(flight: &LoggedFlight) -> Vec<LoggedMotor> {
     let Some(speeds) = &flight.speeds_rev_s else { return Vec::new() };
     let config = MotorConfig::default();
     let motor = |(name, values): (&String, &Vec<f64>)| {

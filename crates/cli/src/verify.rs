@@ -2,20 +2,26 @@
 
 use crate::args::VerifyArguments;
 use crate::failure::{Ending, Failure};
+use crate::figure_file::FigureKind;
 use crate::jobs::jobs_of;
 use crate::log::{column_names, loss_notice};
 use crate::motor::flight_of;
+use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
 use hovertone::rotors::{LoggedSpeeds, verification_from_log};
 use hovertone::speed::TrackPoint;
+use hovertone_figures::{DOTS_PER_INCH, verification_figure};
 use hovertone_report::{SpeedRecord, VerificationRecord, verification_json, verification_text};
+use std::path::Path;
 
 /// Hears the recording and compares it with the log.
 pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let names = column_names(&arguments.column)?;
+    let outputs = Outputs::beside([&arguments.recording, &arguments.log], arguments.replace.force);
+    let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, &outputs)).transpose()?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     let jobs = jobs_of(std::slice::from_ref(&arguments.recording), &config, discovery, Requests::default())?;
     let log = &arguments.log;
@@ -50,11 +56,33 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     } else {
         terminal.text(&verification_text(&told, terminal.fold_width()))?;
     }
+    if let Some(FigureFile { place, kind }) = figure
+        && let Some(drawn) = verification_figure(&told.verification).map_err(Failure::internal)?
+    {
+        terminal.flush()?;
+        outputs.write(place, kind.bytes(drawn, DOTS_PER_INCH)?)?;
+        terminal.say(&written(place));
+    }
     Ok(if is_right && flight.notes.is_empty() { Ending::Done } else { Ending::Incomplete })
 }
 
+/// Where the figure goes.
+struct FigureFile<'a> {
+    place: &'a Path,
+    kind: FigureKind,
+}
+
+impl<'a> FigureFile<'a> {
+    /// Checks, before any work, that the figure can be written.
+    fn of(place: &'a Path, outputs: &Outputs) -> Result<Self, Failure> {
+        let kind = FigureKind::of(place, "use --figure check.png or --figure check.svg")?;
+        outputs.check(place)?;
+        Ok(Self { place, kind })
+    }
+}
+
 /// The tracks of the separated rotors, else of the one tone.
-fn tracks_of(record: &SpeedRecord) -> Vec<&[TrackPoint]> {
+pub(crate) fn tracks_of(record: &SpeedRecord) -> Vec<&[TrackPoint]> {
     let separated: Vec<&[TrackPoint]> = record.rotors().iter().map(|rotor| rotor.track.as_slice()).collect();
     if separated.is_empty() { record.tone().iter().map(|tone| tone.track.as_slice()).collect() } else { separated }
 }

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian`
-//! (9), `fit`, `budget`, `rotors`, `motor_steps`, `spectrogram` of one recording, and `distributions` of several sets of cases.
+//! (9), `fit`, `budget`, `rotors`, `motor_steps`, `verification`, `spectrogram` of one recording, and `distributions` of several sets of cases.
 
 mod axis;
 mod bitmap;
@@ -37,6 +37,7 @@ mod spectrogram;
 mod spectrum;
 mod thumbnail;
 mod trial;
+mod verification;
 
 pub use bitmap::{DOTS_PER_INCH, figure_png};
 pub use colour::{LEVEL_COUNT, level_colours, method_colour};
@@ -53,3 +54,4 @@ pub use rotors::rotors_figure;
 pub use spectrogram::recording_figure;
 pub use thumbnail::{Thumbnail, thumbnail_uri};
 pub use trial::Trial;
+pub use verification::verification_figure;

@@ -238,10 +238,10 @@ pub mod live {
 /// # Ok::<(), hovertone::rotors::LogError>(())
 /// ```
 pub mod rotors {
+    pub use hovertone_analysis::{ComparedPoint, Verification, VerifiedRotor};
     pub use hovertone_analysis::{
         LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorCondition, RotorLabel, RotorLabels, ShaftLine,
     };
-    pub use hovertone_analysis::{Verification, VerifiedRotor};
     pub use hovertone_rotor_id::LabelsConfig;
     pub use hovertone_rotor_id::by_log::{
         FlightLog, LogError, LogSignals, LoggedSpeeds, MotorSignal, NotVerified, labels_from_log, verification_from_log,

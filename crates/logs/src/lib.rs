@@ -4,7 +4,8 @@
 //!              ┌ ulog ───────┐
 //! bytes ─ log ─┼ dataflash ──┤  rows of tables  ┌ summary  each table with its signals, rate and span; memory does not grow
 //!  (streamed)  ├ blackbox ───┼─────────────────▶┼ signals  the chosen signals over time
-//!              └ table_text ─┘                  └ flight   motors and body rates
+//!              └ table_text ─┘                  ├ flight   motors and body rates
+//!                                               └ control  commands, angles and rates of the embedded controller
 //! ```
 //!
 //! A log is read once, from its beginning. A log that breaks off or is damaged gives what it holds, and [`Loss`] says what is missing and where.
@@ -26,7 +27,7 @@ mod table_text;
 mod time_line;
 mod ulog;
 
-pub use control::{LoggedControl, control_from_log};
+pub use control::{ControlLoop, LoggedControl, MissingControl, control_from_log};
 pub use error::LogError;
 pub use flight::{LoggedFlight, LoggedMotors, LoggedRates, RateAxes, flight_from_log};
 pub use format::LogFormat;

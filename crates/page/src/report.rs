@@ -14,8 +14,8 @@ use hovertone_analysis::Method;
 use hovertone_figures::{Figure, level_colours, method_colour};
 use hovertone_report::{
     ConstantInUnit, FoldedWarning, Identification, LOADS_FOOTNOTE, SpeedRecord, TitledTable, VERSION, agreement_text,
-    budget_table, constants_in_units, folded_warnings, laws_table, load_in_words, loads_data, methods_table,
-    preferred_text, samples_data, thrust_table,
+    budget_table, constants_in_units, flight_log_tables, folded_warnings, laws_table, load_in_words, loads_data,
+    methods_table, preferred_text, samples_data, thrust_table,
 };
 use serde_json::{Map, Value};
 
@@ -82,6 +82,7 @@ struct Page<'a> {
     loads_footnote: &'static str,
     budget: Option<PageTable>,
     more_tables: Vec<PageTable>,
+    log_tables: Vec<PageTable>,
     files: Vec<PageFile>,
     trials: Vec<TrialView<'a>>,
     inputs: Vec<InputView<'a>>,
@@ -153,6 +154,10 @@ pub fn report_html(report: &Report<'_>) -> Result<String, PageError> {
         more_tables: (1..)
             .zip(report.more_tables)
             .map(|(number, titled)| PageTable::new(&format!("table-{number}"), &titled.title, &titled.table))
+            .collect(),
+        log_tables: (1..)
+            .zip(flight_log_tables(inputs, &names))
+            .map(|(number, titled)| PageTable::new(&format!("logs-{number}"), &titled.title, &titled.table))
             .collect(),
         files: files_of(identification)?,
         sound: has_sound.then_some(share),
@@ -237,5 +242,6 @@ pub fn experiment_tables(identification: &Identification<'_>) -> Vec<TitledTable
         tables.push(TitledTable::new("Laws", laws_table(fit)));
         tables.push(TitledTable::new("Uncertainty budget", budget_table(budget, fit.thrust_constant_n_s2.value)));
     }
+    tables.extend(flight_log_tables(identification.inputs, &names_of(identification.inputs)));
     tables
 }

@@ -1,7 +1,8 @@
 //! All warnings of the page: one line each in the answer, linked to the place where the advice stands.
 
 use hovertone_report::{
-    FoldedWarning, InputRecord, Notice, SpeedRecord, counted, distinct_notices, own_notices, own_reason, warning_count,
+    FlightLogRecord, FoldedWarning, InputRecord, Notice, SpeedRecord, counted, distinct_notices, own_notices,
+    own_reason, warning_count,
 };
 use hovertone_thrust::{ThrustTable, ThrustWarning};
 
@@ -56,9 +57,12 @@ impl Warnings {
             .collect();
         let mut lines: Vec<WarningLine> =
             notices.iter().map(|notice| WarningLine { text: notice.text.clone(), target: notice.id.clone() }).collect();
-        // a missing speed weighs more than any warning about another recording
+        // a missing speed, or one that the log contradicts, weighs more than any warning about another recording
+        let is_worse = |input: &InputRecord| {
+            input.record.reason().is_some() || input.log.as_ref().is_some_and(FlightLogRecord::has_failed_check)
+        };
         let (missing, told): (Vec<_>, Vec<_>) =
-            inputs.iter().zip(names).enumerate().partition(|(_, (input, _))| input.record.reason().is_some());
+            inputs.iter().zip(names).enumerate().partition(|(_, (input, _))| is_worse(input));
         for (index, (input, name)) in missing.into_iter().chain(told) {
             lines.extend(lines_of(input, name, index, folded));
         }

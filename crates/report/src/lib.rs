@@ -17,7 +17,8 @@
 //! decision     why this shaft speed, and which was second  units         the constant in units of programs
 //! names        short names of recordings                logged        what a log holds
 //! motor        constants of motors, from steps in a log   motor_json    the same for programs
-//! grey_box     the low-level model of eqs 1 and 2
+//! grey_box     the low-level model of eqs 1 and 2         flight_log    the log of a recording's flight
+//! flight_log_tables  the same as tables
 //! ```
 
 mod adequacy;
@@ -29,6 +30,8 @@ mod data_table;
 mod decision;
 mod fitted_table;
 mod flight;
+mod flight_log;
+mod flight_log_tables;
 mod flight_plan;
 mod folded_warnings;
 mod grey_box;
@@ -65,6 +68,8 @@ pub use data_table::{DataColumn, DataTable, Values};
 pub use decision::{DecisionWords, decision_in_words};
 pub use fitted_table::{FittedTable, fitted_table_text, fitted_tables_json};
 pub use flight::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
+pub use flight_log::FlightLogRecord;
+pub use flight_log_tables::flight_log_tables;
 pub use flight_plan::flight_plan_text;
 pub use folded_warnings::{
     FoldedWarning, distinct_notices, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, warning_count,

@@ -190,7 +190,7 @@ fn constants_table(record: &MotorRecord) -> TextTable {
     shown
 }
 
-fn in_ms(estimate: Option<Estimate>) -> String {
+pub(crate) fn in_ms(estimate: Option<Estimate>) -> String {
     estimate.map_or(DASH.to_owned(), |estimate| {
         let estimate_ms = estimate.scaled(MS_PER_S);
         with_uncertainty(estimate_ms.value, estimate_ms.std_uncertainty)

@@ -26,8 +26,9 @@ struct MotorLine<'a> {
     version: &'static str,
 }
 
+/// A combined estimate for programs.
 #[derive(Serialize)]
-struct CombinedLine {
+pub(crate) struct CombinedLine {
     value: f64,
     std_uncertainty: Option<f64>,
     step_count: usize,
@@ -119,7 +120,7 @@ pub fn motor_json(record: &MotorRecord) -> Result<String, serde_json::Error> {
     Ok(serde_json::to_string(&line)? + "\n")
 }
 
-fn combined_line(combined: CombinedEstimate) -> CombinedLine {
+pub(crate) fn combined_line(combined: CombinedEstimate) -> CombinedLine {
     let CombinedEstimate { estimate, step_count } = combined;
     CombinedLine { value: estimate.value, std_uncertainty: estimate.std_uncertainty, step_count }
 }

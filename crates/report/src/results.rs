@@ -1,5 +1,6 @@
 //! `results.json`: the result at the top, and below it all data behind it.
 
+use crate::flight_log::{FlightLogLine, FlightLogRecord};
 use crate::notice::Notice;
 use crate::recording::{RecordingFacts, SpeedRecord};
 use crate::version::VERSION;
@@ -53,12 +54,19 @@ pub struct InputRecord {
     pub load: String,
     /// Record of the recording.
     pub record: SpeedRecord,
+    /// The log of its flight, where the experiment names one.
+    pub log: Option<FlightLogRecord>,
 }
 
 impl Identification<'_> {
     /// The table of the reported method.
     pub fn reported(&self) -> Option<&ThrustTable> {
         self.tables.iter().find(|table| table.method == self.method)
+    }
+
+    /// Number of logs that contradict the order or the clock of their recordings.
+    pub fn failed_check_count(&self) -> usize {
+        self.inputs.iter().filter_map(|input| input.log.as_ref()).filter(|log| log.has_failed_check()).count()
     }
 }
 
@@ -138,6 +146,8 @@ struct Input<'a> {
     window_s: Option<f64>,
     warnings: &'a [Notice],
     recording: Option<&'a RecordingFacts>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    log: Option<FlightLogLine<'a>>,
 }
 
 #[derive(Serialize)]
@@ -245,5 +255,6 @@ fn input_of(input: &InputRecord) -> Input<'_> {
         window_s: record.tone().map(|tone| tone.window_s),
         warnings: &record.notices,
         recording: record.recording.as_ref(),
+        log: input.log.as_ref().map(FlightLogLine::of),
     }
 }

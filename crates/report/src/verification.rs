@@ -1,5 +1,6 @@
 //! Sound against telemetry: text for people, JSON for programs.
 
+use crate::notice::Notice;
 use crate::number::{fixed, signed, significant};
 use crate::printable::printable;
 use crate::table_lines::table_text;
@@ -8,7 +9,8 @@ use crate::version::VERSION;
 use hovertone_analysis::{Verification, percent_in_words};
 use serde::Serialize;
 
-const PPM: f64 = 1e6;
+/// Millionths of a share.
+pub(crate) const PPM: f64 = 1e6;
 
 /// A verification with the names of its files.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,17 +64,33 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
 }
 
 fn verdict_in_words(found: &Verification) -> String {
-    let percent = signed(100.0 * (found.speed_ratio - 1.0), 2);
-    match found.near_ratio {
-        _ if found.is_right() => format!("passed: order and clock are right; heard speeds differ by {percent} %"),
-        Some(ratio) => format!(
-            "failed: heard speeds are {} times the logged ones; check the blades or the order, or the pole pairs of the log",
-            significant(ratio, 3)
-        ),
-        None => format!(
-            "failed: heard speeds differ by {percent} %; check the order, the clock of the recorder, or the log"
-        ),
+    match failed_check(found) {
+        None => {
+            let percent = percent_of(found);
+            format!("passed: order and clock are right; heard speeds differ by {percent} %")
+        }
+        Some(Notice { text, hint }) => format!("failed: {text}; {hint}"),
     }
+}
+
+/// What is wrong, and what to check, where heard and logged speeds are not equal.
+pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
+    match found.near_ratio {
+        _ if found.is_right() => None,
+        Some(ratio) => Some(Notice::new(
+            format!("heard speeds are {} times the logged ones", significant(ratio, 3)),
+            "check the blades or the order, or the pole pairs of the log",
+        )),
+        None => Some(Notice::new(
+            format!("heard speeds differ by {} %", percent_of(found)),
+            "check the order, the clock of the recorder, or the log",
+        )),
+    }
+}
+
+/// By how much heard speeds differ, in per cent.
+fn percent_of(found: &Verification) -> String {
+    signed(100.0 * (found.speed_ratio - 1.0), 2)
 }
 
 #[derive(Serialize)]

@@ -53,7 +53,19 @@ impl Default for LabelsConfig {
     }
 }
 
+/// Half width of the offsets about one that the speeds have told: commands precede their speeds by less, and telemetry lags by less. *Physics.*
+const NEAR_S: f64 = 0.5;
+
 impl LabelsConfig {
+    /// The defaults, with offsets near one that is known already.
+    pub fn near(offset_s: Option<f64>) -> Self {
+        Self {
+            offset_s_low: offset_s.map(|offset_s| offset_s - NEAR_S),
+            offset_s_high: offset_s.map(|offset_s| offset_s + NEAR_S),
+            ..Self::default()
+        }
+    }
+
     /// Checks that each setting is in its range.
     ///
     /// # Errors

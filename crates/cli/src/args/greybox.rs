@@ -8,8 +8,8 @@ use clap::Args;
 use std::path::PathBuf;
 
 const GREYBOX_EXAMPLES: &str = "\
-The log is a CSV with the headers time_s; command_roll, command_pitch, command_yaw_rate, command_climb (±1); roll_deg,
-pitch_deg, yaw_rate_rad_s, velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s help. With speed_1_rad_s to speed_4_rad_s
+The log is one of PX4 (ULog), ArduPilot (DataFlash), Betaflight or INAV (blackbox), or a CSV with the headers time_s;
+command_roll, command_pitch, command_yaw_rate, command_climb (±1); roll_deg, pitch_deg, yaw_rate_rad_s, velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s help. With speed_1_rad_s to speed_4_rad_s
 no recording is needed. Fly doublets about all four axes, short and long, for a minute.
 
 Examples:

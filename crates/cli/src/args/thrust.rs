@@ -26,6 +26,7 @@ An experiment file:
   name = \"small hull\"
   added_mass_kg = 0.031
   recordings = [\"small_hull/*.mov\"]
+  # a recording with the log of its flight: { file = \"a.mov\", log = \"a.ulg\" }
 
   [air]                       # for C_T; or height_m alone
   temperature_c = 22.0

@@ -1,6 +1,6 @@
 //! Arguments of `verify`.
 
-use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ToneArguments, typed_path};
+use super::groups::{AnalysisArguments, HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, typed_path};
 use super::labels::offsets;
 use super::log::{ColumnName, column_name};
 use clap::Args;
@@ -13,6 +13,7 @@ The clocks are aligned by the changes of the speeds.
 Examples:
   hovertone verify hover.mp4 flight.ulg --vehicle iris
   hovertone verify hover.mp4 flight.csv --vehicle ardrone --json
+  hovertone verify hover.mp4 flight.csv --vehicle ardrone --figure check.svg
   hovertone verify hover.mp4 flight.csv --vehicle ardrone --log-offset-s -5:5";
 
 /// Sound against telemetry: bias, scatter and coverage of heard speeds, and whether order and clock are right
@@ -42,4 +43,9 @@ pub(crate) struct VerifyArguments {
     /// Print one JSON object
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
+    /// Draw heard and logged speeds over each other, and their difference with its ± below
+    #[arg(long, value_name = "FILE.svg|png", value_parser = typed_path(), help_heading = "Output")]
+    pub(crate) figure: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) replace: ReplaceArguments,
 }

@@ -10,6 +10,9 @@ use toml::Value;
 
 /// Column of the comments.
 const COMMENT_COLUMN: usize = 32;
+/// How a recording names its log.
+const LOG_LINES: &str = "\n# A log of the flight (ULog, DataFlash, blackbox, CSV) names the rotors and checks order and clock:\n\
+                         # recordings = [{ file = \"hover.wav\", log = \"hover.ulg\" }]\n";
 
 impl Draft {
     /// The text of an experiment file: valid, and commented for the person who changes it. `head` is its first comment.
@@ -46,7 +49,7 @@ impl Draft {
         for (load, name) in self.loads.iter().zip(names) {
             text += &self.load_lines(load, &name);
         }
-        text
+        text + LOG_LINES
     }
 
     /// The diameter, and why it matters.
@@ -168,7 +171,8 @@ mod tests {
             for (resolved, typed) in experiment.loads.iter().zip(&loads) {
                 let Force::Weight { vehicle_mass_kg, added_mass_kg, .. } = resolved.force else { panic!("a hover") };
                 assert!((vehicle_mass_kg + added_mass_kg - typed.mass_kg).abs() < 1e-9);
-                assert_eq!(resolved.recordings, typed.recordings);
+                let files: Vec<&str> = resolved.recordings.iter().map(|recording| recording.file()).collect();
+                assert_eq!(files, typed.recordings);
             }
         }
     }

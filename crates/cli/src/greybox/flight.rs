@@ -12,7 +12,8 @@ use hovertone_dynamics::{
     LoopInputs, MotorVolts, SoundConfig, SpeedObservation, SpeedPrediction, grey_box_from_sound, grey_box_from_speeds,
     observations_of_rows, speeds_along,
 };
-use hovertone_logs::{ColumnNames, LoggedControl, RateAxes, control_from_log};
+use hovertone_logs::{ColumnNames, LoggedControl, MissingControl, RateAxes, control_from_log};
+use hovertone_report::Notice;
 use hovertone_vehicle::{
     FlightParameters, GRAVITY_STANDARD_M_S2, RotorSpeed, find_flight_parameters, find_preset, flight_presets,
 };
@@ -93,6 +94,8 @@ pub(crate) struct FlownLog {
     /// Logged speeds, rad/s, of all four rotors.
     pub(crate) speeds_rad_s: Option<[Vec<f64>; 4]>,
     pub(crate) loss: Option<String>,
+    /// The loops that are left out, since the log lacks a signal.
+    pub(crate) left_out: Vec<Notice>,
 }
 
 impl FlownLog {
@@ -118,9 +121,28 @@ impl FlownLog {
         let inputs = LoopInputs::from_log(&log, &ControlKnowns::of(&vehicle.parameters))
             .ok_or_else(|| refused("this log has fewer than two whole rows of commands and measurements"))?;
         if !inputs.has_loop.contains(&true) {
-            return Err(refused("this log has no command together with the angle or rate that it commands"));
+            return Err(without_loops(&control.missing, path));
         }
-        Ok(Self { log, inputs, speeds_rad_s, loss: control.loss })
+        let left_out = control.missing.iter().map(left_out).collect();
+        Ok(Self { log, inputs, speeds_rad_s, loss: control.loss, left_out })
+    }
+}
+
+fn left_out(missing: &MissingControl) -> Notice {
+    let MissingControl { control_loop, what, hint } = missing;
+    Notice::new(format!("the loop of {} is left out: the log lacks {what}", control_loop.name()), *hint)
+}
+
+/// The failure of a log in which every loop lacks something.
+fn without_loops(missing: &[MissingControl], path: &Path) -> Failure {
+    let mut hints: Vec<&str> = missing.iter().map(|missing| missing.hint).collect();
+    hints.dedup();
+    let lacks: Vec<String> =
+        missing.iter().map(|missing| format!("{} lacks {}", missing.control_loop.name(), missing.what)).collect();
+    Failure::Usage {
+        what: format!("this log has no command together with the angle or rate that it commands: {}", lacks.join(", ")),
+        hint: hints.join("; "),
+        path: Some(path.to_owned()),
     }
 }
 

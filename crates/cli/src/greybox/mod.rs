@@ -62,6 +62,7 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     let losses: Vec<&String> =
         [Some(&flown), other_flown.as_ref()].into_iter().flatten().filter_map(|flown| flown.loss.as_ref()).collect();
     losses.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
+    flown.left_out.iter().for_each(|notice| terminal.warning(notice, ""));
     Ok(if losses.is_empty() { Ending::Done } else { Ending::Incomplete })
 }
 

@@ -1,5 +1,6 @@
 //! `identify --check`: what would be done, which files were found, and what is missing, without analysis.
 
+use super::logs::FlownLog;
 use super::recordings::{FoundRecordings, Missing, found_recordings, nearby, place_of, refuse_twice};
 use super::{ExperimentSource, LoadJob, hearing_of};
 use crate::args::IdentifyArguments;
@@ -26,6 +27,10 @@ pub(super) fn run(
 ) -> Result<Ending, Failure> {
     let FoundRecordings { mut jobs, missing } = found_recordings(source, arguments.data_root.as_deref())?;
     refuse_twice(&mut jobs, source)?;
+    let logs = jobs.iter().filter_map(|job| job.log.clone()).filter(|log| log.path.is_file());
+    for log in logs {
+        FlownLog::read(log, false)?;
+    }
     let experiment = &source.experiment;
     let hearing = hearing_of(&arguments.hearing, experiment, false);
     let loads: Vec<PlannedLoad> = experiment

@@ -2,10 +2,12 @@
 
 mod check;
 mod experiment_file;
+mod logs;
 mod recordings;
 mod typed;
 
 pub(crate) use experiment_file::ExperimentSource;
+use logs::FlownLog;
 pub(crate) use recordings::{LoadJob, jobs_of};
 use typed::{EXPERIMENT, TypedExperiment};
 
@@ -24,10 +26,11 @@ use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
 use hovertone::speed::{Method, SpeedEstimate};
 use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, TrialSpeeds, thrust_from_loads};
+use hovertone_page::names_of;
 use hovertone_report::{
     ExperimentFacts, Identification, InputRecord, LOADS_FOOTNOTE, Notice, SpeedRecord, Verdict, adequacy_text, counted,
-    printable, quoted_constants, results_json, rotors_heard_text, table_text, thrust_summary, thrust_table,
-    vehicle_model_text, warning_count,
+    flight_log_tables, printable, quoted_constants, results_json, rotors_heard_text, table_text, thrust_summary,
+    thrust_table, vehicle_model_text, warning_count,
 };
 use hovertone_vehicle::check_tips;
 use serde_json::Value;
@@ -58,7 +61,10 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
     let hearing = hearing_of(&arguments.hearing, &source.experiment, arguments.json || arguments.output.is_some());
     let method = arguments.method.unwrap_or(source.experiment.config.method);
     let recordings = jobs_of(&source, arguments.data_root.as_deref())?;
-    let inputs = recordings.iter().map(|LoadJob { job, .. }| job.path.clone()).chain(source.inputs());
+    let paths = |LoadJob { job, log, .. }: &LoadJob| {
+        std::iter::once(job.path.clone()).chain(log.as_ref().map(|log| log.path.clone()))
+    };
+    let inputs = recordings.iter().flat_map(paths).chain(source.inputs());
     let outputs = Outputs::beside(inputs, arguments.replace.force);
     let prepare = |folder: &PathBuf| prepare_folder(folder, &source, outputs, arguments.data_root.as_deref());
     let folder = arguments.output.as_ref().map(prepare).transpose()?;
@@ -129,13 +135,21 @@ pub(crate) fn identify(
     method: Method,
     shows_progress: bool,
 ) -> Result<Identified, Failure> {
-    let (jobs, loads): (Vec<Job>, Vec<String>) =
-        recordings.into_iter().map(|LoadJob { job, load }| (job, load)).unzip();
+    let mut jobs: Vec<Job> = Vec::new();
+    let mut of_loads: Vec<OfLoad> = Vec::new();
+    for LoadJob { job, load, log } in recordings {
+        let log = log.map(|file| FlownLog::read(file, hearing.wants_hash)).transpose()?;
+        jobs.push(job);
+        of_loads.push(OfLoad { load, log });
+    }
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
-    let inputs: Vec<InputRecord> =
-        loads.into_iter().zip(records).map(|(load, record)| InputRecord { load, record }).collect();
+    let input = |((OfLoad { load, log }, mut record), job): ((OfLoad, SpeedRecord), &Job)| {
+        let log = log.map(|log| log.compared(&mut record, job));
+        InputRecord { load, record, log }
+    };
+    let inputs: Vec<InputRecord> = of_loads.into_iter().zip(records).zip(&jobs).map(input).collect();
     let experiment = &source.experiment;
     check_tips_of(&source, &inputs)?;
     let has_rotors = inputs.iter().filter_map(|input| input.record.tone()?.speed(Method::Separated)).any(is_separated);
@@ -155,6 +169,12 @@ pub(crate) fn identify(
         .collect();
     let settings = serde_json::to_value(experiment).map_err(Failure::internal)?;
     Ok(Identified { source, method, inputs, tables, settings, jobs, hearing })
+}
+
+/// What belongs to a recording beside its job.
+struct OfLoad {
+    load: String,
+    log: Option<FlownLog>,
 }
 
 /// Refuses the diameter of the experiment where the blade tips of a heard rotor would be faster than any multirotor's.
@@ -216,7 +236,9 @@ impl Identified {
     }
 
     pub(crate) fn ending(&self) -> Ending {
-        ending_of(self.inputs.iter().map(|input| &input.record))
+        let has_failed_check = self.identification().failed_check_count() > 0;
+        let of_checks = if has_failed_check { Ending::Incomplete } else { Ending::Done };
+        ending_of(self.inputs.iter().map(|input| &input.record)).max(of_checks)
     }
 
     /// The results as the report takes them.
@@ -280,7 +302,11 @@ impl Identified {
         for table in &self.tables {
             text += &format!("\n{}\n{}", table.title(), table_text(&thrust_table(table), width));
         }
-        format!("{text}{LOADS_FOOTNOTE}\n\n{}\n", self.summary(width))
+        text += &format!("{LOADS_FOOTNOTE}\n\n{}\n", self.summary(width));
+        for titled in flight_log_tables(&self.inputs, &names_of(&self.inputs)) {
+            text += &format!("{}\n{}\n", titled.title, table_text(&titled.table, width));
+        }
+        text
     }
 
     /// The lines to quote: the constants with their ±, and the verdict.
@@ -290,7 +316,11 @@ impl Identified {
         match reported.zip(constants) {
             Some((table, constants)) => {
                 let heard = rotors_heard_text(table.rotors_heard).map_or(String::new(), |heard| format!("; {heard}"));
-                format!("{constants}\nverdict: {}{heard}\n", printable(Verdict::of(table).words()))
+                let failed = match self.identification().failed_check_count() {
+                    0 => String::new(),
+                    count => format!("; the order check failed against {}", counted(count, "log")),
+                };
+                format!("{constants}\nverdict: {}{heard}{failed}\n", printable(Verdict::of(table).words()))
             }
             None => "C_f: none, since no recording has a rotor tone\nverdict: nothing is identified\n".to_owned(),
         }

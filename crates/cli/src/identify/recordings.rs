@@ -19,6 +19,16 @@ pub(crate) struct LoadJob {
     pub(crate) job: Job,
     /// Name of the load.
     pub(crate) load: String,
+    /// The log of its flight.
+    pub(crate) log: Option<LogFile>,
+}
+
+/// A log that the experiment names.
+#[derive(Clone, Debug)]
+pub(crate) struct LogFile {
+    pub(crate) path: PathBuf,
+    /// Name in the output.
+    pub(crate) name: String,
 }
 
 /// A name or pattern of a load that no file matches.
@@ -65,13 +75,23 @@ pub(super) fn found_recordings<'a>(
     }
     let (mut jobs, mut missing): (Vec<LoadJob>, Vec<Missing<'_>>) = (Vec::new(), Vec::new());
     for load in &source.experiment.loads {
-        for name in &load.recordings {
+        for recording in &load.recordings {
+            let name = recording.file();
             let is_piped = is_stdin(Path::new(name));
             let files: Vec<PathBuf> = match is_piped {
                 true => vec![recording_of_stdin()?],
                 false => files_at(&place_of(name, root)),
             };
             if files.is_empty() {
+                missing.push(Missing { load, name });
+            }
+            if recording.log().is_some() && files.len() > 1 {
+                return Err(several_with_one_log(name, files.len(), source));
+            }
+            let log = recording.log().map(|name| LogFile { path: place_of(name, root), name: name.to_owned() });
+            if let (Some(log), Some(name)) = (&log, recording.log())
+                && !log.path.is_file()
+            {
                 missing.push(Missing { load, name });
             }
             for path in files {
@@ -85,12 +105,21 @@ pub(super) fn found_recordings<'a>(
                 };
                 let is_known = |known: &LoadJob| known.load == load.name && known.job.path == job.path;
                 if !jobs.iter().any(is_known) {
-                    jobs.push(LoadJob { job, load: load.name.clone() });
+                    jobs.push(LoadJob { job, load: load.name.clone(), log: log.clone() });
                 }
             }
         }
     }
     Ok(FoundRecordings { jobs, missing })
+}
+
+/// The failure of a log that belongs to more than one recording.
+fn several_with_one_log(name: &str, count: usize, source: &ExperimentSource) -> Failure {
+    Failure::Usage {
+        what: format!("a log is of one flight, and {name} means {count} recordings"),
+        hint: "name each recording with its own log: { file = \"a.wav\", log = \"a.ulg\" }".to_owned(),
+        path: Some(source.path.clone()),
+    }
 }
 
 /// The files of a name or pattern; of a folder, its recordings.

@@ -247,7 +247,7 @@ fn sound_follows_the_picture(browser: &mut Browser) {
 }
 
 /// Asserts that the results are what their schema says, and that it says something: without a field they are refused.
-fn holds_to_its_schema(results: &Value, schema: &str) {
+pub(crate) fn holds_to_its_schema(results: &Value, schema: &str) {
     let schema: Value = serde_json::from_str(schema).unwrap();
     let validator = jsonschema::draft202012::new(&schema).unwrap();
     let faults: Vec<String> =

@@ -5,16 +5,16 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-const OFFSET_S: f64 = -12.34;
+pub(crate) const OFFSET_S: f64 = -12.34;
 
-/// A log of the flight with 10 rows per second, on a clock of its own; the speeds are rounded to 1 rpm and multiplied.
-fn write_log(flown: &Path, path: &Path, factor: f64) {
+/// A log of the flight, with every so many rows of the truth, on a clock of its own; the speeds are rounded to 1 rpm and multiplied.
+pub(crate) fn write_log(flown: &Path, path: &Path, every: usize, factor: f64) {
     let mut truth = csv::Reader::from_path(flown.join("truth.csv")).unwrap();
     let headers = truth.headers().unwrap().clone();
     let place = |name: &str| headers.iter().position(|header| header == name).unwrap();
     let places = [1, 2, 3, 4].map(|rotor| place(&format!("speed_{rotor}_rad_s")));
     let mut log = String::from("time_s,rotor1_rpm,rotor2_rpm,rotor3_rpm,rotor4_rpm\n");
-    for row in truth.records().step_by(10) {
+    for row in truth.records().step_by(every) {
         let row = row.unwrap();
         let value = |at: usize| row[at].parse::<f64>().unwrap();
         write!(log, "{:.3}", value(place("time_s")) - OFFSET_S).unwrap();
@@ -33,8 +33,8 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     let vehicle = file.vehicle.preset.as_str();
     let flown = folder.path().join("flown");
     let (right, half) = (folder.path().join("right.csv"), folder.path().join("half.csv"));
-    write_log(&flown, &right, 1.0);
-    write_log(&flown, &half, 0.5);
+    write_log(&flown, &right, 10, 1.0);
+    write_log(&flown, &half, 10, 0.5);
     let sound = fs::read_dir(&flown).unwrap().map(|entry| entry.unwrap().path());
     let sound = sound.into_iter().find(|path| path.extension().is_some_and(|ending| ending == "wav")).unwrap();
     let asked = ["verify", text(&sound), text(&right), "--vehicle", vehicle];
@@ -48,7 +48,13 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
         assert!(rotor["bias_rev_s"].as_f64().unwrap().abs() < 0.1, "{rotor}");
         assert!(rotor["scatter_rev_s"].as_f64().unwrap() < 0.5, "{rotor}");
     }
-    assert!(hovertone(&asked).ends_with(0).stdout.contains("passed: order and clock are right"));
+    let figure = folder.path().join("check.svg");
+    let drawn = hovertone(&[&asked[..], &["--figure", text(&figure)]].concat()).ends_with(0);
+    assert!(drawn.stdout.contains("passed: order and clock are right"));
+    assert!(fs::read_to_string(&figure).unwrap().contains("difference rotor-1"));
+    let refused = |figure: &str, words: &[&str]| refused_with(&[&asked[..], &["--figure", figure]].concat(), words);
+    refused("check.gif", &["neither with .png nor with .svg"]);
+    refused(text(&figure), &["exists already"]);
     let wrong = hovertone(&["verify", text(&sound), text(&half), "--vehicle", vehicle]).ends_with(3);
     assert!(wrong.stdout.contains("failed: heard speeds are 2.00 times the logged ones"), "{}", wrong.stdout);
 }

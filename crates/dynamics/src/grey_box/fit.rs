@@ -131,7 +131,7 @@ pub fn grey_box_from_speeds(
     config: &GreyBoxConfig,
 ) -> Result<GreyBoxFit, GreyBoxStop> {
     // a command takes effect at some moment between two log rows
-    let between_rows_s = inputs.step_s * EVEN_STD;
+    let between_rows_s = inputs.row_s * EVEN_STD;
     Ok(grey_box_near(observations, inputs, start, start, config)?.with_time_uncertainty(between_rows_s))
 }
 

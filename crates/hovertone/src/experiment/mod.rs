@@ -27,11 +27,13 @@
 //! ```
 
 mod limits;
+mod recording;
 mod resolve;
 #[cfg(test)]
 mod tests;
 mod time;
 
+pub use recording::RecordingSection;
 pub use time::time_s_from_text;
 
 use hovertone_rotor_speed::{
@@ -174,8 +176,8 @@ pub struct LoadSection {
     pub rotors_running: Option<u32>,
     /// Total power of the running rotors, for the figure of merit.
     pub power_w: Option<f64>,
-    /// Names or patterns of its recordings.
-    pub recordings: Vec<String>,
+    /// Its recordings.
+    pub recordings: Vec<RecordingSection>,
     /// Start of the used part, in every recording of this load: seconds, or a text such as `"1:02.5"`.
     #[serde(default, deserialize_with = "time::optional")]
     pub from_s: Option<f64>,
@@ -220,8 +222,8 @@ pub struct ExperimentLoad {
     pub rotors_running: u32,
     /// Total power of these rotors, where known.
     pub power_w: Option<f64>,
-    /// Names or patterns of its recordings.
-    pub recordings: Vec<String>,
+    /// Its recordings.
+    pub recordings: Vec<RecordingSection>,
     /// Used part of the recordings.
     pub span: SpanConfig,
 }

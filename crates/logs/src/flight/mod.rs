@@ -10,8 +10,8 @@ mod one_table;
 mod px4;
 mod rows;
 
-use crate::signals::{CollectedSignals, collected};
-use crate::table::TableSignal;
+use crate::signals::{CollectedSignals, SignalTable, collected};
+use crate::table::{Findings, TableSignal};
 use crate::table_text::names_of;
 use crate::{ColumnNames, LogError, LogFormat};
 use std::io::Read;
@@ -83,12 +83,7 @@ pub fn flight_from_log(source: impl Read, names: &ColumnNames) -> Result<LoggedF
     if log.table_names.is_empty() && !is_text {
         return Err(LogError::WithoutData { format });
     }
-    let mut flight = match format {
-        LogFormat::Ulog => px4::flight(&log.tables),
-        LogFormat::DataFlash => ardupilot::flight(&log.tables, &findings.motor_of_output),
-        LogFormat::Blackbox => one_table::flight(&log.tables, Some(RateAxes::ForwardLeftUp)),
-        LogFormat::RcBenchmark | LogFormat::Csv => one_table::flight(&log.tables, None),
-    };
+    let mut flight = flight_of_tables(format, &log.tables, &findings);
     if flight.speeds_rev_s.is_none() && flight.commands.is_none() && flight.rates.is_none() {
         return Err(match is_text {
             true => LogError::NoSignal { columns: names_of(&findings.headers) },
@@ -97,4 +92,14 @@ pub fn flight_from_log(source: impl Read, names: &ColumnNames) -> Result<LoggedF
     }
     flight.notes = log.loss.in_words().into_iter().collect();
     Ok(flight)
+}
+
+/// Motors and body rates of the tables of a log.
+pub(crate) fn flight_of_tables(format: LogFormat, tables: &[SignalTable], findings: &Findings) -> LoggedFlight {
+    match format {
+        LogFormat::Ulog => px4::flight(tables),
+        LogFormat::DataFlash => ardupilot::flight(tables, &findings.motor_of_output),
+        LogFormat::Blackbox => one_table::flight(tables, Some(RateAxes::ForwardLeftUp)),
+        LogFormat::RcBenchmark | LogFormat::Csv => one_table::flight(tables, None),
+    }
 }

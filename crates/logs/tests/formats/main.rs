@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
 mod blackbox;
+mod control;
 mod csv_names;
 mod damage;
 mod dataflash;

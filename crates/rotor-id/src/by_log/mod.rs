@@ -13,6 +13,7 @@
 
 mod bayes_factor;
 mod body_rate_model;
+mod differences;
 mod flight_log;
 mod log_rows;
 mod motor_model;

@@ -3,6 +3,7 @@
 //! For each offset, each track is compared with each motor; the assignment with the least squares counts. A log whose speeds are a simple multiple
 //! of the heard ones is scaled first, so that a wrong order is told as such.
 
+use super::differences::{Difference, POINTS_MIN, compared_point, near_rows, rounding_std};
 use hovertone_analysis::{TrackPoint, Verification, VerifiedRotor};
 
 /// Step of the coarse search of the offset, in s. *Numeric.*
@@ -17,8 +18,6 @@ const OFFSETS_MAX: usize = 40_000;
 const OVERLAP_SHARE_MIN: f64 = 0.5;
 /// Longest time between log rows over which the speed is straight, in s. *Decision.*
 const GAP_S_MAX: f64 = 1.0;
-/// Fewest compared points. *Decision.*
-const POINTS_MIN: usize = 20;
 /// Offsets this far away must be worse by this factor. *Decision.*
 const ELSEWHERE_S: f64 = 1.0;
 const ELSEWHERE_FACTOR: f64 = 1.2;
@@ -85,7 +84,9 @@ pub fn verification_from_log(
     log: LoggedSpeeds<'_>,
     offsets_s: Option<[f64; 2]>,
 ) -> Result<Verification, NotVerified> {
-    let tracks: Vec<&[TrackPoint]> = tracks.iter().copied().filter(|track| track.len() >= POINTS_MIN).collect();
+    let is_long = |index: &usize| tracks[*index].len() >= POINTS_MIN;
+    let indices: Vec<usize> = (0..tracks.len()).filter(is_long).collect();
+    let tracks: Vec<&[TrackPoint]> = indices.iter().map(|&index| tracks[index]).collect();
     if tracks.is_empty() {
         return Err(NotVerified::NoTrack);
     }
@@ -93,6 +94,9 @@ pub fn verification_from_log(
     if motors < tracks.len() {
         return Err(NotVerified::TooFewMotors { tracks: tracks.len(), motors });
     }
+    // the tone of rotors that are not separated is that of one of them, or of their mean
+    let with_mean = (tracks.len() == 1 && motors > 1).then(|| with_mean(log));
+    let log = with_mean.as_ref().map_or(log, |(names, speeds_rev_s)| LoggedSpeeds { names, speeds_rev_s, ..log });
     let near_ratio = near_ratio(&tracks, log);
     let comparison = Comparison { tracks: &tracks, log, scale: near_ratio.unwrap_or(1.0) };
     let offsets = comparison.offsets(offsets_s)?;
@@ -104,7 +108,8 @@ pub fn verification_from_log(
     let elsewhere = offsets.iter().zip(&costs).filter(|(offset_s, _)| (*offset_s - offsets[best]).abs() > ELSEWHERE_S);
     let elsewhere = elsewhere.map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
     let offset_s = comparison.fine_offset(offsets[best]);
-    let rotors = comparison.rotors(offset_s);
+    let mut rotors = comparison.rotors(offset_s);
+    rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
     let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
     let logged: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s - rotor.bias_rev_s).sum();
     Ok(Verification {
@@ -115,6 +120,15 @@ pub fn verification_from_log(
         speed_ratio: heard / logged,
         near_ratio: near_ratio.filter(|ratio| *ratio != 1.0),
     })
+}
+
+/// Names and speeds of the motors, and of their mean.
+fn with_mean(log: LoggedSpeeds<'_>) -> (Vec<String>, Vec<Vec<f64>>) {
+    let count = log.speeds_rev_s.len() as f64;
+    let mean = |row: usize| log.speeds_rev_s.iter().map(|speeds| speeds[row]).sum::<f64>() / count;
+    let mean = (0..log.time_s.len()).map(mean).collect();
+    let names = log.names.iter().cloned().chain(["mean of all motors".to_owned()]);
+    (names.collect(), log.speeds_rev_s.iter().cloned().chain([mean]).collect())
 }
 
 /// The simple ratio of the heard and the logged speeds.
@@ -158,20 +172,24 @@ impl Comparison<'_> {
     /// Heard less logged speed at the points of a track that the log covers.
     fn differences(&self, track: &[TrackPoint], motor: usize, offset_s: f64, stride: usize) -> Vec<Difference> {
         let difference = |point: &TrackPoint| {
-            let logged_rev_s = self.logged_at(motor, point.time_s - offset_s)?;
-            Some(Difference { point: *point, logged_rev_s })
+            let Logged { speed_rev_s, row_s } = self.logged_at(motor, point.time_s - offset_s)?;
+            Some(Difference { point: *point, logged_rev_s: speed_rev_s, row_s })
         };
         track.iter().step_by(stride).filter_map(difference).collect()
     }
 
-    fn logged_at(&self, motor: usize, time_s: f64) -> Option<f64> {
+    fn logged_at(&self, motor: usize, time_s: f64) -> Option<Logged> {
         let times_s = self.log.time_s;
         let behind = times_s.partition_point(|&row_s| row_s < time_s);
         let before = behind.checked_sub(1)?;
         let (from_s, to_s) = (times_s[before], *times_s.get(behind)?);
         let speeds = &self.log.speeds_rev_s[motor];
         let share = (time_s - from_s) / (to_s - from_s);
-        (to_s - from_s <= GAP_S_MAX).then(|| speeds[before] + share * (speeds[behind] - speeds[before]))
+        let logged = || Logged {
+            speed_rev_s: speeds[before] + share * (speeds[behind] - speeds[before]),
+            row_s: (time_s - from_s).min(to_s - time_s),
+        };
+        (to_s - from_s <= GAP_S_MAX).then(logged)
     }
 
     /// Mean square of the differences of a track and a motor; infinite with too little in common.
@@ -238,15 +256,18 @@ impl Comparison<'_> {
 
     fn rotors(&self, offset_s: f64) -> Vec<VerifiedRotor> {
         let assignment = self.assignment(offset_s, usize::MAX);
-        let rotor = |(track, motor): (&&[TrackPoint], Option<usize>)| {
-            let motor = motor?;
-            let differences = self.differences(track, motor, offset_s, 1);
+        let rotor = |(index, motor): (usize, &Option<usize>)| {
+            let (track, motor) = (self.tracks[index], (*motor)?);
+            let differences = near_rows(self.differences(track, motor, offset_s, 1));
             let count = differences.len() as f64;
-            let of = |difference: &Difference| difference.point.speed_rev_s - difference.logged_rev_s;
-            let bias_rev_s = differences.iter().map(of).sum::<f64>() / count;
-            let squares: f64 = differences.iter().map(|difference| (of(difference) - bias_rev_s).powi(2)).sum();
-            let is_covered = |one: &&Difference| of(one).abs() <= COVERAGE_FACTOR * one.point.std_uncertainty_rev_s;
+            let bias_rev_s = differences.iter().map(Difference::rev_s).sum::<f64>() / count;
+            let squares: f64 = differences.iter().map(|one| (one.rev_s() - bias_rev_s).powi(2)).sum();
+            let rounding_rev_s = rounding_std(&self.log.speeds_rev_s[motor]);
+            let is_covered = |one: &&Difference| {
+                one.rev_s().abs() <= COVERAGE_FACTOR * one.point.std_uncertainty_rev_s.hypot(rounding_rev_s)
+            };
             Some(VerifiedRotor {
+                track: index,
                 motor,
                 name: self.log.names[motor].clone(),
                 speed_rev_s: differences.iter().map(|one| one.point.speed_rev_s).sum::<f64>() / count,
@@ -254,15 +275,17 @@ impl Comparison<'_> {
                 scatter_rev_s: (squares / (count - 1.0).max(1.0)).sqrt(),
                 coverage: differences.iter().filter(is_covered).count() as f64 / count,
                 point_count: differences.len(),
+                points: differences.iter().map(compared_point).collect(),
             })
         };
-        self.tracks.iter().zip(assignment.motors).filter_map(rotor).collect()
+        assignment.motors.iter().enumerate().filter_map(rotor).collect()
     }
 }
 
-struct Difference {
-    point: TrackPoint,
-    logged_rev_s: f64,
+/// A logged speed, and the time to the nearest log row.
+struct Logged {
+    speed_rev_s: f64,
+    row_s: f64,
 }
 
 struct PairSquare {

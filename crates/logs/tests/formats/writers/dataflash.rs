@@ -37,6 +37,20 @@ pub(crate) const IMU: Kind = Kind {
     units: "s#EEEooo",
     factors: "F-000000",
 };
+pub(crate) const RCIN: Kind =
+    Kind { number: 13, name: "RCIN", types: "QHHHH", labels: "TimeUS,C1,C2,C3,C4", units: "sYYYY", factors: "F----" };
+pub(crate) const ATT: Kind = Kind {
+    number: 14,
+    name: "ATT",
+    types: "Qffff",
+    labels: "TimeUS,DesRoll,Roll,DesPitch,Pitch",
+    units: "sdddd",
+    factors: "F0000",
+};
+pub(crate) const XKF1: Kind =
+    Kind { number: 15, name: "XKF1", types: "QBfff", labels: "TimeUS,C,VN,VE,VD", units: "s#nnn", factors: "F-000" };
+pub(crate) const MODE: Kind =
+    Kind { number: 16, name: "MODE", types: "QBB", labels: "TimeUS,ModeNum,Rsn", units: "s--", factors: "F--" };
 const FMT: Kind = Kind {
     number: 128,
     name: "FMT",
@@ -78,18 +92,26 @@ impl Writer {
     /// A log with the descriptions of all messages, their units, and the motors of the outputs.
     pub(crate) fn new(motors: &[(&str, f32)]) -> Self {
         let mut writer = Self::default();
-        for kind in [&FMT, &UNIT, &MULT, &FMTU, &PARM, &ESC, &RCOU, &IMU] {
+        for kind in [&FMT, &UNIT, &MULT, &FMTU, &PARM, &ESC, &RCOU, &IMU, &RCIN, &ATT, &XKF1, &MODE] {
             writer.describe(kind);
         }
-        for (letter, label) in
-            [("s", "s"), ("q", "rpm"), ("v", "V"), ("A", "A"), ("E", "rad/s"), ("Y", "us"), ("o", "m/s/s")]
-        {
+        for (letter, label) in [
+            ("s", "s"),
+            ("q", "rpm"),
+            ("v", "V"),
+            ("A", "A"),
+            ("E", "rad/s"),
+            ("Y", "us"),
+            ("o", "m/s/s"),
+            ("d", "deg"),
+            ("n", "m/s"),
+        ] {
             writer.message(&UNIT, &[&TIME_US.to_le_bytes(), letter.as_bytes(), &text(label, 64)]);
         }
         for (letter, factor) in [("-", 0.0_f64), ("0", 1.0), ("F", 1e-6), ("B", 1e-2)] {
             writer.message(&MULT, &[&TIME_US.to_le_bytes(), letter.as_bytes(), &factor.to_le_bytes()]);
         }
-        for kind in [&ESC, &RCOU, &IMU] {
+        for kind in [&ESC, &RCOU, &IMU, &RCIN, &ATT, &XKF1, &MODE] {
             let (units, factors) = (text(kind.units, 16), text(kind.factors, 16));
             writer.message(&FMTU, &[&TIME_US.to_le_bytes(), &[kind.number], &units, &factors]);
         }

@@ -21,6 +21,10 @@ impl Writer {
             "actuator_outputs:uint64_t timestamp;uint32_t noutputs;float[16] output;uint8_t[4] _padding0;",
             "vehicle_angular_velocity:uint64_t timestamp;uint64_t timestamp_sample;float[3] xyz;uint8_t[4] _padding0;",
             "cpuload:uint64_t timestamp;float load;",
+            "manual_control_setpoint:uint64_t timestamp;float x;float y;float z;float r;",
+            "vehicle_attitude:uint64_t timestamp;float[4] q;",
+            "vehicle_local_position:uint64_t timestamp;float vx;float vy;float vz;uint8_t[4] _padding0;",
+            "vehicle_status:uint64_t timestamp;uint8_t nav_state;uint8_t[7] _padding0;",
         ] {
             writer.message(b'F', format.as_bytes());
         }

@@ -1,10 +1,28 @@
-//! From a CSV to the commands and measurements of an embedded controller.
+//! From a log to the commands and measurements of an embedded controller.
+//!
+//! ```text
+//! px4        sticks, attitude and velocity of a ULog      ardupilot   the same of a DataFlash log
+//! blackbox   one table                                    series      series with times of their own, on common rows
+//! missing    what a log lacks, and what to log
+//! ```
 
-use crate::signals::{SignalTable, signals_from_log};
-use crate::table::SignalRole;
-use crate::{ColumnNames, LogError, RateAxes};
+mod ardupilot;
+mod blackbox;
+mod missing;
+mod px4;
+mod series;
+
+pub use missing::{ControlLoop, MissingControl};
+
+use crate::flight::flight_of_tables;
+use crate::signals::{CollectedSignals, SignalTable, collected};
+use crate::table::{SignalRole, TableSignal};
+use crate::{ColumnNames, LogError, LogFormat, RateAxes};
+use missing::missing_of;
 use std::io::Read;
 
+/// Tables of formats with one table: blackbox, CSV.
+const IN_ONE_TABLE: [&str; 2] = ["main", "table"];
 /// Headers of the commands: roll, pitch, yaw rate, climb. The symbols are those of the paper.
 const COMMANDS: [&[&str]; 4] = [
     &["command_roll", "roll_command", "u_phi", "u_φ"],
@@ -33,25 +51,57 @@ pub struct LoggedControl {
     pub climb_m_s: Option<Vec<f64>>,
     /// Shaft speeds of rotors 1 to 4, rev/s.
     pub speeds_rev_s: [Option<Vec<f64>>; 4],
+    /// Loops that lack a signal.
+    pub missing: Vec<MissingControl>,
     /// What could not be read.
     pub loss: Option<String>,
 }
 
-/// Reads the control signals of a CSV by its headers; a log of another format has none that are known here. `axes` are those of angles,
-/// body rates and velocity. Rows without a time later than the one before, and rows with a gap, are left out.
+/// Reads the control signals of a log. Rows without a time later than the one before, and rows with a gap, are left out.
+///
+/// - *CSV*: by its headers; `axes` are those of angles, body rates and velocity. Other formats define their axes.
+/// - *PX4 ULog*: the sticks of `manual_control_setpoint`, where they command angles; `vehicle_attitude`, `vehicle_angular_velocity`,
+///   `vehicle_local_position`, `esc_status`.
+/// - *ArduPilot DataFlash*: the sticks of `RCIN`, where they command angles; `ATT`, `IMU`, the estimated velocity, `ESC`.
+/// - *Blackbox*: `rcCommand`, `attitude` (INAV), `gyroADC`, `navVel` (INAV), `eRPM`.
+///
+/// The rows of a ULog or a DataFlash log are those of its attitude.
 ///
 /// # Errors
 /// Those of [`crate::log_summary`].
 pub fn control_from_log(source: impl Read, names: &ColumnNames, axes: RateAxes) -> Result<LoggedControl, LogError> {
-    let log = signals_from_log(source, names, |_, _| true)?;
-    let mut control = log.tables.first().map_or_else(LoggedControl::default, control_of);
+    let is_wanted = |table: &str, signal: &TableSignal| {
+        let is_of_vehicle = px4::is_wanted(table, &signal.name) || ardupilot::is_wanted(table, &signal.name);
+        is_of_vehicle || IN_ONE_TABLE.contains(&base_name(table))
+    };
+    let CollectedSignals { signals: log, findings } = collected(source, names, is_wanted)?;
+    let flight = flight_of_tables(log.format, &log.tables, &findings);
+    let mut control = match log.format {
+        LogFormat::Ulog => px4::control(&log.tables, &flight),
+        LogFormat::DataFlash => ardupilot::control(&log.tables, &flight),
+        LogFormat::Blackbox => blackbox::control(&log.tables, &flight),
+        LogFormat::Csv | LogFormat::RcBenchmark => {
+            let control = log.tables.first().map_or_else(LoggedControl::default, control_of);
+            if axes == RateAxes::ForwardRightDown { turned(control) } else { control }
+        }
+    };
+    control.keep_whole_rows();
+    control.missing.extend(missing_of(&control, log.format));
     control.loss = log.loss.in_words();
-    if axes == RateAxes::ForwardRightDown {
-        let commands = control.command[1..3].iter_mut();
-        let measured = control.tilt_rad[1..].iter_mut().chain(&mut control.rates_rad_s[1..]);
-        commands.chain(measured).flatten().flatten().for_each(|value| *value = -*value);
-    }
     Ok(control)
+}
+
+/// "IMU" of "IMU[0]".
+fn base_name(table: &str) -> &str {
+    table.split('[').next().unwrap_or(table)
+}
+
+/// From x forward, y right, z down to y left, z up.
+fn turned(mut control: LoggedControl) -> LoggedControl {
+    let commands = control.command[1..3].iter_mut();
+    let measured = control.tilt_rad[1..].iter_mut().chain(&mut control.rates_rad_s[1..]);
+    commands.chain(measured).flatten().flatten().for_each(|value| *value = -*value);
+    control
 }
 
 fn control_of(table: &SignalTable) -> LoggedControl {
@@ -69,17 +119,16 @@ fn control_of(table: &SignalTable) -> LoggedControl {
         let index = table.signals.iter().position(|signal| signal.role == Some(role))?;
         Some(table.values[index].clone())
     };
-    let mut control = LoggedControl {
+    LoggedControl {
         time_s: table.time_s.clone(),
         command: COMMANDS.map(series),
         tilt_rad: ANGLES.map(|names| series(names).or_else(|| in_degrees(names))),
         rates_rad_s: [0, 1, 2].map(|axis| with_role(SignalRole::BodyRate(axis))),
         climb_m_s: series(&CLIMBS),
         speeds_rev_s: [1, 2, 3, 4].map(|rotor| with_role(SignalRole::RotorSpeed(rotor))),
+        missing: Vec::new(),
         loss: None,
-    };
-    control.keep_whole_rows();
-    control
+    }
 }
 
 impl LoggedControl {

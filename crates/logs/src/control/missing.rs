@@ -1,0 +1,106 @@
+//! What a log lacks for a loop of the embedded controller, and what to log.
+
+use super::LoggedControl;
+use crate::LogFormat;
+
+/// A loop of eq 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ControlLoop {
+    /// Roll angle.
+    Roll,
+    /// Pitch angle.
+    Pitch,
+    /// Yaw rate.
+    Yaw,
+    /// Vertical speed.
+    Climb,
+}
+
+impl ControlLoop {
+    const ALL: [Self; 4] = [Self::Roll, Self::Pitch, Self::Yaw, Self::Climb];
+
+    /// Name of its quantity.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Roll => "roll",
+            Self::Pitch => "pitch",
+            Self::Yaw => "yaw rate",
+            Self::Climb => "climb",
+        }
+    }
+}
+
+/// A loop that cannot be used, and what to log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MissingControl {
+    /// The loop.
+    pub control_loop: ControlLoop,
+    /// What is missing: "its command".
+    pub what: &'static str,
+    /// What to log or to fly.
+    pub hint: &'static str,
+}
+
+/// The loops without command or measurement, apart from those that are missing for another reason already.
+pub(super) fn missing_of(control: &LoggedControl, format: LogFormat) -> Vec<MissingControl> {
+    let measured = [
+        control.tilt_rad[0].is_some(),
+        control.tilt_rad[1].is_some(),
+        control.rates_rad_s[2].is_some(),
+        control.climb_m_s.is_some(),
+    ];
+    let loops = ControlLoop::ALL.into_iter().zip(&control.command).zip(measured);
+    let missing = |((control_loop, command), is_measured): ((ControlLoop, &Option<Vec<f64>>), bool)| {
+        let what = match (command.is_some(), is_measured) {
+            (true, true) => return None,
+            (false, true) => "its command",
+            (true, false) => "its measured value",
+            (false, false) => "its command and its measured value",
+        };
+        let hint = match (format, command.is_none()) {
+            (LogFormat::Ulog, true) => "log manual_control_setpoint, and fly with the sticks in Altitude mode",
+            (LogFormat::Ulog, false) => measured_hint(
+                control_loop,
+                ["log vehicle_attitude", "log vehicle_angular_velocity", "log vehicle_local_position"],
+            ),
+            (LogFormat::DataFlash, true) => "log RCIN, and fly with the sticks in AltHold mode",
+            (LogFormat::DataFlash, false) => measured_hint(control_loop, ["log ATT", "log IMU", "log XKF1 (the EKF)"]),
+            (LogFormat::Blackbox, true) => "log rcCommand, and fly in angle mode (climb: in altitude hold of INAV)",
+            (LogFormat::Blackbox, false) => measured_hint(
+                control_loop,
+                [
+                    "log attitude: INAV has it, Betaflight does not",
+                    "log gyroADC",
+                    "log navVel: INAV has it, Betaflight does not",
+                ],
+            ),
+            (LogFormat::Csv | LogFormat::RcBenchmark, true) => csv_command(control_loop),
+            (LogFormat::Csv | LogFormat::RcBenchmark, false) => measured_hint(
+                control_loop,
+                ["log a column roll_deg or pitch_deg", "log a column yaw_rate_rad_s", "log a column velocity_z_m_s"],
+            ),
+        };
+        Some(MissingControl { control_loop, what, hint })
+    };
+    let is_new =
+        |missing: &MissingControl| control.missing.iter().all(|known| known.control_loop != missing.control_loop);
+    loops.filter_map(missing).filter(is_new).collect()
+}
+
+/// Of attitude, yaw rate and vertical speed the one that a loop needs.
+fn measured_hint(control_loop: ControlLoop, [attitude, rate, climb]: [&'static str; 3]) -> &'static str {
+    match control_loop {
+        ControlLoop::Roll | ControlLoop::Pitch => attitude,
+        ControlLoop::Yaw => rate,
+        ControlLoop::Climb => climb,
+    }
+}
+
+fn csv_command(control_loop: ControlLoop) -> &'static str {
+    match control_loop {
+        ControlLoop::Roll => "log a column command_roll, ±1",
+        ControlLoop::Pitch => "log a column command_pitch, ±1",
+        ControlLoop::Yaw => "log a column command_yaw_rate, ±1",
+        ControlLoop::Climb => "log a column command_climb, ±1",
+    }
+}
