@@ -12,6 +12,7 @@ mod copies;
 mod demo;
 mod draft;
 mod drawing;
+mod each_file;
 mod export;
 mod failure;
 mod figure_file;
