@@ -48,6 +48,7 @@ mod simulate;
 mod spectrogram;
 mod speed;
 mod spin_up;
+mod temporary_file;
 mod terminal;
 mod thumbnail;
 mod toml_file;
