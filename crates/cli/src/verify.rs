@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let Some(record) = records.first() else { return Err(Failure::internal("a recording without a record")) };
     if let Some(reason) = record.reason().filter(|_| record.speed().is_none()) {
         if record.has_failed() {
-            return Err(Failure::failed(reason, "check the recording", &arguments.recording));
+            return Err(Failure::failed(reason, "", &arguments.recording));
         }
         terminal.say(&format!("no rotor tone, nothing to compare: {reason}"));
         return Ok(Ending::Incomplete);

@@ -1,7 +1,7 @@
 //! Arguments of `greybox`.
 
 use super::groups::{HearingArguments, ReplaceArguments, typed_path};
-use super::labels::BodyAxes;
+use super::labels::{BodyAxes, clock_offset_s};
 use super::log::{ColumnName, column_name};
 use super::units::mass_kg;
 use clap::Args;
@@ -33,7 +33,7 @@ pub(crate) struct GreyBoxArguments {
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// Time to be added to the clock of the log to get that of the recording, right to 0.05 s [default: 0]
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = clock_offset_s)]
     pub(crate) log_offset_s: Option<f64>,
     /// Axes of the log: flu (x forward, y left, z up) or frd (y right, z down) [default: flu]
     #[arg(long, value_name = "AXES")]

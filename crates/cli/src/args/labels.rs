@@ -4,6 +4,9 @@ use super::groups::{time_s, typed_path};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
+/// Largest offset of two clocks, s. *Physics*: no clock counts seconds from before 1970, and this is the year 2286.
+const CLOCK_OFFSET_S_MAX: f64 = 1e10;
+
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LabelArguments {
@@ -45,22 +48,34 @@ pub(crate) enum FrameLayout {
 
 /// "-5:5", or "-0:05..1:10".
 pub(super) fn offsets(text: &str) -> Result<(f64, f64), String> {
-    let limit = |text: &str| time_s(text).ok().filter(|offset_s| offset_s.is_finite());
     let halves = text.split_once("..").or_else(|| text.split_once(':'));
-    halves.and_then(|(low, high)| Some((limit(low)?, limit(high)?))).ok_or_else(|| {
-        "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5, or as -0:05..1:10".to_owned()
+    let limits = halves.and_then(|(low, high)| Some((clock_offset_s(low).ok()?, clock_offset_s(high).ok()?)));
+    limits.filter(|(low_s, high_s)| low_s <= high_s).ok_or_else(|| {
+        "write the smallest and the largest offset as LOW:HIGH in seconds, such as -5:5, or as -0:05..1:10".to_owned()
+    })
+}
+
+/// The offset of one clock to another: "2.5", or "-0:05".
+pub(super) fn clock_offset_s(text: &str) -> Result<f64, String> {
+    let offset_s = time_s(text).ok().filter(|offset_s| offset_s.abs() <= CLOCK_OFFSET_S_MAX);
+    offset_s.ok_or_else(|| {
+        format!("write seconds, such as 2.5, or minutes and seconds, such as -0:05; at most {CLOCK_OFFSET_S_MAX:e} s")
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::offsets;
+    use super::{clock_offset_s, offsets};
 
     #[test]
     fn offsets_are_seconds_or_minutes_and_seconds() {
+        assert_eq!(clock_offset_s("-1764000000.5"), Ok(-1_764_000_000.5), "a clock that counts from 1970");
+        assert!(["nan", "inf", "1e11", "soon"].into_iter().all(|text| clock_offset_s(text).is_err()));
         assert_eq!(offsets("-5:5"), Ok((-5.0, 5.0)));
         assert_eq!(offsets("-0:05..1:10.5"), Ok((-5.0, 70.5)));
         assert_eq!(offsets("-5..5"), Ok((-5.0, 5.0)));
-        assert!(offsets("5").is_err() && offsets("a:b").is_err() && offsets("1:inf").is_err());
+        assert!(
+            offsets("5").is_err() && offsets("a:b").is_err() && offsets("1:inf").is_err() && offsets("5:1").is_err()
+        );
     }
 }

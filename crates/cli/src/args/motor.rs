@@ -1,6 +1,7 @@
 //! Arguments of `motor`.
 
-use super::groups::{HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, finite, time_s, typed_path};
+use super::groups::{HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, time_s, typed_path};
+use super::labels::clock_offset_s;
 use super::log::{ColumnName, column_name};
 use clap::Args;
 use std::path::PathBuf;
@@ -33,7 +34,7 @@ pub(crate) struct MotorArguments {
     #[arg(long, value_name = "LOG", value_parser = typed_path())]
     pub(crate) commands: Option<PathBuf>,
     /// Seconds to add to the clock of the commands to get the recording's [default: found from the steps, without dead time]
-    #[arg(long, value_name = "S", requires = "commands", value_parser = offset_s)]
+    #[arg(long, value_name = "S", requires = "commands", value_parser = clock_offset_s)]
     pub(crate) offset: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
@@ -55,8 +56,4 @@ pub(crate) struct MotorArguments {
     pub(crate) figure: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-}
-
-fn offset_s(text: &str) -> Result<f64, String> {
-    finite(text).ok_or_else(|| "must be a number of seconds".to_owned())
 }

@@ -14,7 +14,8 @@ use hovertone_dynamics::{
 };
 use hovertone_logs::{ColumnNames, LoggedControl, RateAxes, control_from_log};
 use hovertone_vehicle::{
-    FlightParameters, GRAVITY_STANDARD_M_S2, RotorSpeed, find_flight_parameters, find_preset, flight_presets,
+    FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, find_flight_parameters,
+    find_preset, flight_presets,
 };
 use std::path::{Path, PathBuf};
 
@@ -69,7 +70,10 @@ impl GreyBoxVehicle {
             Failure::usage(format!("there is no vehicle \"{name}\" that can fly"), hint)
         };
         let parameters = find_flight_parameters(name).ok_or_else(unknown)?.clone();
-        let orders = find_preset(name).and_then(LineOrders::of).ok_or_else(unknown)?;
+        let preset = find_preset(name).ok_or_else(unknown)?;
+        KnownRotor { mass_kg, ..KnownRotor::default() }.check()?;
+        preset.check_said(&SaidOfVehicle { mass_kg, is_hovering: true, ..SaidOfVehicle::default() })?;
+        let orders = LineOrders::of(preset).ok_or_else(unknown)?;
         Ok(Self { mass_kg: mass_kg.unwrap_or(parameters.mass_kg.value), parameters, orders })
     }
 
