@@ -42,6 +42,7 @@ mod recording_facts;
 mod recording_files;
 mod report_folder;
 mod rights;
+mod see_help;
 mod settings;
 mod shell;
 mod simulate;

@@ -10,22 +10,22 @@ const CLOCK_OFFSET_S_MAX: f64 = 1e10;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LabelArguments {
-    /// A log of the same flight, of PX4, ArduPilot or Betaflight, or CSV: speeds, commands or PWM of each motor, or the body's rates
+    /// Log of the same flight (PX4, ArduPilot, Betaflight or CSV), with speeds or commands of the motors, or body rates
     #[arg(long, value_name = "FILE", value_parser = typed_path())]
     pub(crate) log: Option<PathBuf>,
-    /// Seconds to add to the log's times to get the recording's, or LOW..HIGH in minutes and seconds; found by itself where not given
+    /// Limits of the time to add to the log's clock to get that of the recording: -5:5 in seconds, or -0:05..0:05 [default: none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
-    /// How the axes of a CSV's body rates point (other logs define them)
+    /// Axes of the body rates in a CSV; other logs define them
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
-    /// Order in which the motors came up to about the hover's speed, one by one, at the beginning: front-left,…; or 1,2,…
+    /// Order in which the motors start, one by one, at the beginning: front-left,…; or 1,2,…. Each goes up to about the hover's speed
     #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with = "log")]
     pub(crate) spin_up: Option<Vec<String>>,
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
-    /// Where the microphone of each channel stands in the vehicle's frame: levels and delays tell which rotor is which
+    /// File with the place of each channel's microphone: levels and delays tell which rotor is which
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"], value_parser = typed_path())]
     pub(crate) microphones: Option<PathBuf>,
 }
