@@ -133,7 +133,7 @@ fn contradicted(of_format: &str, said: &str) -> Failure {
         format!(
             "the body rates of this log have x forward, {of_format} by its format, and --log-axes {said} says otherwise"
         ),
-        "leave --log-axes out: it is for logs whose format does not say it",
+        "leave --log-axes out: it is only for CSV",
     )
 }
 

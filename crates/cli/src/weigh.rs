@@ -250,7 +250,10 @@ fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
     let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
     let refuse = |name: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
-        let what = format!("{name} = {std}, and the number itself is {}: with k = 2 its ± reaches 0", estimate.value);
+        let what = format!(
+            "{name} = {std}, and the number itself is {}: its ± (k = 2) is as large as the number",
+            estimate.value
+        );
         Err(Failure::usage(what, hint))
     };
     match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {

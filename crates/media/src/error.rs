@@ -15,9 +15,7 @@ pub enum MediaError {
     CannotOpen(#[source] io::Error),
 
     /// A directory, pipe or device.
-    #[error(
-        "this is not a regular file: the sound is read twice, so it must be able to seek; give a recording on disk"
-    )]
+    #[error("this is a pipe or a device, and the sound is read more than once; give a file on disk, or - for stdin")]
     NotAFile,
 
     /// An empty file.
