@@ -125,7 +125,7 @@ impl fmt::Display for NoTone {
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
-                "the tone would be near {tone_hz:.0} Hz, and a codec or the recorder left nothing above {above_hz:.0} Hz; \
+                "the tone would be near {tone_hz:.0} Hz, and the recording has nothing above {above_hz:.0} Hz: a codec or the recorder cut it; \
                  record without compression, or follow a tone of lower order"
             ),
             Self::SlowerShaft { line_count, .. } => write!(

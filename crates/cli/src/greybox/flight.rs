@@ -122,7 +122,9 @@ impl FlownLog {
         let inputs = LoopInputs::from_log(&log, &ControlKnowns::of(&vehicle.parameters))
             .ok_or_else(|| refused("this log has fewer than two whole rows of commands and measurements"))?;
         if !inputs.has_loop.contains(&true) {
-            return Err(refused("this log has no command together with the angle or rate that it commands"));
+            return Err(refused(
+                "this log has no command beside the angle or rate that answers it, such as command_roll with roll_deg",
+            ));
         }
         Ok(Self { log, inputs, speeds_rad_s, loss: control.loss })
     }

@@ -65,7 +65,10 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let wild = log("wild.csv", &format!("{head}{}", rows("7")));
     refused_with(&["greybox", &wild, "--vehicle", "ardrone"], &["within ±1"]);
     let other = log("other.csv", "time_s,rotor1_rpm\n0,6000\n1,6000\n");
-    refused_with(&["greybox", &other, "--vehicle", "ardrone"], &["no command together with"]);
+    refused_with(
+        &["greybox", &other, "--vehicle", "ardrone"],
+        &["no command beside the angle or rate", "command_roll with roll_deg"],
+    );
     refused_with(&["greybox", &short, "--vehicle", "ardron"], &["did you mean \"ardrone\"?"]);
     let turning = format!("{head},speed_1_rad_s,speed_2_rad_s,speed_3_rad_s,speed_4_rad_s");
     let few = (0..30).map(|row| format!("\n0.{row:02},0,0,300,300,300,300")).collect::<String>();
