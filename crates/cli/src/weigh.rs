@@ -251,7 +251,7 @@ fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
     let refuse = |name: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
         let what = format!(
-            "{name} = {std}, and the number itself is {}: its ± (k = 2) is as large as the number",
+            "{name} = {std}, and the number itself is {}: its ± (k = 2) is not smaller than the number",
             estimate.value
         );
         Err(Failure::usage(what, hint))

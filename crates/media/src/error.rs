@@ -54,7 +54,9 @@ pub enum MediaError {
     },
 
     /// The requested track does not exist.
-    #[error("audio track {asked} does not exist: the file has {count}, numbered from 1")]
+    #[error(
+        "audio track {asked} does not exist: the file has {count}, numbered from 1; name one of them, or leave --audio-track out"
+    )]
     NoSuchTrack {
         /// Number of the track, counted from 1.
         asked: usize,
@@ -63,7 +65,9 @@ pub enum MediaError {
     },
 
     /// The requested channel does not exist.
-    #[error("channel {asked} does not exist: the audio track has {count}, numbered from 1")]
+    #[error(
+        "channel {asked} does not exist: the audio track has {count}, numbered from 1; name one of them, or leave --channel out"
+    )]
     NoSuchChannel {
         /// Number of the channel, counted from 1.
         asked: usize,
