@@ -178,7 +178,7 @@ impl NotTold {
             Self::TooFewTracks { .. } => {
                 "place the microphone nearer and keep the high frequencies: then more rotors can be separated"
             }
-            Self::TooManyOffsets { .. } => "narrow them with --log-offset-s LOW:HIGH",
+            Self::TooManyOffsets { .. } => "narrow its limits with --log-offset-s LOW:HIGH",
             Self::NoOverlap => {
                 "give the log of the same flight, and limits with --log-offset-s LOW:HIGH that hold its offset"
             }
@@ -229,7 +229,7 @@ impl fmt::Display for NotTold {
             }
             Self::NoOverlap => f.write_str("the log and the hover share too little time"),
             Self::NothingInCommon { probability } => {
-                write!(f, "nothing in the log moves with the rotors' speeds (probability {probability:.2})")
+                write!(f, "nothing in the log changes as the speeds of the rotors do (probability {probability:.2})")
             }
             Self::OffsetAtLimit { offset_s } => {
                 write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of the tried offsets")
@@ -250,9 +250,12 @@ impl fmt::Display for NotTold {
                 )
             }
             Self::SpinUpTooLong { before_hover_s } => {
-                write!(f, "the hover begins {before_hover_s:.0} s after the recording, too long to be followed")
+                write!(
+                    f,
+                    "the hover begins {before_hover_s:.0} s after the start of the recording; this is too late to follow the rotors back to their starts"
+                )
             }
-            Self::SeveralFit { tracks } => write!(f, "several labels fit the log, for {tracks} of the rotors"),
+            Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors, several names fit the log"),
             Self::OtherChannels { channels, microphones } => {
                 write!(f, "channels of the recording: {channels}, microphones with a position: {microphones}")
             }
@@ -266,7 +269,7 @@ impl fmt::Display for NotTold {
                 write!(f, "levels and delays do not fit these positions (probability {probability:.2})")
             }
             Self::SeveralPlacesFit { tracks } => {
-                write!(f, "levels and delays fit several places, for {tracks} of the rotors")
+                write!(f, "for {tracks} of the rotors, levels and delays fit several places")
             }
         }
     }

@@ -83,11 +83,11 @@ pub enum NoTone {
 impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OutsideRecording => f.write_str("the recording has nothing between the times asked for"),
-            Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor"),
-            Self::Silence => f.write_str("nothing sounds"),
-            Self::NoSeries => f.write_str("nothing resembles the lines of a rotor"),
-            Self::NoHover => f.write_str("no stretch holds a steady tone for long enough"),
+            Self::OutsideRecording => f.write_str("the recording has no sound between the chosen times; choose others with --from and --to"),
+            Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover"),
+            Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
+            Self::NoSeries => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
+            Self::NoHover => f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off"),
             Self::NoFrame { window_s, hover_s } => {
                 write!(
                     f,
@@ -103,13 +103,15 @@ impl fmt::Display for NoTone {
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames; a rotor stands out in more than {:.0} %",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames; a rotor stands out in more than {:.0} %; \
+                 place the microphone nearer, or give a longer hover",
                 percent_in_words(*line_share),
                 100.0 * line_share_min
             ),
             Self::MainsHum { mains_hz } => write!(
                 f,
-                "the sound is mains hum: lines at multiples of {mains_hz:.2} Hz that do not move; no rotor is heard beside it"
+                "the sound is mains hum: lines at multiples of {mains_hz:.2} Hz that do not move; no rotor is heard beside it; \
+                 place the microphone nearer to the rotors"
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
@@ -123,16 +125,18 @@ impl fmt::Display for NoTone {
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
-                "the tone would be near {tone_hz:.0} Hz, and a codec or the recorder left nothing above {above_hz:.0} Hz; \
+                "the tone would be near {tone_hz:.0} Hz, and the recording has nothing above {above_hz:.0} Hz: a codec or the recorder cut it; \
                  record without compression, or follow a tone of lower order"
             ),
             Self::SlowerShaft { line_count, .. } => write!(
                 f,
-                "the tone is weak, and {line_count} lines sound between the lines that this rotor can make: a slower shaft makes them"
+                "the tone is weak, and {line_count} lines sound between the lines that this rotor can make: a slower \
+                 shaft makes them; check the blades or the gear"
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames, and none of its harmonics is heard",
+                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames, and none of its harmonics is heard; \
+                 place the microphone nearer, or give a longer hover",
                 percent_in_words(*line_share)
             ),
         }

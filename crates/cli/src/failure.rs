@@ -1,12 +1,10 @@
 //! Endings of a run and their exit codes.
 
+use crate::see_help::see_help;
 use hovertone_vehicle::{ConfigError, Contradiction, QuantityError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-
-/// Advice for a number.
-const SEE_UNIT: &str = "correct this number; --help of the command has its unit";
 
 /// Ending of a run that was possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,15 +42,20 @@ impl From<Contradiction> for Failure {
 /// A number out of its range.
 impl From<QuantityError> for Failure {
     fn from(error: QuantityError) -> Self {
-        Self::usage(error.to_string(), SEE_UNIT)
+        Self::usage(error.to_string(), correct_number())
     }
 }
 
-/// A setting out of its range.
+/// A setting out of its range, or a span or band without content.
 impl From<ConfigError> for Failure {
     fn from(error: ConfigError) -> Self {
-        Self::usage(error.to_string(), SEE_UNIT)
+        Self::usage(error.to_string(), correct_number())
     }
+}
+
+/// Advice for a number that was typed or stands in a file.
+fn correct_number() -> String {
+    format!("correct it, or its unit: {}", see_help(&std::env::args_os().collect::<Vec<_>>()))
 }
 
 /// Reason why a run was impossible: what happened and why, what to do, and which file.

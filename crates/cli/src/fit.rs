@@ -87,7 +87,7 @@ fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> 
 
 fn table_failure(error: &TableError, path: &Path) -> Failure {
     let hint = match error {
-        TableError::NoColumn { .. } => "`hovertone fit --help` says how columns are known",
+        TableError::NoColumn { .. } => "`hovertone fit --help` lists the headers that hovertone knows",
         TableError::Csv(error) => error.hint(),
         TableError::NoRow => "check that the speed is not 0 in all rows: the tachometer may not have been connected",
         _ => "correct the cell, or remove the row",

@@ -3,11 +3,11 @@
 
 use crate::failure::Failure;
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
+use crate::temporary_file::TemporaryFile;
 use std::fs::{self, File};
 use std::io::{self, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use tempfile::{NamedTempFile, TempPath};
 
 /// Name of stdin in messages and in the output.
 pub(crate) const STDIN: &str = "stdin";
@@ -20,7 +20,9 @@ enum Used {
     /// Read as text or a table.
     Read,
     /// Kept as a recording.
-    Kept(TempPath),
+    Kept {
+        _file: TemporaryFile,
+    },
 }
 
 static USED: Mutex<Used> = Mutex::new(Used::No);
@@ -84,7 +86,7 @@ fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {
 pub(crate) fn recording_of_stdin() -> Result<PathBuf, Failure> {
     let what = "the recording";
     let mut used = first_use(what)?;
-    let mut file = NamedTempFile::with_prefix("hovertone-stdin-").map_err(|error| cannot_keep(&error))?;
+    let (kept, mut file) = TemporaryFile::with_prefix("hovertone-stdin-").map_err(|error| cannot_keep(&error))?;
     let mut chunk = vec![0; CHUNK];
     loop {
         match io::stdin().read(&mut chunk) {
@@ -94,18 +96,15 @@ pub(crate) fn recording_of_stdin() -> Result<PathBuf, Failure> {
             Err(error) => return Err(cannot_read(&error, what)),
         }
     }
-    let path = file.into_temp_path();
-    let place = path.to_path_buf();
-    *used = Used::Kept(path);
+    let place = kept.path().to_owned();
+    *used = Used::Kept { _file: kept };
     Ok(place)
 }
 
 /// Removes what was kept of stdin.
 pub(crate) fn forget_stdin() {
-    let Ok(mut used) = USED.lock() else { return };
-    if let Used::Kept(path) = std::mem::replace(&mut *used, Used::Read) {
-        // where it cannot be removed, the system empties its folder of temporary files
-        let _ = path.close();
+    if let Ok(mut used) = USED.lock() {
+        *used = Used::Read;
     }
 }
 

@@ -57,7 +57,7 @@ pub(crate) fn resolve(
     let mut logged = flight_from_log(stream, &ColumnNames::default()).map_err(|error| log_failure(&error, path))?;
     let (offset_s_low, offset_s_high) = arguments.log_offset_s.unzip();
     let config = LabelsConfig { offset_s_low, offset_s_high, ..LabelsConfig::default() };
-    config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    config.check()?;
     let notes = std::mem::take(&mut logged.notes);
     let logs = logs_of(logged, arguments, vehicle, path)?;
     Ok(Some(LabelPlan::Log { logs, notes, config }))
@@ -145,7 +145,7 @@ fn contradicted(of_format: &str, said: &str) -> Failure {
         format!(
             "the body rates of this log have x forward, {of_format} by its format, and --log-axes {said} says otherwise"
         ),
-        "leave --log-axes out: it is for logs whose format does not say it",
+        "leave --log-axes out: it is only for CSV",
     )
 }
 

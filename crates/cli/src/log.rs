@@ -1,11 +1,12 @@
 //! `hovertone log`: what a log holds, and its signals as CSV.
 
 use crate::args::{ColumnName, LogArguments};
+use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, open_stream};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
-use hovertone_logs::{ColumnNames, LogError, Loss, SignalRow, log_summary, signal_rows};
+use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
 use hovertone_report::{Notice, log_json, log_text, signal_headers};
 use std::io::BufWriter;
 use std::path::Path;
@@ -26,32 +27,24 @@ pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<E
             }
         };
     }
-    let mut ending = Ending::Done;
-    for (index, file) in arguments.files.iter().enumerate() {
-        let log = match open_stream(file, THE_LOG) {
-            Ok(stream) => log_summary(stream, &names).map_err(|error| failure_of(&error, file)),
-            Err(failure) => Err(failure),
-        };
-        let log = match log {
-            Ok(log) => log,
-            // the other logs are listed all the same
-            Err(failure @ Failure::Failed { .. }) if arguments.files.len() > 1 => {
-                terminal.failure(&failure);
-                ending = ending.max(Ending::FilesFailed);
-                continue;
-            }
-            Err(failure) => return Err(failure),
-        };
-        ending = ending.max(warn_of_loss(&log.loss, terminal)?);
-        let name = file.display().to_string();
-        let name = if is_stdin(file) { crate::inputs::STDIN } else { &name };
-        if arguments.json {
-            terminal.data(&log_json(name, &log).map_err(Failure::internal)?)?;
-        } else {
-            let gap = if index > 0 { "\n" } else { "" };
-            let width = terminal.fold_width();
-            terminal.text(&format!("{gap}{}", log_text(name, &log, arguments.signals, width)))?;
-        }
+    let read = |file: &Path| {
+        let stream = open_stream(file, THE_LOG)?;
+        log_summary(stream, &names).map_err(|error| failure_of(&error, file))
+    };
+    let files = EachFile { files: &arguments.files, has_gaps: !arguments.json };
+    files.told(terminal, read, |file, log, terminal| tell(file, &log, arguments, terminal))
+}
+
+/// Writes what a log holds.
+fn tell(file: &Path, log: &LogSummary, arguments: &LogArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let ending = warn_of_loss(&log.loss, terminal)?;
+    let name = file.display().to_string();
+    let name = if is_stdin(file) { crate::inputs::STDIN } else { &name };
+    if arguments.json {
+        terminal.data(&log_json(name, log).map_err(Failure::internal)?)?;
+    } else {
+        let width = terminal.fold_width();
+        terminal.text(&log_text(name, log, arguments.signals, width))?;
     }
     Ok(ending)
 }

@@ -2,6 +2,7 @@
 
 use crate::args::Arguments;
 use crate::failure::Failure;
+use crate::see_help::see_help;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use std::error::Error as _;
@@ -140,13 +141,6 @@ fn all_words(value: &ContextValue) -> String {
 fn first_line(error: &clap::Error) -> String {
     let text = error.to_string();
     text.lines().next().unwrap_or_default().trim_start_matches("error: ").to_owned()
-}
-
-fn see_help(words: &[OsString]) -> String {
-    let commands = Arguments::command();
-    let named =
-        words.iter().skip(1).filter_map(|word| word.to_str()).find(|word| commands.find_subcommand(word).is_some());
-    named.map_or_else(|| "see `hovertone --help`".to_owned(), |name| format!("see `hovertone {name} --help`"))
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! `hovertone motor`: constants of motors from the steps in a log or in a recording.
 
 use crate::args::{AnalysisArguments, MotorArguments};
+use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, open_stream};
@@ -29,39 +30,8 @@ const ALL_ROTORS: &str = "all rotors";
 /// Tells the constants of the motors of all files.
 pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = Plan::of(arguments)?;
-    let mut ending = Ending::Done;
-    for (index, file) in arguments.files.iter().enumerate() {
-        let told = match plan.told_of(file) {
-            Ok(told) => told,
-            // the other files are read all the same
-            Err(failure @ Failure::Failed { .. }) if arguments.files.len() > 1 => {
-                terminal.failure(&failure);
-                ending = ending.max(Ending::FilesFailed);
-                continue;
-            }
-            Err(failure) => return Err(failure),
-        };
-        if !told.record.has_time_constant() {
-            ending = ending.max(Ending::Incomplete);
-        }
-        if arguments.json {
-            terminal.data(&motor_json(&told.record).map_err(Failure::internal)?)?;
-        } else {
-            let gap = if index > 0 { "\n" } else { "" };
-            let width = terminal.fold_width();
-            terminal.text(&format!("{gap}{}", motor_text(&told.record, width)))?;
-        }
-        if !told.notices.is_empty() {
-            terminal.flush()?;
-            told.notices.iter().for_each(|notice| terminal.warning(notice, ""));
-            ending = ending.max(if told.is_whole { Ending::Done } else { Ending::Incomplete });
-        }
-        if let Some(figure) = &plan.figure {
-            terminal.flush()?;
-            figure.write(&told, terminal)?;
-        }
-    }
-    Ok(ending)
+    let files = EachFile { files: &arguments.files, has_gaps: !arguments.json };
+    files.told(terminal, |file| plan.told_of(file), |_, told, terminal| plan.tell(&told, terminal))
 }
 
 /// The meaning of the arguments.
@@ -110,6 +80,26 @@ impl<'a> Plan<'a> {
             Some(flight) => Ok(told_by_log(file, &flight)),
             None => self.told_by_sound(file),
         }
+    }
+
+    fn tell(&self, told: &Told, terminal: &mut Terminal) -> Result<Ending, Failure> {
+        let mut ending = if told.record.has_time_constant() { Ending::Done } else { Ending::Incomplete };
+        if self.arguments.json {
+            terminal.data(&motor_json(&told.record).map_err(Failure::internal)?)?;
+        } else {
+            let width = terminal.fold_width();
+            terminal.text(&motor_text(&told.record, width))?;
+        }
+        if !told.notices.is_empty() {
+            terminal.flush()?;
+            told.notices.iter().for_each(|notice| terminal.warning(notice, ""));
+            ending = ending.max(if told.is_whole { Ending::Done } else { Ending::Incomplete });
+        }
+        if let Some(figure) = &self.figure {
+            terminal.flush()?;
+            figure.write(told, terminal)?;
+        }
+        Ok(ending)
     }
 
     fn told_by_sound(&self, file: &Path) -> Result<Told, Failure> {

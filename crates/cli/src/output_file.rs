@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::file_list::FileList;
+use crate::temporary_file::TemporaryFile;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -19,7 +20,7 @@ pub(crate) struct OutputFile {
     /// The place itself, behind symbolic links.
     target: PathBuf,
     /// The file beside it; absent for a terminal, a pipe or another device, which is written directly.
-    unfinished: Option<PathBuf>,
+    unfinished: Option<TemporaryFile>,
     file: File,
     /// Its entry in the list of its folder.
     entry: Option<Entry>,
@@ -53,7 +54,7 @@ impl OutputFile {
         let target = if old.is_some() { fs::canonicalize(place)? } else { place.to_owned() };
         remove_unfinished(&target);
         let unfinished = beside(&target, &format!(".{}{UNFINISHED}", std::process::id()))?;
-        let file = File::options().write(true).create_new(true).open(&unfinished)?;
+        let (unfinished, file) = TemporaryFile::create(unfinished)?;
         let begun = Self { place: place.to_owned(), target, unfinished: Some(unfinished), file, entry: None };
         if let Some(old) = old {
             begun.file.set_permissions(old.permissions())?;
@@ -81,12 +82,10 @@ impl OutputFile {
     pub(crate) fn keep(mut self) -> Result<(), Failure> {
         let Some(unfinished) = self.unfinished.take() else { return Ok(()) };
         // the list comes first: after an interrupt it may name a file that is not there, but no file lacks its name
-        let listed = self.entry.as_ref().map_or(Ok(()), |entry| entry.add(&unfinished));
-        listed.and_then(|()| fs::rename(&unfinished, &self.target)).map_err(|error| {
-            // a failure to remove it leaves a file that the next run removes
-            let _ = fs::remove_file(&unfinished);
-            Failure::cannot_write(&error, &self.place)
-        })?;
+        let listed = self.entry.as_ref().map_or(Ok(()), |entry| entry.add(unfinished.path()));
+        listed
+            .and_then(|()| unfinished.rename(&self.target))
+            .map_err(|error| Failure::cannot_write(&error, &self.place))?;
         self.entry.as_ref().map_or(Ok(()), Entry::drop_earlier)
     }
 }
@@ -129,15 +128,6 @@ pub(crate) fn remove_written(place: &Path) -> Result<bool, Failure> {
 /// Whether a file of this name is none of the user's: an interrupted run left it, or it is a lock.
 pub(crate) fn is_left_by_run(name: &OsStr) -> bool {
     [UNFINISHED, LOCK].iter().any(|ending| name.as_encoded_bytes().ends_with(ending.as_bytes()))
-}
-
-impl Drop for OutputFile {
-    fn drop(&mut self) {
-        if let Some(unfinished) = &self.unfinished {
-            // a failure to remove it leaves a file that the next run removes
-            let _ = fs::remove_file(unfinished);
-        }
-    }
 }
 
 /// The hidden name ".NAME" with an ending, in the same folder: a file can be renamed only within one file system.

@@ -158,7 +158,7 @@ pub(crate) fn line_in_band(
     let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
     let highest_hz = recording.info().sample_rate_hz / 2.0;
     if band_hz.end >= highest_hz {
-        return Err(format!("this recording holds nothing above {highest_hz:.0} Hz; give a lower tone"));
+        return Err(format!("this recording has no sound above {highest_hz:.0} Hz; choose a tone below that"));
     }
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     let mut share = progress.recording();

@@ -6,7 +6,7 @@ use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
 use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
 use hovertone_report::SpeedRecord;
-use hovertone_vehicle::{Gear, Order, QuantityError, SaidOfVehicle, check_not_negative, check_tips};
+use hovertone_vehicle::{Gear, Order, SaidOfVehicle, check_not_negative, check_tips};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
 pub(crate) fn config_of(
@@ -38,17 +38,16 @@ pub(crate) fn config_of(
     config.spectrogram.hop_share = analysis.hop_share.unwrap_or(config.spectrogram.hop_share);
     let threshold_share = analysis.gaussian_threshold_share;
     config.ridge.gaussian_threshold_share = threshold_share.unwrap_or(config.ridge.gaussian_threshold_share);
-    config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone speed --help`"))?;
+    config.check()?;
     Ok((config, discovery))
 }
 
 /// The tone that the arguments name: `--order` has priority, then the gear, then the blades, as given or as the vehicle has them. A known
 /// number of blades helps to find the tone of a gear. `None` where the tone has to be searched for.
 pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
-    let unusable = |error: QuantityError| Failure::usage(error.to_string(), "see `hovertone speed --help`");
     let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
     arguments.gear.map_or(Ok(()), Gear::check)?;
-    let order = arguments.order.map(Order::new).transpose().map_err(unusable)?;
+    let order = arguments.order.map(Order::new).transpose()?;
     let said = SaidOfVehicle { blades: arguments.blades, gear: arguments.gear, order, ..SaidOfVehicle::default() };
     vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
     let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
@@ -59,7 +58,7 @@ pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, F
         (None, None, Some(blades)) => Order::from_blades(blades),
         (None, None, None) => return Ok(None),
     };
-    let tone = ToneConfig::of_order(order.map_err(unusable)?);
+    let tone = ToneConfig::of_order(order?);
     let known = vehicle.and_then(|vehicle| vehicle.shaft_speed.as_ref());
     let tone = known.map_or_else(|| tone.clone(), |known| tone.clone().within(&known.value));
     let tone = ToneConfig {

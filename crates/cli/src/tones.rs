@@ -15,7 +15,7 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
     let (tone, discovery) = discovery_of(&arguments.known, arguments.vehicle.as_deref(), true)?;
     let mut config = Config::for_tone(tone);
     config.span = span_of(arguments.from, arguments.to)?;
-    config.check().map_err(|error| Failure::usage(error.to_string(), "see `hovertone tones --help`"))?;
+    config.check()?;
     let jobs = jobs_of(&arguments.files, &config, Some(discovery), Requests::default())?;
     let hearing = Hearing { wants_hash: arguments.json, ..Hearing::of(&arguments.hearing) };
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);

@@ -35,14 +35,14 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
     let records = records_of(&jobs, Hearing::of(&arguments.hearing), &progress);
     progress.finish();
-    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
-    flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
     let Some(record) = records.first() else { return Err(Failure::internal("a recording without a record")) };
-    if let Some(reason) = record.reason().filter(|_| record.speed().is_none()) {
-        if record.has_failed() {
-            return Err(Failure::failed(reason, "check the recording", &arguments.recording));
-        }
-        terminal.say(&format!("no rotor tone, nothing to compare: {reason}"));
+    if let Some(reason) = record.reason().filter(|_| record.has_failed()) {
+        return Err(Failure::failed(reason, "", &arguments.recording));
+    }
+    terminal.counted_notes(&[record]);
+    flight.notes.iter().for_each(|words| terminal.warning(&loss_notice(words), ""));
+    if record.speed().is_none() {
+        terminal.say("nothing is compared: the recording has no speed");
         return Ok(Ending::Incomplete);
     }
     let logged = LoggedSpeeds { time_s: &speeds.time_s, names: &speeds.names, speeds_rev_s: &speeds.values };

@@ -153,7 +153,7 @@ fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
         .and_then(|rotor| rotor.method.as_deref())
         .and_then(|name| Method::ALL.into_iter().find(|method| method.name() == name));
     config.method = method_of_constant.unwrap_or(Method::for_rotors(config.rotors.count));
-    config.check().map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
+    config.check()?;
     let scale = AcousticScale {
         thrust_constant_total_n_s2: constant,
         trial_std_share: results.and_then(|rotor| rotor.trial_std_share),
@@ -250,7 +250,10 @@ fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
     let is_swamped = |estimate: &Estimate| is_swamped(estimate.value, estimate.std_uncertainty.unwrap_or(0.0));
     let refuse = |name: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
-        let what = format!("{name} = {std}, and the number itself is {}: with k = 2 its ± reaches 0", estimate.value);
+        let what = format!(
+            "{name} = {std}, and the number itself is {}: its ± (k = 2) is not smaller than the number",
+            estimate.value
+        );
         Err(Failure::usage(what, hint))
     };
     match (scale.thrust_constant_total_n_s2, scale.vehicle_mass_kg) {
@@ -274,7 +277,7 @@ fn tone_to_hear(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -
     let heard = heard.ok_or_else(|| {
         Failure::usage("the tone of the rotor is not known", "give --vehicle, --blades, --gear or --order")
     })?;
-    let order = Order::new(heard.order).map_err(|error| Failure::usage(error.to_string(), SEE_HELP))?;
+    let order = Order::new(heard.order)?;
     let tone = ToneConfig {
         harmonics: arguments.tone.harmonics.unwrap_or(heard.harmonics),
         blades: heard.blades,

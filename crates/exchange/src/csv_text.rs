@@ -1,6 +1,7 @@
 //! CSV text: a header, then rows, separated by commas, semicolons or tabs.
 
 use csv::StringRecord;
+use hovertone_logs::CsvCells;
 
 /// An error in CSV text.
 #[derive(Debug, thiserror::Error)]
@@ -53,15 +54,12 @@ impl CsvError {
 /// A CSV with a parsed header. Each call of `records` reads the rows again, so that a long log is never held in memory.
 pub(crate) struct CsvText<'a> {
     text: &'a str,
-    delimiter: u8,
+    cells: CsvCells,
     pub(crate) headers: StringRecord,
-    /// Whether "3,5" is a number with a decimal comma.
-    has_decimal_commas: bool,
 }
 
 impl<'a> CsvText<'a> {
-    /// Opens a CSV. The separator is the most frequent candidate in the first line. Commas are decimal commas where a cell proves it
-    /// ("3,5"). Lines that begin with # are skipped.
+    /// Opens a CSV.
     pub(crate) fn open(text: &'a str) -> Result<Self, CsvError> {
         let text = text.trim_start_matches('\u{feff}');
         if text.trim().is_empty() {
@@ -70,26 +68,14 @@ impl<'a> CsvText<'a> {
         if text.trim_start().starts_with(['{', '[']) {
             return Err(CsvError::Json);
         }
-        let first_line = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
-        // with equal counts the last candidate wins
-        let delimiter = [b'\t', b';', b',']
-            .into_iter()
-            .max_by_key(|delimiter| first_line.bytes().filter(|byte| byte == delimiter).count())
-            .unwrap_or(b',');
-        let headers = reader(text, delimiter).headers()?.clone();
-        let mut csv = Self { text, delimiter, headers, has_decimal_commas: false };
-        // in a comma-separated file a cell with a comma has quotes
-        if delimiter != b',' || text.contains('"') {
-            for record in csv.records() {
-                csv.has_decimal_commas |= record?.iter().any(is_decimal_comma);
-            }
-        }
-        Ok(csv)
+        let cells = CsvCells::of_text(text);
+        let headers = reader(text, cells).headers()?.clone();
+        Ok(Self { text, cells, headers })
     }
 
     /// The rows.
     pub(crate) fn records(&self) -> impl Iterator<Item = Result<StringRecord, CsvError>> + use<'a> {
-        reader(self.text, self.delimiter).into_records().map(|record| Ok(record?))
+        reader(self.text, self.cells).into_records().map(|record| Ok(record?))
     }
 
     /// Refuses a row that ends before the last of the columns that are used, or has more cells than the header that are not empty: its
@@ -109,12 +95,7 @@ impl<'a> CsvText<'a> {
 
     /// The finite number in a cell; `None` otherwise.
     pub(crate) fn number(&self, cell: &str) -> Option<f64> {
-        let number: Option<f64> = if self.has_decimal_commas && !cell.contains('.') {
-            cell.replacen(',', ".", 1).parse().ok()
-        } else {
-            cell.parse().ok()
-        };
-        number.filter(|number| number.is_finite())
+        self.cells.number(cell.as_bytes())
     }
 
     /// The number in a column of a row; `None` where the cell is empty or missing.
@@ -136,34 +117,13 @@ pub(crate) fn line_of(record: &StringRecord) -> u64 {
     record.position().map_or(0, csv::Position::line)
 }
 
-fn reader(text: &str, delimiter: u8) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .delimiter(delimiter)
-        .trim(csv::Trim::All)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-}
-
-/// Whether the comma of a cell cannot separate thousands: "3,5", not "3,610".
-fn is_decimal_comma(cell: &str) -> bool {
-    let Some((whole, part)) = cell.split_once(',') else { return false };
-    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
-    are_digits(whole.trim_start_matches(['-', '+'])) && are_digits(part) && (part.len() != 3 || whole.len() > 3)
+fn reader(text: &str, cells: CsvCells) -> csv::Reader<&[u8]> {
+    cells.reader().trim(csv::Trim::All).from_reader(text.as_bytes())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_comma_is_a_decimal_one_only_where_it_cannot_part_thousands() {
-        for (cell, expected) in
-            [("3,5", true), ("3610,343", true), ("-0,25", true), ("3,610", false), ("3610", false), ("a,b", false)]
-        {
-            assert_eq!(is_decimal_comma(cell), expected, "{cell}");
-        }
-    }
 
     #[test]
     fn cells_are_parted_by_what_the_header_has_most_of() {

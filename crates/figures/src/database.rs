@@ -3,7 +3,7 @@
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, Sheet, WIDTH};
 use crate::colour::{GRID, INK, MUTED, SERIES};
-use crate::figure::{Figure, FigureError, beginning, shortened};
+use crate::figure::{Figure, FigureError, beginning, shortened, without_advice};
 use crate::geometry::{Extent, Point};
 use crate::trial::Trial;
 use hovertone_analysis::{CutReason, Span};
@@ -105,12 +105,12 @@ fn row(sheet: &Sheet<'_, '_>, trial: &Trial<'_>, top: i32, at: &impl Fn(f64) -> 
     sheet.text(&shortened(trial.recording, 30), Point::new(60, top + ROW / 2 - 4), Anchor::Left, MUTED)?;
     let Some(analysis) = trial.analysis else {
         let at = Point::new(LEFT + 12, top);
-        return words(sheet, trial.reason.unwrap_or("could not be heard"), at, WIDTH - 60);
+        return words(sheet, trial.reason.map_or("could not be heard", without_advice), at, WIDTH - 60);
     };
     let Some(tone) = trial.tone() else {
         sheet.filled(bar(analysis.heard, 6, ROW - 14), GRID, 0.6)?;
         let at = Point::new(at(analysis.heard.from_s) + 12, top);
-        return words(sheet, trial.reason.unwrap_or("no rotor tone"), at, WIDTH - 60);
+        return words(sheet, trial.reason.map_or("no rotor tone", without_advice), at, WIDTH - 60);
     };
     for cut in &analysis.hover.cuts {
         let place = bar(cut.span, 6, ROW - 14);

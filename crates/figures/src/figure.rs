@@ -60,6 +60,11 @@ pub(crate) fn shortened(name: &str, letters: usize) -> String {
     kept.map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect()
 }
 
+/// A reason without the advice behind it, where there is room for a line alone.
+pub(crate) fn without_advice(reason: &str) -> &str {
+    reason.split_once("; ").map_or(reason, |(found, _)| found)
+}
+
 /// The beginning of a sentence, up to the last whole word of at most `letters`.
 pub(crate) fn beginning(sentence: &str, letters: usize) -> String {
     if sentence.chars().count() <= letters {
@@ -79,6 +84,12 @@ mod tests {
         assert_eq!(escaped("<b a='\"'>&\u{1}"), "&lt;b a=&#39;&quot;&#39;&gt;&amp;\u{fffd}");
         assert_eq!(shortened("no_hull/trial_1.wav", 11), "no_hu…1.wav");
         assert_eq!(shortened("a\nb", 11), "a\u{fffd}b");
+    }
+
+    #[test]
+    fn a_reason_stands_without_its_advice() {
+        assert_eq!(without_advice("nothing sounds; record nearer; again"), "nothing sounds");
+        assert_eq!(without_advice("too short"), "too short");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::axis::Axis;
 use crate::canvas::{Anchor, Canvas, LETTER, Label, Panel, Place, WIDTH};
 use crate::colour::{BAND, ColourMap, INK, MUTED, OVER_PICTURE, PAPER};
-use crate::figure::{Figure, FigureError, shortened};
+use crate::figure::{Figure, FigureError, beginning, shortened, without_advice};
 use crate::geometry::{Extent, Point};
 use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
@@ -100,7 +100,12 @@ fn draw_whole(
         draw_tracks(canvas, trial, tone, &panel)?;
     } else if let Some(reason) = trial.reason {
         canvas.layer("reason", |sheet| {
-            sheet.text(&shortened(reason, 88), Point::new(place.left, place.top - 66), Anchor::Left, MUTED)
+            sheet.text(
+                &beginning(without_advice(reason), 88),
+                Point::new(place.left, place.top - 66),
+                Anchor::Left,
+                MUTED,
+            )
         })?;
     }
     Ok(())

@@ -19,7 +19,7 @@
 //! let config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2)?)); // the blade pass of two blades
 //! match speed_from_source(&mut recording, &config, &mut |_progress| {})?.outcome {
 //!     Outcome::Ok(tone) => {
-//!         let speed = tone.speed(config.method).expect("an estimate by the configured method");
+//!         let speed = tone.speed(config.method).ok_or("no estimate by the configured method")?;
 //!         println!("{:.3} rev/s ± {:?} (k = 1)", speed.speed.rev_s(), speed.combined_std_uncertainty_rev_s());
 //! #         assert!((speed.speed.rev_s() - 61.3).abs() < 0.01);
 //!     }
@@ -151,7 +151,7 @@ pub mod speed {
 /// let discovery = Discovery { known: KnownRotor { blade_count: Some(2), ..KnownRotor::default() }, ..Discovery::default() };
 /// let config = Config::for_tone(ToneConfig::of_order(Order::new(1.0)?)); // the order is replaced by the one that is found
 /// let found = tones_from_source(&mut hover(61.3), &config, &discovery, &mut |_progress| {})?;
-/// let family = &found.families[found.rotor.expect("a family that a rotor can make")];
+/// let family = &found.families[found.rotor.ok_or("no family that a rotor can make")?];
 /// assert!((family.fundamental_hz - 122.6).abs() < 0.5);
 /// assert_eq!(found.reading().map(|reading| reading.order.lines_per_turn()), Some(2.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -234,7 +234,7 @@ pub mod live {
 /// let labels = labels_from_log(&[&heard_first, &heard_second], 2, &log, &LabelsConfig::default());
 /// let names: Vec<&str> = labels.rotors.iter().flatten().map(|label| label.name.as_str()).collect();
 /// assert_eq!(names, ["right", "left"]);
-/// assert!((labels.offset_s.unwrap_or(f64::NAN) - 3.2).abs() < 0.05);
+/// assert!(labels.offset_s.is_some_and(|offset_s| (offset_s - 3.2).abs() < 0.05));
 /// # Ok::<(), hovertone::rotors::LogError>(())
 /// ```
 pub mod rotors {
@@ -298,10 +298,11 @@ pub mod rotors {
 /// };
 /// let loads = [load(0.0), load(0.1), load(0.2)];
 /// let table = thrust_from_loads(&loads, Method::Separated, &ThrustSettings::for_rotors(4));
-/// let constant = table.thrust_constant_total_n_s2.expect("a constant");
+/// let constant = table.thrust_constant_total_n_s2.ok_or("no constant")?;
 /// assert!((constant.value / constant_total_n_s2 - 1.0).abs() < 1e-3);
-/// let budget = table.budget.expect("a budget");
+/// let budget = table.budget.ok_or("no budget")?;
 /// println!("C_f = {:.3e} N s² ± {:.1} % (k = 2)", constant.value, 100.0 * budget.expanded_share);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// A straight line through points that are uncertain in both coordinates:
@@ -323,12 +324,12 @@ pub mod thrust {
 /// ```
 /// use hovertone::vehicle::{Gear, RotorSpeed, find_preset};
 ///
-/// let ardrone = find_preset("ardrone").expect("a preset");
-/// let gear: Gear = ardrone.gear.expect("a geared rotor").value;
+/// let ardrone = find_preset("ardrone").ok_or("no such preset")?;
+/// let gear: Gear = ardrone.gear.ok_or("no gear")?.value;
 /// let mesh = gear.mesh_order()?; // 69 lines per turn: the teeth of the wheel
 /// let speed = RotorSpeed::from_tone_hz(4151.895, mesh);
 /// assert!((speed.rpm() - 3610.3).abs() < 0.1); // eq 6 of the paper
-/// # Ok::<(), hovertone::vehicle::QuantityError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub mod vehicle {
     pub use hovertone_vehicle::*;

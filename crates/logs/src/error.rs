@@ -31,7 +31,7 @@ pub enum LogError {
         tables: String,
     },
     /// A version of a format that is not read.
-    #[error("this {format} has version {version} of its format, and version {known} is read")]
+    #[error("this {format} has version {version} of its format, and hovertone reads version {known}")]
     OtherVersion {
         /// Format of the log.
         format: LogFormat,

@@ -35,4 +35,4 @@ pub use loss::{Loss, LostPlace};
 pub use signals::{LogSignals, SignalRow, SignalTable, signal_rows, signals_from_log};
 pub use summary::{LogSummary, SignalSummary, TableSummary, ValueRange, log_summary};
 pub use table::{SignalRole, TableSignal};
-pub use table_text::ColumnNames;
+pub use table_text::{ColumnNames, CsvCells};

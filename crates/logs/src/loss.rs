@@ -55,10 +55,14 @@ impl fmt::Display for Loss {
         let is_end = self.place_count == 1 && first.from_byte + first.bytes == self.all_bytes;
         let (lost, all) = (self.lost_bytes, self.all_bytes);
         if is_end {
-            write!(f, "the log breaks off: its last {lost} of {all} bytes mean nothing")?;
+            write!(f, "the log breaks off: its last {lost} of {all} bytes cannot be read")?;
         } else {
             let places = if self.place_count == 1 { "place" } else { "places" };
-            write!(f, "the log is damaged: {lost} of its {all} bytes mean nothing, in {} {places}", self.place_count)?;
+            write!(
+                f,
+                "the log is damaged: {lost} of its {all} bytes cannot be read, in {} {places}",
+                self.place_count
+            )?;
         }
         let from = if self.place_count == 1 { "from" } else { "first from" };
         write!(f, ", {from} byte {}", first.from_byte)?;
@@ -79,14 +83,14 @@ mod tests {
         assert_eq!(loss.in_words(), None);
         loss.add(LostPlace { from_byte: 990, bytes: 10, after_s: Some(1.25) });
         let words = loss.in_words().unwrap();
-        assert_eq!(words, "the log breaks off: its last 10 of 1000 bytes mean nothing, from byte 990, after 1.250 s");
+        assert_eq!(words, "the log breaks off: its last 10 of 1000 bytes cannot be read, from byte 990, after 1.250 s");
         let mut loss = Loss { all_bytes: 1000, ..Loss::default() };
         loss.add(LostPlace { from_byte: 20, bytes: 10, after_s: None });
         let words = loss.in_words().unwrap();
-        assert_eq!(words, "the log is damaged: 10 of its 1000 bytes mean nothing, in 1 place, from byte 20");
+        assert_eq!(words, "the log is damaged: 10 of its 1000 bytes cannot be read, in 1 place, from byte 20");
         (0..20).for_each(|_| loss.add(LostPlace { from_byte: 500, bytes: 1, after_s: None }));
         assert!(
-            loss.in_words().unwrap().contains("30 of its 1000 bytes mean nothing, in 21 places, first from byte 20")
+            loss.in_words().unwrap().contains("30 of its 1000 bytes cannot be read, in 21 places, first from byte 20")
         );
         assert_eq!(loss.places.len(), PLACES_MAX);
     }

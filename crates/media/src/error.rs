@@ -15,9 +15,7 @@ pub enum MediaError {
     CannotOpen(#[source] io::Error),
 
     /// A directory, pipe or device.
-    #[error(
-        "this is not a regular file: the sound is read twice, so it must be able to seek; give a recording on disk"
-    )]
+    #[error("this is a pipe or a device, and the sound is read more than once; give a file on disk, or - for stdin")]
     NotAFile,
 
     /// An empty file.
@@ -56,7 +54,9 @@ pub enum MediaError {
     },
 
     /// The requested track does not exist.
-    #[error("audio track {asked} does not exist: the file has {count}, numbered from 1")]
+    #[error(
+        "audio track {asked} does not exist: the file has {count}, numbered from 1; name one of them, or leave --audio-track out"
+    )]
     NoSuchTrack {
         /// Number of the track, counted from 1.
         asked: usize,
@@ -65,7 +65,9 @@ pub enum MediaError {
     },
 
     /// The requested channel does not exist.
-    #[error("channel {asked} does not exist: the audio track has {count}, numbered from 1")]
+    #[error(
+        "channel {asked} does not exist: the audio track has {count}, numbered from 1; name one of them, or leave --channel out"
+    )]
     NoSuchChannel {
         /// Number of the channel, counted from 1.
         asked: usize,

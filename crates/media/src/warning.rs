@@ -119,7 +119,7 @@ impl fmt::Display for MediaWarning {
                 write!(f, "audio track {chosen} of {count} is used")?;
                 if !silent.is_empty() {
                     let silent: Vec<String> = silent.iter().map(usize::to_string).collect();
-                    write!(f, ", because silence is all that is in track {}", silent.join(", "))?;
+                    write!(f, ", because track {} is silent", silent.join(", "))?;
                 }
                 Ok(())
             }

@@ -72,8 +72,8 @@ impl LabelsConfig {
     /// The first setting that is not: its name, value and limits.
     pub fn check(&self) -> Result<(), ConfigError> {
         let low_s = self.offset_s_low.unwrap_or(0.0);
-        check_range("offset_s_low", low_s, -1e9, 1e9)?;
-        check_range("offset_s_high", self.offset_s_high.unwrap_or(low_s), low_s, 1e9)?;
+        check_range("offset_s_low", low_s, -1e10, 1e10)?;
+        check_range("offset_s_high", self.offset_s_high.unwrap_or(low_s), low_s, 1e10)?;
         check_range("offset_step_s", self.offset_step_s, 0.001, 1.0)?;
         check_range("overlap_share_min", self.overlap_share_min, 0.01, 1.0)?;
         check_range("row_s", self.row_s, 0.001, 1.0)?;

@@ -138,7 +138,7 @@ pub fn flight_plan(wish: &PlanWish) -> Result<FlightPlan, PlanError> {
         Some(plan) => Ok(*plan),
         None => {
             let best = plans.iter().min_by(|a, b| a.expanded_share.total_cmp(&b.expanded_share));
-            let must_be = "within what floats hold";
+            let must_be = "larger: no plan can be computed for it";
             let nothing = QuantityError { name: "wanted_share", value: wish.wanted_share, must_be }.into();
             Err(best.map_or(nothing, |best| PlanError::OutOfReach {
                 best_share: best.expanded_share,

@@ -115,7 +115,9 @@ impl ThrustWarning {
             Self::RowsDoNotFit { .. } => {
                 "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"
             }
-            Self::TrialLeftOut { .. } => "hear it again: another harmonic or another machine may have been followed",
+            Self::TrialLeftOut { .. } => {
+                "check it with `hovertone speed`: another harmonic or another machine may have been followed"
+            }
             Self::LoadDoesNotFit { is_left_out: true, .. } => "check its mass, its unit and its recordings",
             Self::ConstantsSplit => {
                 "do not use this constant: check masses, units, rotors and the order of the tone, and add a load that decides"
@@ -151,7 +153,9 @@ impl ThrustWarning {
             Self::MassNotWeighed { .. } => {
                 "weigh the vehicle ready to fly and write vehicle.mass_kg: 1 % of mass is 1 % of C_f, and the ± does not contain it"
             }
-            Self::LoudestRotor => "with rotors 1 to 2 % apart the constant can be off by 2 to 4 %; its ± contains that",
+            Self::LoudestRotor => {
+                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %; its ± contains that"
+            }
         }
     }
 }
@@ -195,7 +199,7 @@ impl fmt::Display for ThrustWarning {
                     (Some(mass_kg), None) => write!(f, "; {:.1} g would", 1e3 * mass_kg)?,
                     (None, _) => {}
                 }
-                if *is_left_out { f.write_str("; it is off by a factor and left out") } else { Ok(()) }
+                if *is_left_out { f.write_str("; it is left out: its constant is more than twice or less than half that of the others") } else { Ok(()) }
             }
             Self::RowsDoNotFit { names, are_left_out } => {
                 let shown = names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ");
@@ -203,13 +207,13 @@ impl fmt::Display for ThrustWarning {
                 if names.len() > NAMES_MAX {
                     f.write_str(", …")?;
                 }
-                if *are_left_out { f.write_str("; they are off by a factor and left out") } else { Ok(()) }
+                if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { Ok(()) }
             }
             Self::TrialLeftOut { load, recording } => {
-                write!(f, "{recording} of load \"{load}\" is off by a factor from all other trials and left out")
+                write!(f, "{recording} of load \"{load}\" is left out: its constant is more than twice or less than half that of the other trials")
             }
             Self::ConstantsSplit => f.write_str(
-                "half of the constants are off from the others by a factor of two or more, and nothing tells which half is right",
+                "half of the constants are more than twice or less than half the others, and nothing shows which half is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),

@@ -1,10 +1,11 @@
-//! The command line writes files in one place, which never replaces what a command reads.
+//! The command line writes files in one place, which never replaces what a command reads; temporary files, which an interrupt removes, in another.
 
 use super::fault::Fault;
 use super::paths::{NamedPath, faults_of_paths};
 use crate::tree::{Source, Tree};
 
 const WRITER: &str = "crates/cli/src/output_file.rs";
+const TEMPORARY: &str = "crates/cli/src/temporary_file.rs";
 /// The last two names of a function that writes or removes a file.
 const WRITING: [[&str; 2]; 11] = [
     ["fs", "write"],
@@ -21,7 +22,9 @@ const WRITING: [[&str; 2]; 11] = [
 ];
 
 pub(super) fn check(tree: &Tree) -> Vec<Fault> {
-    let is_checked = |source: &Source| source.path.starts_with("crates/cli/src/") && source.path != WRITER;
+    let is_checked = |source: &Source| {
+        source.path.starts_with("crates/cli/src/") && ![WRITER, TEMPORARY].contains(&source.path.as_str())
+    };
     faults_of_paths(tree, is_checked, |path: &NamedPath| {
         let ends_so = |end: &[&str; 2]| {
             path.segments.len() > 1 && path.segments.iter().rev().zip(end.iter().rev()).all(|(a, b)| a == b)

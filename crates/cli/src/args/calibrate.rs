@@ -5,12 +5,13 @@ use clap::Args;
 use std::path::PathBuf;
 
 const CALIBRATE_EXAMPLES: &str = "\
-Record one rotor on a bench while a tachometer shows its speed: the order of the tone and the recorder's clock are
-both in the ratio of the two. Without a rotor, record a tone of known frequency: this checks the clock alone, by the
-strongest line within 2.5 % of that frequency (or within --band).
-The clock passes where its error and its ± are together within --clock-ppm, fails where no part of the ± is, and is
-not decided between. A tachometer that shows whole revolutions per minute leaves ±80 millionths at 7200 rpm (k = 2):
-it decides the order, and a clock only with a --clock-ppm above that.
+Record one rotor on a bench while a tachometer shows its speed: this checks the order of the tone and the recorder's \
+clock. Or record a tone of known frequency: this checks the clock alone, by the strongest line within 2.5 % of that \
+frequency, or within --band.
+
+The clock passes if its error, with the whole of its ±, is within --clock-ppm. It fails if no part of the ± is. Otherwise \
+it is not decided. A tachometer that shows whole revolutions per minute leaves ±80 millionths at 7200 rpm (k = 2): this \
+decides the order, but a clock only if --clock-ppm is above 80.
 
 Examples:
   hovertone calibrate --vehicle crazyflie --tachometer-rpm 20850 crazyflie-propeller/44000.wav
@@ -18,7 +19,7 @@ Examples:
 
 /// The recorder's clock and the order of the tone, checked against one known speed: pass, fail or not decided, with the correction
 ///
-/// Hears a rotor as `hovertone speed` does, without a hint from the known speed, and compares. Ends with 3 where the check does not pass.
+/// Hears the rotor as `hovertone speed` does, and compares the result with the known speed. The exit code is 3 if the check does not pass.
 #[derive(Args, Debug)]
 #[command(after_help = CALIBRATE_EXAMPLES)]
 pub(crate) struct CalibrateArguments {
@@ -42,7 +43,7 @@ pub(crate) struct CalibrateArguments {
     pub(crate) known_std_ppm: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
-    /// Rotors that turn: 1, since the known speed is that of one
+    /// Number of rotors that turn: 1, since the known speed is that of one rotor
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64), help_heading = "Which tone")]
     pub(crate) rotors: Option<u32>,
     /// How far the recorder's clock may be off, in millionths

@@ -8,17 +8,17 @@ use hovertone_vehicle::Gear;
 
 /// How to type loads, for the help of both commands.
 pub(crate) const MASS_HELP: &str = "\
---mass names one load: its mass as flown, and its recordings. These mean the same:
-  --mass '0.413=no_hull/*.mov'    hovertone expands the pattern; the quotes keep the shell from it
-  --mass 0.413 no_hull/*.mov      the shell expands it; all files up to the next flag belong to it
+--mass names one load: its mass as flown, and its recordings. These three mean the same:
+  --mass '0.413=no_hull/*.mov'    hovertone finds the files of the pattern
+  --mass 0.413 no_hull/*.mov      the shell finds them; all files up to the next flag belong to the load
   --mass 413g=a.mov --mass 413g=b.mov
 A folder stands for the recordings in it: --mass 413g=no_hull.
-bash leaves 0.413=no_hull/*.mov without quotes as it is, which works; zsh and fish need the quotes.";
+In zsh and fish, the pattern of the first form needs its quotes; in bash it works without them.";
 
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Without an experiment file")]
 pub(crate) struct DraftArguments {
-    /// A load: its mass as flown, in kg (or with a unit, as 413g), and its recordings; once for each load
+    /// A load: its mass as flown, in kg or as 413g, and its recordings. Give this flag once for each load
     #[arg(long, value_name = "KG=FILES", num_args = 1..)]
     pub(crate) mass: Vec<String>,
     /// A known vehicle (see `hovertone vehicles`)
@@ -27,13 +27,13 @@ pub(crate) struct DraftArguments {
     /// Blades of each propeller
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
     pub(crate) blades: Option<u32>,
-    /// Teeth of the motor's pinion and the rotor's wheel
+    /// Teeth of the motor's pinion and of the rotor's wheel, or of the wheel alone
     #[arg(long, value_name = "P:W", value_parser = gear)]
     pub(crate) gear: Option<Gear>,
-    /// Rotors that carry it [default: the vehicle's]
+    /// Number of rotors that carry the vehicle [default: the vehicle's]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, from tip to tip, in m or as 8in: it settles the octave [default: the vehicle's]
+    /// Diameter of a propeller, from tip to tip, in m or as 8in: it tells a speed from its double and its half [default: the vehicle's]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     #[command(flatten)]

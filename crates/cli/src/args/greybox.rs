@@ -1,16 +1,17 @@
 //! Arguments of `greybox`.
 
 use super::groups::{HearingArguments, ReplaceArguments, typed_path};
-use super::labels::BodyAxes;
+use super::labels::{BodyAxes, clock_offset_s};
 use super::log::{ColumnName, column_name};
 use super::units::mass_kg;
 use clap::Args;
 use std::path::PathBuf;
 
 const GREYBOX_EXAMPLES: &str = "\
-The log is one of PX4 (ULog), ArduPilot (DataFlash), Betaflight or INAV (blackbox), or a CSV with the headers time_s;
-command_roll, command_pitch, command_yaw_rate, command_climb (±1); roll_deg, pitch_deg, yaw_rate_rad_s, velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s help. With speed_1_rad_s to speed_4_rad_s
-no recording is needed. Fly doublets about all four axes, short and long, for a minute.
+The log is one of PX4 (ULog), ArduPilot (DataFlash), Betaflight or INAV (blackbox), or a CSV with the headers time_s; \
+command_roll, command_pitch, command_yaw_rate, command_climb (from −1 to 1); roll_deg, pitch_deg, yaw_rate_rad_s, \
+velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s make the result better. With speed_1_rad_s to speed_4_rad_s no \
+recording is needed. Fly doublets about all four axes, short and long, for a minute.
 
 Examples:
   hovertone greybox doublets.wav doublets.csv --vehicle ardrone
@@ -19,21 +20,21 @@ Examples:
 
 /// The low-level model: gains of eq 1, time constant of eq 2 and C_τ, from a flight of doublets and its log
 ///
-/// Fits the paper's eqs 1 and 2 to the speeds of the rotors, which are heard along the predictions of the model, or logged.
+/// Fits the paper's eqs 1 and 2 to the speeds of the rotors. The speeds are heard, with the model's predictions as a guide, or logged.
 #[derive(Args, Debug)]
 #[command(after_help = GREYBOX_EXAMPLES)]
 pub(crate) struct GreyBoxArguments {
     /// The recording and the log of the flight; or the log alone, with the speeds of the rotors
     #[arg(required = true, num_args = 1..=2, value_names = ["RECORDING", "LOG"], value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
-    /// The vehicle, whose numbers are the start: one that can fly (see `hovertone simulate --help`)
+    /// Vehicle whose numbers the fit starts from: one that can fly (see `hovertone simulate --help`)
     #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: String,
     /// Mass as flown, in kg or as 413g [default: the vehicle's]
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Time to be added to the clock of the log to get that of the recording, right to 0.05 s [default: 0]
-    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    /// Time to add to the log's clock to get that of the recording, in s, right to 0.05 s [default: 0]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = clock_offset_s)]
     pub(crate) log_offset_s: Option<f64>,
     /// Axes of the log: flu (x forward, y left, z up) or frd (y right, z down) [default: flu]
     #[arg(long, value_name = "AXES")]
@@ -41,7 +42,7 @@ pub(crate) struct GreyBoxArguments {
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// Another flight, not used for the fit: predicted against heard or logged speeds
+    /// Another flight, not used for the fit: its heard or logged speeds are compared with the predicted ones
     #[arg(long, num_args = 1..=2, value_names = ["RECORDING", "LOG"], value_parser = typed_path())]
     pub(crate) check: Vec<PathBuf>,
     /// Print one JSON object
@@ -50,7 +51,7 @@ pub(crate) struct GreyBoxArguments {
     /// Write the identified vehicle as a scenario that `hovertone simulate` flies
     #[arg(long, value_name = "FILE.toml", value_parser = typed_path(), help_heading = "Output")]
     pub(crate) scenario: Option<PathBuf>,
-    /// Draw predicted and observed speeds, of the flight of --check if there is one
+    /// Draw predicted and observed speeds: of the flight of --check, or without it of the fitted flight
     #[arg(long, value_name = "FILE.svg|png", value_parser = typed_path(), help_heading = "Output")]
     pub(crate) figure: Option<PathBuf>,
     #[command(flatten)]

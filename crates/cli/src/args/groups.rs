@@ -18,19 +18,19 @@ pub(crate) struct ToneArguments {
     /// Blades of each propeller: without a gear, the tone is the blade pass
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
     pub(crate) blades: Option<u32>,
-    /// Teeth of the motor's pinion and the rotor's wheel (the wheel alone will do): the tone is the gear mesh
+    /// Teeth of the motor's pinion and of the rotor's wheel, or of the wheel alone: the tone is the gear mesh
     #[arg(long, value_name = "P:W", value_parser = gear)]
     pub(crate) gear: Option<Gear>,
-    /// Lines per turn of the shaft, of whichever tone
+    /// Order of the tone: its lines per turn of the shaft
     #[arg(long, value_name = "X")]
     pub(crate) order: Option<f64>,
     /// A known vehicle: its gear mesh or blade pass (see `hovertone vehicles`)
     #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: Option<String>,
-    /// Where the tone itself lies, in Hz; found by itself where not given
+    /// Band in which the tone lies, in Hz [default: found in the sound]
     #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
     pub(crate) band: Option<(f64, f64)>,
-    /// Harmonics to follow, the tone itself counted [default: 3]
+    /// Number of harmonics to follow; the tone is the first [default: 3]
     #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) harmonics: Option<u32>,
 }
@@ -38,13 +38,13 @@ pub(crate) struct ToneArguments {
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Known facts about the vehicle")]
 pub(crate) struct KnownArguments {
-    /// Diameter of a propeller, in m or as 8in: tips faster than Mach 0.6 are ruled out
+    /// Diameter of a propeller, in m or as 8in: it rules out speeds at which the tips are faster than Mach 0.6
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
-    /// Mass as flown, in kg or as 413g: with diameter and rotors, thrust coefficients outside 0.03 to 0.25 are ruled out
+    /// Mass as flown, in kg or as 413g: with --diameter-m and --rotors it rules out thrust coefficients outside 0.03 to 0.25
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Rotors that carry it: with two or more, they are separated [default: one, or four where others are heard beside it]
+    /// Number of rotors that carry the vehicle; two or more are separated [default: one, or four if several are heard]
     #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) rotors: Option<u32>,
 }
@@ -52,7 +52,7 @@ pub(crate) struct KnownArguments {
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
-    /// Only the mean speed: several rotors are not separated, which takes less time and gives a wider ±
+    /// Tell only the mean speed, and do not separate rotors: this takes less time and gives a larger ±
     #[arg(long, conflicts_with = "method")]
     pub(crate) mean_only: bool,
     /// How the speed is read from the sound [default: separated for several rotors, else harmonic]
@@ -61,13 +61,13 @@ pub(crate) struct AnalysisArguments {
     /// How far the recorder's clock may be off, in millionths [default: 50]
     #[arg(long, value_name = "PPM")]
     pub(crate) clock_ppm: Option<f64>,
-    /// Show the lines of each rotor's shaft against its blade pass: imbalance, unlike blades (not diagnosed)
+    /// Show how strong the lines of each rotor's shaft are beside its blade pass: they may come from imbalance or unlike blades
     #[arg(long)]
     pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
     #[arg(long, value_name = "M/S")]
     pub(crate) radial_speed_m_s_max: Option<f64>,
-    /// How much nearer to the microphone, or farther from it, a hover may end than it began, in m or as 30cm; say 0 for a bench [default: 0.5]
+    /// How much the distance to the microphone may change during a hover, in m or as 30cm; give 0 for a bench [default: 0.5]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) drift_m_max: Option<f64>,
     /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
@@ -76,13 +76,13 @@ pub(crate) struct AnalysisArguments {
     /// Use the recording up to here, and cut nothing away
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) to: Option<f64>,
-    /// Length of a frame of the paper's methods in seconds; the clearest of 0.0125 to 0.4 where not given
+    /// Length of a frame of the paper's methods, in seconds [default: the length from 0.0125 to 0.4 with the clearest tone]
     #[arg(long, value_name = "S")]
     pub(crate) window_s: Option<f64>,
     /// Step between frames as a share of their length [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     pub(crate) hop_share: Option<f64>,
-    /// Share of a frame's peak that takes part in the Gaussian [default: 0.8]
+    /// The Gaussian is fitted to the part of a peak above this share of its height [default: 0.8]
     #[arg(long, value_name = "SHARE")]
     pub(crate) gaussian_threshold_share: Option<f64>,
 }
@@ -99,7 +99,7 @@ pub(crate) struct HearingArguments {
     /// Correction of the recorder's clock in millionths, as `hovertone calibrate` prints it [default: 0]
     #[arg(long, value_name = "PPM", value_parser = clock_correction)]
     pub(crate) clock_correction_ppm: Option<f64>,
-    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    /// Show no progress bar; there is none anyway if stderr is no terminal
     #[arg(long)]
     pub(crate) no_progress: bool,
 }

@@ -11,16 +11,16 @@ Examples:
   hovertone init --vehicle ardrone --mass 0.413=demo/no_hull/*.wav -o new.toml
   hovertone init --blades 2 --rotors 4 --diameter-m 0.2 --mass 413g=hover.mov -o mine.toml";
 
-/// An experiment file, written for you: asks for vehicle, masses and recordings, or takes them as flags
+/// Writes an experiment file: it asks for the vehicle, the masses and the recordings, or takes them as flags
 ///
 /// On a terminal it asks for what the flags leave out, and offers the recordings of the current folder and of the folders in it.
-/// The file is commented, valid, and works with `hovertone identify`.
+/// The file has comments, and `hovertone identify` reads it.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{MASS_HELP}\n\n{INIT_EXAMPLES}"))]
 pub(crate) struct InitArguments {
     #[command(flatten)]
     pub(crate) draft: DraftArguments,
-    /// Where to write
+    /// Name of the new experiment file
     #[arg(short, long, value_name = "FILE", default_value = "experiment.toml", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: PathBuf,
     #[command(flatten)]

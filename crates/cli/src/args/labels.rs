@@ -4,25 +4,28 @@ use super::groups::{time_s, typed_path};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
+/// Largest offset of two clocks, s. *Physics*: no clock counts seconds from before 1970, and this is the year 2286.
+const CLOCK_OFFSET_S_MAX: f64 = 1e10;
+
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Which rotor is which")]
 pub(crate) struct LabelArguments {
-    /// A log of the same flight, of PX4, ArduPilot or Betaflight, or CSV: speeds, commands or PWM of each motor, or the body's rates
+    /// Log of the same flight (PX4, ArduPilot, Betaflight or CSV), with speeds or commands of the motors, or body rates
     #[arg(long, value_name = "FILE", value_parser = typed_path())]
     pub(crate) log: Option<PathBuf>,
-    /// Seconds to add to the log's times to get the recording's, or LOW..HIGH in minutes and seconds; found by itself where not given
+    /// Limits of the time to add to the log's clock to get that of the recording: -5:5 in seconds, or -0:05..0:05 [default: none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
-    /// How the axes of a CSV's body rates point (other logs define them)
+    /// Axes of the body rates in a CSV; other logs define them
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
-    /// Order in which the motors came up to about the hover's speed, one by one, at the beginning: front-left,…; or 1,2,…
+    /// Order in which the motors start, one by one, at the beginning: front-left,…; or 1,2,…. Each goes up to about the hover's speed
     #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with = "log")]
     pub(crate) spin_up: Option<Vec<String>>,
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
-    /// Where the microphone of each channel stands in the vehicle's frame: levels and delays tell which rotor is which
+    /// File with the place of each channel's microphone: levels and delays tell which rotor is which
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"], value_parser = typed_path())]
     pub(crate) microphones: Option<PathBuf>,
 }
@@ -45,22 +48,34 @@ pub(crate) enum FrameLayout {
 
 /// "-5:5", or "-0:05..1:10".
 pub(super) fn offsets(text: &str) -> Result<(f64, f64), String> {
-    let limit = |text: &str| time_s(text).ok().filter(|offset_s| offset_s.is_finite());
     let halves = text.split_once("..").or_else(|| text.split_once(':'));
-    halves.and_then(|(low, high)| Some((limit(low)?, limit(high)?))).ok_or_else(|| {
-        "write the smallest and largest offset as LOW:HIGH in seconds, such as -5:5, or as -0:05..1:10".to_owned()
+    let limits = halves.and_then(|(low, high)| Some((clock_offset_s(low).ok()?, clock_offset_s(high).ok()?)));
+    limits.filter(|(low_s, high_s)| low_s <= high_s).ok_or_else(|| {
+        "write the smallest and the largest offset as LOW:HIGH in seconds, such as -5:5, or as -0:05..1:10".to_owned()
+    })
+}
+
+/// The offset of one clock to another: "2.5", or "-0:05".
+pub(super) fn clock_offset_s(text: &str) -> Result<f64, String> {
+    let offset_s = time_s(text).ok().filter(|offset_s| offset_s.abs() <= CLOCK_OFFSET_S_MAX);
+    offset_s.ok_or_else(|| {
+        format!("write seconds, such as 2.5, or minutes and seconds, such as -0:05; at most {CLOCK_OFFSET_S_MAX:e} s")
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::offsets;
+    use super::{clock_offset_s, offsets};
 
     #[test]
     fn offsets_are_seconds_or_minutes_and_seconds() {
+        assert_eq!(clock_offset_s("-1764000000.5"), Ok(-1_764_000_000.5), "a clock that counts from 1970");
+        assert!(["nan", "inf", "1e11", "soon"].into_iter().all(|text| clock_offset_s(text).is_err()));
         assert_eq!(offsets("-5:5"), Ok((-5.0, 5.0)));
         assert_eq!(offsets("-0:05..1:10.5"), Ok((-5.0, 70.5)));
         assert_eq!(offsets("-5..5"), Ok((-5.0, 5.0)));
-        assert!(offsets("5").is_err() && offsets("a:b").is_err() && offsets("1:inf").is_err());
+        assert!(
+            offsets("5").is_err() && offsets("a:b").is_err() && offsets("1:inf").is_err() && offsets("5:1").is_err()
+        );
     }
 }

@@ -5,9 +5,9 @@ use clap::Args;
 use std::path::PathBuf;
 
 const LOG_EXAMPLES: &str = "\
-PX4 (.ulg), ArduPilot (.bin), Betaflight and INAV (.bbl, .bfl), RCbenchmark's CSV, and any CSV whose headers
-name the time and the quantities with their units, as in time_s, rotor1_rpm, motor1_pwm, gyro_x_rad_s. A log that
-breaks off or is damaged gives what it holds. Speeds are in rev/s.
+A log may be of PX4 (.ulg), ArduPilot (.bin), Betaflight or INAV (.bbl, .bfl), RCbenchmark (.csv), or any CSV whose \
+headers name the time and the quantities with their units, as in time_s, rotor1_rpm, motor1_pwm, gyro_x_rad_s. From a \
+log that is damaged or breaks off, hovertone reads the whole parts. Speeds are in rev/s.
 
 Examples:
   hovertone log flight.ulg
@@ -26,18 +26,18 @@ pub(crate) struct LogArguments {
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// List the names of all signals, too
+    /// Also list the names of all signals
     #[arg(long, help_heading = "Output", conflicts_with_all = ["json", "signal"])]
     pub(crate) signals: bool,
-    /// Write this signal, or all signals of this table, as CSV; can be given several times, for one table
+    /// Write this signal as CSV, or all signals of this table; can be given several times for signals of one table
     #[arg(long, value_name = "NAME", requires = "output", conflicts_with = "json", help_heading = "Output")]
     pub(crate) signal: Vec<String>,
-    /// Where the CSV of --signal goes
+    /// Name of the CSV that --signal writes
     #[arg(short, long, value_name = "FILE.csv", requires = "signal", value_parser = typed_path(), help_heading = "Output")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// Print one JSON object per line and file, in the order given
+    /// Print one line of JSON for each file, in their order
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
 }

@@ -50,20 +50,20 @@ const EXAMPLES: &str = "\
 Examples:
   hovertone demo                              the paper's experiment, in simulated flight
   hovertone speed --blades 2 hover.mp4        rotor speed of a recording
-  hovertone speed --vehicle ardrone *.wav     of many, heard as a known vehicle
+  hovertone speed --vehicle ardrone *.wav     of several recordings of a known vehicle
   hovertone listen --blades 2 --from-file hover.mp4        as it is played, or from a pipe
   hovertone batch archive -o speeds --blades 2     of a whole archive, as Parquet
   hovertone batch-compare january february    which rotors have changed between two archives
-  hovertone tones hover.mp4                   which tones it holds, and what each can mean
-  hovertone spectrogram hover.mp4 -o x.png    the picture, with bands and ridge over it
+  hovertone tones hover.mp4                   its tones, and what each can mean
+  hovertone spectrogram hover.mp4 -o x.png    its spectrogram, with the tracks of the rotors
   hovertone init                              an experiment file, by a few questions
   hovertone identify experiment.toml -o out   the thrust constant from hovers with known masses
   hovertone calibrate --true-hz 440 tone.wav  the recorder's clock, against a known tone
   hovertone fit stand.csv                     the same fit on a thrust stand's table
-  hovertone fit --plan --mass-kg 0.413        how much flying a wanted uncertainty needs
-  hovertone weigh loaded.mov --constant out/results.json   what it lifts, by its sound
+  hovertone fit --plan --mass-kg 0.413        how many flights a wanted uncertainty needs
+  hovertone weigh loaded.mov --constant out/results.json   the mass of a payload, by the sound
   hovertone export out/results.json --to gazebo            lines for a simulator
-  hovertone compare out/results.json iris.sdf              a simulator's model against it
+  hovertone compare out/results.json iris.sdf              a simulator's model beside the constant
   hovertone log flight.ulg                    what a log of a flight holds
   hovertone motor steps.csv                   time constants of a motor, from steps in a log
   hovertone greybox doublets.csv --vehicle ardrone  gains and motors from doublets
@@ -73,11 +73,11 @@ Examples:
 Exit codes:
   0  done
   1  a file or folder is not there, is of another kind, or cannot be read or written
-  2  wrong use: a flag or a number in a file has no meaning, or a file that exists would be replaced
-  3  done, but something is missing: no rotor tone, one whose order is open, a file that ends early,
-     a calibration that does not pass
+  2  wrong use: a flag or a number has no meaning, or a file that exists would be replaced
+  3  done, but something is missing: no rotor tone, a tone whose order is not known, a file that
+     ends early, a calibration that does not pass
 
-Data goes to stdout and to files, everything else to stderr.";
+Results go to stdout and to files, all messages to stderr.";
 
 /// hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant
 #[derive(Debug, Parser)]

@@ -1,15 +1,16 @@
 //! Arguments of `motor`.
 
-use super::groups::{HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, finite, time_s, typed_path};
+use super::groups::{HearingArguments, KnownArguments, ReplaceArguments, ToneArguments, time_s, typed_path};
+use super::labels::clock_offset_s;
 use super::log::{ColumnName, column_name};
 use clap::Args;
 use std::path::PathBuf;
 
 const MOTOR_EXAMPLES: &str = "\
-A log of PX4 (.ulg), ArduPilot (.bin), Betaflight and INAV (.bbl, .bfl), RCbenchmark's CSV, or any CSV with
-the speeds of the rotors; or a recording of a bench. A step is one change of the speed between two levels that
-are held, in a recording for about a second. Commands, in the same log or beside a recording, add the gain, and
-the dead time where the clocks are the same.
+A file is a log of PX4 (.ulg), ArduPilot (.bin), Betaflight or INAV (.bbl, .bfl), RCbenchmark (.csv), or any CSV with \
+the speeds of the rotors; or it is a recording of a bench. A step is one change of the speed between two speeds that are \
+held; in a recording each must be held for about a second. With commands, in the same log or by --commands, the gain is \
+found too; the dead time only if commands and speeds have one clock.
 
 Examples:
   hovertone motor steps.csv
@@ -29,11 +30,11 @@ pub(crate) struct MotorArguments {
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// Log with the commands of the motors in a recording
+    /// Log with the commands of the motors that are recorded
     #[arg(long, value_name = "LOG", value_parser = typed_path())]
     pub(crate) commands: Option<PathBuf>,
-    /// Seconds to add to the clock of the commands to get the recording's [default: found from the steps, without dead time]
-    #[arg(long, value_name = "S", requires = "commands", value_parser = offset_s)]
+    /// Time to add to the clock of the commands to get that of the recording, in s [default: found from the steps; then the dead time is not]
+    #[arg(long, value_name = "S", requires = "commands", value_parser = clock_offset_s)]
     pub(crate) offset: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
@@ -47,7 +48,7 @@ pub(crate) struct MotorArguments {
     pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) hearing: HearingArguments,
-    /// Print one JSON object per line and file, in the order given
+    /// Print one line of JSON for each file, in their order
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
     /// Draw the steps of one file, with their curves
@@ -55,8 +56,4 @@ pub(crate) struct MotorArguments {
     pub(crate) figure: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-}
-
-fn offset_s(text: &str) -> Result<f64, String> {
-    finite(text).ok_or_else(|| "must be a number of seconds".to_owned())
 }

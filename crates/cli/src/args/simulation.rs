@@ -4,11 +4,10 @@ use super::groups::{ReplaceArguments, typed_path};
 use clap::Args;
 use std::path::PathBuf;
 
-/// The paper's experiment in simulated flight: three loads, five trials each, identified as other recordings are
+/// The paper's experiment in simulated flight: three loads with five trials each, heard and identified
 ///
-/// An AR.Drone hovers in the laboratory of the paper's figure 1. Writes the recordings as WAV files, the experiment file, and the
-/// truth about every rotor; identifies the files;
-/// prints both of the paper's tables beside the numbers that the paper printed and beside the truth; and writes report.html with its figures.
+/// An AR.Drone hovers in the laboratory of the paper's figure 1. The demo writes the recordings, the experiment file, and the truth about every
+/// rotor. It identifies the recordings, prints the paper's two tables beside the paper's own numbers and the truth, and writes report.html.
 #[derive(Args, Debug)]
 #[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
 pub(crate) struct DemoArguments {
@@ -17,19 +16,19 @@ pub(crate) struct DemoArguments {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// The low-level model instead: fly doublets, hear them, identify eqs 1 and 2, fly the identified model beside the true one
+    /// Show the low-level model instead: fly doublets, hear them, identify eqs 1 and 2, and fly the identified model beside the true one
     #[arg(long)]
     pub(crate) low_level: bool,
-    /// Everything random comes from here
+    /// Seed of all random numbers
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    /// Show no progress bar; there is none anyway if stderr is no terminal
     #[arg(long)]
     pub(crate) no_progress: bool,
 }
 
 const SIMULATE_EXAMPLES: &str = "\
-A scenario file, all keys optional (docs/formats.md lists them):
+A scenario file; each key may be left out (docs/formats.md lists all):
   duration_s = 20.0
   seed = 7
 
@@ -77,10 +76,10 @@ pub(crate) struct SimulateArguments {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// Everything random comes from here [default: the scenario's]
+    /// Seed of all random numbers [default: the scenario's]
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
-    /// Show no progress bar (there is none anyway when stderr is not a terminal)
+    /// Show no progress bar; there is none anyway if stderr is no terminal
     #[arg(long)]
     pub(crate) no_progress: bool,
 }

@@ -7,15 +7,15 @@ use clap::Args;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Axes are in Hz and, where the order of the tone is known, in turns of the shaft per second. The bands of the tone and
-its harmonics are marked, parts without hover are dimmed, the ridge or the tracks of the rotors lie over it.
+Axes are in Hz and, where the order of the tone is known, in turns of the shaft per second. The bands of the tone \
+and of its harmonics are marked, parts without hover are pale, and the ridge or the tracks of the rotors are drawn over them.
 
 Examples:
   hovertone spectrogram hover.mp4 -o hover.png
   hovertone spectrogram --vehicle ardrone hover.mov -o hover.svg
   hovertone spectrogram --blades 2 --from 14 --to 17 bench.wav -o bench.png";
 
-/// The spectrogram of a recording as a picture of publication size: 180 mm wide, PNG or SVG
+/// The spectrogram of a recording as a picture for a publication: 180 mm wide, PNG or SVG
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SpectrogramArguments {

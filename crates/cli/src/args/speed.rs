@@ -6,8 +6,9 @@ use clap::Args;
 use std::path::PathBuf;
 
 const SPEED_EXAMPLES: &str = "\
-Which tone is heard: --order wins, then the gear, then the blades, as given or as --vehicle has them.
-Without any of them the tone is found by itself; where its blades cannot be heard, all readings are shown (exit code 3).
+The tone that is heard is that of --order; without it the gear mesh of --gear; without it the blade pass of --blades. \
+--vehicle knows its gear and its blades. Without any of them, hovertone searches for the tone. If the number of blades \
+stays open, all readings are shown, and the exit code is 3.
 
 Examples:
   hovertone speed --blades 2 hover.mp4
@@ -21,8 +22,8 @@ Examples:
 
 /// Rotor speed of recordings: mean, uncertainty and spread
 ///
-/// Any video or audio file will do. Silence, handling noise, take-off and landing are cut away by themselves, and what
-/// was cut is said on stderr; --from and --to override that.
+/// Any video or audio file will do. hovertone cuts away silence, handling noise, take-off and landing, and names what it cut on stderr.
+/// With --from or --to it cuts nothing.
 #[derive(Args, Debug)]
 #[command(after_help = SPEED_EXAMPLES)]
 pub(crate) struct SpeedArguments {
@@ -39,10 +40,10 @@ pub(crate) struct SpeedArguments {
     pub(crate) analysis: AnalysisArguments,
     #[command(flatten)]
     pub(crate) hearing: HearingArguments,
-    /// Print one JSON object per line and file, in the order given
+    /// Print one line of JSON for each file, in their order
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
-    /// Write the speed of every frame as CSV; with several recordings the first column is the file
+    /// Write the speed of every frame as CSV; with several recordings, the first column names the file
     #[arg(long, value_name = "FILE.csv", help_heading = "Output", value_parser = typed_path())]
     pub(crate) track: Option<PathBuf>,
     #[command(flatten)]

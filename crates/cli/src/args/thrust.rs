@@ -54,24 +54,24 @@ Examples:
 /// Thrust constant from recordings of hovers with known masses, or of bench runs
 ///
 /// Prints warnings, the constant of one rotor and of the whole vehicle with its ±, the verdict on the loads, and where the page is.
-/// With -v also tables like the paper's, by the harmonic likelihood and by both of its methods.
+/// With -v it also prints tables like the paper's: by the harmonic likelihood, and by the paper's two methods.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{MASS_HELP}\n\n{IDENTIFY_EXAMPLES}"))]
 pub(crate) struct IdentifyArguments {
-    /// The experiment: vehicle, masses, and the places of the recordings; `hovertone init` writes one, --mass is instead of it
+    /// The experiment file: vehicle, masses and recordings. `hovertone init` writes one; the flags from --mass on replace it
     #[arg(value_name = "EXPERIMENT.toml", value_parser = typed_path(), required_unless_present = "mass", conflicts_with_all = DraftArguments::NAMES)]
     pub(crate) experiment: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) draft: DraftArguments,
-    /// Only name the work, the files that were found, and the missing ones: nothing is analysed
+    /// Analyse nothing: only list what would be done, which files were found, and which are missing
     #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
-    /// Write report.html, results.json, tables and figures there: a folder that is empty, new, or of an earlier run of this experiment
+    /// Write report.html, results.json, tables and figures into this folder: a new or empty one, or that of an earlier run of this experiment
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// Print results.json instead
+    /// Print the content of results.json instead
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
     /// Print the tables too
@@ -80,7 +80,7 @@ pub(crate) struct IdentifyArguments {
     /// Folder that the names of the recordings start from [default: the folder of the experiment file]
     #[arg(long, value_name = "DIR", help_heading = "Reading files", value_parser = typed_path())]
     pub(crate) data_root: Option<PathBuf>,
-    /// The method whose constant is reported; all are computed [default: separated where several rotors are heard beside each other, else harmonic]
+    /// The method whose constant is reported; all are computed [default: separated if several rotors are heard, else harmonic]
     #[arg(long, value_parser = method_parser(), help_heading = "How it is analysed")]
     pub(crate) method: Option<Method>,
     #[command(flatten)]
@@ -88,10 +88,10 @@ pub(crate) struct IdentifyArguments {
 }
 
 const FIT_EXAMPLES: &str = "\
-Columns are known by their headers: a speed (rpm, rad/s, rev/s), a thrust (N, g, gf, kg, lbf) or a mass that
-hovers (mass_g, mass_kg), and if there are any, standard uncertainties (speed_std_rpm, thrust_std_n, mass_std_g),
-power, torque. Columns of words (motor, propeller) make groups, each with a fit of its own.
-Where no uncertainties are given, thrusts count as equally uncertain, by what the residuals show.
+The headers name the columns: a speed (rpm, rad/s, rev/s), and a thrust (N, g, gf, kg, lbf) or a mass that hovers \
+(mass_g, mass_kg). There may also be standard uncertainties (speed_std_rpm, thrust_std_n, mass_std_g), power and torque. \
+Columns of words (motor, propeller) make groups, each with a fit of its own. Without uncertainties, all thrusts are \
+equally uncertain, by the scatter of the residuals.
 
 Examples:
   hovertone fit stand.csv
@@ -99,17 +99,17 @@ Examples:
   hovertone fit hovers.csv --rotors 4 --latitude-deg -20.3
   hovertone fit --plan --mass-kg 0.413 --added-mass-kg 0.1 --wanted-share 0.03";
 
-/// Thrust constant from tables of speed and thrust; or, with --plan, how much flying a wanted uncertainty needs
+/// Thrust constant from tables of speed and thrust; or, with --plan, how many flights a wanted uncertainty needs
 ///
-/// Fits F = C_f ω² with errors in both, and beside it the law with an intercept and the power law, with the evidence for
-/// each. Rows that do not fit are named.
+/// Fits F = C_f ω² with uncertainties in F and in ω, and also the law with an intercept and the power law, with the evidence for each.
+/// Rows that do not fit are named.
 #[derive(Args, Debug)]
 #[command(after_help = FIT_EXAMPLES)]
 pub(crate) struct FitArguments {
     /// Tables: CSV files with a header; - is stdin
     #[arg(required_unless_present = "plan", value_name = "TABLE.csv", value_parser = typed_path())]
     pub(crate) tables: Vec<PathBuf>,
-    /// Print one JSON document: the fit, or `groups` with the fit of each
+    /// Print one JSON document: the fit, or `groups` with the fit of each group
     #[arg(long)]
     pub(crate) json: bool,
     /// Rotors that share the thrust of a row, or carry its mass [default: 1; 4 with --plan]
@@ -126,13 +126,13 @@ pub(crate) struct FitArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Where it was flown")]
 pub(crate) struct PlaceArguments {
-    /// Local gravity [default: standard gravity]
+    /// Local gravity, in m/s² [default: standard gravity]
     #[arg(long, value_name = "M/S2")]
     pub(crate) gravity_m_s2: Option<f64>,
-    /// Latitude, for gravity
+    /// Latitude in degrees: gives the local gravity
     #[arg(long, value_name = "DEG", conflicts_with = "gravity_m_s2")]
     pub(crate) latitude_deg: Option<f64>,
-    /// Height above the sea, for gravity and air
+    /// Height above the sea, in m: corrects gravity, and gives the density of the air
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) height_m: Option<f64>,
 }
@@ -157,7 +157,7 @@ pub(crate) struct AirArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Before flying")]
 pub(crate) struct PlanArguments {
-    /// Tell how many loads, trials and seconds a wanted uncertainty needs
+    /// Tell how many loads and trials, and how many seconds of hover, a wanted uncertainty needs
     #[arg(long, conflicts_with = "tables", requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
@@ -166,26 +166,26 @@ pub(crate) struct PlanArguments {
     /// Mass of the vehicle, ready to fly
     #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// The most that it may carry beside itself [default: a quarter of its mass]
+    /// Largest payload that the vehicle may carry [default: a quarter of its mass]
     #[arg(long, requires = "plan", value_name = "KG", value_parser = mass_kg)]
     pub(crate) added_mass_kg: Option<f64>,
     /// Standard uncertainty of a weighing
     #[arg(long, requires = "plan", value_name = "KG", default_value = "0.0005", value_parser = mass_kg)]
     pub(crate) mass_std_kg: f64,
-    /// Spread of the speed in a hover, over its mean; the paper's flights have 0.0123
+    /// Spread of the speed in a hover, as a share of its mean; the paper's flights have 0.0123
     #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.0123)]
     pub(crate) speed_spread_share: f64,
-    /// How long the speed remembers itself
+    /// Correlation time of the speed in a hover, in s
     #[arg(long, requires = "plan", value_name = "S", default_value_t = 0.3)]
     pub(crate) correlation_s: f64,
-    /// The rotors are separated, or heard as a group: not one tone is used for all (docs/budget.md)
+    /// Plan for rotors that are separated or heard as a group, and not for one tone used for all rotors (docs/budget.md)
     #[arg(long, requires = "plan")]
     pub(crate) rotors_separated: bool,
 }
 
 const WEIGH_EXAMPLES: &str = "\
-The constant was found with the same vehicle, and best with the same phone at the same place: then what biases both
-(the loudest rotor, the air, the hull) cancels. Air that is 1 % thinner weighs 1 % too much.
+Use a constant of the same vehicle, best from the same phone at the same place: then errors that both have (by the \
+loudest rotor, the air, the hull) cancel. If the air is 1 % thinner than it was then, the mass is 1 % too large.
 
 Examples:
   hovertone weigh loaded.mov --constant out/results.json
@@ -209,7 +209,7 @@ pub(crate) struct WeighArguments {
     /// Its standard uncertainty
     #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_std_n_s2: Option<f64>,
-    /// Rotors that carry it [default: from the results, or from --vehicle]
+    /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=12))]
     pub(crate) rotors: Option<u32>,
     /// Mass of the vehicle without payload [default: that of the results]
@@ -230,11 +230,11 @@ pub(crate) struct WeighArguments {
 }
 
 const EXPORT_EXAMPLES: &str = "\
-Every export has the constant in the program's own unit, and in all others in a comment: N/(rad/s)^2, N/(rev/s)^2,
-N/rpm^2, g/rpm^2. What sound does not tell (torque, time constants) is marked missing, never made up.
+Every export has the constant in the program's own unit; a comment has it in all other units: N/(rad/s)^2, N/(rev/s)^2, \
+N/rpm^2, g/rpm^2. Sound does not tell torque and time constants: they are marked as missing.
 
---into changes the numbers of a model that you have, and nothing else in it: the thrust constant of all rotors, and
-the torque constant with --torque-constant-n-m-s2. It knows the format by the content.
+--into changes only two numbers in your own model: the thrust constant of all rotors and, with \
+--torque-constant-n-m-s2, the torque constant. hovertone recognises the format by the content of the file.
 
 Examples:
   hovertone export out/results.json --to gazebo
@@ -246,35 +246,35 @@ Examples:
 /// One of several groups.
 #[derive(Args, Debug)]
 pub(crate) struct GroupArguments {
-    /// The group of the results of `hovertone fit --json`, where they have several
+    /// Group to use, if the results of `hovertone fit --json` have several
     #[arg(long, value_name = "NAME")]
     pub(crate) group: Option<String>,
 }
 
-/// A simulator's model with the constant: a new file, or your own with the number changed
+/// Writes the constant for a simulator: as a new model, or into your own
 #[derive(Args, Debug)]
 #[command(after_help = EXPORT_EXAMPLES)]
 pub(crate) struct ExportArguments {
     /// results.json of `hovertone identify`, or the output of `hovertone fit --json`
     #[arg(value_name = "RESULTS.json", value_parser = typed_path())]
     pub(crate) results: PathBuf,
-    /// Which program it is for
+    /// Program that shall read it
     #[arg(long, value_name = "FORMAT", value_parser = format_parser(), required_unless_present = "into", conflicts_with = "into")]
     pub(crate) to: Option<SimulatorFormat>,
-    /// Change the constant in this model of a simulator, in place or with -o elsewhere, and print the difference
+    /// Change the constant in this model of a simulator, or in a copy of it with -o, and print the difference
     #[arg(long, value_name = "MODEL", value_parser = typed_path())]
     pub(crate) into: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) of: GroupArguments,
-    /// Write there, instead of printing or of changing the model in place
+    /// Write into this file: without it --to prints, and --into changes the model itself
     #[arg(short, long, value_name = "FILE", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// Torque of a rotor over its squared speed, if it was measured: N m/(rad/s)²
+    /// Torque constant of a rotor, if you measured it, in N m/(rad/s)²
     #[arg(long, value_name = "X")]
     pub(crate) torque_constant_n_m_s2: Option<f64>,
-    /// Command (0 to 1) at which it hovers, for N/command²
+    /// Command (0 to 1) at which the vehicle hovers, for constants in N/command²
     #[arg(long, value_name = "U")]
     pub(crate) hover_command: Option<f64>,
     /// Diameter of a propeller, in m or as 8in [default: that of the results]
@@ -286,13 +286,13 @@ pub(crate) struct ExportArguments {
 }
 
 const COMPARE_EXAMPLES: &str = "\
-Reads SDF (Gazebo, PX4), xacro (RotorS), URDF (gym-pybullet-drones), Python (RotorPy), YAML (Flightmare), C++ (AirSim),
-TOML (crazyflow), and its own exports.
+The models may be SDF (Gazebo, PX4), xacro (RotorS), URDF (gym-pybullet-drones), Python (RotorPy), YAML (Flightmare), \
+C++ (AirSim), TOML (crazyflow), or exports of hovertone.
 
 Examples:
   hovertone compare out/results.json iris.sdf hummingbird.xacro";
 
-/// A simulator's models against the heard constant: constant, unit, and the speed at which each would hover
+/// Compares models of simulators with the heard constant: their constants, units, and hover speeds
 #[derive(Args, Debug)]
 #[command(after_help = COMPARE_EXAMPLES)]
 pub(crate) struct CompareArguments {

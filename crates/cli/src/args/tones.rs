@@ -5,8 +5,8 @@ use clap::Args;
 use std::path::PathBuf;
 
 const TONES_EXAMPLES: &str = "\
-A blade pass alone does not tell the number of blades: lines of the shaft between its harmonics do, the mesh of a
-known gear does, and diameter, mass and rotors rule out what cannot fly.
+A blade pass alone does not tell the number of blades: lines of the shaft between its harmonics do, the mesh of a known \
+gear does, and diameter, mass and rotors rule out what cannot fly.
 
 Examples:
   hovertone tones hover.mp4
@@ -16,8 +16,8 @@ Examples:
 
 /// Tone families in recordings, and the shaft speed that each possible order would mean
 ///
-/// Lists every series of lines: fundamental, harmonics, level over the floor, when it is heard. For the one that was
-/// taken for the rotor's, all readings: blades, gears, speeds, and how plausible each is.
+/// Lists every series of lines: its fundamental, harmonics and level over the floor, and when it is heard. For the series that was taken for
+/// the rotor's, it lists all readings: blades, gear, speed, and how plausible each is.
 #[derive(Args, Debug)]
 #[command(after_help = TONES_EXAMPLES)]
 pub(crate) struct TonesArguments {
@@ -26,7 +26,7 @@ pub(crate) struct TonesArguments {
     pub(crate) files: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
-    /// A known vehicle, for what it rules out (see `hovertone vehicles`)
+    /// A known vehicle: its numbers rule out readings (see `hovertone vehicles`)
     #[arg(long, value_name = "NAME", help_heading = "Known facts about the vehicle")]
     pub(crate) vehicle: Option<String>,
     /// Listen from here, in seconds or as 1:02.5
@@ -37,7 +37,7 @@ pub(crate) struct TonesArguments {
     pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) hearing: HearingArguments,
-    /// Print one JSON object per line and file, in the order given
+    /// Print one line of JSON for each file, in their order
     #[arg(long, help_heading = "Output")]
     pub(crate) json: bool,
 }

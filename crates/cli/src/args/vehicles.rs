@@ -5,7 +5,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 const VEHICLES_EXAMPLES: &str = "\
-A file with a vehicle of your own; all but rotors may be left out:
+A file with a vehicle of your own; only rotors is needed:
   [my-drone]
   name = \"My drone\"
   rotors = 4
@@ -15,14 +15,14 @@ A file with a vehicle of your own; all but rotors may be left out:
   shaft_speed_rev_s = [60.0, 400.0]
   source = \"measured by me\"
 
---add puts it into hovertone/vehicles.toml in $XDG_CONFIG_HOME, else in ~/.config. Then it is known as
---vehicle my-drone on the command line, and as preset = \"my-drone\" in an experiment file.
+--add copies it into hovertone/vehicles.toml in $XDG_CONFIG_HOME, or in ~/.config. Then its name is --vehicle my-drone \
+on the command line, and preset = \"my-drone\" in an experiment file.
 
 Examples:
   hovertone vehicles
   hovertone vehicles --add my-drone.toml";
 
-/// The vehicles that hovertone knows: every number with the document it was read in; and your own
+/// The vehicles that hovertone knows, with the source of every number; and your own
 #[derive(Args, Debug)]
 #[command(after_help = VEHICLES_EXAMPLES)]
 pub(crate) struct VehiclesArguments {

@@ -7,8 +7,8 @@ use clap::Args;
 use std::path::PathBuf;
 
 const VERIFY_EXAMPLES: &str = "\
-The log needs speeds of the motors: PX4 (.ulg), ArduPilot (.bin), Betaflight and INAV (.bbl, .bfl), or CSV.
-The clocks are aligned by the changes of the speeds.
+The log needs speeds of the motors: PX4 (.ulg), ArduPilot (.bin), Betaflight and INAV (.bbl, .bfl), or CSV. The \
+clocks are aligned by the changes of the speeds.
 
 Examples:
   hovertone verify hover.mp4 flight.ulg --vehicle iris
@@ -29,7 +29,7 @@ pub(crate) struct VerifyArguments {
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// Seconds to add to the log's times to get the recording's, as LOW:HIGH; found where not given
+    /// Limits of the time to add to the log's clock to get that of the recording: -5:5 in seconds, or -0:05..0:05 [default: none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true)]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     #[command(flatten)]

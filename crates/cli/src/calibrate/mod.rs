@@ -153,7 +153,7 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
 fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
     let reference = reference_of(arguments)?;
     if let Some(several) = arguments.rotors.filter(|count| *count > 1) {
-        let what = format!("{several} rotors turn at speeds of their own, and the known speed is that of one");
+        let what = format!("{several} rotors turn, each at its own speed, and the known speed is that of one rotor");
         return Err(Failure::usage(what, "let one rotor turn alone, and leave --rotors out"));
     }
     let known = KnownArguments { rotors: Some(1), ..KnownArguments::default() };
@@ -183,8 +183,9 @@ fn assumed_rotors(arguments: &CalibrateArguments) -> Result<Option<Notice>, Fail
     let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let count = vehicle.map_or(1, |vehicle| vehicle.rotor_count.value);
     let is_assumed = arguments.rotors.is_none() && count > 1;
-    let text =
-        format!("one rotor is assumed to turn, and the vehicle has {count}: the sound of several has no single speed");
+    let text = format!(
+        "the vehicle has {count} rotors, and one is assumed to turn: several rotors have no single speed to compare"
+    );
     Ok(is_assumed.then(|| Notice::new(text, "let one rotor turn alone, and confirm it with --rotors 1")))
 }
 

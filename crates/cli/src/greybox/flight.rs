@@ -15,7 +15,8 @@ use hovertone_dynamics::{
 use hovertone_logs::{ColumnNames, LoggedControl, MissingControl, RateAxes, control_from_log};
 use hovertone_report::Notice;
 use hovertone_vehicle::{
-    FlightParameters, GRAVITY_STANDARD_M_S2, RotorSpeed, find_flight_parameters, find_preset, flight_presets,
+    FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, find_flight_parameters,
+    find_preset, flight_presets,
 };
 use std::path::{Path, PathBuf};
 
@@ -70,7 +71,10 @@ impl GreyBoxVehicle {
             Failure::usage(format!("there is no vehicle \"{name}\" that can fly"), hint)
         };
         let parameters = find_flight_parameters(name).ok_or_else(unknown)?.clone();
-        let orders = find_preset(name).and_then(LineOrders::of).ok_or_else(unknown)?;
+        let preset = find_preset(name).ok_or_else(unknown)?;
+        KnownRotor { mass_kg, ..KnownRotor::default() }.check()?;
+        preset.check_said(&SaidOfVehicle { mass_kg, is_hovering: true, ..SaidOfVehicle::default() })?;
+        let orders = LineOrders::of(preset).ok_or_else(unknown)?;
         Ok(Self { mass_kg: mass_kg.unwrap_or(parameters.mass_kg.value), parameters, orders })
     }
 
@@ -140,7 +144,7 @@ fn without_loops(missing: &[MissingControl], path: &Path) -> Failure {
     let lacks: Vec<String> =
         missing.iter().map(|missing| format!("{} lacks {}", missing.control_loop.name(), missing.what)).collect();
     Failure::Usage {
-        what: format!("this log has no command together with the angle or rate that it commands: {}", lacks.join(", ")),
+        what: format!("this log has no command beside the angle or rate that answers it: {}", lacks.join(", ")),
         hint: hints.join("; "),
         path: Some(path.to_owned()),
     }

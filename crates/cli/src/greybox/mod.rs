@@ -113,12 +113,6 @@ struct LogReader {
 impl LogReader {
     fn of(arguments: &GreyBoxArguments) -> Result<Self, Failure> {
         let offset_s = arguments.log_offset_s.unwrap_or(0.0);
-        if !offset_s.is_finite() {
-            return Err(Failure::usage(
-                "--log-offset-s is no number of seconds",
-                "give seconds, as in --log-offset-s 2.5",
-            ));
-        }
         let axes = match arguments.log_axes {
             Some(BodyAxes::Frd) => RateAxes::ForwardRightDown,
             _ => RateAxes::ForwardLeftUp,

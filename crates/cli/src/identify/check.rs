@@ -102,7 +102,7 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
     });
     let loads = experiment.loads.len();
-    let few = format!("{}: whether F = C_f ω² holds shows from {LOADS_WANTED} on", counted(loads, "load"));
+    let few = format!("{}: only {LOADS_WANTED} or more can show whether F = C_f ω² holds", counted(loads, "load"));
     [
         (
             experiment.is_weighed || hovers().next().is_none(),
@@ -112,8 +112,8 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         (
             experiment.propeller_diameter_m.is_some(),
             match experiment.config.known.shaft_speed {
-                Some(_) => "the diameter of the propellers is not known: no C_T",
-                None => "the diameter of the propellers is not known: it settles the octave, and C_T needs it",
+                Some(_) => "the diameter of the propellers is not known: the thrust coefficient C_T is left out",
+                None => "the diameter of the propellers is not known: it tells a speed from its double and its half, and C_T needs it",
             },
             "write vehicle.propeller_diameter_m, or give --diameter-m",
         ),
@@ -124,7 +124,7 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         ),
         (
             experiment.air.is_some(),
-            "the air is not known: no C_T",
+            "the density of the air is not known: the thrust coefficient C_T is left out",
             "write [air] with temperature_c and pressure_hpa in an experiment file",
         ),
         (loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),

@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let name = quoted(&arguments.output.display().to_string());
     let known = &source.experiment.config.known;
     if known.diameter_m.is_none() && known.shaft_speed.is_none() {
-        terminal.say("The diameter of the propellers is not in it: measure it, it settles the octave.");
+        terminal.say("The diameter of the propellers is not in it. Measure it and add it: it tells a speed from its double and its half.");
     }
     terminal.say(&format!("Look at what it would do: hovertone identify {name} --check"));
     terminal.say(&format!("Identify the constant:    hovertone identify {name} -o results"));

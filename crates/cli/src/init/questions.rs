@@ -46,7 +46,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
     let knows_diameter = vehicle.is_some_and(|vehicle| vehicle.propeller_diameter_m.is_some());
     if draft.diameter_m.is_none() && !knows_diameter {
         dialog.say(
-            "\nThe diameter of the propellers settles the octave: with the mass it tells how fast they must turn.",
+            "\nThe diameter of the propellers tells a speed from its double and its half: with the mass it tells how fast they must turn.",
         );
         draft.diameter_m =
             dialog.ask("Diameter, from tip to tip, as 200mm, 8in or 0.2 (in m) [not known]:", diameter_m)?;
@@ -207,7 +207,7 @@ mod tests {
         let masses: Vec<f64> = draft.loads.iter().map(|load| load.mass_kg).collect();
         assert_eq!(masses, [0.413, 0.444], "{asked}");
         assert!(draft.loads[0].recordings[0].ends_with("no_hull/*.MOV"), "{draft:?}");
-        for words in ["settles the octave", "2 recordings", "talk.mp3:", "Known vehicles: ardrone"] {
+        for words in ["from its double and its half", "2 recordings", "talk.mp3:", "Known vehicles: ardrone"] {
             assert!(asked.contains(words), "{words}:\n{asked}");
         }
     }

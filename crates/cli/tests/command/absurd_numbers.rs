@@ -5,14 +5,19 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Names of values that are numbers, in the help.
-const NUMBERS: [&str; 17] = [
+const NUMBERS: [&str; 18] = [
     "N", "X", "M", "KG", "PPM", "M/S", "S", "SHARE", "DEG", "M/S2", "C", "HPA", "PERCENT", "N_S2", "HZ", "RPM", "TIME",
+    "LOW:HIGH",
 ];
 const ABSURD: [&str; 3] = ["nan", "1000000000", "-1000000000"];
+/// A clock may count its seconds from 1970.
+const ABSURD_OFFSETS: [&str; 3] = ["nan", "100000000000", "-100000000000"];
+/// Both limits of an offset, the wrong way round, and the whole of time.
+const ABSURD_SPANS: [&str; 3] = ["nan:1", "5:-5", "0:100000000000"];
 /// Any seed has a meaning; a track, a channel or a time may be in a recording, which this test does not read.
 const MEANINGFUL: [&str; 5] = ["--seed", "--audio-track", "--channel", "--from", "--to"];
 /// Commands that end before they hear anything: the recording or the table is not there.
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 20] = [
     "speed nowhere.wav --blades 2",
     "speed nowhere.wav --vehicle ardrone",
     "tones nowhere.wav",
@@ -26,6 +31,13 @@ const COMMANDS: [&str; 13] = [
     "fit --plan --mass-kg 0.413 --diameter-m 0.2",
     "weigh nowhere.wav --constant results.json --mass-kg 0.413 --latitude-deg 50",
     "weigh nowhere.wav --vehicle ardrone --constant-n-s2 2.83e-5 --mass-kg 0.413",
+    "log nowhere.csv",
+    "motor nowhere.csv --commands steps.csv --blades 2",
+    "motor nowhere.wav --commands steps.csv --vehicle ardrone",
+    "verify nowhere.wav steps.csv --blades 2",
+    "verify nowhere.wav steps.csv --vehicle ardrone",
+    "greybox nowhere.csv --vehicle ardrone",
+    "greybox nowhere.wav nowhere.csv --vehicle ardrone",
 ];
 
 /// The flags of a command whose values are numbers.
@@ -47,6 +59,7 @@ fn absurd_numbers_are_refused() {
     results_of_four_rotors(folder.path());
     let experiment = "[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\nrecordings = [\"nowhere.wav\"]\n";
     fs::write(folder.path().join("missing.toml"), experiment).unwrap();
+    fs::write(folder.path().join("steps.csv"), "time_s,rotor1_rpm,motor1_pwm\n0,600,1000\n1,660,1100\n").unwrap();
     let (mut wrong, mut tried) = (Vec::new(), 0);
     for command in COMMANDS {
         let words: Vec<&str> = command.split(' ').collect();
@@ -57,10 +70,16 @@ fn absurd_numbers_are_refused() {
             let others =
                 words.iter().enumerate().filter(|(index, _)| said.is_none_or(|at| !(at..=at + 1).contains(index)));
             let others: Vec<&str> = others.map(|(_, word)| *word).collect();
-            for value in ABSURD {
+            let absurd = match flag.as_str() {
+                "--offset" => ABSURD_OFFSETS,
+                "--log-offset-s" if words[0] == "greybox" => ABSURD_OFFSETS,
+                "--log-offset-s" => ABSURD_SPANS,
+                _ => ABSURD,
+            };
+            for value in absurd {
                 let ended = run(&[&others[..], &[format!("{flag}={value}").as_str()]].concat());
                 tried += 1;
-                if ended.code != 2 || !ended.stdout.is_empty() {
+                if ended.code != 2 || !ended.stdout.is_empty() || ended.stderr.lines().count() != 1 {
                     wrong.push(format!("{command} {flag}={value} ends with {}: {}", ended.code, ended.stderr.trim()));
                 }
             }

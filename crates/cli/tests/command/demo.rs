@@ -1,5 +1,7 @@
 //! `hovertone demo`: the whole way, with the truth known.
 
+#[cfg(unix)]
+use crate::sigint;
 use crate::testkit::{hovertone, text};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -68,6 +70,14 @@ fn a_seed_repeats_to_the_byte() {
     let (first, second) = (folder.path().join("first"), folder.path().join("second"));
     let run = hovertone(&["demo", "-o", text(&first)]).ends_with(0);
     let read = |demo: &Path, name: &str| fs::read(demo.join(name)).unwrap();
+    // one that was interrupted can simply be run again
+    #[cfg(unix)]
+    {
+        let mut begun = sigint::begun(&["demo", "-o", text(&second), "--no-progress"], |command| command);
+        sigint::wait_for_writing(&mut begun, &second.join("big_hull"));
+        assert!(sigint::interrupted(begun).0);
+        sigint::assert_whole(&second);
+    }
     hovertone(&["demo", "-o", text(&second), "--seed", "2"]).ends_with(0);
     assert_ne!(read(&second, "results.json"), read(&first, "results.json"));
     // the same seed once more, over an earlier demo

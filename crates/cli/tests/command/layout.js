@@ -19,6 +19,7 @@
   for (const box of boxes) {
     const rest = box.scrollWidth - box.clientWidth;
     if (rest > 1 && (width >= 1200 || isPrint)) faults.push(`${name(box)} is cut by ${rest} px`);
+    if (rest > 1 && box.querySelector(".units-of-constant")) faults.push(`the numbers to paste are cut by ${rest} px`);
     if (rest > 1 && !isPrint && !box.matches(".more-right")) faults.push(`${name(box)} does not show that it scrolls`);
     if (rest > 1 && !isPrint && !box.matches("[tabindex='0']") && !box.querySelector("svg[tabindex='0']")) faults.push(`a keyboard cannot scroll ${name(box)}`);
   }

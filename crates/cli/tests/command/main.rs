@@ -44,6 +44,7 @@ mod rights;
 mod roundtrip;
 mod saying_more;
 mod shell;
+mod sigint;
 mod simulate;
 mod slips;
 mod spectrogram;

@@ -1,6 +1,6 @@
 //! Wrong use ends with 2 and says what to do.
 
-use crate::testkit::{hovertone, text};
+use crate::testkit::{hovertone, hovertone_with, text};
 
 fn refuses(arguments: &[&str], words: &[&str]) {
     let run = hovertone(arguments).ends_with(2);
@@ -10,6 +10,28 @@ fn refuses(arguments: &[&str], words: &[&str]) {
     }
     assert!(!run.stderr.contains('\x1b'), "colours without a terminal");
 }
+
+const COMMANDS: [&str; 19] = [
+    "init",
+    "calibrate",
+    "completions",
+    "man",
+    "speed",
+    "tones",
+    "spectrogram",
+    "identify",
+    "fit",
+    "weigh",
+    "export",
+    "compare",
+    "demo",
+    "log",
+    "motor",
+    "verify",
+    "greybox",
+    "simulate",
+    "vehicles",
+];
 
 #[test]
 fn what_is_known_of_the_vehicle_must_be_possible() {
@@ -82,51 +104,22 @@ fn help_and_version_are_data() {
     let version = hovertone(&["--version"]).ends_with(0);
     assert_eq!(version.stdout.trim_end(), format!("hovertone {}", env!("CARGO_PKG_VERSION")));
     let help = hovertone(&["--help"]).ends_with(0).stdout;
-    for command in [
-        "init",
-        "calibrate",
-        "completions",
-        "man",
-        "speed",
-        "tones",
-        "spectrogram",
-        "identify",
-        "fit",
-        "weigh",
-        "export",
-        "compare",
-        "demo",
-        "log",
-        "motor",
-        "verify",
-        "simulate",
-        "vehicles",
-        "Exit codes",
-    ] {
+    for command in COMMANDS.iter().chain(&["Exit codes"]) {
         assert!(help.contains(command), "{command}");
     }
-    for command in [
-        "init",
-        "calibrate",
-        "completions",
-        "man",
-        "speed",
-        "tones",
-        "spectrogram",
-        "identify",
-        "fit",
-        "weigh",
-        "export",
-        "compare",
-        "demo",
-        "log",
-        "motor",
-        "verify",
-        "simulate",
-        "vehicles",
-    ] {
-        let help = hovertone(&[command, "--help"]).ends_with(0).stdout;
+    for command in COMMANDS {
+        let run = hovertone_with(&[command, "--help"], |command| command.env("COLUMNS", "100"));
+        let help = run.ends_with(0).stdout;
         assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
+        // a sentence of a paragraph goes on in the next line only where it reached the width
+        let lines: Vec<&str> = help.lines().collect();
+        for pair in lines.windows(2) {
+            let goes_on = pair[1].starts_with(|first: char| first.is_ascii_lowercase());
+            let is_text = !pair[0].is_empty() && !pair[0].starts_with(' ');
+            let next_word = pair[1].split(' ').next().unwrap_or_default();
+            let has_room = pair[0].chars().count() + 1 + next_word.chars().count() <= 100;
+            assert!(!(goes_on && is_text && has_room), "{command}: {pair:#?}");
+        }
     }
 }
 

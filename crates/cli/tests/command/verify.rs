@@ -67,7 +67,11 @@ fn nothing_to_compare_ends_with_a_sentence() {
     let log = folder.path().join("log.csv");
     fs::write(&log, "time_s,rotor1_rpm\n0,4000\n1,4100\n2,4200\n").unwrap();
     let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(3);
-    assert!(run.stderr.contains("no rotor tone, nothing to compare"), "{}", run.stderr);
+    for words in ["no rotor tone: nothing sounds like a rotor", "nothing is compared"] {
+        assert_eq!(run.stderr.matches(words).count(), 1, "{words}:\n{}", run.stderr);
+    }
+    let run = hovertone(&["verify", "nowhere.wav", text(&log), "--blades", "2"]).ends_with(1);
+    assert!(run.stderr.lines().count() == 1 && run.stderr.contains("check its name"), "{}", run.stderr);
     let run = hovertone(&["verify", text(&log), text(&noise), "--blades", "2"]).ends_with(1);
     assert!(run.stderr.contains("give the recording first, then the log"), "{}", run.stderr);
     fs::write(&log, "time_s,motor1_pwm\n0,1000\n1,1100\n").unwrap();

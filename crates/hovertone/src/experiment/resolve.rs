@@ -318,7 +318,11 @@ impl ExperimentFile {
         for (index, load) in self.loads.iter().enumerate() {
             if load.name.trim().is_empty() || self.loads[..index].iter().any(|before| before.name == load.name) {
                 return Err(ExperimentError::Contradiction {
-                    what: format!("load number {} is called {:?}", index + 1, load.name),
+                    what: format!(
+                        "load number {} has the name {:?}, which is empty or another load's",
+                        index + 1,
+                        load.name
+                    ),
                     hint: "give every load a name of its own",
                 });
             }

@@ -74,7 +74,7 @@ fn a_bench_run_has_the_scales_uncertainty_unless_it_says_better() {
     assert!((thrust_std_n - 0.0005 * GRAVITY_STANDARD_M_S2).abs() < 1e-12);
 }
 
-/// With diameter and mass, the shaft speed has a prior: it settles the octave.
+/// With diameter and mass, the shaft speed has a prior: it tells a speed from its double and its half.
 #[test]
 fn diameter_and_mass_are_known_before_the_sound() {
     let text = GOOD.replace("[tone]", "propeller_diameter_m = 0.2\n[tone]");

@@ -2,7 +2,6 @@
 
 use crate::LogError;
 use std::borrow::Cow;
-use std::io::Read;
 
 /// Most characters of a number whose digits, without the point, are a whole number that a float holds.
 const PLAIN_DIGITS_MAX: usize = 16;
@@ -11,15 +10,15 @@ const POWERS: [f64; PLAIN_DIGITS_MAX + 1] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16];
 
 /// How the cells of a CSV are written.
-pub(super) struct Cells {
+#[derive(Clone, Copy, Debug)]
+pub struct CsvCells {
     delimiter: u8,
     /// Whether "3,5" is a number.
     has_decimal_commas: bool,
 }
 
-impl Cells {
-    /// From the first bytes of a file. The separator is the most frequent candidate of the first line. Commas are decimal commas where a cell
-    /// proves it.
+impl CsvCells {
+    /// From the first bytes of a file.
     ///
     /// # Errors
     /// No text, or JSON.
@@ -32,22 +31,35 @@ impl Cells {
         if text.trim_start().starts_with(['{', '[']) {
             return Err(LogError::Json);
         }
+        Ok(Self::of_text(text))
+    }
+
+    /// From a text that begins with its header. The separator is the most frequent candidate of the first line. Commas are decimal commas where a
+    /// cell proves it: "3,5". Lines that begin with # are skipped.
+    pub fn of_text(text: &str) -> Self {
         let first_line = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
         let count = |delimiter: &u8| first_line.bytes().filter(|byte| byte == delimiter).count();
         // with equal counts the last candidate wins
         let delimiter = [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',');
         let cells = Self { delimiter, has_decimal_commas: false };
-        let records = cells.reader(text.as_bytes()).into_byte_records();
+        // where commas separate, a cell with a comma has quotes
+        if delimiter == b',' && !text.contains('"') {
+            return cells;
+        }
+        let records = cells.reader().from_reader(text.as_bytes()).into_byte_records();
         let has_decimal_commas = records.map_while(Result::ok).any(|record| record.iter().any(is_decimal_comma));
-        Ok(Self { has_decimal_commas, ..cells })
+        Self { has_decimal_commas, ..cells }
     }
 
-    pub(super) fn reader<R: Read>(&self, source: R) -> csv::Reader<R> {
-        csv::ReaderBuilder::new().delimiter(self.delimiter).flexible(true).comment(Some(b'#')).from_reader(source)
+    /// A reader of such cells; rows may differ in length.
+    pub fn reader(&self) -> csv::ReaderBuilder {
+        let mut builder = csv::ReaderBuilder::new();
+        builder.delimiter(self.delimiter).flexible(true).comment(Some(b'#'));
+        builder
     }
 
     /// The finite number in a cell.
-    pub(super) fn number(&self, cell: &[u8]) -> Option<f64> {
+    pub fn number(&self, cell: &[u8]) -> Option<f64> {
         let cell = cell.trim_ascii();
         if let Some(number) = plain_number(cell) {
             return Some(number);

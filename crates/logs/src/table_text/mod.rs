@@ -8,7 +8,7 @@ mod tests;
 use crate::byte_window::ByteWindow;
 use crate::table::{Findings, RowSink, RowValues, SignalRole, TableSignal};
 use crate::{LogError, LogFormat};
-use cells::Cells;
+pub use cells::CsvCells;
 use column::{LogColumn, column_of, unit_of};
 use csv::ByteRecord;
 use std::io::Read;
@@ -81,8 +81,8 @@ pub(crate) fn read<R: Read>(
     sink: &mut impl RowSink,
 ) -> Result<(LogFormat, Findings), LogError> {
     let head = bytes.ahead(HEAD_BYTES)?;
-    let cells = Cells::of_head(&head[..head.len().min(HEAD_BYTES)])?;
-    let mut reader = cells.reader(bytes);
+    let cells = CsvCells::of_head(&head[..head.len().min(HEAD_BYTES)])?;
+    let mut reader = cells.reader().from_reader(bytes);
     let headers: Vec<String> =
         reader.byte_headers()?.iter().map(|header| cells::text_of(header).trim().to_owned()).collect();
     names.check(&headers)?;
@@ -190,7 +190,7 @@ fn refuse_twice(columns: &[Column]) -> Result<(), LogError> {
 }
 
 /// The finite number of a cell, in the unit of the signal; `None` for an empty cell.
-fn number(cells: &Cells, column: &Column, record: &ByteRecord) -> Result<Option<f64>, LogError> {
+fn number(cells: &CsvCells, column: &Column, record: &ByteRecord) -> Result<Option<f64>, LogError> {
     let cell = record.get(column.index).unwrap_or_default();
     if cells::is_gap(cell) {
         return Ok(None);
@@ -205,7 +205,7 @@ fn number(cells: &Cells, column: &Column, record: &ByteRecord) -> Result<Option<
 
 /// A row of text.
 struct TextRow<'a> {
-    cells: &'a Cells,
+    cells: &'a CsvCells,
     signals: &'a [&'a Column],
     record: &'a ByteRecord,
     /// Numbers that were read already, of the signals with a role.

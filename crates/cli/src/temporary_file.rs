@@ -1,0 +1,106 @@
+//! Files that stand only while a run works. Its end removes them, and so does an interrupt.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use tempfile::NamedTempFile;
+
+/// The temporary files of this run. An interrupt holds it until the process ends, so that no file comes after it.
+static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// A file that is removed when it is dropped.
+pub(crate) struct TemporaryFile {
+    path: PathBuf,
+}
+
+impl TemporaryFile {
+    /// A new file of this name.
+    pub(crate) fn create(path: PathBuf) -> io::Result<(Self, File)> {
+        Self::made(|| Ok((File::options().write(true).create_new(true).open(&path)?, path)))
+    }
+
+    /// A new file with a name of its own in the system's folder of temporary files; only its owner can read it.
+    pub(crate) fn with_prefix(prefix: &str) -> io::Result<(Self, File)> {
+        Self::made(|| Ok(NamedTempFile::with_prefix(prefix)?.keep()?))
+    }
+
+    fn made(make: impl FnOnce() -> io::Result<(File, PathBuf)>) -> io::Result<(Self, File)> {
+        #[cfg(unix)]
+        interrupt::watch();
+        let mut files = files();
+        let (file, path) = make()?;
+        files.insert(path.clone());
+        Ok((Self { path }, file))
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts the file into its place, where it stays.
+    pub(crate) fn rename(self, place: &Path) -> io::Result<()> {
+        let mut files = files();
+        fs::rename(&self.path, place)?;
+        files.remove(&self.path);
+        Ok(())
+    }
+}
+
+impl Drop for TemporaryFile {
+    fn drop(&mut self) {
+        let mut files = files();
+        if files.remove(&self.path) {
+            // a failure to remove it leaves a file that the next run removes
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+fn files() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    FILES.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(unix)]
+mod interrupt {
+    use super::files;
+    use crate::failure::Failure;
+    use crate::terminal::Terminal;
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    use signal_hook::low_level::emulate_default_handler;
+    use std::io::{self, ErrorKind};
+    use std::path::Path;
+    use std::sync::Once;
+
+    static WATCH: Once = Once::new();
+
+    /// From now on an interrupt removes the temporary files before it ends the process.
+    pub(super) fn watch() {
+        WATCH.call_once(|| {
+            // without it an interrupt leaves files that the next run removes
+            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+            std::thread::spawn(move || signals.forever().for_each(end));
+        });
+    }
+
+    fn end(signal: i32) {
+        let files = files();
+        for file in files.iter() {
+            match std::fs::remove_file(file) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    Terminal::new().failure(&cannot_remove(&error, file));
+                }
+                _ => {}
+            }
+        }
+        // it ends the process as if nobody had watched: a shell with a loop around the command sees the interrupt
+        let _ = emulate_default_handler(signal);
+    }
+
+    fn cannot_remove(error: &io::Error, file: &Path) -> Failure {
+        let what = format!("the interrupt left this unfinished file, which cannot be removed: {error}");
+        Failure::failed(what, "remove it, or run the command again when you may write there", file)
+    }
+}

@@ -1,0 +1,169 @@
+//! Ctrl-C while a command works: the old files or the new ones stand, never half of one, and nothing temporary beside them.
+#![cfg(unix)]
+
+use crate::identify::write_experiment;
+use crate::testkit::{files_in, hovertone, text};
+use std::fs;
+use std::io::{Read, Write};
+use std::os::unix::fs::PermissionsExt;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+const SIGINT: i32 = 2;
+const UNFINISHED: &str = ".hovertone-unfinished";
+/// The user "nobody".
+const NOBODY: u32 = 65_534;
+
+/// Begins a command.
+pub(crate) fn begun(arguments: &[&str], set_up: impl FnOnce(&mut Command) -> &mut Command) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hovertone"));
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+    set_up(&mut command).spawn().unwrap()
+}
+
+/// Sends the interrupt of Ctrl-C and waits for the end. Returns whether the interrupt ended it, and what it said.
+pub(crate) fn interrupted(mut run: Child) -> (bool, String) {
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", run.id())]).stderr(Stdio::null()).status();
+    sent.unwrap();
+    let status = run.wait().unwrap();
+    let mut said = String::new();
+    run.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+    (status.signal() == Some(SIGINT), said)
+}
+
+/// Waits until a run has begun to write a file somewhere in a folder.
+pub(crate) fn wait_for_writing(run: &mut Child, folder: &Path) {
+    let ending = format!(".{}{UNFINISHED}", run.id());
+    let begun = Instant::now();
+    while !all_files(folder).iter().any(|file| text(file).ends_with(&ending)) {
+        assert!(run.try_wait().unwrap().is_none() && begun.elapsed() < Duration::from_secs(60), "it wrote nothing");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// All files of a folder and of its folders.
+pub(crate) fn all_files(folder: &Path) -> Vec<PathBuf> {
+    let entries = folder.read_dir().into_iter().flatten().flatten().map(|entry| entry.path());
+    entries.flat_map(|path| if path.is_dir() { all_files(&path) } else { vec![path] }).collect()
+}
+
+/// Every file of a folder, as far as its kind shows, is whole, and none is temporary.
+pub(crate) fn assert_whole(folder: &Path) {
+    for file in all_files(folder) {
+        let name = text(&file);
+        assert!(!name.ends_with(UNFINISHED), "{name}");
+        let content = fs::read(&file).unwrap();
+        let ends = |end: &str| content.trim_ascii_end().ends_with(end.as_bytes());
+        let is_whole = match file.extension().and_then(|end| end.to_str()) {
+            Some("svg") => ends("</svg>"),
+            Some("html") => ends("</html>"),
+            Some("json") => serde_json::from_slice::<serde_json::Value>(&content).is_ok(),
+            Some("png") => content.ends_with(b"IEND\xaeB`\x82"),
+            Some("wav") => hound::WavReader::open(&file).is_ok_and(|wav| wav.duration() > 0),
+            _ => !content.is_empty(),
+        };
+        assert!(is_whole, "{name}");
+    }
+}
+
+/// A log that comes from a pipe, while the pipe is open: the output is begun and never finished.
+fn log_from_pipe(folder: &Path, set_up: impl FnOnce(&mut Command) -> &mut Command) -> Child {
+    let out = folder.join("out.csv");
+    let mut run = begun(&["log", "-", "--signal", "table.rotor1_rpm", "-o", text(&out), "--force"], set_up);
+    run.stdin.as_mut().unwrap().write_all(b"time_s,rotor1_rpm\n0,600\n1,660\n").unwrap();
+    wait_for_writing(&mut run, folder);
+    run
+}
+
+#[test]
+fn a_single_file_stays_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    for old in [None, Some("old\n")] {
+        old.map_or(Ok(()), |old| fs::write(folder.path().join("out.csv"), old)).unwrap();
+        let mut run = log_from_pipe(folder.path(), |command| command);
+        let pipe = run.stdin.take();
+        let (is_ended_by_it, said) = interrupted(run);
+        assert!(is_ended_by_it && said.is_empty(), "{said}");
+        drop(pipe);
+        let left = all_files(folder.path());
+        assert_eq!(left.len(), usize::from(old.is_some()), "{left:?}");
+        left.iter().for_each(|file| assert_eq!(fs::read_to_string(file).unwrap(), "old\n"));
+    }
+}
+
+#[test]
+fn a_recording_from_a_pipe_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut run =
+        begun(&["speed", "-", "--blades", "2", "--no-progress"], |command| command.env("TMPDIR", folder.path()));
+    run.stdin.as_mut().unwrap().write_all(b"RIFF").unwrap();
+    let begun = Instant::now();
+    while all_files(folder.path()).is_empty() {
+        assert!(begun.elapsed() < Duration::from_secs(60), "nothing was kept");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let pipe = run.stdin.take();
+    assert!(interrupted(run).0);
+    drop(pipe);
+    assert!(all_files(folder.path()).is_empty());
+}
+
+#[test]
+fn results_are_whole_and_the_command_can_be_repeated() {
+    let folder = tempfile::tempdir().unwrap();
+    let experiment = write_experiment(folder.path());
+    let out = folder.path().join("out");
+    let arguments = ["identify", &experiment, "-o", text(&out), "--no-progress"];
+    let mut ended = 0;
+    for delay_ms in [0, 5, 20, 60, 150] {
+        let mut run = begun(&arguments, |command| command);
+        wait_for_writing(&mut run, &out);
+        // first its list, then for a while nothing, then its results
+        let begun = Instant::now();
+        while !out.join("results.json").exists() && begun.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        std::thread::sleep(Duration::from_millis(delay_ms));
+        ended += u32::from(interrupted(run).0);
+        assert_whole(&out);
+    }
+    assert!(ended > 1, "interrupted {ended} times");
+    hovertone(&arguments).ends_with(0);
+    assert_whole(&out);
+    assert!(files_in(&out, ".html").len() == 1 && !files_in(&out.join("figures"), ".png").is_empty());
+}
+
+#[test]
+fn a_demo_leaves_whole_files_and_takes_its_folder_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let demo = folder.path().join("demo");
+    for (seed, delay_ms) in [("1", 0), ("1", 300), ("2", 40)] {
+        let mut run = begun(&["demo", "-o", text(&demo), "--seed", seed, "--no-progress"], |command| command);
+        wait_for_writing(&mut run, &demo.join("no_hull"));
+        std::thread::sleep(Duration::from_millis(delay_ms));
+        let (is_ended_by_it, said) = interrupted(run);
+        assert!(is_ended_by_it && said.is_empty(), "{said}");
+        assert_whole(&demo);
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_removed_is_told_in_one_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let allow = |mode: u32| fs::set_permissions(folder.path(), fs::Permissions::from_mode(mode)).unwrap();
+    allow(0o777);
+    let is_root = fs::metadata("/proc/self").is_ok_and(|own| std::os::unix::fs::MetadataExt::uid(&own) == 0);
+    let mut run =
+        log_from_pipe(folder.path(), |command| if is_root { command.uid(NOBODY).gid(NOBODY) } else { command });
+    allow(0o555);
+    let pipe = run.stdin.take();
+    let (is_ended_by_it, said) = interrupted(run);
+    drop(pipe);
+    allow(0o755);
+    assert!(is_ended_by_it && said.lines().count() == 1, "{said}");
+    for words in ["error: ", UNFINISHED, "left this unfinished file", "hint: remove it"] {
+        assert!(said.contains(words), "no {words:?}:\n{said}");
+    }
+}
