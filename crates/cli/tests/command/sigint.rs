@@ -2,7 +2,8 @@
 #![cfg(unix)]
 
 use crate::identify::write_experiment;
-use crate::testkit::{files_in, hovertone, text};
+use crate::testkit::{files_in, hovertone, steady_hover, text, write_hover};
+use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::io::{Read, Write};
 use std::os::unix::fs::PermissionsExt;
@@ -13,6 +14,8 @@ use std::time::{Duration, Instant};
 
 const SIGINT: i32 = 2;
 const UNFINISHED: &str = ".hovertone-unfinished";
+/// Last part of the name of an empty file by which the jobs of one archive know each other.
+const LOCK: &str = ".hovertone-lock";
 /// The user "nobody".
 const NOBODY: u32 = 65_534;
 
@@ -51,7 +54,7 @@ pub(crate) fn all_files(folder: &Path) -> Vec<PathBuf> {
 
 /// Every file of a folder, as far as its kind shows, is whole, and none is temporary.
 pub(crate) fn assert_whole(folder: &Path) {
-    for file in all_files(folder) {
+    for file in all_files(folder).into_iter().filter(|file| !text(file).ends_with(LOCK)) {
         let name = text(&file);
         assert!(!name.ends_with(UNFINISHED), "{name}");
         let content = fs::read(&file).unwrap();
@@ -133,6 +136,26 @@ fn results_are_whole_and_the_command_can_be_repeated() {
     hovertone(&arguments).ends_with(0);
     assert_whole(&out);
     assert!(files_in(&out, ".html").len() == 1 && !files_in(&out.join("figures"), ".png").is_empty());
+}
+
+#[test]
+fn an_archive_leaves_whole_parts_and_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let (archive, out) = (folder.path().join("archive"), folder.path().join("out"));
+    fs::create_dir(&archive).unwrap();
+    for number in 0..6 {
+        let speed = RotorSpeed::from_rev_s(58.0 + f64::from(number));
+        write_hover(&archive.join(format!("{number}.wav")), steady_hover("ardrone", speed, 2.0));
+    }
+    let arguments = ["batch", text(&archive), "-o", text(&out), "--vehicle", "ardrone", "--no-progress"];
+    let mut run = begun(&arguments, |command| command);
+    wait_for_writing(&mut run, &out.join("parts"));
+    let (is_ended_by_it, said) = interrupted(run);
+    assert!(is_ended_by_it && said.is_empty(), "{said}");
+    assert_whole(&out);
+    hovertone(&arguments).ends_with(0);
+    assert_whole(&out);
+    assert!(out.join("recordings.parquet").exists());
 }
 
 #[test]
