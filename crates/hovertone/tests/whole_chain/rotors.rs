@@ -333,24 +333,3 @@ fn one_rotor_whose_lines_lose_their_phase_is_not_four() {
         assert!(error.abs() < 0.02, "{error}");
     }
 }
-
-#[test]
-fn rotors_that_bob_are_heard_by_blade_pass_and_gear_mesh_together() {
-    // no line of the mesh lasts: four rotors 2 % apart speed up and slow down together, in lines that soon lose their phase
-    let bobbing = |mean_rev_s| Motion { swing_share: 0.05, swing_hz: 0.4, ..Motion::at(mean_rev_s) };
-    let lines: Vec<(f64, f64)> = LINES.into_iter().chain((2..=10).map(|k| (f64::from(2 * k), 1.0))).collect();
-    let sound = Sound { lines: &lines, noise_std: 4.0, coherence_s: 0.1 };
-    let heard = heard_by(&[58.2, 59.4, 60.6, 61.8].map(bobbing), &sound, tone_of_gear_and_blades(), 5);
-    let speed_rev_s = heard.tone().speed(Method::Separated).unwrap().speed.rev_s();
-    // the mean of the rotors over what was used
-    let hover = &heard.analysis.hover;
-    let turns: f64 = hover
-        .segments
-        .iter()
-        .flat_map(|span| (0..4).map(move |rotor| (rotor, span)))
-        .map(|(rotor, span)| {
-            span.length_s() * heard.truth.mean_speed(rotor, span.from_s, span.to_s).unwrap().rev_s() / 4.0
-        })
-        .sum();
-    assert!((speed_rev_s * hover.length_s() / turns - 1.0).abs() < 0.005, "{speed_rev_s} {turns}");
-}

@@ -71,12 +71,6 @@ impl Beliefs {
         self.hypotheses.first().map(|first| first.hover_rev_s)
     }
 
-    /// Whether the most probable rotor has a speed, within this difference of the logarithms, in any frame.
-    pub(crate) fn has_speed(&self, speed_rev_s: f64, within: f64) -> bool {
-        let of_frames = self.hypotheses.first().map_or(&[][..], |first| &first.speeds_rev_s);
-        of_frames.iter().any(|of_frame| (of_frame / speed_rev_s).ln().abs() < within)
-    }
-
     /// Those that remain possible where odds of `belief_min` decide; only one where it is decided.
     pub(crate) fn possible(&self, belief_min: f64) -> &[Hypothesis] {
         let is_decided = self.hypotheses.first().is_some_and(|first| first.belief >= belief_min);

@@ -20,8 +20,6 @@
 //! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
 //!    in a given band, below 0.
 //!
-//! Beside a gear mesh whose blades are known, the same evidence says that a rotor is heard, where the mesh has a speed of its path.
-//!
 //! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor, its lines
 //! stand apart in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 7.8 nats a frame more.
 //!

@@ -10,10 +10,6 @@ use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SpeedAnalysis, Weigh
 use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
-/// Largest difference of the logarithms of the speeds of blade pass and gear mesh that are one: several rotors differ, and each family may be
-/// loudest for another of them. *Decision.*
-const SAME_SPEED: f64 = 0.03;
-
 /// Shaft speeds that may explain the lines of a survey.
 pub(crate) struct Candidates {
     /// Score of each shaft speed in each row of the survey.
@@ -142,7 +138,7 @@ pub(crate) fn candidates_from_survey(
         Some(leading_rev_s) => Ok(Candidates {
             map,
             leading_rev_s,
-            is_heard: beliefs.is_some() || is_heard_beside_gear(surveyed, leading_rev_s, search_rev_s.clone(), config),
+            is_heard: beliefs.is_some(),
             is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,
@@ -150,20 +146,6 @@ pub(crate) fn candidates_from_survey(
         }),
         None => Err(Silence::because(or_mains_hum(NoTone::NoSeries, &surveyed.survey)).into()),
     }
-}
-
-/// Whether the blade pass beside a gear mesh is heard at the speed of the mesh: two families of lines agree on it.
-fn is_heard_beside_gear(
-    surveyed: &Surveyed,
-    of_mesh_rev_s: f64,
-    speeds_rev_s: RangeInclusive<f64>,
-    config: &Config,
-) -> bool {
-    let Some(blades) = config.tone.blades.filter(|_| blades_of_tone(&config.tone).is_none()) else { return false };
-    let propeller = WantedPropeller { blades, share: 1.0, speeds_rev_s };
-    let wanted = WantedRotor { propellers: vec![propeller], known: config.known };
-    let heard = surveyed.beliefs(&wanted, config).ok().flatten();
-    heard.is_some_and(|beliefs| beliefs.has_speed(of_mesh_rev_s, SAME_SPEED))
 }
 
 /// Whether other rotors are heard beside the most probable one.

@@ -5,7 +5,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, ExcessBuilder, Looks, WantedRotor, beliefs_from_looks};
 use crate::survey::{MainsHum, RowsBuilder, Survey, SurveyBuilder};
-use crate::tone::blades_known;
+use crate::tone::blades_of_tone;
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
 
@@ -14,7 +14,7 @@ use hovertone_signal::passes::{Passes, Piece};
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
-    /// Power over the floor in short and long frames, where the blades are known, or the tone is looked for.
+    /// Power over the floor in short and long frames, where the tone is a blade pass, or is looked for.
     pub(crate) excess: Option<Looks>,
 }
 
@@ -68,7 +68,7 @@ pub(crate) fn survey_from_source(
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
-    let mut excess = (beside.is_some() || blades_known(&config.tone).is_some())
+    let mut excess = (beside.is_some() || blades_of_tone(&config.tone).is_some())
         .then(|| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
