@@ -58,7 +58,7 @@ impl Listener {
             heard_at_s: 0.0,
             follower: None,
             heard: None,
-            octave: Octave::default(),
+            octave: Octave::new(&config.analysis.evidence),
             reason: None,
             config,
         })
@@ -175,7 +175,8 @@ impl Listener {
         (analysis.tone.order, analysis.tone.blades) = (order, blades.or(analysis.tone.blades));
         (analysis.tone.speed_min, analysis.tone.speed_max) = (at(1.0 / CHOSEN_RANGE), at(CHOSEN_RANGE));
         (self.config.analysis, self.config.discovery) = (analysis, None);
-        (self.follower, self.octave) = (None, Octave::default());
+        self.follower = None;
+        self.octave.clear();
         self.is_review_due = true;
     }
 

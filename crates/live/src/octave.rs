@@ -3,18 +3,15 @@
 //! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
 //! multiply. A speed that a review does not name may still be the truth: the levels of the lines deceive in one recording of a hundred.
 
+use hovertone_rotor_speed::EvidenceConfig;
 use hovertone_vehicle::Order;
 
-/// Belief in a speed that a review does not name: the share of recordings whose lines deceive. *Decision.*
-const UNNAMED_BELIEF: f64 = 0.01;
 /// Largest difference of the logarithms of two speeds of one rotor: half of that between the nearest families, 4 : 3. *Decision.*
 const SAME_LOG_RATIO: f64 = 0.14;
 /// Largest distance of such a logarithm from that of a family: rotors wander between reviews. *Decision.*
 const FAMILY_LOG_RATIO: f64 = 0.07;
 /// Ratios of speeds that the same lines may mean: octaves, and families of three. *Physics.*
 const FAMILIES: [f64; 4] = [2.0, 3.0, 4.0, 1.5];
-/// Belief with which an octave is decided, and below which one is no longer told: odds of 99 to 1. *Decision.*
-const DECIDED_BELIEF: f64 = 0.99;
 
 /// A possible speed of the rotors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,12 +39,30 @@ fn is_of_family(a_rev_s: f64, b_rev_s: f64) -> bool {
 }
 
 /// The possible speeds of the followed rotors, most probable first.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Octave {
     speeds: Vec<PossibleSpeed>,
+    /// Belief with which an octave is decided.
+    belief_min: f64,
+    /// Belief in a speed that a review does not name: the share of recordings whose lines deceive.
+    unnamed_belief: f64,
 }
 
 impl Octave {
+    /// Decides as a recording does.
+    pub(crate) fn new(evidence: &EvidenceConfig) -> Self {
+        Self {
+            speeds: Vec::new(),
+            belief_min: evidence.belief_min,
+            unnamed_belief: evidence.levels_deceive.max(f64::EPSILON),
+        }
+    }
+
+    /// Forgets all reviews.
+    pub(crate) fn clear(&mut self) {
+        self.speeds.clear();
+    }
+
     /// Takes in the beliefs of a review, the most probable first, while the rotors are followed at a speed.
     pub(crate) fn take(&mut self, reviewed: &[PossibleSpeed], followed_rev_s: Option<f64>) {
         let Some(chosen) = reviewed.first() else { return };
@@ -58,7 +73,8 @@ impl Octave {
             return;
         };
         self.move_to(followed_rev_s);
-        let unnamed = |speed: &PossibleSpeed| PossibleSpeed { belief: UNNAMED_BELIEF, ..*speed };
+        let unnamed_belief = self.unnamed_belief;
+        let unnamed = |speed: &PossibleSpeed| PossibleSpeed { belief: unnamed_belief, ..*speed };
         for named in reviewed {
             if !self.speeds.iter().any(|known| known.is_same(named.speed_rev_s)) {
                 self.speeds.push(unnamed(named));
@@ -66,11 +82,11 @@ impl Octave {
         }
         for known in &mut self.speeds {
             let named = reviewed.iter().find(|named| known.is_same(named.speed_rev_s));
-            known.belief *= named.map_or(UNNAMED_BELIEF, |named| named.belief.max(UNNAMED_BELIEF));
+            known.belief *= named.map_or(unnamed_belief, |named| named.belief.max(unnamed_belief));
         }
         let sum: f64 = self.speeds.iter().map(|speed| speed.belief).sum();
         // what was improbable may become the truth again
-        self.speeds.iter_mut().for_each(|speed| speed.belief = (speed.belief / sum).max(UNNAMED_BELIEF.powi(2)));
+        self.speeds.iter_mut().for_each(|speed| speed.belief = (speed.belief / sum).max(unnamed_belief.powi(2)));
         self.speeds.sort_by(|a, b| b.belief.total_cmp(&a.belief));
     }
 
@@ -88,8 +104,8 @@ impl Octave {
 
     /// The speeds that remain possible, most probable first; empty where one is decided.
     pub(crate) fn possible(&self) -> &[PossibleSpeed] {
-        let count = self.speeds.iter().take_while(|speed| speed.belief >= 1.0 - DECIDED_BELIEF).count();
-        let is_decided = self.speeds.first().is_none_or(|leading| leading.belief >= DECIDED_BELIEF);
+        let count = self.speeds.iter().take_while(|speed| speed.belief >= 1.0 - self.belief_min).count();
+        let is_decided = self.speeds.first().is_none_or(|leading| leading.belief >= self.belief_min);
         &self.speeds[..if is_decided || count < 2 { 0 } else { count }]
     }
 }
@@ -106,7 +122,7 @@ mod tests {
 
     #[test]
     fn one_review_of_another_octave_does_not_outvote_two() {
-        let mut octave = Octave::default();
+        let mut octave = Octave::new(&EvidenceConfig::default());
         octave.take(&beliefs(&[(90.0, 0.996), (180.0, 0.004)]), None);
         assert!(octave.is_leading(91.0) && octave.possible().is_empty());
         octave.take(&beliefs(&[(92.0, 0.996)]), Some(92.0));
@@ -122,7 +138,7 @@ mod tests {
 
     #[test]
     fn a_step_or_another_rotor_begins_anew() {
-        let mut octave = Octave::default();
+        let mut octave = Octave::new(&EvidenceConfig::default());
         octave.take(&beliefs(&[(90.0, 0.6), (180.0, 0.4)]), None);
         assert_eq!(octave.possible().len(), 2);
         octave.take(&beliefs(&[(110.0, 0.999)]), Some(90.0));

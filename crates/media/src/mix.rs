@@ -1,5 +1,7 @@
 //! From interleaved channels to one channel of finite samples.
 
+use crate::error::MediaError;
+
 /// Selects one channel, or averages all.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mix {
@@ -9,6 +11,19 @@ pub(crate) struct Mix {
 }
 
 impl Mix {
+    /// The channel of this number, counted from 1; the mean of all where absent.
+    ///
+    /// # Errors
+    /// A channel that is not there.
+    pub(crate) fn of(channel_count: usize, channel: Option<usize>) -> Result<Self, MediaError> {
+        match channel {
+            Some(asked) if !(1..=channel_count).contains(&asked) => {
+                Err(MediaError::NoSuchChannel { asked, count: channel_count })
+            }
+            _ => Ok(Self { channel_count, channel: channel.map(|channel| channel - 1) }),
+        }
+    }
+
     /// Appends one sample for each frame of `interleaved`. Returns the number of samples that were not finite and became 0. The content
     /// of `interleaved` is undefined afterwards.
     pub(crate) fn append(&self, interleaved: &mut Vec<f32>, mono: &mut Vec<f32>) -> u64 {

@@ -39,16 +39,10 @@ impl PipedSound {
         let track_id = track.map(|track| track.id).ok_or(MediaError::NoAudioInStream)?;
         let frames = NativeFrames::from_demuxer(reader, track_id, false)
             .map_err(|error| MediaError::UnknownStream { why: error.to_string() })?;
-        let channel_count = frames.channel_count();
-        let channel = match channel {
-            Some(asked) if !(1..=channel_count).contains(&asked) => {
-                return Err(MediaError::NoSuchChannel { asked, count: channel_count });
-            }
-            asked => asked.map(|asked| asked - 1),
-        };
+        let mix = Mix::of(frames.channel_count(), channel)?;
         Ok(Self {
             frames,
-            mix: Mix { channel_count, channel },
+            mix,
             incidents: Incidents::default(),
             interleaved: Vec::new(),
             block: Vec::new(),

@@ -151,11 +151,7 @@ impl Recording {
             let (field, limit) = ("the number of channels", "1 to 256");
             return Err(MediaError::BadHeader { container, field, value: channel_count as u64, limit });
         }
-        if let Some(asked) = channel
-            && !(1..=channel_count).contains(&asked)
-        {
-            return Err(MediaError::NoSuchChannel { asked, count: channel_count });
-        }
+        let mix = Mix::of(channel_count, channel)?;
         let info = RecordingInfo {
             container,
             codec: plan.codec.clone(),
@@ -168,7 +164,6 @@ impl Recording {
             start_s: plan.start_s,
             decoder: if matches!(plan.route, Route::Ffmpeg { .. }) { Decoder::Ffmpeg } else { Decoder::Native },
         };
-        let mix = Mix { channel_count, channel: channel.map(|channel| channel - 1) };
         let path = path.to_owned();
         let mut recording = Self { path, plan, info, warnings, mix, pass, block: Vec::new(), is_prefix: false };
         recording.fill_block().map_err(MediaError::Read)?;
