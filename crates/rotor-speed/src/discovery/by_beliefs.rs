@@ -40,7 +40,7 @@ impl Believed {
             None => BLADES.into_iter().zip(discovery.config.blade_shares).filter_map(propeller).collect(),
         };
         let wanted = WantedRotor { propellers, known: discovery.known };
-        let beliefs = surveyed.beliefs(&wanted, config).ok()??;
+        let beliefs = surveyed.beliefs(&wanted, config).ok()?.filter(Beliefs::is_resolved)?;
         let readings = readings_of(&beliefs, discovery);
         readings.first().filter(|first| first.plausibility > 0.0 && beliefs.is_clear(&config.evidence))?;
         let is_decided = beliefs.possible(config.evidence.belief_min).len() == 1;

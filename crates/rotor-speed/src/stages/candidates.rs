@@ -138,7 +138,7 @@ pub(crate) fn candidates_from_survey(
         Some(leading_rev_s) => Ok(Candidates {
             map,
             leading_rev_s,
-            is_heard: beliefs.is_some(),
+            is_heard: beliefs.as_ref().is_some_and(Beliefs::is_resolved),
             is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,
