@@ -11,7 +11,7 @@
 //! recording   trims, mixes, counts errors             frames, mix, warning
 //! ```
 //!
-//! [`PipedSound`] is the same for sound that arrives through a pipe, once.
+//! [`PipedSound`] is the same for sound that arrives through a pipe, once; [`Samples`] are sound that is in memory already.
 //!
 //! Files that Symphonia and opus-pure cannot read go through an `ffmpeg`, if one is available ([`FfmpegUse`]).
 
@@ -35,6 +35,7 @@ mod piped;
 mod plan;
 mod quicktime;
 mod recording;
+mod samples;
 mod source;
 mod tracks;
 mod warning;
@@ -45,4 +46,5 @@ pub use error::MediaError;
 pub use ffmpeg::FfmpegUse;
 pub use piped::PipedSound;
 pub use recording::{Decoder, OpenOptions, Recording, RecordingInfo};
+pub use samples::Samples;
 pub use warning::MediaWarning;

@@ -13,6 +13,7 @@ use crate::iso::PcmFrames;
 use crate::native::{self, NativeFrames};
 use crate::pcm_layout::PcmLayout;
 use crate::quicktime::AudioTrack;
+use crate::samples::{SampleFrames, Samples};
 use crate::source::Patch;
 use crate::warning::MediaWarning;
 use crate::wave::{WaveLayout, WavePcmFrames};
@@ -53,6 +54,7 @@ pub(crate) enum Route {
     IsoTable(Box<AudioTrack>),
     Demuxer { base: u64, patches: Vec<Patch>, track_id: u32, has_gapless_packets: bool },
     Ffmpeg { program: PathBuf, audio_index: usize },
+    Memory(Samples),
 }
 
 impl Plan {
@@ -84,6 +86,7 @@ impl Plan {
             Route::Ffmpeg { program, audio_index } => {
                 Box::new(FfmpegFrames::spawn(program, path, *audio_index).map_err(|error| self.ffmpeg_error(error))?)
             }
+            Route::Memory(samples) => Box::new(SampleFrames::of(samples)),
             route => {
                 let frames = native_frames(path, self.container, route);
                 let frames = frames.map_err(|error| native_error(error, self.container))?;
@@ -115,7 +118,7 @@ fn native_frames(path: &Path, container: Container, route: &Route) -> Result<Nat
             let frames = NativeFrames::from_demuxer(reader, *track_id, *has_gapless_packets)?;
             Ok(frames.with_gap_s_min(gap_s_min(container)))
         }
-        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } => {
+        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } | Route::Memory(_) => {
             Err(SymphoniaError::Unsupported("not a route of packets"))
         }
     }

@@ -15,6 +15,7 @@ use crate::ffmpeg::FfmpegUse;
 use crate::frames::{Frames, Incidents, Trim};
 use crate::mix::Mix;
 use crate::plan::{Plan, Route};
+use crate::samples::Samples;
 use crate::tracks::Tracks;
 use crate::warning::{MediaWarning, Warnings};
 
@@ -131,6 +132,23 @@ impl Recording {
         Self::start(path, plan, index, audio_track_count, options, warnings)
     }
 
+    /// Opens samples in memory, which are one track.
+    ///
+    /// # Errors
+    /// A track or a channel that is not there; no sample; a rate that is none.
+    pub fn of_samples(samples: &Samples, options: &OpenOptions) -> Result<Self, MediaError> {
+        if let Some(asked) = options.audio_track.filter(|asked| *asked != 1) {
+            return Err(MediaError::NoSuchTrack { asked, count: 1 });
+        }
+        let rate_hz = samples.sample_rate_hz();
+        if !(rate_hz.is_finite() && rate_hz >= 1.0) {
+            return Err(MediaError::RateOfArray { rate_hz });
+        }
+        let declared_s = Some(samples.duration_s());
+        let plan = Plan::new(Container::Memory, "samples", Route::Memory(samples.clone()));
+        Self::start(Path::new(""), Plan { declared_s, ..plan }, 0, 1, options, Warnings::default())
+    }
+
     fn start(
         path: &Path,
         plan: Plan,
@@ -195,6 +213,7 @@ impl Recording {
             (Route::Ffmpeg { .. }, Some(message)) => {
                 MediaError::FfmpegFailed { container, codec: self.plan.codec.clone(), message: message.clone() }
             }
+            (Route::Memory(_), _) => MediaError::NoSampleInArray,
             _ => MediaError::NoSamples { container, why: "its header is followed by no sample".to_owned() },
         }
     }
