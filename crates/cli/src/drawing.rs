@@ -5,7 +5,6 @@ use crate::recording::{Hearing, Job};
 use hovertone::speed::Span;
 use hovertone_figures::Trial;
 use hovertone_figures::{PictureConfig, Pictures, pictures_from_source, views_of_recording};
-use hovertone_media::Recording;
 use hovertone_page::{SoundClip, clip_from_source};
 use hovertone_report::SpeedRecord;
 use rayon::prelude::*;
@@ -39,7 +38,7 @@ pub(crate) fn drawing_of(
         Failure::failed(format!("the recording could not be read again: {error}"), "check the disk", &job.path)
     };
     let Some(analysis) = record.analysis() else { return Err(unreadable(&"it could not be heard")) };
-    let mut recording = Recording::open(&job.path, &hearing.open_options()).map_err(|error| unreadable(&error))?;
+    let mut recording = job.open(hearing).map_err(|error| unreadable(&error))?;
     let config = PictureConfig::default();
     let rate_hz = recording.info().sample_rate_hz;
     let views = views_of_recording(record.tone(), rate_hz, &config);

@@ -1,8 +1,8 @@
 //! From recordings to records. No other file of the command line decodes sound.
 
-use crate::args::HearingArguments;
 use crate::failure::Failure;
 use crate::files::{is_pattern, sha256_of_file};
+pub(crate) use crate::job::{HeardJobs, Hearing, Job, Requests, in_memory};
 use crate::progress::{Progress, Share};
 use crate::recording_facts::facts_of;
 use crate::thumbnail::thumbnail_of;
@@ -12,80 +12,15 @@ use hovertone::motors::{
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::{LineFrequency, Passes, line_frequency};
 use hovertone::speed::{Config, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
-use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
+use hovertone::tones::{FoundSpeed, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
-use hovertone_media::{OpenOptions, Recording};
+use hovertone_media::Recording;
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-/// How every file is opened, and what its output needs.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Hearing {
-    /// Number of the audio track, counted from 1; the first that is not silent where absent.
-    pub(crate) audio_track: Option<usize>,
-    /// Number of the channel, counted from 1; the mean of all channels where absent.
-    pub(crate) channel: Option<usize>,
-    /// Correction of the recorder's clock, in millionths.
-    pub(crate) clock_correction_ppm: f64,
-    /// Whether the output contains the hash of the file.
-    pub(crate) wants_hash: bool,
-    /// Whether the samples of the hover are used, and with them their warnings.
-    pub(crate) wants_samples: bool,
-    /// Whether a small spectrogram is drawn, in another pass over the sound.
-    pub(crate) wants_thumbnail: bool,
-}
-
-impl Hearing {
-    /// What the arguments say, without hash and samples.
-    pub(crate) fn of(arguments: &HearingArguments) -> Self {
-        Self {
-            audio_track: arguments.audio_track,
-            channel: arguments.channel,
-            clock_correction_ppm: arguments.clock_correction_ppm.unwrap_or(0.0),
-            ..Self::default()
-        }
-    }
-
-    /// How every file is opened.
-    pub(crate) fn open_options(self) -> OpenOptions {
-        OpenOptions {
-            audio_track: self.audio_track,
-            channel: self.channel,
-            clock_correction_ppm: self.clock_correction_ppm,
-            ..OpenOptions::default()
-        }
-    }
-}
-
-/// One recording to analyse.
-#[derive(Clone, Debug)]
-pub(crate) struct Job {
-    /// Path of the file.
-    pub(crate) path: PathBuf,
-    /// Name in the output.
-    pub(crate) name: String,
-    /// Settings of the analysis.
-    pub(crate) config: Config,
-    /// The search for the tone, where its order is unknown; the order in `config` is then a placeholder.
-    pub(crate) discovery: Option<Discovery>,
-    /// Analyses of the rotors after the speed.
-    pub(crate) requests: Requests,
-    /// Hash of the file, where the search for copies has made it.
-    pub(crate) sha256: Option<String>,
-}
-
-/// Analyses of the rotors after the speed. Each needs more passes over the sound.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Requests {
-    /// The condition of each rotor.
-    pub(crate) condition: bool,
-    /// The start of each rotor.
-    pub(crate) spin_up: bool,
-}
+use std::path::Path;
 
 /// A recording that was analysed.
 #[cfg_attr(not(feature = "archive"), allow(dead_code))] // archives alone have classes of errors and thumbnails
@@ -155,7 +90,7 @@ pub(crate) fn line_in_band(
     band_hz: Range<f64>,
     progress: &Progress,
 ) -> Result<(Option<LineFrequency>, Vec<Notice>), String> {
-    let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
+    let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let highest_hz = recording.info().sample_rate_hz / 2.0;
     if band_hz.end >= highest_hz {
         return Err(format!("this recording has no sound above {highest_hz:.0} Hz; choose a tone below that"));
@@ -185,7 +120,7 @@ pub(crate) fn motor_in(
     commands: Option<HeardCommands<'_>>,
     progress: &Progress,
 ) -> Result<SoundOfMotor, String> {
-    let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
+    let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let mut share = progress.recording();
     let mut on_progress = progress_of(&recording, &mut share);
     let planned = passes_of_speed(&job.config) + PASSES_OF_MOTOR;
@@ -238,19 +173,23 @@ pub(crate) fn lines_of(
         .map_err(|error| failed(error.to_string()))
 }
 
-fn opened(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
-    match wrong_kind(&job.path) {
+/// Opens the recording of a job.
+pub(crate) fn opened(job: &Job, hearing: Hearing) -> Result<Recording, Failure> {
+    // the reason contains the advice
+    opened_or_not(job, hearing).map_err(|NotHeard { reason, .. }| Failure::failed(reason, "", &job.path))
+}
+
+fn opened_or_not(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
+    match wrong_kind(&job.path).filter(|_| job.samples.is_none()) {
         Some(reason) => Err(NotHeard::because(if job.path.is_dir() { "not_a_file" } else { "not_found" }, reason)),
-        None => {
-            Recording::open(&job.path, &hearing.open_options()).map_err(|error| NotHeard::because(error.class(), error))
-        }
+        None => job.open(hearing).map_err(|error| NotHeard::because(error.class(), error)),
     }
 }
 
 fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
-    let mut recording = opened(job, hearing)?;
+    let mut recording = opened_or_not(job, hearing)?;
     let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
-    let sha256 = hearing.wants_hash.then(hashed).transpose().map_err(|error| {
+    let sha256 = (hearing.wants_hash && job.samples.is_none()).then(hashed).transpose().map_err(|error| {
         NotHeard::because("unreadable", format!("the file could not be read to its end: {error}; check the disk"))
     })?;
     let analysed = analysed(&mut recording, job, share);

@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         true => (STDIN.to_owned(), recording_of_stdin()?),
         false => (arguments.file.display().to_string(), arguments.file.clone()),
     };
-    let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None }];
+    let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None, samples: None }];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();

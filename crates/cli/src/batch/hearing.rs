@@ -38,6 +38,7 @@ impl Manner {
             discovery: self.discovery,
             requests: self.requests,
             sha256: None,
+            samples: None,
         }
     }
 }

@@ -11,8 +11,7 @@ use logs::FlownLog;
 pub(crate) use recordings::{LoadJob, jobs_of};
 use typed::{EXPERIMENT, TypedExperiment};
 
-use crate::args::HearingArguments;
-use crate::args::IdentifyArguments;
+use crate::args::{HearingArguments, IdentifyArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
 use crate::jobs::ending_of;
@@ -51,13 +50,76 @@ pub(crate) struct Identified {
 
 /// Identifies the experiment and prints warnings, the tables where they are wanted, and the lines to quote.
 pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let mut source = match &arguments.experiment {
-        Some(path) => ExperimentSource::read(path)?,
-        None => TypedExperiment::from_arguments(&arguments.draft)?.source()?,
-    };
+    let source = source_of(arguments)?;
     if arguments.check {
         return check::run(&source, arguments, terminal);
     }
+    let measured = measured(source, arguments)?;
+    let identified = &measured.identified;
+    identified.say_notes(terminal);
+    if arguments.json {
+        terminal.data(&results_json(&identified.identification()).map_err(Failure::internal)?)?;
+    } else {
+        terminal.text(&identified.headline())?;
+        if arguments.verbose {
+            terminal.text(&identified.tables_in_words(terminal.fold_width()))?;
+        }
+        terminal.text(&identified.model_in_words())?;
+        terminal.text(&identified.quote())?;
+    }
+    terminal.flush()?;
+    let page = match measured.write()? {
+        Some(page) => page_line(&page),
+        None => "page: none; -o DIR writes it, with results.json, tables and figures\n".to_owned(),
+    };
+    if !arguments.json {
+        terminal.text(&page)?;
+    }
+    Ok(identified.ending())
+}
+
+/// An identified experiment, and the page of its report where one was written.
+pub(crate) struct Reported {
+    pub(crate) identified: Identified,
+    pub(crate) page: Option<PathBuf>,
+}
+
+/// The identified experiment, for a program that calls, and the page of its report, which is written where the arguments name a folder.
+pub(crate) fn called(arguments: &IdentifyArguments) -> Result<Reported, Failure> {
+    let measured = measured(source_of(arguments)?, arguments)?;
+    let page = measured.write()?;
+    Ok(Reported { identified: measured.identified, page })
+}
+
+fn source_of(arguments: &IdentifyArguments) -> Result<ExperimentSource, Failure> {
+    match &arguments.experiment {
+        Some(path) => ExperimentSource::read(path),
+        None => TypedExperiment::from_arguments(&arguments.draft)?.source(),
+    }
+}
+
+/// An identified experiment, and the folder that its report goes into.
+struct Measured {
+    identified: Identified,
+    folder: Option<OutputFolder>,
+    /// The text of the experiment file, where the flags stand in place of one.
+    text_of_typed: Option<String>,
+}
+
+impl Measured {
+    /// Writes the report, where it is wanted. Returns the place of its page.
+    fn write(&self) -> Result<Option<PathBuf>, Failure> {
+        let Some(folder) = &self.folder else { return Ok(None) };
+        let extras = Extras { command: &typed_command(), ..Extras::default() };
+        self.identified.write(folder, &extras)?;
+        if let Some(text) = &self.text_of_typed {
+            folder.write(EXPERIMENT, text)?;
+        }
+        Ok(Some(folder.place(PAGE)))
+    }
+}
+
+fn measured(mut source: ExperimentSource, arguments: &IdentifyArguments) -> Result<Measured, Failure> {
     let hearing = hearing_of(&arguments.hearing, &source.experiment, arguments.json || arguments.output.is_some());
     let method = arguments.method.unwrap_or(source.experiment.config.method);
     let recordings = jobs_of(&source, arguments.data_root.as_deref())?;
@@ -73,33 +135,7 @@ pub(crate) fn run(arguments: &IdentifyArguments, terminal: &mut Terminal) -> Res
         None => None,
     };
     let identified = identify(source, recordings, hearing, method, !arguments.hearing.no_progress)?;
-    identified.say_notes(terminal);
-    if arguments.json {
-        terminal.data(&results_json(&identified.identification()).map_err(Failure::internal)?)?;
-    } else {
-        terminal.text(&identified.headline())?;
-        if arguments.verbose {
-            terminal.text(&identified.tables_in_words(terminal.fold_width()))?;
-        }
-        terminal.text(&identified.model_in_words())?;
-        terminal.text(&identified.quote())?;
-    }
-    terminal.flush()?;
-    let page = match &folder {
-        Some(folder) => {
-            let extras = Extras { command: &typed_command(), ..Extras::default() };
-            identified.write(folder, &extras)?;
-            if let Some(text) = &text_of_typed {
-                folder.write(EXPERIMENT, text)?;
-            }
-            page_line(&folder.place(PAGE))
-        }
-        None => "page: none; -o DIR writes it, with results.json, tables and figures\n".to_owned(),
-    };
-    if !arguments.json {
-        terminal.text(&page)?;
-    }
-    Ok(identified.ending())
+    Ok(Measured { identified, folder, text_of_typed })
 }
 
 /// Makes the folder of results. It may hold those of an earlier run for the same experiment.
