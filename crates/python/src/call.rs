@@ -9,6 +9,7 @@ use hovertone_media::Samples;
 use numpy::{Element, IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use std::ffi::OsString;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -57,6 +58,18 @@ pub(crate) fn loaded(py: Python<'_>, words: Vec<OsString>) -> PyResult<LoadedPar
 }
 
 type LoadedParts<'py> = (Bound<'py, numpy::PyArray1<f32>>, f64, f64, String, Vec<String>);
+
+/// The recordings of an archive, in the order of its tables, from the words of `batch`.
+#[pyfunction]
+pub(crate) fn archive_names(py: Python<'_>, words: Vec<OsString>) -> PyResult<Vec<String>> {
+    run(py, words, None, Call::archive_names)
+}
+
+/// The row of the first recording of `batch`, as a stream of Arrow IPC.
+#[pyfunction]
+pub(crate) fn archive_row(py: Python<'_>, words: Vec<OsString>) -> PyResult<Bound<'_, PyBytes>> {
+    run(py, words, None, Call::archive_row).map(|row| PyBytes::new(py, &row))
+}
 
 fn run<T: Send>(
     py: Python<'_>,

@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::call::{heard, identified, loaded, printed};
+    use crate::call::{archive_names, archive_row, heard, identified, loaded, printed};
     #[pymodule_export]
     use crate::heard::Heard;
     #[pymodule_export]

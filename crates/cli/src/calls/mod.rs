@@ -80,6 +80,30 @@ impl Call {
         })
     }
 
+    /// The recordings of `batch`, in the order of its tables; nothing is heard.
+    ///
+    /// # Errors
+    /// What the command would refuse; another command.
+    #[cfg(feature = "archive")]
+    pub fn archive_names(self) -> Result<Vec<String>, Failure> {
+        self.with_command(|command| match command {
+            Command::Batch(arguments) => crate::batch::called::names(&arguments),
+            _ => Err(Failure::internal("this command has no archive")),
+        })
+    }
+
+    /// The row that `batch` would write for its first recording, as a stream of Arrow IPC; nothing is written.
+    ///
+    /// # Errors
+    /// What the command would refuse; another command. A recording that cannot be heard is a row with its error.
+    #[cfg(feature = "archive")]
+    pub fn archive_row(self) -> Result<Vec<u8>, Failure> {
+        self.with_command(|command| match command {
+            Command::Batch(arguments) => crate::batch::called::row(&arguments),
+            _ => Err(Failure::internal("this command has no archive")),
+        })
+    }
+
     /// Identifies the experiment of `identify`.
     ///
     /// # Errors
