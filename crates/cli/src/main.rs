@@ -38,7 +38,6 @@ mod own_vehicles;
 mod place;
 mod progress;
 mod recording;
-mod recording_facts;
 mod recording_files;
 mod report_folder;
 mod rights;

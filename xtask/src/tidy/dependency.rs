@@ -12,7 +12,7 @@ struct Row {
 }
 
 /// All crates but the two at the top, `cli` and `bench`.
-const LIBRARIES: [&str; 18] = [
+const LIBRARIES: [&str; 19] = [
     "vehicle",
     "fft",
     "signal",
@@ -31,12 +31,13 @@ const LIBRARIES: [&str; 18] = [
     "archive",
     "figures",
     "page",
+    "workflow",
 ];
 
 /// The line of the table.
 const TABLE_LINE: usize = line!() as usize + 2;
 /// From the lowest crate to the highest.
-const TABLE: [Row; 21] = [
+const TABLE: [Row; 22] = [
     Row { crate_name: "vehicle", may_use: &[] },
     Row { crate_name: "fft", may_use: &[] },
     Row { crate_name: "signal", may_use: &["fft"] },
@@ -59,6 +60,10 @@ const TABLE: [Row; 21] = [
     Row { crate_name: "archive", may_use: &["analysis", "report", "vehicle"] },
     Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal", "dynamics"] },
     Row { crate_name: "page", may_use: &["analysis", "thrust", "vehicle", "signal", "figures", "report"] },
+    Row {
+        crate_name: "workflow",
+        may_use: &["hovertone", "analysis", "vehicle", "media", "exchange", "report", "figures", "page"],
+    },
     Row { crate_name: "cli", may_use: &LIBRARIES },
     Row { crate_name: "bench", may_use: &LIBRARIES },
     Row { crate_name: "xtask", may_use: &[] },
