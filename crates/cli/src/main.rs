@@ -42,6 +42,8 @@ mod recording_files;
 mod report_folder;
 mod rights;
 mod see_help;
+#[cfg(feature = "page")]
+mod serve;
 mod settings;
 mod shell;
 mod simulate;
@@ -102,6 +104,14 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(arguments, &mut terminal),
         Command::Simulate(arguments) => simulate::run(arguments, &mut terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, &mut terminal),
+        #[cfg(feature = "page")]
+        Command::Serve(arguments) => serve::run(arguments, &mut terminal),
+        #[cfg(not(feature = "page"))]
+        Command::Serve(_) => Err(Failure::Failed {
+            what: "this hovertone was built without the page".to_owned(),
+            hint: "build it with the page: cargo xtask page, then cargo build --release --features page".to_owned(),
+            path: None,
+        }),
         Command::Completions(arguments) => shell::run_completions(arguments, &mut terminal),
         Command::Man(arguments) => shell::run_man(arguments, &mut terminal),
     };
