@@ -96,7 +96,7 @@ mod tests {
     use serde_json::Value;
 
     const FILE: &str = "[vehicle]\nblades = 2\nrotors = 4\nmass_kg = 0.413\n\n[ridge]\ngaussian_threshold_share = 0.7\n\n\
-        [[load]]\nname = \"a \\\"b\\\"\"\nadded_mass_kg = 0.031\nfrom_s = 2\nrecordings = [\"x.wav\", { file = \"y.wav\" }]\n";
+        [[load]]\nname = \"a \\\"b\\\"\"\nadded_mass_kg = 0.031\nfrom_s = 2\nrecordings = [\"x.wav\", { file = \"y.wav\", log = \"y.ulg\" }]\n";
 
     #[test]
     fn entries_and_text_are_the_same_experiment() {

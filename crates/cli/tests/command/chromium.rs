@@ -165,6 +165,12 @@ impl Browser {
         self.call("DOM.setFileInputFiles", json!({ "objectId": input["result"]["objectId"], "files": files }));
     }
 
+    /// Types a text where the focus is.
+    #[cfg(feature = "page")]
+    pub(crate) fn type_text(&mut self, text: &str) {
+        self.call("Input.insertText", json!({ "text": text }));
+    }
+
     /// Downloads go into a folder.
     #[cfg(feature = "page")]
     pub(crate) fn download_to(&mut self, folder: &Path) {

@@ -175,6 +175,47 @@ fn dropped_files_give_the_constant_of_the_command() {
     stayed_at_home(&browser, &served);
 }
 
+/// Chooses an entry of a list of the page.
+fn select(browser: &mut Browser, label: &str, value: &str) {
+    let found = browser.value(&format!(
+        "(() => {{ const list = [...document.querySelectorAll('select')].find((each) => (each.ariaLabel ?? each.labels[0]?.innerText) === {label:?}); list.value = {value:?}; list.dispatchEvent(new Event('change', {{ bubbles: true }})); return list.value; }})()"
+    ));
+    assert_eq!(found, value, "{label}");
+}
+
+#[test]
+fn loads_are_made_by_hand_while_the_page_computes() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let files = experiment(folder.path());
+    let [light, heavy] = [&files[1], &files[5]];
+    let served = Served::start();
+    browser.open_url(&served.url);
+    browser.wait_for("document.querySelector('.drop')", PATIENCE);
+    browser.choose(INPUT, &[light, heavy]);
+    browser.wait_for("document.querySelectorAll('.recording .answer').length === 2", PATIENCE);
+    select(&mut browser, "Known vehicle", "ardrone");
+    click(&mut browser, "Add a load");
+    click(&mut browser, "Add a load");
+    for (path, load) in [(light, "0"), (heavy, "1")] {
+        select(&mut browser, &format!("Load of {}", path.file_name().unwrap().to_str().unwrap()), load);
+    }
+    browser.value("document.querySelectorAll('.load')[1].querySelector('input[type=number]').select()");
+    for digit in ["4", "9"] {
+        browser.type_text(digit);
+        // the fit is running, and shows its progress
+        thread::sleep(Duration::from_millis(500));
+    }
+    browser.press("Tab", 9);
+    browser.wait_for(
+        &format!("{IS_DONE} && document.querySelector('.result table').innerText.includes('462.0')"),
+        PATIENCE,
+    );
+    let quote = browser.text("document.querySelector('.constant').dataset.quote");
+    assert!(quote.starts_with("C_f = (7.0") || quote.starts_with("C_f = (7.1"), "{quote}");
+    stayed_at_home(&browser, &served);
+}
+
 #[test]
 fn what_cannot_be_heard_says_why() {
     let Some(mut browser) = Browser::start() else { return };

@@ -2,7 +2,7 @@
 
 import { useId, useState } from "preact/hooks";
 import type { LoadEntries } from "./answers";
-import { NumberField, thousand, thousandth } from "./field";
+import { NumberField, thousand, thousandth, useDraft } from "./field";
 import { filesOf } from "./names";
 import { DRAGGED } from "./recordings";
 import type { Store } from "./store";
@@ -24,6 +24,7 @@ export function Experiment({ store }: { store: Store }) {
 function Load({ store, load, index }: { store: Store; load: LoadEntries; index: number }) {
   const [isOver, setOver] = useState(false);
   const id = useId();
+  const name = useDraft(load.name, ({ value }) => value && store.setLoad(index, { name: value }));
   const drop = (event: DragEvent) => {
     event.preventDefault();
     setOver(false);
@@ -42,7 +43,7 @@ function Load({ store, load, index }: { store: Store; load: LoadEntries; index: 
       <div class="fields">
         <span class="field">
           <label for={id}>Name</label>
-          <input id={id} type="text" value={load.name} onChange={(event) => event.currentTarget.value && store.setLoad(index, { name: event.currentTarget.value })} />
+          <input id={id} type="text" {...name} />
         </span>
         <NumberField label="Added mass" unit="g" value={thousand(load.added_mass_kg)} hint={flown === undefined ? undefined : `${+flown.toFixed(3)} g as flown`}
           set={(grams) => store.setLoad(index, { added_mass_kg: thousandth(grams) ?? 0 })} />

@@ -2,6 +2,7 @@
 
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { Answer, Picture, Point } from "./answers";
+import { useDraft } from "./field";
 import { Player } from "./player";
 import { Axes, bitmapOf, drawSpectrogram, MARGIN, timeInWords, type Overlay, type View } from "./spectrogram";
 import type { Recording, Store } from "./store";
@@ -157,19 +158,19 @@ function Pair(props: {
   words: string; unit: string; isFound: boolean; value?: Point; note: string; set: (pair: Point | undefined) => void;
 }) {
   const { value, set, words, unit } = props;
-  const change = (index: 0 | 1) => (event: { currentTarget: HTMLInputElement }) => {
-    const number = event.currentTarget.valueAsNumber;
-    const pair: Point = value ? [...value] : [0, 0];
-    pair[index] = number;
-    if (Number.isFinite(number) && number >= 0 && pair[1] > pair[0]) set(pair);
-  };
   const shown = (number?: number) => (number === undefined ? "" : String(+number.toFixed(2)));
+  const change = (index: 0 | 1) => ({ valueAsNumber }: HTMLInputElement) => {
+    const pair: Point = value ? [...value] : [0, 0];
+    pair[index] = valueAsNumber;
+    if (Number.isFinite(valueAsNumber) && valueAsNumber >= 0 && pair[1] > pair[0]) set(pair);
+  };
+  const [low, high] = [useDraft(shown(value?.[0]), change(0)), useDraft(shown(value?.[1]), change(1))];
   return (
     <fieldset class="pair">
       <legend>{words}</legend>
-      <input type="number" min="0" step="any" value={shown(value?.[0])} onChange={change(0)} aria-label={`${words} from, ${unit}`} />
+      <input type="number" min="0" step="any" aria-label={`${words} from, ${unit}`} {...low} />
       {" to "}
-      <input type="number" min="0" step="any" value={shown(value?.[1])} onChange={change(1)} aria-label={`${words} to, ${unit}`} />
+      <input type="number" min="0" step="any" aria-label={`${words} to, ${unit}`} {...high} />
       {` ${unit} `}
       {props.isFound ? <span class="quiet">found</span> : <button type="button" onClick={() => set(undefined)}>Find it</button>}
       {!props.isFound && props.note && <span class="quiet"> {props.note}</span>}
