@@ -112,7 +112,7 @@ pub fn notices_of(recording: &Recording) -> Vec<Notice> {
 }
 
 /// What is known of an open recording.
-pub fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts {
+fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts {
     let info = recording.info();
     RecordingFacts {
         sha256,

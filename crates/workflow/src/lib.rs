@@ -14,7 +14,7 @@ mod report;
 mod said;
 
 pub use drawing::{Drawing, drawing_of, trial_of};
-pub use hearing::{Heard, NotHeard, Requests, Share, Task, facts_of, failed_record, hear, notices_of, progress_of};
+pub use hearing::{Heard, NotHeard, Requests, Share, Task, failed_record, hear, notices_of, progress_of};
 pub use identified::{Identified, TipsTooFast, Titles};
 pub use report::{Drawn, ReportExtras, ReportFigures, simulators_of};
 pub use said::{NoSettings, Said};

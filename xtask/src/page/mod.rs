@@ -27,17 +27,21 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<(), String> {
     }
 }
 
-/// Builds the page and runs its tests in a browser. Without a compiler for WebAssembly they are skipped, unless `HOVERTONE_REQUIRE_PAGE` is set.
+/// Builds the page and runs its tests in a browser. Without the tools for it they are skipped, unless `HOVERTONE_REQUIRE_PAGE` is set.
 fn test(root: &Path) -> Result<(), String> {
-    if let Err(missing) = toolchain::Toolchain::found()
-        && std::env::var_os("HOVERTONE_REQUIRE_PAGE").is_none()
-    {
+    let is_required = std::env::var_os("HOVERTONE_REQUIRE_PAGE").is_some();
+    if let Some(missing) = missing_tool().filter(|_| !is_required) {
         println!("skipped: the tests of the page ({missing})");
         return Ok(());
     }
     build(root, &target(root).join("page"))?;
     let arguments = ["test", "--package", "hovertone-cli", "--features", "page", "--test", "command", "served::"];
     run_in(root, Command::new("cargo").args(arguments))
+}
+
+fn missing_tool() -> Option<String> {
+    let has_npm = Command::new("npm").arg("--version").output().is_ok_and(|output| output.status.success());
+    if has_npm { toolchain::Toolchain::found().err() } else { Some("no npm: install Node.js".to_owned()) }
 }
 
 /// The maker of bindings is a large library that no other task needs: it is built for this task alone.

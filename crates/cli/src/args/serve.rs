@@ -4,8 +4,8 @@ use clap::Args;
 use std::net::{IpAddr, Ipv4Addr};
 
 const SERVE_EXAMPLES: &str = "\
-Other computers see the page only with --address. It then asks for the token that is part of the printed address. A phone lets a page use
-its microphone over HTTPS only: for that, put the folder of `cargo xtask page` on a host with HTTPS.
+Other computers see the page only with --address. It then asks for the token that is part of the printed address. To open it on a phone, \
+put the folder of `cargo xtask page` on any static host.
 
 Examples:
   hovertone serve

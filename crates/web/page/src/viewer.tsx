@@ -7,8 +7,8 @@ import { Player } from "./player";
 import { Axes, bitmapOf, drawSpectrogram, MARGIN, timeInWords, type Overlay, type View } from "./spectrogram";
 import type { Recording, Store } from "./store";
 
-/** Colours of rotors, distinguishable with any colour vision. */
-const COLOURS = ["#56b4e9", "#ff9d4d", "#4fe0b5", "#f2a7d0", "#ffe066", "#ffffff"];
+/** Colours of rotors that stand out from those of the levels; style.css has the same. */
+const COLOURS = ["#ffffff", "#ff9d4d", "#f7a8d8", "#ff6b6b", "#c9b6ff", "#ffd9b3"];
 /** Wait before a detailed picture is asked for. */
 const DETAIL_MS = 250;
 /** What a detailed picture shows beyond the edges, as a share of the view. */
@@ -194,7 +194,7 @@ function curvesOf(answer?: Answer): Overlay["curves"] {
     return Array.from({ length: HARMONICS }, (_, harmonic) => ({
       points: track.map(([timeS, speed]): Point => [timeS, speed * order * (harmonic + 1)]),
       colour: COLOURS[index % COLOURS.length],
-      width: harmonic === 0 ? 1.6 : 1,
+      width: harmonic === 0 ? 2.2 : 1.4,
       stepS,
     }));
   });
