@@ -1,9 +1,10 @@
-//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `python`, `validate`, `dist`.
+//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `python`, `validate`, `dist`, `page`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
 mod ci;
 mod dist;
+mod page;
 mod python;
 mod tidy;
 mod tree;
@@ -25,6 +26,8 @@ const HELP: &str = "cargo xtask <task>
                in the Python of HOVERTONE_PYTHON, or in target/python
   dist         what a release page holds, in target/dist: a stripped program without libraries of the system, completions, man pages,
                a wheel for Python where maturin is, licences of all dependencies, checksums; and whether every crate can be published (cargo publish --dry-run)
+  page         the page for the browser in target/page, for any static host; --out FOLDER puts it elsewhere, --test tries it in a browser. It needs a compiler for
+               WebAssembly (rustup target add wasm32-unknown-unknown) and npm; `hovertone serve` of a build with --features page serves it
   validate     exported and changed files, in the hands of other programs: rotorpy, pybullet and xacro (installed by pip); sdformat and
                urdfdom (apt-get install ignition-tools libsdformat-dev liburdfdom-tools), without which that part is left out and said; where CI is set, that is an error
 
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         ["python"] => python::run(&root()),
         ["validate"] => validate::run(&root()),
         ["dist"] => dist::run(&root()),
+        ["page", arguments @ ..] => page::run(&root(), arguments),
         _ => Err(HELP.to_owned()),
     };
     match outcome {

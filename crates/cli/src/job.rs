@@ -5,6 +5,8 @@ use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_media::{MediaError, OpenOptions, Recording, Samples};
 use hovertone_report::SpeedRecord;
+pub(crate) use hovertone_workflow::Requests;
+use hovertone_workflow::Task;
 use std::path::PathBuf;
 
 /// How every file is opened, and what its output needs.
@@ -73,6 +75,17 @@ impl Job {
             None => Recording::open(&self.path, &hearing.open_options()),
         }
     }
+
+    /// What is to be heard in it.
+    pub(crate) fn task(&self, hearing: Hearing) -> Task<'_> {
+        Task {
+            name: &self.name,
+            config: &self.config,
+            discovery: self.discovery,
+            requests: self.requests,
+            wants_samples: hearing.wants_samples,
+        }
+    }
 }
 
 /// Jobs with their answers, in the same order.
@@ -87,13 +100,4 @@ pub(crate) fn in_memory(jobs: &mut [Job], samples: Option<Samples>) {
     if let (Some(job), Some(samples)) = (jobs.first_mut(), samples) {
         job.samples = Some(samples);
     }
-}
-
-/// Analyses of the rotors after the speed. Each needs more passes over the sound.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Requests {
-    /// The condition of each rotor.
-    pub(crate) condition: bool,
-    /// The start of each rotor.
-    pub(crate) spin_up: bool,
 }

@@ -41,11 +41,12 @@ mod own_vehicles;
 mod place;
 mod progress;
 mod recording;
-mod recording_facts;
 mod recording_files;
 mod report_folder;
 mod rights;
 mod see_help;
+#[cfg(feature = "page")]
+mod serve;
 mod settings;
 mod shell;
 mod simulate;
@@ -122,6 +123,14 @@ fn run_command(command: &Command, terminal: &mut Terminal<'_>) -> Result<Ending,
         Command::Demo(arguments) => demo::run(arguments, terminal),
         Command::Simulate(arguments) => simulate::run(arguments, terminal),
         Command::Vehicles(arguments) => vehicles::run(arguments, terminal),
+        #[cfg(feature = "page")]
+        Command::Serve(arguments) => serve::run(arguments, terminal),
+        #[cfg(not(feature = "page"))]
+        Command::Serve(_) => Err(Failure::Failed {
+            what: "this hovertone was built without the page".to_owned(),
+            hint: "build it with the page: cargo xtask page, then cargo build --release --features page".to_owned(),
+            path: None,
+        }),
         Command::Completions(arguments) => shell::run_completions(arguments, terminal),
         Command::Man(arguments) => shell::run_man(arguments, terminal),
     }

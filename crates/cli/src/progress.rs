@@ -76,8 +76,14 @@ pub(crate) struct Share<'a> {
 }
 
 impl Share<'_> {
+    /// Shows what is done of a recording.
+    pub(crate) fn show(&mut self, share: hovertone_workflow::Share) {
+        self.name_pass(share.pass, share.pass_count);
+        self.set(share.done);
+    }
+
     /// Names the pass over the sound beside the bar of a single recording.
-    pub(crate) fn name_pass(&mut self, pass: u32, pass_count: u32) {
+    fn name_pass(&mut self, pass: u32, pass_count: u32) {
         if self.progress.is_single && self.shown != Some((pass, pass_count)) {
             self.shown = Some((pass, pass_count));
             self.progress.bar.set_message(format!("{}, pass {pass} of {pass_count}", self.progress.message));

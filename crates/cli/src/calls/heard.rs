@@ -1,10 +1,11 @@
 //! A recording that was heard, for a program that calls.
 
-use crate::drawing::{drawing_of, trial_of};
+use crate::drawing::drawing_of;
 use crate::failure::Failure;
 use crate::recording::{HeardJobs, Hearing, Job};
 use hovertone_figures::{Figure, recording_figure};
 use hovertone_report::SpeedRecord;
+use hovertone_workflow::trial_of;
 
 /// A recording with its answer. Its sound can be read again for a picture.
 pub struct HeardRecording {

@@ -1,10 +1,10 @@
 //! A recording that was decoded, for a program that calls.
 
 use crate::failure::Failure;
-use crate::recording_facts::facts_of;
 use hovertone::sound::SignalSource;
 use hovertone_media::Recording;
 use hovertone_report::{Notice, RecordingFacts};
+use hovertone_workflow::{facts_of, notices_of};
 
 /// The sound of a recording as the commands hear it: one channel, at its own rate.
 pub struct LoadedSound {
@@ -25,11 +25,10 @@ impl LoadedSound {
         while let Some(block) = recording.next_block().map_err(Failure::internal)? {
             samples.extend_from_slice(block);
         }
-        let notices = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
         Ok(Self {
             samples,
             start_s: recording.info().start_s,
-            notices: notices.collect(),
+            notices: notices_of(&recording),
             facts: facts_of(&recording, None),
         })
     }
