@@ -1,9 +1,11 @@
-//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `validate`, `dist`.
+//! What CI does and a person types: `cargo xtask ci`, `tidy`, `words`, `python`, `validate`, `dist`, `page`.
 
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a tool for people at a terminal
 
 mod ci;
 mod dist;
+mod page;
+mod python;
 mod tidy;
 mod tree;
 mod validate;
@@ -20,8 +22,12 @@ const HELP: &str = "cargo xtask <task>
   tidy         rules of the house that no compiler knows: each fault with file, line and what to do
   tidy --list  the number of faults of each rule, and in which files
   words        no string, help text, page or document has an expression that docs/glossary.md forbids
+  python       the Python package: built, installed with pip, its types checked (mypy, stubtest), its tests, examples, documents and notebook run;
+               in the Python of HOVERTONE_PYTHON, or in target/python
   dist         what a release page holds, in target/dist: a stripped program without libraries of the system, completions, man pages,
-               licences of all dependencies, checksums; and whether every crate can be published (cargo publish --dry-run)
+               a wheel for Python where maturin is, licences of all dependencies, checksums; and whether every crate can be published (cargo publish --dry-run)
+  page         the page for the browser in target/page, for any static host; --out FOLDER puts it elsewhere, --test tries it in a browser. It needs a compiler for
+               WebAssembly (rustup target add wasm32-unknown-unknown) and npm; `hovertone serve` of a build with --features page serves it
   validate     exported and changed files, in the hands of other programs: rotorpy, pybullet and xacro (installed by pip); sdformat and
                urdfdom (apt-get install ignition-tools libsdformat-dev liburdfdom-tools), without which that part is left out and said; where CI is set, that is an error
 
@@ -37,8 +43,10 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(&root()),
         ["tidy", "--list"] => tidy::list(&root()),
         ["words"] => words::run(&root()),
+        ["python"] => python::run(&root()),
         ["validate"] => validate::run(&root()),
         ["dist"] => dist::run(&root()),
+        ["page", arguments @ ..] => page::run(&root(), arguments),
         _ => Err(HELP.to_owned()),
     };
     match outcome {

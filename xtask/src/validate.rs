@@ -1,6 +1,6 @@
 //! `cargo xtask validate`: what is exported, in the hands of programs that are not ours.
 
-use crate::ci::cargo;
+use crate::ci::build_program;
 use crate::target;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,8 +17,7 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let folder = target(root).join("validate");
     let exports = folder.join("exports");
     fs::create_dir_all(&exports).map_err(|error| format!("{}: {error}", exports.display()))?;
-    cargo(root, &["build", "--locked", "-p", "hovertone-cli"], &[])?;
-    let hovertone = target(root).join("debug").join("hovertone");
+    let hovertone = build_program(root)?;
     let demo = folder.join("demo");
     run_quietly(Command::new(&hovertone).arg("demo").arg("--no-progress").arg("-o").arg(&demo))?;
     let results = demo.join("results.json");

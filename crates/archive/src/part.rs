@@ -46,13 +46,15 @@ impl Part {
             Arc::new(Schema::new_with_metadata(schema.fields, picture.collect::<arrow_schema::Metadata>())),
             self.row.columns().to_vec(),
         )?;
-        let mut bytes = Vec::new();
-        for batch in [&row, &self.tracks] {
-            let mut writer = StreamWriter::try_new(&mut bytes, &batch.schema())?;
-            writer.write(batch)?;
-            writer.finish()?;
-        }
-        Ok(bytes)
+        Ok([stream_of(&row)?, stream_of(&self.tracks)?].concat())
+    }
+
+    /// The row of `recordings.parquet` as a stream of Arrow IPC, for engines that write tables of their own.
+    ///
+    /// # Errors
+    /// None is known, since the bytes are written to memory.
+    pub fn row_stream(&self) -> Result<Vec<u8>, ArchiveError> {
+        stream_of(&self.row)
     }
 
     /// From its bytes.
@@ -74,6 +76,12 @@ impl Part {
         }
         Ok(Self { row, tracks, picture })
     }
+}
+
+fn stream_of(batch: &RecordBatch) -> Result<Vec<u8>, ArchiveError> {
+    let mut writer = StreamWriter::try_new(Vec::new(), &batch.schema())?;
+    writer.write(batch)?;
+    Ok(writer.into_inner()?)
 }
 
 fn batch_of(from: &mut impl Read) -> Result<RecordBatch, ArchiveError> {

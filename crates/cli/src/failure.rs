@@ -1,5 +1,6 @@
 //! Endings of a run and their exit codes.
 
+use crate::caller::typed_words;
 use crate::see_help::see_help;
 use hovertone_vehicle::{ConfigError, Contradiction, QuantityError};
 use std::io;
@@ -8,7 +9,7 @@ use std::process::ExitCode;
 
 /// Ending of a run that was possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Ending {
+pub enum Ending {
     /// Everything was done.
     Done,
     /// Done with a gap: no rotor tone, or only the beginning of a recording.
@@ -55,16 +56,30 @@ impl From<ConfigError> for Failure {
 
 /// Advice for a number that was typed or stands in a file.
 fn correct_number() -> String {
-    format!("correct it, or its unit: {}", see_help(&std::env::args_os().collect::<Vec<_>>()))
+    format!("correct it, or its unit: {}", see_help(&typed_words()))
 }
 
 /// Reason why a run was impossible: what happened and why, what to do, and which file.
 #[derive(Debug)]
-pub(crate) enum Failure {
+pub enum Failure {
     /// The command line or a file of the user has no meaning, or the run would replace a file.
-    Usage { what: String, hint: String, path: Option<PathBuf> },
+    Usage {
+        /// What happened, and why.
+        what: String,
+        /// What to do.
+        hint: String,
+        /// The file that it is about.
+        path: Option<PathBuf>,
+    },
     /// A file or folder is not there, is of another kind, or cannot be read or written.
-    Failed { what: String, hint: String, path: Option<PathBuf> },
+    Failed {
+        /// What happened, and why.
+        what: String,
+        /// What to do.
+        hint: String,
+        /// The file that it is about.
+        path: Option<PathBuf>,
+    },
     /// The reader of stdout closed it.
     StdoutClosed,
 }
@@ -96,7 +111,7 @@ impl Failure {
     }
 
     /// For errors that should be impossible, in place of a panic.
-    pub(crate) fn internal(error: impl std::fmt::Display) -> Self {
+    pub fn internal(error: impl std::fmt::Display) -> Self {
         let hint = "this is a bug of hovertone: please report it".to_owned();
         Self::Failed { what: error.to_string(), hint, path: None }
     }

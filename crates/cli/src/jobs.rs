@@ -18,8 +18,15 @@ pub(crate) fn jobs_of(
 ) -> Result<Vec<Job>, Failure> {
     let mut jobs = Vec::new();
     for name in names {
-        let job =
-            |name: String, path: PathBuf| Job { name, path, config: config.clone(), discovery, requests, sha256: None };
+        let job = |name: String, path: PathBuf| Job {
+            name,
+            path,
+            config: config.clone(),
+            discovery,
+            requests,
+            sha256: None,
+            samples: None,
+        };
         if is_stdin(name) {
             jobs.push(job(STDIN.to_owned(), recording_of_stdin()?));
             continue;

@@ -1,5 +1,6 @@
 //! Progress of the analysis on stderr, if it is a terminal.
 
+use crate::caller::{OnProgress, on_progress};
 use crate::terminal::width_of;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
@@ -19,6 +20,8 @@ pub(crate) struct Progress {
     bar: ProgressBar,
     message: String,
     is_single: bool,
+    /// A program that called, and that wants to know.
+    listener: Option<OnProgress>,
 }
 
 impl Progress {
@@ -37,7 +40,7 @@ impl Progress {
         if is_seen {
             bar.enable_steady_tick(TICK);
         }
-        Self { bar, message, is_single: recording_count == 1 }
+        Self { bar, message, is_single: recording_count == 1, listener: on_progress() }
     }
 
     /// The part of the bar for one recording.
@@ -49,6 +52,13 @@ impl Progress {
     #[cfg(feature = "archive")]
     pub(crate) fn say(&self, words: String) {
         self.bar.set_message(words);
+    }
+
+    /// Tells the finished share of all recordings.
+    fn tell(&self) {
+        if let Some(listener) = &self.listener {
+            listener(self.bar.position() as f64 / self.bar.length().unwrap_or(1).max(1) as f64);
+        }
     }
 
     /// Removes the bar before other output.
@@ -66,8 +76,14 @@ pub(crate) struct Share<'a> {
 }
 
 impl Share<'_> {
+    /// Shows what is done of a recording.
+    pub(crate) fn show(&mut self, share: hovertone_workflow::Share) {
+        self.name_pass(share.pass, share.pass_count);
+        self.set(share.done);
+    }
+
     /// Names the pass over the sound beside the bar of a single recording.
-    pub(crate) fn name_pass(&mut self, pass: u32, pass_count: u32) {
+    fn name_pass(&mut self, pass: u32, pass_count: u32) {
         if self.progress.is_single && self.shown != Some((pass, pass_count)) {
             self.shown = Some((pass, pass_count));
             self.progress.bar.set_message(format!("{}, pass {pass} of {pass_count}", self.progress.message));
@@ -80,6 +96,7 @@ impl Share<'_> {
         if steps > self.steps_done {
             self.progress.bar.inc(steps - self.steps_done);
             self.steps_done = steps;
+            self.progress.tell();
         }
     }
 }

@@ -1,91 +1,24 @@
 //! From recordings to records. No other file of the command line decodes sound.
 
-use crate::args::HearingArguments;
 use crate::failure::Failure;
 use crate::files::{is_pattern, sha256_of_file};
+pub(crate) use crate::job::{HeardJobs, Hearing, Job, Requests, in_memory};
 use crate::progress::{Progress, Share};
-use crate::recording_facts::facts_of;
 use crate::thumbnail::thumbnail_of;
 use hovertone::motors::{
     HeardCommands, HeardMotor, HeardTone, PASSES_OF_MOTOR, level_of_analysis, level_of_rotors, motor_from_sound,
 };
-use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
+use hovertone::rotors::SpinUp;
 use hovertone::sound::{LineFrequency, Passes, line_frequency};
-use hovertone::speed::{Config, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
-use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
+use hovertone::speed::{Config, NoTone, passes_of_speed};
+use hovertone::tones::{FoundSpeed, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
-use hovertone_media::{OpenOptions, Recording};
-use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
+use hovertone_media::Recording;
+use hovertone_report::{Notice, SpeedRecord};
+use hovertone_workflow::{NotHeard, failed_record, notices_of, progress_of};
 use rayon::prelude::*;
-use serde::Serialize;
-use serde_json::Value;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
-
-/// How every file is opened, and what its output needs.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Hearing {
-    /// Number of the audio track, counted from 1; the first that is not silent where absent.
-    pub(crate) audio_track: Option<usize>,
-    /// Number of the channel, counted from 1; the mean of all channels where absent.
-    pub(crate) channel: Option<usize>,
-    /// Correction of the recorder's clock, in millionths.
-    pub(crate) clock_correction_ppm: f64,
-    /// Whether the output contains the hash of the file.
-    pub(crate) wants_hash: bool,
-    /// Whether the samples of the hover are used, and with them their warnings.
-    pub(crate) wants_samples: bool,
-    /// Whether a small spectrogram is drawn, in another pass over the sound.
-    pub(crate) wants_thumbnail: bool,
-}
-
-impl Hearing {
-    /// What the arguments say, without hash and samples.
-    pub(crate) fn of(arguments: &HearingArguments) -> Self {
-        Self {
-            audio_track: arguments.audio_track,
-            channel: arguments.channel,
-            clock_correction_ppm: arguments.clock_correction_ppm.unwrap_or(0.0),
-            ..Self::default()
-        }
-    }
-
-    /// How every file is opened.
-    pub(crate) fn open_options(self) -> OpenOptions {
-        OpenOptions {
-            audio_track: self.audio_track,
-            channel: self.channel,
-            clock_correction_ppm: self.clock_correction_ppm,
-            ..OpenOptions::default()
-        }
-    }
-}
-
-/// One recording to analyse.
-#[derive(Clone, Debug)]
-pub(crate) struct Job {
-    /// Path of the file.
-    pub(crate) path: PathBuf,
-    /// Name in the output.
-    pub(crate) name: String,
-    /// Settings of the analysis.
-    pub(crate) config: Config,
-    /// The search for the tone, where its order is unknown; the order in `config` is then a placeholder.
-    pub(crate) discovery: Option<Discovery>,
-    /// Analyses of the rotors after the speed.
-    pub(crate) requests: Requests,
-    /// Hash of the file, where the search for copies has made it.
-    pub(crate) sha256: Option<String>,
-}
-
-/// Analyses of the rotors after the speed. Each needs more passes over the sound.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Requests {
-    /// The condition of each rotor.
-    pub(crate) condition: bool,
-    /// The start of each rotor.
-    pub(crate) spin_up: bool,
-}
+use std::path::Path;
 
 /// A recording that was analysed.
 #[cfg_attr(not(feature = "archive"), allow(dead_code))] // archives alone have classes of errors and thumbnails
@@ -119,9 +52,10 @@ pub(crate) fn broken(job: &Job) -> Heard {
     failed(job, NotHeard::because("internal", reason))
 }
 
-fn failed(job: &Job, NotHeard { reason, class, facts }: NotHeard) -> Heard {
+fn failed(job: &Job, failure: NotHeard) -> Heard {
+    let class = failure.class;
     Heard {
-        record: record_of(job, &job.config, Answer::Failed { reason }, facts.map(|facts| *facts)),
+        record: failed_record(&job.task(Hearing::default()), failure),
         config: job.config.clone(),
         spin_up: None,
         error_class: Some(class),
@@ -134,20 +68,6 @@ pub(crate) fn records_of(jobs: &[Job], hearing: Hearing, progress: &Progress) ->
     hear_all(jobs, hearing, progress).into_iter().map(|heard| heard.record).collect()
 }
 
-/// Reason why a recording was not analysed, with its facts where they are known.
-struct NotHeard {
-    reason: String,
-    /// The kind of error in one word of files for programs.
-    class: &'static str,
-    facts: Option<Box<RecordingFacts>>,
-}
-
-impl NotHeard {
-    fn because(class: &'static str, reason: impl ToString) -> Self {
-        Self { reason: reason.to_string(), class, facts: None }
-    }
-}
-
 /// The strongest line of a recording in a band, and what weakens the recording; a failure is its reason.
 pub(crate) fn line_in_band(
     job: &Job,
@@ -155,19 +75,18 @@ pub(crate) fn line_in_band(
     band_hz: Range<f64>,
     progress: &Progress,
 ) -> Result<(Option<LineFrequency>, Vec<Notice>), String> {
-    let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
+    let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let highest_hz = recording.info().sample_rate_hz / 2.0;
     if band_hz.end >= highest_hz {
         return Err(format!("this recording has no sound above {highest_hz:.0} Hz; choose a tone below that"));
     }
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     let mut share = progress.recording();
-    let mut on_progress = progress_of(&recording, &mut share);
+    let mut on_progress = progress_of(&recording, |done| share.show(done));
     let line = Passes::planned(&mut recording, 1, &mut on_progress)
         .and_then(|mut passes| line_frequency(&mut passes, span_s, band_hz))
         .map_err(|error| error.to_string())?;
-    let notices = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
-    Ok((line, notices.collect()))
+    Ok((line, notices_of(&recording)))
 }
 
 /// What a recording tells of its motors.
@@ -185,16 +104,15 @@ pub(crate) fn motor_in(
     commands: Option<HeardCommands<'_>>,
     progress: &Progress,
 ) -> Result<SoundOfMotor, String> {
-    let mut recording = opened(job, hearing).map_err(|failure| failure.reason)?;
+    let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let mut share = progress.recording();
-    let mut on_progress = progress_of(&recording, &mut share);
+    let mut on_progress = progress_of(&recording, |done| share.show(done));
     let planned = passes_of_speed(&job.config) + PASSES_OF_MOTOR;
     let motor = Passes::planned(&mut recording, planned, &mut on_progress)
         .map_err(hovertone::speed::Error::from)
         .and_then(|mut passes| motor_of_passes(&mut passes, job, commands))
         .map_err(|error| error.to_string())?;
-    let notices = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
-    Ok(SoundOfMotor { motor, notices: notices.collect() })
+    Ok(SoundOfMotor { motor, notices: notices_of(&recording) })
 }
 
 fn motor_of_passes(
@@ -232,72 +150,35 @@ pub(crate) fn lines_of(
     let mut recording = Recording::open(path, &hearing.open_options()).map_err(|error| failed(error.to_string()))?;
     let start_s = recording.info().start_s;
     let mut share = progress.recording();
-    let mut on_progress = progress_of(&recording, &mut share);
+    let mut on_progress = progress_of(&recording, |done| share.show(done));
     Passes::planned(&mut recording, 1, &mut on_progress)
         .and_then(|mut passes| lines_from_passes(&mut passes, start_s..f64::INFINITY, orders, speed_rev_s))
         .map_err(|error| failed(error.to_string()))
 }
 
-fn opened(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
-    match wrong_kind(&job.path) {
+/// Opens the recording of a job.
+pub(crate) fn opened(job: &Job, hearing: Hearing) -> Result<Recording, Failure> {
+    // the reason contains the advice
+    opened_or_not(job, hearing).map_err(|NotHeard { reason, .. }| Failure::failed(reason, "", &job.path))
+}
+
+fn opened_or_not(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
+    match wrong_kind(&job.path).filter(|_| job.samples.is_none()) {
         Some(reason) => Err(NotHeard::because(if job.path.is_dir() { "not_a_file" } else { "not_found" }, reason)),
-        None => {
-            Recording::open(&job.path, &hearing.open_options()).map_err(|error| NotHeard::because(error.class(), error))
-        }
+        None => job.open(hearing).map_err(|error| NotHeard::because(error.class(), error)),
     }
 }
 
 fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
-    let mut recording = opened(job, hearing)?;
+    let mut recording = opened_or_not(job, hearing)?;
     let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
-    let sha256 = hearing.wants_hash.then(hashed).transpose().map_err(|error| {
+    let sha256 = (hearing.wants_hash && job.samples.is_none()).then(hashed).transpose().map_err(|error| {
         NotHeard::because("unreadable", format!("the file could not be read to its end: {error}; check the disk"))
     })?;
-    let analysed = analysed(&mut recording, job, share);
-    let facts = facts_of(&recording, sha256);
-    let Analysed { analysis, config, found, spin_up } = match analysed {
-        Ok(analysed) => analysed,
-        Err(error) => {
-            return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
-        }
-    };
-    let of_the_file = recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint()));
-    let matters =
-        |warning: &&Warning| hearing.wants_samples || !matches!(warning, Warning::HoverShorterThanSample { .. });
-    let notices = of_the_file.chain(analysis.warnings.iter().filter(matters).map(Notice::from)).collect();
-    let record = record_of(job, &config, Answer::Heard(Box::new(analysis)), Some(facts));
-    let mut record = SpeedRecord { found, notices, ..record };
-    record.notices.extend(notice_of_reading(&record));
+    let heard = hovertone_workflow::hear(&mut recording, &job.task(hearing), sha256, |done| share.show(done))?;
+    let hovertone_workflow::Heard { record, config, spin_up } = heard;
     let thumbnail = hearing.wants_thumbnail.then(|| thumbnail_of(&mut recording, record.analysis()?)).flatten();
     Ok(Heard { record, config, spin_up, error_class: None, thumbnail })
-}
-
-/// The kind of an error of the analysis: its settings do not fit the recording, or the sound could not be read to its end.
-fn class_of(error: &hovertone::speed::Error) -> &'static str {
-    match error {
-        hovertone::speed::Error::Signal(_) => "unreadable",
-        _ => "unfit_settings",
-    }
-}
-
-fn record_of(job: &Job, config: &Config, answer: Answer, recording: Option<RecordingFacts>) -> SpeedRecord {
-    SpeedRecord {
-        file: job.name.clone(),
-        method: config.method,
-        order: config.tone.order,
-        wants_condition: job.requests.condition,
-        settings: written(config),
-        recording,
-        answer,
-        found: None,
-        labels: None,
-        notices: Vec::new(),
-    }
-}
-
-/// Settings as JSON. Serialisation of settings does not fail.
-fn written(settings: &impl Serialize) -> Value {
-    serde_json::to_value(settings).unwrap_or_default()
 }
 
 /// A reason that follows from the typed name: a folder, or a pattern without files.
@@ -307,77 +188,4 @@ fn wrong_kind(path: &Path) -> Option<String> {
     }
     (!path.exists() && is_pattern(&path.to_string_lossy()))
         .then(|| "no file matches this pattern; check the folder and the ending of its files".to_owned())
-}
-
-/// The notice which reading of the tone was used, where the arguments did not name the order.
-fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
-    let reading = record.found_reading().filter(|_| record.speed().is_some())?;
-    let text =
-        format!("no tone was given; hovertone found order {}, {}: {}", reading.order, reading.meaning, reading.why);
-    Some(Notice::new(text, "check the blades and give --blades N; `hovertone tones` shows the other readings"))
-}
-
-/// Results of the passes over a recording.
-struct Analysed {
-    analysis: SpeedAnalysis,
-    config: Config,
-    found: Option<Found>,
-    spin_up: Option<SpinUp>,
-}
-
-/// Shows the progress of the passes over a recording.
-fn progress_of<'a, 'b>(
-    recording: &Recording,
-    share: &'a mut Share<'b>,
-) -> impl FnMut(hovertone::sound::Progress) + use<'a, 'b> {
-    let (start_s, declared_s) = (recording.info().start_s, recording.info().declared_duration_s);
-    let mut heard_s: f64 = 0.0;
-    move |progress: hovertone::sound::Progress| {
-        let time_s = progress.time_s - start_s;
-        // after the first pass the length is known exactly; the header only estimates it
-        let length_s = if progress.pass == 1 { declared_s } else { Some(heard_s) };
-        heard_s = heard_s.max(time_s);
-        let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
-        share.name_pass(progress.pass, progress.pass_count);
-        share.set((f64::from(progress.pass - 1) + of_pass) / f64::from(progress.pass_count));
-    }
-}
-
-fn analysed(recording: &mut Recording, job: &Job, share: &mut Share<'_>) -> Result<Analysed, hovertone::speed::Error> {
-    let mut on_progress = progress_of(recording, share);
-    let Requests { condition, spin_up } = job.requests;
-    let speed_passes = match (job.discovery, spin_up) {
-        (Some(_), true) => passes_of_speed(&job.config) + passes_of_spin_up(&job.config),
-        (None, true) => passes_of_spin_up(&job.config),
-        (_, false) => passes_of_speed(&job.config),
-    };
-    let mut passes = Passes::planned(recording, speed_passes + u32::from(condition), &mut on_progress)?;
-    let mut analysed = match job.discovery {
-        Some(discovery) => {
-            let FoundSpeed { families, rotor, config, analysis, alternatives } =
-                tones_from_passes(&mut passes, &job.config, &discovery)?;
-            let found = Found { settings: written(&discovery), families, rotor, alternatives };
-            Analysed { analysis, config, found: Some(found), spin_up: None }
-        }
-        None if spin_up => {
-            let (analysis, spin_up) = speed_after_spin_up(&mut passes, &job.config)?;
-            Analysed { analysis, config: job.config.clone(), found: None, spin_up: Some(spin_up) }
-        }
-        None => {
-            let analysis = speed_from_passes(&mut passes, &job.config)?;
-            Analysed { analysis, config: job.config.clone(), found: None, spin_up: None }
-        }
-    };
-    let has_tone = matches!(analysed.analysis.outcome, Outcome::Ok(_));
-    if spin_up && analysed.spin_up.is_none() && has_tone {
-        let (analysis, spin_up) = speed_after_spin_up(&mut passes, &analysed.config)?;
-        analysed = Analysed { analysis, spin_up: Some(spin_up), ..analysed };
-    }
-    if condition {
-        let conditions = conditions_from_analysis(&mut passes, &analysed.analysis, &analysed.config.tone)?;
-        if let Outcome::Ok(tone) = &mut analysed.analysis.outcome {
-            tone.rotors.iter_mut().zip(conditions).for_each(|(rotor, condition)| rotor.condition = condition);
-        }
-    }
-    Ok(analysed)
 }

@@ -1,19 +1,15 @@
 //! The folder of results: the report, and its tables and figures as separate files.
 
-use crate::drawing::{draw_all, trial_of};
+use crate::drawing::draw_all;
 use crate::failure::Failure;
 use crate::output_folder::OutputFolder;
 use crate::recording::{Hearing, Job};
-use hovertone::speed::Method;
-use hovertone_exchange::{SimulatorFormat, export_text, identified_from_results};
-use hovertone_figures::{
-    DOTS_PER_INCH, ExperimentFigures, Figure, Trial, figure_png, figures_of_experiment, recording_figure,
-};
-use hovertone_page::{Report, SOUND_S_MAX, SimulatorLines, TrialReport, experiment_tables, names_of, report_html};
+use hovertone_figures::{DOTS_PER_INCH, Figure, figure_png, recording_figure};
+use hovertone_page::{SOUND_S_MAX, experiment_tables};
 use hovertone_report::{
-    Identification, RESULTS_SCHEMA, SpeedRecord, TextTable, TitledTable, loads_data, results_json, samples_data,
-    tables_latex, tables_markdown,
+    Identification, RESULTS_SCHEMA, SpeedRecord, loads_data, results_json, samples_data, tables_latex, tables_markdown,
 };
+use hovertone_workflow::{Drawn, ReportExtras, ReportFigures};
 use rayon::prelude::*;
 
 const FIGURES: &str = "figures";
@@ -34,23 +30,12 @@ pub(crate) const RESULTS: [&str; 9] = [
     PAGE,
 ];
 
-/// Content of the report beside the identification.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Extras<'a> {
-    /// Tables that replace the table of a method.
-    pub(crate) compared: &'a [(Method, TextTable)],
-    /// Additional tables.
-    pub(crate) more_tables: &'a [TitledTable],
-    /// The command that repeats the run.
-    pub(crate) command: &'a str,
-}
-
 /// Reads the recordings again for their pictures and writes all files.
 pub(crate) fn write_report(
     identification: &Identification<'_>,
     jobs: &[Job],
     hearing: Hearing,
-    extras: &Extras<'_>,
+    extras: &ReportExtras<'_>,
     folder: &OutputFolder,
 ) -> Result<(), Failure> {
     // write the measured results before the drawing, which takes long
@@ -69,56 +54,18 @@ pub(crate) fn write_report(
 
     let records: Vec<&SpeedRecord> = identification.inputs.iter().map(|input| &input.record).collect();
     let drawings = draw_all(jobs, &records, hearing, SOUND_S_MAX);
-    let reasons: Vec<Option<String>> = records.iter().map(|record| record.reason()).collect();
-    let names = names_of(identification.inputs);
-    let trials: Vec<Trial<'_>> = identification
-        .inputs
-        .iter()
-        .zip(&names)
-        .zip(reasons.iter().zip(&drawings))
-        .map(|((input, name), (reason, drawing))| Trial {
-            recording: name,
-            ..trial_of(&input.load, &input.record, reason.as_deref(), drawing.as_ref())
-        })
-        .collect();
-    let drawn = ExperimentFigures { trials: &trials, tables: identification.tables, method: identification.method };
-    let figures = figures_of_experiment(&drawn).map_err(Failure::internal)?;
-    figures.par_iter().try_for_each(|figure| write_figure(figure, folder))?;
-
-    let trial_figures: Vec<Option<Figure>> = trials
+    let drawn = Drawn::new(identification, drawings);
+    let trials = drawn.trials();
+    let experiment = drawn.experiment_figures(&trials).map_err(Failure::internal)?;
+    experiment.par_iter().try_for_each(|figure| write_figure(figure, folder))?;
+    let recordings: Vec<Option<Figure>> = trials
         .par_iter()
         .enumerate()
         .map(|(index, trial)| recording_figure(trial, &format!("recording-{}", index + 1)))
         .collect::<Result<_, _>>()
         .map_err(Failure::internal)?;
-    let of_page: Vec<TrialReport<'_>> = trial_figures
-        .iter()
-        .zip(&drawings)
-        .map(|(figure, drawing)| TrialReport {
-            figure: figure.as_ref(),
-            sound: drawing.as_ref().and_then(|drawing| drawing.sound.as_ref()),
-        })
-        .collect();
-    let report = Report {
-        identification,
-        figures: &figures,
-        trials: &of_page,
-        compared: extras.compared,
-        more_tables: extras.more_tables,
-        simulators: &simulators_of(&results),
-        command: extras.command,
-    };
-    let page = report_html(&report).map_err(Failure::internal)?;
+    let page = drawn.page(&ReportFigures { experiment, recordings }, &results, extras).map_err(Failure::internal)?;
     folder.write(PAGE, page)
-}
-
-/// The lines for every simulator that takes what the results have; none without a constant.
-fn simulators_of(results: &str) -> Vec<SimulatorLines> {
-    let Ok(rotor) = identified_from_results(results, None) else { return Vec::new() };
-    let lines = |format: SimulatorFormat| {
-        Some(SimulatorLines { name: format.name().to_owned(), text: export_text(&rotor, format).ok()? })
-    };
-    SimulatorFormat::ALL.into_iter().filter_map(lines).collect()
 }
 
 /// Writes a figure as SVG and as PNG.

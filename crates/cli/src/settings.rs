@@ -3,10 +3,11 @@
 use crate::args::{AnalysisArguments, KnownArguments, ToneArguments};
 use crate::failure::Failure;
 use crate::vehicles::preset;
-use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
-use hovertone::tones::{Discovery, DiscoveryConfig, KnownRotor};
+use hovertone::speed::{Config, SpanConfig, ToneConfig};
+use hovertone::tones::Discovery;
 use hovertone_report::SpeedRecord;
-use hovertone_vehicle::{Gear, Order, SaidOfVehicle, check_not_negative, check_tips};
+use hovertone_vehicle::{check_not_negative, check_tips};
+use hovertone_workflow::{NoSettings, Said};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
 pub(crate) fn config_of(
@@ -14,26 +15,16 @@ pub(crate) fn config_of(
     known: &KnownArguments,
     analysis: &AnalysisArguments,
 ) -> Result<(Config, Option<Discovery>), Failure> {
-    let (tone, discovery) = match tone_of(asked)? {
-        Some(tone) => (tone, None),
-        None => {
-            let (tone, discovery) = discovery_of(known, asked.vehicle.as_deref(), false)?;
-            let harmonics = asked.harmonics.unwrap_or(tone.harmonics);
-            (ToneConfig { band_hz: asked.band, harmonics, ..tone }, Some(discovery))
-        }
+    let said = Said {
+        method: analysis.method,
+        mean_only: analysis.mean_only,
+        span: span_of(analysis.from, analysis.to)?,
+        ..said_of(asked, known)?
     };
-    let mut config = Config::for_tone(tone);
-    config.known = known_of(known, asked.vehicle.as_deref())?;
-    config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
-    // where nothing is said of the tone, the number of rotors is not searched for
-    config.rotors.is_count_known = config.known.rotor_count.is_some() || discovery.is_some();
-    let may_be_several = !config.rotors.is_count_known || config.rotors.count > 1;
-    let default = if may_be_several && !analysis.mean_only { Method::Separated } else { Method::Harmonic };
-    config.method = analysis.method.unwrap_or(default);
+    let (mut config, discovery) = said.settings()?;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);
-    config.span = span_of(analysis.from, analysis.to)?;
     config.spectrogram.window_s = analysis.window_s;
     config.spectrogram.hop_share = analysis.hop_share.unwrap_or(config.spectrogram.hop_share);
     let threshold_share = analysis.gaussian_threshold_share;
@@ -42,36 +33,40 @@ pub(crate) fn config_of(
     Ok((config, discovery))
 }
 
-/// The tone that the arguments name: `--order` has priority, then the gear, then the blades, as given or as the vehicle has them. A known
-/// number of blades helps to find the tone of a gear. `None` where the tone has to be searched for.
+/// The tone that the arguments name; `None` where it has to be searched for.
 pub(crate) fn tone_of(arguments: &ToneArguments) -> Result<Option<ToneConfig>, Failure> {
-    let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
-    arguments.gear.map_or(Ok(()), Gear::check)?;
-    let order = arguments.order.map(Order::new).transpose()?;
-    let said = SaidOfVehicle { blades: arguments.blades, gear: arguments.gear, order, ..SaidOfVehicle::default() };
-    vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
-    let blades = arguments.blades.or_else(|| Some(vehicle?.blade_count?.value));
-    let gear = arguments.gear.or_else(|| Some(vehicle?.gear?.value));
-    let order = match (order, gear, blades) {
-        (Some(order), ..) => Ok(order),
-        (None, Some(gear), _) => gear.mesh_order(),
-        (None, None, Some(blades)) => Order::from_blades(blades),
-        (None, None, None) => return Ok(None),
-    };
-    let tone = ToneConfig::of_order(order?);
-    let known = vehicle.and_then(|vehicle| vehicle.shaft_speed.as_ref());
-    let tone = known.map_or_else(|| tone.clone(), |known| tone.clone().within(&known.value));
-    let tone = ToneConfig {
-        blades,
-        band_hz: arguments.band,
-        harmonics: arguments.harmonics.unwrap_or(tone.harmonics),
-        ..tone
-    };
-    // an order alone may be that of another source, such as a signal generator
-    if gear.is_some() || blades.is_some() {
-        tone.check_band()?;
+    Ok(said_of(arguments, &KnownArguments::default())?.tone()?)
+}
+
+/// What the arguments say of tone and vehicle.
+fn said_of(asked: &ToneArguments, known: &KnownArguments) -> Result<Said<'static>, Failure> {
+    Ok(Said {
+        vehicle: asked.vehicle.as_deref().map(preset).transpose()?,
+        blades: asked.blades,
+        gear: asked.gear,
+        order: asked.order,
+        band_hz: asked.band,
+        harmonics: asked.harmonics,
+        ..said_of_known(known)
+    })
+}
+
+fn said_of_known(known: &KnownArguments) -> Said<'static> {
+    Said { diameter_m: known.diameter_m, mass_kg: known.mass_kg, rotors: known.rotors, ..Said::default() }
+}
+
+impl From<NoSettings> for Failure {
+    fn from(error: NoSettings) -> Self {
+        match error {
+            NoSettings::Config(error) => error.into(),
+            NoSettings::Quantity(error) => error.into(),
+            NoSettings::Contradiction(error) => error.into(),
+            error => Self::usage(
+                error.to_string(),
+                "give the diameter in metres, the mass in kilograms, and the number of rotors",
+            ),
+        }
     }
-    Ok(Some(tone))
 }
 
 /// The part of a recording that the arguments name. A recording begins at 0 s.
@@ -98,30 +93,6 @@ pub(crate) fn discovery_of(
     vehicle: Option<&str>,
     wants_all: bool,
 ) -> Result<(ToneConfig, Discovery), Failure> {
-    let known = known_of(arguments, vehicle)?;
-    let order = Order::new(1.0).map_err(Failure::internal)?;
-    Ok((ToneConfig::of_order(order), Discovery { config: DiscoveryConfig::default(), known, wants_all }))
-}
-
-/// What is known of the rotors before they are heard: the arguments, and for the rest the vehicle.
-fn known_of(arguments: &KnownArguments, vehicle: Option<&str>) -> Result<KnownRotor, Failure> {
     let vehicle = vehicle.map(preset).transpose()?;
-    let of_vehicle = vehicle.map(KnownRotor::of_vehicle).unwrap_or_default();
-    let known = KnownRotor {
-        diameter_m: arguments.diameter_m.or(of_vehicle.diameter_m),
-        mass_kg: arguments.mass_kg.or(of_vehicle.mass_kg),
-        rotor_count: arguments.rotors.or(of_vehicle.rotor_count),
-        ..of_vehicle
-    };
-    known.check().map_err(|error| {
-        Failure::usage(
-            error.to_string(),
-            "give the diameter in metres, the mass in kilograms, and the number of rotors",
-        )
-    })?;
-    let said = SaidOfVehicle { rotors: arguments.rotors, mass_kg: arguments.mass_kg, ..SaidOfVehicle::default() };
-    vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
-    // all rotors of a vehicle carry it, also where fewer of them turn on a bench
-    KnownRotor { rotor_count: of_vehicle.rotor_count.or(arguments.rotors), ..known }.check_hover()?;
-    Ok(known)
+    Ok(Said { vehicle, ..said_of_known(arguments) }.discovery(wants_all)?)
 }

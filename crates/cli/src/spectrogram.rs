@@ -1,7 +1,7 @@
 //! `hovertone spectrogram`: a recording as a picture.
 
 use crate::args::SpectrogramArguments;
-use crate::drawing::{drawing_of, trial_of};
+use crate::drawing::drawing_of;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
@@ -12,6 +12,7 @@ use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
 use hovertone_figures::recording_figure;
+use hovertone_workflow::trial_of;
 
 /// Analyses a recording and draws it.
 pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -24,7 +25,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         true => (STDIN.to_owned(), recording_of_stdin()?),
         false => (arguments.file.display().to_string(), arguments.file.clone()),
     };
-    let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None }];
+    let jobs = [Job { name, path, config, discovery, requests: Requests::default(), sha256: None, samples: None }];
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();

@@ -7,10 +7,11 @@ use crate::labels::{LabelPlan, label, note_if_ambiguous};
 use crate::microphones::{ArrayPlan, label_all};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
-use crate::recording::{Hearing, Job, Requests, hear_all};
+use crate::recording::{HeardJobs, Hearing, Job, Requests, hear_all, in_memory};
 use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
+use hovertone_media::Samples;
 use hovertone_report::{SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
 
@@ -27,20 +28,7 @@ struct Plan {
 /// Analyses all files and prints their speeds.
 pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
-    let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
-    let mut heard = hear_all(&plan.jobs, plan.hearing, &progress);
-    progress.finish();
-    if plan.labels.is_some() || plan.microphones.is_some() {
-        heard.iter_mut().for_each(|heard| note_if_ambiguous(&mut heard.record));
-    }
-    if let Some(labels) = &plan.labels {
-        heard.iter_mut().for_each(|heard| label(heard, labels));
-    }
-    if let Some(array) = &plan.microphones {
-        label_all(&mut heard, &plan.jobs, array, !arguments.hearing.no_progress);
-    }
-    let records: Vec<SpeedRecord> = heard.into_iter().map(|heard| heard.record).collect();
-    check_tips_heard(&arguments.known, &records)?;
+    let records = hear(&plan, arguments)?;
     terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     if arguments.json {
         for record in &records {
@@ -57,6 +45,36 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         plan.outputs.write(&path, track_csv(&records).map_err(Failure::internal)?)?;
     }
     Ok(ending_of(&records))
+}
+
+/// The recordings with their answers, for a program that calls. The first recording may be in memory.
+pub(crate) fn called(arguments: &SpeedArguments, samples: Option<Samples>) -> Result<HeardJobs, Failure> {
+    let mut plan = resolve(arguments)?;
+    if samples.is_some() && plan.microphones.is_some() {
+        return Err(Failure::usage("--microphones hears a file, and this is an array", "write the array into a file"));
+    }
+    in_memory(&mut plan.jobs, samples);
+    let records = hear(&plan, arguments)?;
+    Ok(HeardJobs { jobs: plan.jobs, records, hearing: plan.hearing })
+}
+
+/// Analyses all files.
+fn hear(plan: &Plan, arguments: &SpeedArguments) -> Result<Vec<SpeedRecord>, Failure> {
+    let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
+    let mut heard = hear_all(&plan.jobs, plan.hearing, &progress);
+    progress.finish();
+    if plan.labels.is_some() || plan.microphones.is_some() {
+        heard.iter_mut().for_each(|heard| note_if_ambiguous(&mut heard.record));
+    }
+    if let Some(labels) = &plan.labels {
+        heard.iter_mut().for_each(|heard| label(heard, labels));
+    }
+    if let Some(array) = &plan.microphones {
+        label_all(&mut heard, &plan.jobs, array, !arguments.hearing.no_progress);
+    }
+    let records: Vec<SpeedRecord> = heard.into_iter().map(|heard| heard.record).collect();
+    check_tips_heard(&arguments.known, &records)?;
+    Ok(records)
 }
 
 fn resolve(arguments: &SpeedArguments) -> Result<Plan, Failure> {

@@ -4,11 +4,20 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::NamedTempFile;
 
 /// The temporary files of this run. An interrupt holds it until the process ends, so that no file comes after it.
 static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Whether the process ends with this run. In a program that calls, interrupts are that program's.
+static ENDS_WITH_RUN: AtomicBool = AtomicBool::new(false);
+
+/// From now on an interrupt removes the temporary files and ends the process.
+pub(crate) fn end_with_run() {
+    ENDS_WITH_RUN.store(true, Ordering::Relaxed);
+}
 
 /// A file that is removed when it is dropped.
 pub(crate) struct TemporaryFile {
@@ -28,7 +37,9 @@ impl TemporaryFile {
 
     fn made(make: impl FnOnce() -> io::Result<(File, PathBuf)>) -> io::Result<(Self, File)> {
         #[cfg(unix)]
-        interrupt::watch();
+        if ENDS_WITH_RUN.load(Ordering::Relaxed) {
+            interrupt::watch();
+        }
         let mut files = files();
         let (file, path) = make()?;
         files.insert(path.clone());
@@ -90,7 +101,7 @@ mod interrupt {
         for file in files.iter() {
             match std::fs::remove_file(file) {
                 Err(error) if error.kind() != ErrorKind::NotFound => {
-                    Terminal::new().failure(&cannot_remove(&error, file));
+                    Terminal::of_process().failure(&cannot_remove(&error, file));
                 }
                 _ => {}
             }

@@ -1,12 +1,12 @@
 //! Output: data to stdout, all messages for people to stderr, colours only to a terminal.
 
 use crate::failure::Failure;
-use anstream::AutoStream;
+use anstream::{AutoStream, StripStream};
 use hovertone_report::{
     Notice, SpeedRecord, counted, folded, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, printable,
     warning_count, wrapped,
 };
-use std::io::{self, BufWriter, ErrorKind, IsTerminal, Stderr, Stdout, Write};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 
 const RED: &str = "\x1b[1;31m";
 const YELLOW: &str = "\x1b[1;33m";
@@ -27,32 +27,41 @@ struct Label {
 /// Width of the output without a terminal.
 const WIDTH_WITHOUT_TERMINAL: usize = 100;
 
-/// The two output streams of the process.
-pub(crate) struct Terminal {
-    out: BufWriter<Stdout>,
-    /// stderr that drops colours where they are unwanted: no terminal, `NO_COLOR`, `TERM=dumb`.
-    err: AutoStream<Stderr>,
+/// Where data and messages go: the two output streams of the process, or memory for a program that calls.
+pub(crate) struct Terminal<'a> {
+    out: Box<dyn Write + 'a>,
+    err: Box<dyn Write + 'a>,
+    /// Whether this is the output of the process, which may be a terminal.
+    is_of_process: bool,
     /// Columns of the terminal behind stderr; absent without a terminal, when lines stay whole for programs.
     err_width: Option<usize>,
 }
 
-impl Terminal {
-    pub(crate) fn new() -> Self {
+impl<'a> Terminal<'a> {
+    /// The output streams of the process. stderr drops colours where they are unwanted: no terminal, `NO_COLOR`, `TERM=dumb`.
+    pub(crate) fn of_process() -> Self {
         Self {
-            out: BufWriter::new(io::stdout()),
-            err: AutoStream::auto(io::stderr()),
+            out: Box::new(BufWriter::new(io::stdout())),
+            err: Box::new(AutoStream::auto(io::stderr())),
+            is_of_process: true,
             err_width: width_of(&io::stderr()),
         }
     }
 
+    /// Memory, as a file without a terminal would get it.
+    pub(crate) fn kept(data: &'a mut Vec<u8>, messages: &'a mut Vec<u8>) -> Self {
+        let err = Box::new(StripStream::new(messages));
+        Self { out: Box::new(data), err, is_of_process: false, err_width: None }
+    }
+
     /// Columns that tables fold to; `None` where the output is no terminal, and lines stay whole for programs.
     pub(crate) fn fold_width(&self) -> Option<usize> {
-        width_of(&io::stdout())
+        if self.is_of_process { width_of(&io::stdout()) } else { None }
     }
 
     /// Width of the output in columns.
     pub(crate) fn width(&self) -> usize {
-        width_of(&io::stdout()).unwrap_or(WIDTH_WITHOUT_TERMINAL)
+        self.fold_width().unwrap_or(WIDTH_WITHOUT_TERMINAL)
     }
 
     /// Writes data to stdout.

@@ -1,11 +1,12 @@
 //! The command line as typed, for repeating the run.
 
+use crate::caller::typed_words;
 use hovertone_report::printable;
-use std::env;
 
 /// The whole command line, quoted for a shell. Invalid UTF-8 and control characters are replaced.
 pub(crate) fn typed_command() -> String {
-    let words = env::args_os().skip(1).map(|word| printable(&quoted(&word.to_string_lossy())));
+    let words = typed_words();
+    let words = words.iter().skip(1).map(|word| printable(&quoted(&word.to_string_lossy())));
     ["hovertone".to_owned()].into_iter().chain(words).collect::<Vec<_>>().join(" ")
 }
 

@@ -75,7 +75,8 @@ impl<'a> CsvText<'a> {
 
     /// The rows.
     pub(crate) fn records(&self) -> impl Iterator<Item = Result<StringRecord, CsvError>> + use<'a> {
-        reader(self.text, self.cells).into_records().map(|record| Ok(record?))
+        let text = self.text.as_bytes();
+        reader(self.text, self.cells).into_records().map(move |record| Ok(after_line_breaks(record?, text)))
     }
 
     /// Refuses a row that ends before the last of the columns that are used, or has more cells than the header that are not empty: its
@@ -117,6 +118,17 @@ pub(crate) fn line_of(record: &StringRecord) -> u64 {
     record.position().map_or(0, csv::Position::line)
 }
 
+/// The row, whose position is after the line breaks before it: the reader takes LF of CR LF, and empty lines, for the beginning of the row.
+fn after_line_breaks(mut record: StringRecord, text: &[u8]) -> StringRecord {
+    if let Some(mut position) = record.position().cloned() {
+        let rest = usize::try_from(position.byte()).ok().and_then(|byte| text.get(byte..)).unwrap_or_default();
+        let breaks = rest.iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
+        position.set_line(position.line() + breaks.filter(|byte| **byte == b'\n').count() as u64);
+        record.set_position(Some(position));
+    }
+    record
+}
+
 fn reader(text: &str, cells: CsvCells) -> csv::Reader<&[u8]> {
     cells.reader().trim(csv::Trim::All).from_reader(text.as_bytes())
 }
@@ -133,6 +145,15 @@ mod tests {
             let record = csv.records().next().unwrap().unwrap();
             let numbers = [0, 1, 2].map(|column| csv.number_at(column, &record).unwrap());
             assert_eq!(numbers, [Some(1.0), Some(2.5), None], "{text:?}");
+        }
+    }
+
+    #[test]
+    fn lines_have_their_numbers_with_all_line_breaks() {
+        for line_break in ["\n", "\r\n"] {
+            let text = ["a,b", "1,2", "", "3,4", "\"5\",6"].join(line_break);
+            let lines: Vec<u64> = CsvText::open(&text).unwrap().records().map(|row| line_of(&row.unwrap())).collect();
+            assert_eq!(lines, [2, 4, 5], "{line_break:?}");
         }
     }
 

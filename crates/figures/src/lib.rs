@@ -50,6 +50,7 @@ pub use picture::{
     MeanSpectrum, Picture, PictureConfig, PictureError, PictureView, Pictures, pictures_from_source,
     views_of_recording, whitened,
 };
+pub use raster::{PictureLevels, levels_of_picture};
 pub use rotors::rotors_figure;
 pub use spectrogram::recording_figure;
 pub use thumbnail::{Thumbnail, thumbnail_uri};

@@ -40,6 +40,28 @@ pub(crate) fn level_range_db<'a>(pictures: impl IntoIterator<Item = &'a Picture>
     Extent::new(f64::from(floor_db).max(loudest_db - LEVELS_DB_MAX).min(loudest_db - 1.0), loudest_db)
 }
 
+/// A spectrogram as levels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureLevels {
+    /// One byte for each cell, column by column from low frequency to high: 0 is the darkest colour, 255 the brightest.
+    pub cells: Vec<u8>,
+    /// Level of the darkest colour, dB re a full-scale sine.
+    pub level_db_low: f64,
+    /// Level of the brightest colour.
+    pub level_db_high: f64,
+}
+
+/// The levels of a picture, for a screen that colours them itself.
+pub fn levels_of_picture(picture: &Picture) -> PictureLevels {
+    let levels_db = level_range_db([picture]);
+    let cell = |&level_db: &f32| (levels_db.share_of(f64::from(level_db)).clamp(0.0, 1.0) * 255.0).round() as u8;
+    PictureLevels {
+        cells: picture.level_db.iter().map(cell).collect(),
+        level_db_low: levels_db.low,
+        level_db_high: levels_db.high,
+    }
+}
+
 impl Raster {
     /// The part of a picture between two frequencies, in its own resolution. Pixels outside the picture have the darkest colour.
     pub(crate) fn from_picture(picture: &Picture, shown_hz: Extent, levels_db: Extent, map: ColourMap) -> Self {

@@ -1,8 +1,7 @@
 //! Choice of the audio track: the first that is not silent.
 
-use std::path::Path;
-
 use crate::error::MediaError;
+use crate::file_access::FileAccess;
 use crate::frames::Incidents;
 use crate::plan::Plan;
 use crate::tracks::Tracks;
@@ -20,12 +19,12 @@ pub(crate) struct Choice {
 }
 
 /// Decodes the tracks in order up to the first sound. If all are silent, the choice is the first that decodes.
-pub(crate) fn first_audible_track(path: &Path, tracks: &Tracks<'_>) -> Result<Choice, MediaError> {
+pub(crate) fn first_audible_track(file: &dyn FileAccess, tracks: &Tracks<'_>) -> Result<Choice, MediaError> {
     let mut silent = Vec::new();
     let mut first_silent = None;
     let mut first_error = None;
     for index in 0..tracks.count() {
-        let heard = tracks.plan(index).and_then(|plan| Ok((is_audible(path, &plan)?, plan)));
+        let heard = tracks.plan(index).and_then(|plan| Ok((is_audible(file, &plan)?, plan)));
         match heard {
             Ok((true, plan)) => return Ok(Choice { index, plan, silent }),
             Ok((false, plan)) => {
@@ -44,8 +43,8 @@ pub(crate) fn first_audible_track(path: &Path, tracks: &Tracks<'_>) -> Result<Ch
     }
 }
 
-fn is_audible(path: &Path, plan: &Plan) -> Result<bool, MediaError> {
-    let mut frames = plan.open(path)?;
+fn is_audible(file: &dyn FileAccess, plan: &Plan) -> Result<bool, MediaError> {
+    let mut frames = plan.open(file)?;
     let mut interleaved = Vec::new();
     let mut incidents = Incidents::default();
     loop {

@@ -61,6 +61,8 @@ pub enum Container {
     Ape,
     /// Flash video.
     Flv,
+    /// No file: samples in memory.
+    Memory,
     /// A format that only ffmpeg recognised.
     Other,
 }
@@ -95,6 +97,7 @@ impl Container {
             Self::Tta => "TTA file",
             Self::Ape => "Monkey's Audio file",
             Self::Flv => "Flash video file",
+            Self::Memory => "array",
             Self::Other => "media file",
         }
     }

@@ -133,6 +133,17 @@ pub enum MediaError {
         why: String,
     },
 
+    /// An array without a sample.
+    #[error("the array has no sample: there is nothing to hear; give the samples of a recording")]
+    NoSampleInArray,
+
+    /// An array whose rate is none.
+    #[error("rate_hz = {rate_hz}, and it must be 1 or more; give the samples per second")]
+    RateOfArray {
+        /// The rate.
+        rate_hz: f64,
+    },
+
     /// Reading the disk failed.
     #[error("the file could not be read on: {0}; check the disk or the connection")]
     Read(#[source] io::Error),
@@ -151,8 +162,10 @@ impl MediaError {
             Self::NoSuchTrack { .. } => "no_such_track",
             Self::NoSuchChannel { .. } => "no_such_channel",
             Self::NeedsFfmpeg { .. } => "needs_ffmpeg",
-            Self::FfmpegFailed { .. } | Self::Damaged { .. } | Self::BadHeader { .. } => "damaged",
-            Self::NoSamples { .. } => "no_samples",
+            Self::FfmpegFailed { .. } | Self::Damaged { .. } | Self::BadHeader { .. } | Self::RateOfArray { .. } => {
+                "damaged"
+            }
+            Self::NoSamples { .. } | Self::NoSampleInArray => "no_samples",
         }
     }
 }

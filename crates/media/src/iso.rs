@@ -1,9 +1,7 @@
 //! Additions to Symphonia's reading of MP4 and MOV: names of codecs, and a fast reader of the sound alone that reads a truncated file up
 //! to its end.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read};
-use std::path::Path;
 use std::vec::IntoIter;
 
 use symphonia::core::audio::Channels;
@@ -14,6 +12,7 @@ use symphonia::core::codecs::audio::well_known::{
 use symphonia::core::packet::Packet;
 use symphonia::core::units::{Duration, Timestamp};
 
+use crate::file_access::{FileAccess, OpenFile};
 use crate::frames::{Frames, Incidents};
 use crate::quicktime::{AudioTrack, PacketPosition, PcmReader, QuicktimeError};
 
@@ -83,7 +82,7 @@ pub(crate) fn codec_parameters(track: &AudioTrack) -> Option<AudioCodecParameter
 
 /// The compressed packets of one track at the positions in its table, without the pictures between them.
 pub(crate) struct TablePackets {
-    reader: BufReader<File>,
+    reader: BufReader<OpenFile>,
     at: u64,
     track: AudioTrack,
     /// The next packets, some at a time: the table of an hour is small, the list of its packets is not.
@@ -93,8 +92,8 @@ pub(crate) struct TablePackets {
 }
 
 impl TablePackets {
-    pub(crate) fn open(path: &Path, track: &AudioTrack) -> io::Result<Self> {
-        let reader = BufReader::with_capacity(READ_BYTES, File::open(path)?);
+    pub(crate) fn open(file: &dyn FileAccess, track: &AudioTrack) -> io::Result<Self> {
+        let reader = BufReader::with_capacity(READ_BYTES, file.open()?);
         let positions = Vec::new().into_iter();
         Ok(Self { reader, at: 0, track: track.clone(), positions, taken: 0, next_tick: 0 })
     }
@@ -121,14 +120,14 @@ impl TablePackets {
 
 /// Raw PCM of a track, by its table of chunks.
 pub(crate) struct PcmFrames {
-    reader: PcmReader<File>,
+    reader: PcmReader<OpenFile>,
     sample_rate_hz: f64,
     channel_count: usize,
 }
 
 impl PcmFrames {
-    pub(crate) fn open(path: &Path, track: &AudioTrack) -> io::Result<Self> {
-        let reader = PcmReader::new(File::open(path)?, track).map_err(io_error)?;
+    pub(crate) fn open(file: &dyn FileAccess, track: &AudioTrack) -> io::Result<Self> {
+        let reader = PcmReader::new(file.open()?, track).map_err(io_error)?;
         Ok(Self { reader, sample_rate_hz: track.sample_rate_hz, channel_count: usize::from(track.channel_count) })
     }
 }

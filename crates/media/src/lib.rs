@@ -11,7 +11,7 @@
 //! recording   trims, mixes, counts errors             frames, mix, warning
 //! ```
 //!
-//! [`PipedSound`] is the same for sound that arrives through a pipe, once.
+//! [`PipedSound`] is the same for sound that arrives through a pipe, once; [`Samples`] are sound that is in memory already.
 //!
 //! Files that Symphonia and opus-pure cannot read go through an `ffmpeg`, if one is available ([`FfmpegUse`]).
 
@@ -21,6 +21,7 @@ mod codec;
 mod container;
 mod error;
 mod ffmpeg;
+mod file_access;
 mod frames;
 mod guard;
 mod iso;
@@ -35,6 +36,7 @@ mod piped;
 mod plan;
 mod quicktime;
 mod recording;
+mod samples;
 mod source;
 mod tracks;
 mod warning;
@@ -43,6 +45,8 @@ mod wave;
 pub use container::Container;
 pub use error::MediaError;
 pub use ffmpeg::FfmpegUse;
+pub use file_access::{FileAccess, OpenFile, ReadSeek};
 pub use piped::PipedSound;
 pub use recording::{Decoder, OpenOptions, Recording, RecordingInfo};
+pub use samples::Samples;
 pub use warning::MediaWarning;

@@ -1,7 +1,6 @@
 //! From packets to frames with Symphonia's demuxers and decoders, and our adapter for Opus.
 
 use std::io;
-use std::path::Path;
 
 use symphonia::core::codecs::CodecParameters;
 use symphonia::core::codecs::audio::{AudioCodecId, AudioCodecParameters};
@@ -17,6 +16,7 @@ use symphonia::default::formats::{
 
 use crate::codec::{Decoder, PACKET_FRAMES_MAX, decoder_for};
 use crate::container::Container;
+use crate::file_access::FileAccess;
 use crate::frames::{Frames, Incidents};
 use crate::guard::{PANICKED, guarded};
 use crate::iso::{self, TablePackets};
@@ -33,7 +33,7 @@ const GAP_S_MAX: f64 = 10.0;
 
 /// Opens the demuxer of one container and no other, so that damaged content is not taken for another format.
 pub(crate) fn open_demuxer(
-    path: &Path,
+    file: &dyn FileAccess,
     container: Container,
     base: u64,
     patches: &[Patch],
@@ -50,7 +50,7 @@ pub(crate) fn open_demuxer(
         Container::Matroska | Container::WebM => probe.register_format::<MkvReader<'_>>(),
         _ => return Err(SymphoniaError::Unsupported("hovertone does not read this kind of file itself")),
     }
-    let stream = FileView::open(path, base, patches)?.into_stream();
+    let stream = FileView::open(file, base, patches)?.into_stream();
     guarded(|| probe.probe(&Hint::new(), stream, FormatOptions::default(), MetadataOptions::default()))
 }
 
@@ -117,7 +117,11 @@ impl NativeFrames {
     }
 
     /// The samples of a WAVE file in coded blocks.
-    pub(crate) fn from_wave(path: &Path, layout: &WaveLayout, codec: AudioCodecId) -> Result<Self, SymphoniaError> {
+    pub(crate) fn from_wave(
+        file: &dyn FileAccess,
+        layout: &WaveLayout,
+        codec: AudioCodecId,
+    ) -> Result<Self, SymphoniaError> {
         let parameters = layout.codec_parameters(codec);
         let (decoder, sample_rate_hz, channel_count) = decoder_for(&parameters, false)?;
         Ok(Self {
@@ -125,7 +129,7 @@ impl NativeFrames {
             time_base: TimeBase::try_from_recip(sample_rate_hz),
             sample_rate_hz,
             channel_count,
-            packets: Packets::Wave(WaveBlocks::open(path, layout.clone())?),
+            packets: Packets::Wave(WaveBlocks::open(file, layout.clone())?),
             demuxer_errors: 0,
             decoded: Vec::new(),
             gap_s_min: None,
@@ -135,7 +139,7 @@ impl NativeFrames {
     }
 
     /// A compressed track of MP4 or MOV, read by its table of packets.
-    pub(crate) fn from_iso_table(path: &Path, track: &AudioTrack) -> Result<Self, SymphoniaError> {
+    pub(crate) fn from_iso_table(file: &dyn FileAccess, track: &AudioTrack) -> Result<Self, SymphoniaError> {
         let parameters = iso::codec_parameters(track).ok_or(SymphoniaError::Unsupported("unsupported audio codec"))?;
         let (decoder, sample_rate_hz, channel_count) = decoder_for(&parameters, false)?;
         Ok(Self {
@@ -143,7 +147,7 @@ impl NativeFrames {
             time_base: TimeBase::try_from_recip(track.timescale_hz),
             sample_rate_hz,
             channel_count,
-            packets: Packets::IsoTable(TablePackets::open(path, track)?),
+            packets: Packets::IsoTable(TablePackets::open(file, track)?),
             demuxer_errors: 0,
             decoded: Vec::new(),
             gap_s_min: None,

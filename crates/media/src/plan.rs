@@ -1,6 +1,6 @@
 //! The plan how to decode one audio track: made once when a file is opened, used in every pass over the sound.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use symphonia::core::codecs::audio::AudioCodecId;
 use symphonia::core::errors::Error as SymphoniaError;
@@ -8,11 +8,13 @@ use symphonia::core::errors::Error as SymphoniaError;
 use crate::container::Container;
 use crate::error::MediaError;
 use crate::ffmpeg::{FfmpegError, FfmpegFrames};
+use crate::file_access::FileAccess;
 use crate::frames::{Frames, Trim};
 use crate::iso::PcmFrames;
 use crate::native::{self, NativeFrames};
 use crate::pcm_layout::PcmLayout;
 use crate::quicktime::AudioTrack;
+use crate::samples::{SampleFrames, Samples};
 use crate::source::Patch;
 use crate::warning::MediaWarning;
 use crate::wave::{WaveLayout, WavePcmFrames};
@@ -52,7 +54,8 @@ pub(crate) enum Route {
     IsoPcm(Box<AudioTrack>),
     IsoTable(Box<AudioTrack>),
     Demuxer { base: u64, patches: Vec<Patch>, track_id: u32, has_gapless_packets: bool },
-    Ffmpeg { program: PathBuf, audio_index: usize },
+    Ffmpeg { program: PathBuf, path: PathBuf, audio_index: usize },
+    Memory(Samples),
 }
 
 impl Plan {
@@ -75,17 +78,18 @@ impl Plan {
     }
 
     /// Opens the track at its beginning.
-    pub(crate) fn open(&self, path: &Path) -> Result<Box<dyn Frames>, MediaError> {
+    pub(crate) fn open(&self, file: &dyn FileAccess) -> Result<Box<dyn Frames>, MediaError> {
         Ok(match &self.route {
             Route::WavePcm { layout, pcm } => {
-                Box::new(WavePcmFrames::open(path, layout, *pcm).map_err(MediaError::Read)?)
+                Box::new(WavePcmFrames::open(file, layout, *pcm).map_err(MediaError::Read)?)
             }
-            Route::IsoPcm(track) => Box::new(PcmFrames::open(path, track).map_err(MediaError::Read)?),
-            Route::Ffmpeg { program, audio_index } => {
+            Route::IsoPcm(track) => Box::new(PcmFrames::open(file, track).map_err(MediaError::Read)?),
+            Route::Ffmpeg { program, path, audio_index } => {
                 Box::new(FfmpegFrames::spawn(program, path, *audio_index).map_err(|error| self.ffmpeg_error(error))?)
             }
+            Route::Memory(samples) => Box::new(SampleFrames::of(samples)),
             route => {
-                let frames = native_frames(path, self.container, route);
+                let frames = native_frames(file, self.container, route);
                 let frames = frames.map_err(|error| native_error(error, self.container))?;
                 Box::new(match self.format {
                     Some((sample_rate_hz, channel_count)) => frames.with_format(sample_rate_hz, channel_count),
@@ -106,16 +110,16 @@ impl Plan {
     }
 }
 
-fn native_frames(path: &Path, container: Container, route: &Route) -> Result<NativeFrames, SymphoniaError> {
+fn native_frames(file: &dyn FileAccess, container: Container, route: &Route) -> Result<NativeFrames, SymphoniaError> {
     match route {
-        Route::WaveBlocks { layout, codec } => NativeFrames::from_wave(path, layout, *codec),
-        Route::IsoTable(track) => NativeFrames::from_iso_table(path, track),
+        Route::WaveBlocks { layout, codec } => NativeFrames::from_wave(file, layout, *codec),
+        Route::IsoTable(track) => NativeFrames::from_iso_table(file, track),
         Route::Demuxer { base, patches, track_id, has_gapless_packets } => {
-            let reader = native::open_demuxer(path, container, *base, patches)?;
+            let reader = native::open_demuxer(file, container, *base, patches)?;
             let frames = NativeFrames::from_demuxer(reader, *track_id, *has_gapless_packets)?;
             Ok(frames.with_gap_s_min(gap_s_min(container)))
         }
-        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } => {
+        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } | Route::Memory(_) => {
             Err(SymphoniaError::Unsupported("not a route of packets"))
         }
     }
@@ -139,10 +143,10 @@ pub(crate) struct Settled {
 }
 
 /// Decodes the first packets of a track, so that the format in the plan is correct.
-pub(crate) fn settle(path: &Path, plan: Plan) -> Result<Settled, NotNative> {
+pub(crate) fn settle(file: &dyn FileAccess, plan: Plan) -> Result<Settled, NotNative> {
     let container = plan.container;
     let mut frames =
-        native_frames(path, container, &plan.route).map_err(|error| NotNative::from_symphonia(error, container))?;
+        native_frames(file, container, &plan.route).map_err(|error| NotNative::from_symphonia(error, container))?;
     let first_packet_s = frames
         .settle_format(BAD_PACKETS_AT_START_MAX)
         .map_err(|error| NotNative::Error(MediaError::Read(error)))?

@@ -1,9 +1,9 @@
 //! A recording as a stream of mono samples: open, choose a track, decode, rewind.
 
 use std::fmt;
-use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use hovertone_signal::{SignalSource, SourceError};
 
@@ -12,9 +12,11 @@ use crate::codec::CHANNEL_COUNT_MAX;
 use crate::container::{self, Container, Sniffed};
 use crate::error::MediaError;
 use crate::ffmpeg::FfmpegUse;
+use crate::file_access::FileAccess;
 use crate::frames::{Frames, Incidents, Trim};
 use crate::mix::Mix;
 use crate::plan::{Plan, Route};
+use crate::samples::Samples;
 use crate::tracks::Tracks;
 use crate::warning::{MediaWarning, Warnings};
 
@@ -75,7 +77,7 @@ pub struct RecordingInfo {
 
 /// An open recording. It reads the file block by block: memory does not grow with its length.
 pub struct Recording {
-    path: PathBuf,
+    file: Arc<dyn FileAccess>,
     plan: Plan,
     info: RecordingInfo,
     warnings: Warnings,
@@ -104,11 +106,20 @@ impl Recording {
     /// # Errors
     /// All reasons for missing sound; see [`MediaError`].
     pub fn open(path: &Path, options: &OpenOptions) -> Result<Self, MediaError> {
-        let sniffed = sniffed_from_file(path, &options.ffmpeg)?;
-        let tracks = Tracks::of(path, &sniffed, &options.ffmpeg)?;
+        check_file(path)?;
+        Self::open_file(Arc::new(path.to_owned()), options)
+    }
+
+    /// The same for a file at no path.
+    ///
+    /// # Errors
+    /// All reasons for missing sound; see [`MediaError`].
+    pub fn open_file(file: Arc<dyn FileAccess>, options: &OpenOptions) -> Result<Self, MediaError> {
+        let sniffed = sniffed_from_file(&*file, &options.ffmpeg)?;
+        let tracks = Tracks::of(&*file, &sniffed, &options.ffmpeg)?;
         let audio_track_count = tracks.count();
         let mut warnings = Warnings::default();
-        if let Some(extension) = path.extension().and_then(|extension| extension.to_str())
+        if let Some(extension) = file.name().extension().and_then(|extension| extension.to_str())
             && !sniffed.container.fits_extension(extension)
         {
             let (extension, container) = (extension.to_owned(), sniffed.container);
@@ -121,18 +132,37 @@ impl Recording {
             },
             None if audio_track_count == 1 => (0, tracks.plan(0)?),
             None => {
-                let choice = choose::first_audible_track(path, &tracks)?;
+                let choice = choose::first_audible_track(&*file, &tracks)?;
                 let (chosen, count, silent) = (choice.index + 1, audio_track_count, choice.silent);
                 warnings.put(MediaWarning::SeveralAudioTracks { chosen, count, silent });
                 (choice.index, choice.plan)
             }
         };
         plan.warnings.iter().cloned().for_each(|warning| warnings.put(warning));
-        Self::start(path, plan, index, audio_track_count, options, warnings)
+        Self::start(Arc::clone(&file), plan, index, audio_track_count, options, warnings)
+    }
+
+    /// Opens samples in memory, which are one track.
+    ///
+    /// # Errors
+    /// A track or a channel that is not there; no sample; a rate that is none.
+    pub fn of_samples(samples: &Samples, options: &OpenOptions) -> Result<Self, MediaError> {
+        if let Some(asked) = options.audio_track.filter(|asked| *asked != 1) {
+            return Err(MediaError::NoSuchTrack { asked, count: 1 });
+        }
+        let rate_hz = samples.sample_rate_hz();
+        if !(rate_hz.is_finite() && rate_hz >= 1.0) {
+            return Err(MediaError::RateOfArray { rate_hz });
+        }
+        let declared_s = Some(samples.duration_s());
+        let plan = Plan::new(Container::Memory, "samples", Route::Memory(samples.clone()));
+        // the samples are in the plan: no file is opened
+        let file = Arc::new(PathBuf::new());
+        Self::start(file, Plan { declared_s, ..plan }, 0, 1, options, Warnings::default())
     }
 
     fn start(
-        path: &Path,
+        file: Arc<dyn FileAccess>,
         plan: Plan,
         index: usize,
         audio_track_count: usize,
@@ -140,7 +170,7 @@ impl Recording {
         warnings: Warnings,
     ) -> Result<Self, MediaError> {
         let channel = options.channel;
-        let pass = Pass::start(path, &plan)?;
+        let pass = Pass::start(&*file, &plan)?;
         let (sample_rate_hz, channel_count) = (pass.frames.sample_rate_hz(), pass.frames.channel_count());
         let container = plan.container;
         if !(sample_rate_hz.is_finite() && sample_rate_hz >= 1.0) {
@@ -164,8 +194,7 @@ impl Recording {
             start_s: plan.start_s,
             decoder: if matches!(plan.route, Route::Ffmpeg { .. }) { Decoder::Ffmpeg } else { Decoder::Native },
         };
-        let path = path.to_owned();
-        let mut recording = Self { path, plan, info, warnings, mix, pass, block: Vec::new(), is_prefix: false };
+        let mut recording = Self { file, plan, info, warnings, mix, pass, block: Vec::new(), is_prefix: false };
         recording.fill_block().map_err(MediaError::Read)?;
         if recording.block.is_empty() {
             return Err(recording.nothing_heard());
@@ -195,6 +224,7 @@ impl Recording {
             (Route::Ffmpeg { .. }, Some(message)) => {
                 MediaError::FfmpegFailed { container, codec: self.plan.codec.clone(), message: message.clone() }
             }
+            (Route::Memory(_), _) => MediaError::NoSampleInArray,
             _ => MediaError::NoSamples { container, why: "its header is followed by no sample".to_owned() },
         }
     }
@@ -248,7 +278,7 @@ impl Recording {
 
 impl fmt::Debug for Recording {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Recording").field("path", &self.path).field("info", &self.info).finish_non_exhaustive()
+        f.debug_struct("Recording").field("file", &self.file.name()).field("info", &self.info).finish_non_exhaustive()
     }
 }
 
@@ -269,16 +299,16 @@ impl SignalSource for Recording {
     }
 
     fn rewind(&mut self) -> Result<(), SourceError> {
-        self.pass = Pass::start(&self.path, &self.plan).map_err(SourceError::new)?;
+        self.pass = Pass::start(&*self.file, &self.plan).map_err(SourceError::new)?;
         self.block.clear();
         Ok(())
     }
 }
 
 impl Pass {
-    fn start(path: &Path, plan: &Plan) -> Result<Self, MediaError> {
+    fn start(file: &dyn FileAccess, plan: &Plan) -> Result<Self, MediaError> {
         Ok(Self {
-            frames: plan.open(path)?,
+            frames: plan.open(file)?,
             trim: plan.trim,
             interleaved: Vec::new(),
             incidents: Incidents::default(),
@@ -290,20 +320,25 @@ impl Pass {
     }
 }
 
-fn sniffed_from_file(path: &Path, ffmpeg: &FfmpegUse) -> Result<Sniffed, MediaError> {
+fn check_file(path: &Path) -> Result<(), MediaError> {
     let metadata = std::fs::metadata(path).map_err(MediaError::CannotOpen)?;
     if !metadata.is_file() {
         return Err(MediaError::NotAFile);
     }
-    if metadata.len() == 0 {
+    Ok(())
+}
+
+fn sniffed_from_file(access: &dyn FileAccess, ffmpeg: &FfmpegUse) -> Result<Sniffed, MediaError> {
+    let mut file = BufReader::new(access.open().map_err(MediaError::CannotOpen)?);
+    if file.seek(SeekFrom::End(0)).map_err(MediaError::Read)? == 0 {
         return Err(MediaError::Empty);
     }
-    let mut file = BufReader::new(File::open(path).map_err(MediaError::CannotOpen)?);
     if let Some(sniffed) = container::container_from_content(&mut file).map_err(MediaError::Read)? {
         return Ok(sniffed);
     }
     // ffmpeg knows more formats, but it takes any bytes for MP3 if the name says so, and its log then shows that it guessed.
-    let inspection = ffmpeg.program().and_then(|program| crate::ffmpeg::inspect(&program, path, 0).ok());
+    let inspection =
+        ffmpeg.program().zip(access.path()).and_then(|(program, path)| crate::ffmpeg::inspect(&program, path, 0).ok());
     match inspection {
         Some(found) if found.has_input && !found.is_guess && !found.audio_codecs.is_empty() => {
             Ok(Sniffed { container: Container::Other, base: 0, mpeg: None })

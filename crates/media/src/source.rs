@@ -1,10 +1,10 @@
 //! The file as the demuxers read it: from the start of its frames, and with corrected sizes in its header.
 
-use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::path::Path;
 
 use symphonia::core::io::{MediaSource, MediaSourceStream, MediaSourceStreamOptions};
+
+use crate::file_access::{FileAccess, OpenFile};
 
 /// Bytes that replace bytes of the file.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,9 +15,8 @@ pub(crate) struct Patch {
 
 /// A file whose first `base` bytes are hidden, since a demuxer would search for frames in tags. Patches replace header fields at which a
 /// demuxer would fail.
-/// at which a demuxer would give up.
 pub(crate) struct FileView {
-    file: File,
+    file: OpenFile,
     base: u64,
     len: u64,
     position: u64,
@@ -25,8 +24,8 @@ pub(crate) struct FileView {
 }
 
 impl FileView {
-    pub(crate) fn open(path: &Path, base: u64, patches: &[Patch]) -> io::Result<Self> {
-        let mut file = File::open(path)?;
+    pub(crate) fn open(access: &dyn FileAccess, base: u64, patches: &[Patch]) -> io::Result<Self> {
+        let mut file = access.open()?;
         let len = file.seek(SeekFrom::End(0))?.saturating_sub(base);
         file.seek(SeekFrom::Start(base))?;
         Ok(Self { file, base, len, position: base, patches: patches.to_vec() })

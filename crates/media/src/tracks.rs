@@ -1,14 +1,13 @@
 //! The audio tracks of a file, and a plan for decoding each.
 
-use std::fs::File;
 use std::io::Read;
-use std::path::Path;
 
 use crate::clipped::{Clipped, clipped_from_sizes};
 use crate::codec;
 use crate::container::{Container, Sniffed};
 use crate::error::MediaError;
 use crate::ffmpeg::{self, FfmpegUse};
+use crate::file_access::FileAccess;
 use crate::frames::Trim;
 use crate::iso;
 use crate::matroska::{self, MatroskaTrack};
@@ -34,7 +33,7 @@ const LIKELY_CORE_RATE_HZ: u32 = 24_000;
 
 /// The audio tracks, in the order of the file.
 pub(crate) struct Tracks<'a> {
-    path: &'a Path,
+    file: &'a dyn FileAccess,
     ffmpeg: &'a FfmpegUse,
     container: Container,
     clipped: Clipped,
@@ -56,9 +55,9 @@ enum List {
 
 impl<'a> Tracks<'a> {
     /// Reads the list of tracks in the container.
-    pub(crate) fn of(path: &'a Path, sniffed: &Sniffed, ffmpeg: &'a FfmpegUse) -> Result<Self, MediaError> {
+    pub(crate) fn of(access: &'a dyn FileAccess, sniffed: &Sniffed, ffmpeg: &'a FfmpegUse) -> Result<Self, MediaError> {
         let container = sniffed.container;
-        let mut file = File::open(path).map_err(MediaError::CannotOpen)?;
+        let mut file = access.open().map_err(MediaError::CannotOpen)?;
         let clipped = clipped_from_sizes(&mut file, container).map_err(MediaError::Read)?;
         let list = match container {
             Container::Wav | Container::Rf64 | Container::W64 => {
@@ -75,22 +74,22 @@ impl<'a> Tracks<'a> {
                 List::Matroska(matroska::matroska_from_head(&mut file).map_err(MediaError::Read)?)
             }
             Container::Aiff | Container::Caf | Container::Flac | Container::Mp3 | Container::Adts | Container::Ogg => {
-                match native::open_demuxer(path, container, sniffed.base, &clipped.patches) {
+                match native::open_demuxer(access, container, sniffed.base, &clipped.patches) {
                     Ok(reader) => {
                         let audio = reader.tracks().iter().filter(|track| native::audio_parameters(track).is_some());
                         List::Native { sniffed: sniffed.clone(), track_ids: audio.map(|track| track.id).collect() }
                     }
                     Err(error) => match NotNative::from_symphonia(error, container) {
                         NotNative::Error(error) => {
-                            List::Foreign(inspection(path, container, ffmpeg).map_err(|_| error)?)
+                            List::Foreign(inspection(access, container, ffmpeg).map_err(|_| error)?)
                         }
-                        NotNative::Unsupported => List::Foreign(inspection(path, container, ffmpeg)?),
+                        NotNative::Unsupported => List::Foreign(inspection(access, container, ffmpeg)?),
                     },
                 }
             }
-            _ => List::Foreign(inspection(path, container, ffmpeg)?),
+            _ => List::Foreign(inspection(access, container, ffmpeg)?),
         };
-        let tracks = Self { path, ffmpeg, container, clipped, list };
+        let tracks = Self { file: access, ffmpeg, container, clipped, list };
         if tracks.count() == 0 {
             return Err(MediaError::NoAudioTrack { container });
         }
@@ -179,7 +178,7 @@ impl<'a> Tracks<'a> {
         if track.pcm.is_some() {
             return Ok(plan);
         }
-        let Settled { mut plan, sample_rate_hz, .. } = settle(self.path, plan)?;
+        let Settled { mut plan, sample_rate_hz, .. } = settle(self.file, plan)?;
         plan.declared_slack_s = PACKET_SLACK_S;
         // The edit list counts at the rate of the header; the core of HE-AAC has half of it.
         let scaled = |frames: u64| (frames as f64 * sample_rate_hz / track.sample_rate_hz).round() as u64;
@@ -193,7 +192,7 @@ impl<'a> Tracks<'a> {
     fn matroska_plan(&self, matroska: &matroska::Matroska, track: &MatroskaTrack) -> Result<Plan, NotNative> {
         let track_id = u32::try_from(track.number).map_err(|_| NotNative::Unsupported)?;
         let route = Route::Demuxer { base: 0, patches: matroska.patches.clone(), track_id, has_gapless_packets: true };
-        let settled = settle(self.path, Plan::new(self.container, track.codec_name(), route))?;
+        let settled = settle(self.file, Plan::new(self.container, track.codec_name(), route))?;
         let Settled { mut plan, sample_rate_hz, first_packet_s } = settled;
         let pre_skip = OpusHead::from_extra_data(&track.codec_private).map(|head| head.pre_skip_frames as f64);
         let skip_s = match pre_skip.filter(|_| track.codec_id == "A_OPUS") {
@@ -216,7 +215,7 @@ impl<'a> Tracks<'a> {
 
     fn native_plan(&self, sniffed: &Sniffed, track_id: u32) -> Result<Plan, (NotNative, String)> {
         let reader =
-            native::open_demuxer(self.path, self.container, sniffed.base, &self.clipped.patches).map_err(|error| {
+            native::open_demuxer(self.file, self.container, sniffed.base, &self.clipped.patches).map_err(|error| {
                 (NotNative::from_symphonia(error, self.container), self.container.codec_guess().to_owned())
             })?;
         let track = reader.tracks().iter().find(|track| track.id == track_id);
@@ -227,7 +226,7 @@ impl<'a> Tracks<'a> {
         let has_gapless_packets = self.container == Container::Ogg;
         let route =
             Route::Demuxer { base: sniffed.base, patches: self.clipped.patches.clone(), track_id, has_gapless_packets };
-        let settled = settle(self.path, Plan::new(self.container, codec, route));
+        let settled = settle(self.file, Plan::new(self.container, codec, route));
         let Settled { mut plan, sample_rate_hz: rate, .. } = settled.map_err(|native| (native, codec.to_owned()))?;
         match (self.container, &sniffed.mpeg) {
             (Container::Mp3, Some(mpeg)) => {
@@ -267,7 +266,7 @@ impl<'a> Tracks<'a> {
             List::Matroska(matroska) => matroska.is_truncated,
             List::Wave(layout) => layout.is_truncated(),
             _ if self.container == Container::Ogg => {
-                File::open(self.path).and_then(|mut file| ogg::last_page_is_cut(&mut file)).unwrap_or(false)
+                self.file.open().and_then(|mut file| ogg::last_page_is_cut(&mut file)).unwrap_or(false)
             }
             _ => self.clipped.is_cut_off,
         }
@@ -278,13 +277,14 @@ impl<'a> Tracks<'a> {
             return Err(error);
         }
         let container = self.container;
-        let tried = self.ffmpeg.program().map(|program| {
-            let inspected = ffmpeg::inspect(&program, self.path, audio_index);
-            (program, inspected)
+        let tried = self.ffmpeg.program().zip(self.file.path()).map(|(program, path)| {
+            let inspected = ffmpeg::inspect(&program, path, audio_index);
+            let route = Route::Ffmpeg { program, path: path.to_owned(), audio_index };
+            (route, inspected)
         });
         match (tried, native) {
-            (Some((program, Ok(inspection))), _) if inspection.audio_codecs.len() > audio_index => {
-                let mut plan = Plan::new(container, codec, Route::Ffmpeg { program, audio_index });
+            (Some((route, Ok(inspection))), _) if inspection.audio_codecs.len() > audio_index => {
+                let mut plan = Plan::new(container, codec, route);
                 plan.start_s = inspection.start_s;
                 plan.approximate_s = inspection.duration_s;
                 plan.is_cut_off = self.is_cut_off();
@@ -307,10 +307,10 @@ impl<'a> Tracks<'a> {
 }
 
 /// Name of the codec without a demuxer; for an AVI from the format of its first audio stream.
-fn codec_guess(path: &Path, container: Container) -> String {
+fn codec_guess(file: &dyn FileAccess, container: Container) -> String {
     let from_avi = || {
         let mut head = Vec::new();
-        File::open(path).ok()?.take(AVI_HEAD_BYTES).read_to_end(&mut head).ok()?;
+        file.open().ok()?.take(AVI_HEAD_BYTES).read_to_end(&mut head).ok()?;
         let audio_at = head.windows(8).position(|window| window.ends_with(b"auds"))?;
         let format_at = audio_at + head.get(audio_at..)?.windows(4).position(|window| window == b"strf")?;
         let code = head.get(format_at + 8..)?.first_chunk().map(|code| u16::from_le_bytes(*code))?;
@@ -321,9 +321,13 @@ fn codec_guess(path: &Path, container: Container) -> String {
 }
 
 /// The list of tracks from ffmpeg, for containers without a native demuxer.
-fn inspection(path: &Path, container: Container, ffmpeg: &FfmpegUse) -> Result<ffmpeg::FfmpegInspection, MediaError> {
-    let codec = codec_guess(path, container);
-    let Some(program) = ffmpeg.program() else {
+fn inspection(
+    file: &dyn FileAccess,
+    container: Container,
+    ffmpeg: &FfmpegUse,
+) -> Result<ffmpeg::FfmpegInspection, MediaError> {
+    let codec = codec_guess(file, container);
+    let Some((program, path)) = ffmpeg.program().zip(file.path()) else {
         return Err(MediaError::NeedsFfmpeg { container, codec, why: "ffmpeg may not be used here".to_owned() });
     };
     let inspection = ffmpeg::inspect(&program, path, 0).map_err(|error| {

@@ -99,6 +99,37 @@ fn cells_of_reading(record: &SpeedRecord, reading: &Reading, meaning: &str) -> V
     ]
 }
 
+/// A speed as printed, with digits that follow its uncertainty.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SpeedWords {
+    /// Frequency of the tone in Hz.
+    pub tone_hz: String,
+    /// Shaft speed in rev/s.
+    pub speed_rev_s: String,
+    /// Its expanded uncertainty in rev/s.
+    pub plus_minus_rev_s: String,
+    /// Its standard deviation over time in rev/s.
+    pub spread_rev_s: String,
+    /// Shaft speed in rpm.
+    pub speed_rpm: String,
+    /// Shaft speed in rad/s.
+    pub speed_rad_s: String,
+}
+
+/// A speed in the words of [`speed_table`].
+pub fn speed_in_words(estimate: &SpeedEstimate) -> SpeedWords {
+    let mut cells = cells_of_speed(String::new(), estimate, String::new()).into_iter().skip(1);
+    let mut next = || cells.next().unwrap_or_default();
+    SpeedWords {
+        tone_hz: next(),
+        speed_rev_s: next(),
+        plus_minus_rev_s: next(),
+        spread_rev_s: next(),
+        speed_rpm: next(),
+        speed_rad_s: next(),
+    }
+}
+
 /// The fixed fields of the machine output, followed by all others.
 #[derive(Serialize)]
 struct SpeedLine<'a> {

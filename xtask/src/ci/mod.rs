@@ -3,11 +3,12 @@
 mod ignored;
 mod test_log;
 
+use crate::target;
 use crate::tidy;
 use crate::tree::Tree;
 use crate::words;
 use std::io::{BufRead, BufReader};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 use test_log::TestLog;
@@ -130,6 +131,12 @@ impl Steps {
         }
         println!("{:>8.1} s  in all", self.done.iter().map(|step| step.seconds).sum::<f64>());
     }
+}
+
+/// Builds the program for tasks that run it, together with the module for Python: with the same features, so that nothing is built twice.
+pub(crate) fn build_program(root: &Path) -> Result<PathBuf, String> {
+    cargo(root, &["build", "--locked", "-p", "hovertone-cli", "-p", "hovertone-python"], &[])?;
+    Ok(target(root).join("debug").join("hovertone"))
 }
 
 pub(crate) fn cargo(root: &Path, arguments: &[&str], variables: &[(&str, &str)]) -> Result<(), String> {

@@ -6,6 +6,7 @@ mod publication;
 mod spdx;
 
 use crate::ci::cargo;
+use crate::python;
 use crate::target;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -48,12 +49,29 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     }
     write(&folder.join("THIRD-PARTY-LICENSES.md"), &licences::text(root, &triple, PACKAGE)?)?;
     let archive = pack(&dist, &name)?;
-    write_sums(&dist, &[archive.clone(), folder.join(&file)])?;
+    let mut released = vec![archive.clone(), folder.join(&file)];
+    released.extend(wheels(root, &dist)?);
+    write_sums(&dist, &released)?;
     publication::rehearse(root)?;
     println!("\n{}", listing(&folder)?);
     println!("the program {}", in_words(is_static));
     println!("written: {} and {}", archive.display(), dist.join(SUMS).display());
     Ok(())
+}
+
+/// The wheel of the Python package; none without a Python that has maturin.
+fn wheels(root: &Path, dist: &Path) -> Result<Vec<PathBuf>, String> {
+    if !python::can_build(root) {
+        println!("no wheel: there is no Python with maturin (set HOVERTONE_PYTHON)");
+        return Ok(Vec::new());
+    }
+    let folder = dist.join("wheels");
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    python::wheel(root, &folder)?;
+    let entries = fs::read_dir(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    Ok(entries.filter_map(Result::ok).map(|entry| entry.path()).collect())
 }
 
 fn in_words(is_static: Option<bool>) -> &'static str {

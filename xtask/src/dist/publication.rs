@@ -17,8 +17,8 @@ const NEEDED: [&str; 9] = [
     "keywords",
     "categories",
 ];
-/// Crates for the development alone.
-const UNPUBLISHED: [&str; 4] = ["--exclude", "xtask", "--exclude", "hovertone-bench"];
+/// Crates for the development alone, and the package for Python, which pip builds.
+const UNPUBLISHED: [&str; 6] = ["--exclude", "xtask", "--exclude", "hovertone-bench", "--exclude", "hovertone-python"];
 
 /// Refuses manifests that a registry would refuse, or show without a word.
 pub(super) fn check(root: &Path) -> Result<(), String> {

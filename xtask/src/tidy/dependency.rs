@@ -11,8 +11,8 @@ struct Row {
     may_use: &'static [&'static str],
 }
 
-/// All crates but the two at the top, `cli` and `bench`.
-const LIBRARIES: [&str; 18] = [
+/// All crates but those at the top: `cli`, `web`, `bench` and `python`.
+const LIBRARIES: [&str; 19] = [
     "vehicle",
     "fft",
     "signal",
@@ -31,12 +31,13 @@ const LIBRARIES: [&str; 18] = [
     "archive",
     "figures",
     "page",
+    "workflow",
 ];
 
 /// The line of the table.
 const TABLE_LINE: usize = line!() as usize + 2;
 /// From the lowest crate to the highest.
-const TABLE: [Row; 21] = [
+const TABLE: [Row; 24] = [
     Row { crate_name: "vehicle", may_use: &[] },
     Row { crate_name: "fft", may_use: &[] },
     Row { crate_name: "signal", may_use: &["fft"] },
@@ -59,8 +60,18 @@ const TABLE: [Row; 21] = [
     Row { crate_name: "archive", may_use: &["analysis", "report", "vehicle"] },
     Row { crate_name: "figures", may_use: &["analysis", "thrust", "vehicle", "signal", "dynamics"] },
     Row { crate_name: "page", may_use: &["analysis", "thrust", "vehicle", "signal", "figures", "report"] },
+    Row {
+        crate_name: "workflow",
+        may_use: &["hovertone", "analysis", "vehicle", "media", "exchange", "report", "figures", "page"],
+    },
+    Row {
+        crate_name: "web",
+        may_use: &["workflow", "hovertone", "vehicle", "media", "sim", "exchange", "report", "figures", "page"],
+    },
     Row { crate_name: "cli", may_use: &LIBRARIES },
     Row { crate_name: "bench", may_use: &LIBRARIES },
+    // Python calls the commands, so that a flag has one meaning and a refusal one wording (decision 27).
+    Row { crate_name: "python", may_use: &["cli", "analysis", "media", "report"] },
     Row { crate_name: "xtask", may_use: &[] },
 ];
 

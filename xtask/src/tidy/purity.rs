@@ -4,7 +4,7 @@ use super::fault::Fault;
 use super::paths::{NamedPath, faults_of_paths};
 use crate::tree::{Source, Tree};
 
-const PURE: [&str; 16] = [
+const PURE: [&str; 17] = [
     "vehicle",
     "fft",
     "signal",
@@ -21,6 +21,7 @@ const PURE: [&str; 16] = [
     "archive",
     "figures",
     "page",
+    "workflow",
 ];
 const IMPURE_MODULES: [&str; 5] = ["fs", "env", "time", "thread", "net"];
 const IMPURE_MACROS: [&str; 5] = ["println!", "print!", "eprintln!", "eprint!", "dbg!"];

@@ -11,6 +11,7 @@ mod labels;
 mod listen;
 mod log;
 mod motor;
+mod serve;
 mod shell;
 mod simulation;
 mod spectrogram;
@@ -32,6 +33,7 @@ pub(crate) use labels::{BodyAxes, FrameLayout, LabelArguments};
 pub(crate) use listen::ListenArguments;
 pub(crate) use log::{ColumnName, LogArguments};
 pub(crate) use motor::MotorArguments;
+pub(crate) use serve::ServeArguments;
 pub(crate) use shell::{CompletionsArguments, ManArguments};
 pub(crate) use simulation::{DemoArguments, SimulateArguments};
 pub(crate) use spectrogram::SpectrogramArguments;
@@ -69,6 +71,7 @@ Examples:
   hovertone greybox doublets.csv --vehicle ardrone  gains and motors from doublets
   hovertone simulate scenario.toml -o flight  a flight, its sound, and the truth about both
   hovertone vehicles                          the vehicles it knows, with sources
+  hovertone serve                             the same in a browser: drop, look, weigh
 
 Exit codes:
   0  done
@@ -116,6 +119,7 @@ pub(crate) enum Command {
     Demo(DemoArguments),
     Simulate(SimulateArguments),
     Vehicles(VehiclesArguments),
+    Serve(ServeArguments),
     Completions(CompletionsArguments),
     Man(ManArguments),
 }

@@ -5,7 +5,7 @@ use super::folder::BatchFolder;
 use super::inputs::Names;
 use crate::failure::Failure;
 use crate::progress::Progress;
-use crate::recording::{Hearing, Job, Requests, broken, heard_or_failed};
+use crate::recording::{Heard, Hearing, Job, Requests, broken, heard_or_failed};
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_archive::{ArchiveRow, Part, Plan, Planned, Shard};
@@ -38,6 +38,7 @@ impl Manner {
             discovery: self.discovery,
             requests: self.requests,
             sha256: None,
+            samples: None,
         }
     }
 }
@@ -79,11 +80,15 @@ fn heard_row(
     progress: &Progress,
 ) -> Result<ArchiveRow, Failure> {
     let job = manner.job(recording);
-    let mut share = progress.recording();
-    // one recording that breaks the analysis does not end a run of a night
-    let heard = catch_unwind(AssertUnwindSafe(|| heard_or_failed(&job, manner.hearing, &mut share)));
-    let heard = heard.unwrap_or_else(|_| broken(&job));
+    let heard = heard_always(&job, manner.hearing, progress);
     let row = ArchiveRow { record: heard.record, error_class: heard.error_class };
     folder.keep(recording, &Part::new(&row, heard.thumbnail).map_err(Failure::internal)?)?;
     Ok(row)
+}
+
+/// One recording that breaks the analysis does not end a run of a night.
+pub(super) fn heard_always(job: &Job, hearing: Hearing, progress: &Progress) -> Heard {
+    let mut share = progress.recording();
+    let heard = catch_unwind(AssertUnwindSafe(|| heard_or_failed(job, hearing, &mut share)));
+    heard.unwrap_or_else(|_| broken(job))
 }

@@ -1,5 +1,6 @@
 //! `hovertone batch`: the speeds of an archive of recordings as Parquet, resumable.
 
+pub(crate) mod called;
 pub(crate) mod compare;
 mod counts;
 mod folder;
@@ -30,8 +31,8 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
         return Err(Failure::usage(what, "leave --force out, or remove the folder before the jobs start"));
     }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
-    let requests = Requests { condition: arguments.analysis.condition, spin_up: false };
-    let hearing = Hearing { wants_hash: true, wants_thumbnail: true, ..Hearing::of(&arguments.hearing) };
+    let requests = requests_of(arguments);
+    let hearing = Hearing { wants_thumbnail: true, ..hearing_of(arguments) };
     let recordings = inputs::recordings_of(&arguments.inputs)?;
     let identity = BatchIdentity {
         format: FORMAT,
@@ -66,6 +67,14 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
     let counts = write_tables(&plan, &folder, &identity)?;
     say(&Said { heard: of_run, all: counts.as_ref(), plan: &plan, shard, folder: &folder }, arguments.json, terminal)?;
     Ok(if counts.unwrap_or(of_run).is_complete() { Ending::Done } else { Ending::Incomplete })
+}
+
+fn requests_of(arguments: &BatchArguments) -> Requests {
+    Requests { condition: arguments.analysis.condition, spin_up: false }
+}
+
+fn hearing_of(arguments: &BatchArguments) -> Hearing {
+    Hearing { wants_hash: true, ..Hearing::of(&arguments.hearing) }
 }
 
 /// What a run has to say at its end.

@@ -8,7 +8,7 @@ use crate::args::DemoArguments;
 use crate::failure::{Ending, Failure};
 use crate::identify::{ExperimentSource, identify, jobs_of, page_line};
 use crate::recording::Hearing;
-use crate::report_folder::{Extras, PAGE};
+use crate::report_folder::PAGE;
 use crate::terminal::Terminal;
 use crate::typed::typed_command;
 use hovertone::speed::Method;
@@ -18,6 +18,7 @@ use hovertone_report::{
     table_text,
 };
 use hovertone_sim::paper::{LOADS, PaperLoad};
+use hovertone_workflow::ReportExtras;
 
 /// Simulates, writes, identifies and compares.
 pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -55,7 +56,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     identified.say_notes(terminal);
     terminal.text(&(text + "\n" + &identified.summary(width) + FOOTNOTE + "\n" + &identified.quote()))?;
     terminal.flush()?;
-    let extras = Extras {
+    let extras = ReportExtras {
         compared: &compared,
         more_tables: &[TitledTable::new(TRUTH_TITLE, against_truth)],
         command: &typed_command(),

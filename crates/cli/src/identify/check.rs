@@ -10,7 +10,6 @@ use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::Terminal;
 use hovertone::experiment::Experiment;
 use hovertone::thrust::{Force, Gravity};
-use hovertone_media::Recording;
 use hovertone_report::{
     Notice, PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, counted, planned_experiment_text,
 };
@@ -64,7 +63,7 @@ fn of_load<'a>(jobs: &'a [LoadJob], load: &'a str) -> impl Iterator<Item = &'a J
 }
 
 fn planned(job: &Job, hearing: Hearing) -> PlannedRecording {
-    let opened = Recording::open(&job.path, &hearing.open_options());
+    let opened = job.open(hearing);
     let sound = opened.map_err(|error| error.to_string()).map(|recording| {
         let info = recording.info();
         PlannedSound {

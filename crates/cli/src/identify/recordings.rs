@@ -102,6 +102,7 @@ pub(super) fn found_recordings<'a>(
                     discovery: None,
                     requests: Requests::default(),
                     sha256: None,
+                    samples: None,
                 };
                 let is_known = |known: &LoadJob| known.load == load.name && known.job.path == job.path;
                 if !jobs.iter().any(is_known) {

@@ -93,8 +93,12 @@ impl Browser {
 
     /// Opens a file and waits until it is loaded.
     pub(crate) fn open(&mut self, path: &Path) {
+        self.open_url(&format!("file://{}", path.display()));
+    }
+
+    /// Opens an address and waits until it is loaded.
+    pub(crate) fn open_url(&mut self, url: &str) {
         self.events.clear();
-        let url = format!("file://{}", path.display());
         self.call("Page.navigate", json!({ "url": url }));
         while !self.events.iter().any(|event| event["method"] == "Page.loadEventFired") {
             let message = self.next_message();
@@ -139,6 +143,39 @@ impl Browser {
     pub(crate) fn text(&mut self, expression: &str) -> String {
         let value = self.value(expression);
         value.as_str().unwrap_or_else(|| panic!("{expression} is no text but {value}")).to_owned()
+    }
+
+    /// Waits until an expression is true in the page.
+    #[cfg(feature = "page")]
+    pub(crate) fn wait_for(&mut self, expression: &str, patience: Duration) {
+        let start = std::time::Instant::now();
+        while self.value(&format!("Boolean({expression})")) != true {
+            let words = self.text("document.body.innerText");
+            assert!(start.elapsed() < patience, "{expression} did not come true:\n{words}");
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// Chooses files in an input of the page.
+    #[cfg(feature = "page")]
+    pub(crate) fn choose(&mut self, selector: &str, files: &[&Path]) {
+        let input =
+            self.call("Runtime.evaluate", json!({ "expression": format!("document.querySelector({selector:?})") }));
+        let files: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
+        self.call("DOM.setFileInputFiles", json!({ "objectId": input["result"]["objectId"], "files": files }));
+    }
+
+    /// Types a text where the focus is.
+    #[cfg(feature = "page")]
+    pub(crate) fn type_text(&mut self, text: &str) {
+        self.call("Input.insertText", json!({ "text": text }));
+    }
+
+    /// Downloads go into a folder.
+    #[cfg(feature = "page")]
+    pub(crate) fn download_to(&mut self, folder: &Path) {
+        let parameters = json!({ "behavior": "allow", "downloadPath": folder.display().to_string() });
+        self.call("Browser.setDownloadBehavior", parameters);
     }
 
     /// Draws the page as it is now: what was opened is laid out only when it is seen.

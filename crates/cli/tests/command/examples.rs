@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "init",
     "speed",
     "listen",
@@ -29,6 +29,7 @@ const COMMANDS: [&str; 22] = [
     "greybox",
     "simulate",
     "vehicles",
+    "serve",
     "completions",
     "man",
 ];
@@ -181,11 +182,13 @@ fn every_example_runs() {
     lay_out(folder.path());
     let mut run = BTreeSet::new();
     for words in examples_of_help().into_iter().chain(examples_of_readme()) {
-        // the demo has tests of its own, init asks without flags, and nobody can write a ULog by hand
+        // the demo and the page have tests of their own, init asks without flags, and nobody can write a ULog by hand
         // the low-level model from sound has tests of its own, which take a minute
         let is_heard = words[0] == "greybox" && words[1].ends_with(".wav");
-        let is_skipped =
-            is_heard || words[0] == "demo" || words == ["init"] || words.iter().any(|word| word.ends_with(".ulg"));
+        let is_skipped = is_heard
+            || ["demo", "serve"].contains(&words[0].as_str())
+            || words == ["init"]
+            || words.iter().any(|word| word.ends_with(".ulg"));
         if is_skipped || !run.insert(words.clone()) {
             continue;
         }

@@ -43,6 +43,8 @@ mod report_fixture;
 mod rights;
 mod roundtrip;
 mod saying_more;
+#[cfg(feature = "page")]
+mod served;
 mod shell;
 mod sigint;
 mod simulate;

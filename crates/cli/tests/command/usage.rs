@@ -11,7 +11,7 @@ fn refuses(arguments: &[&str], words: &[&str]) {
     assert!(!run.stderr.contains('\x1b'), "colours without a terminal");
 }
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "init",
     "calibrate",
     "completions",
@@ -31,6 +31,7 @@ const COMMANDS: [&str; 19] = [
     "greybox",
     "simulate",
     "vehicles",
+    "serve",
 ];
 
 #[test]
@@ -54,6 +55,17 @@ fn settings_without_meaning_are_refused_by_name() {
     refuses(&["speed", "a.wav", "--blades", "2", "--from", "5", "--to", "3"], &["5 s", "3 s"]);
     refuses(&["speed", "a.wav", "--blades", "2", "--channel", "0"], &["counted from 1"]);
     refuses(&["speed", "a.wav", "--blades", "2", "--method", "guess"], &["maximum_trace", "gaussian"]);
+}
+
+#[test]
+fn serve_needs_an_address_of_numbers_and_a_build_with_the_page() {
+    refuses(&["serve", "--address", "localhost.example"], &["0.0.0.0"]);
+    refuses(&["serve", "--port", "70000"], &["--port"]);
+    #[cfg(not(feature = "page"))]
+    {
+        let run = hovertone(&["serve"]).ends_with(1);
+        assert!(run.stdout.is_empty() && run.stderr.contains("cargo xtask page"), "{}", run.stderr);
+    }
 }
 
 #[test]

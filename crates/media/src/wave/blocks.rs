@@ -1,27 +1,26 @@
 //! The samples of a WAVE file, block by block.
 
-use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
 
 use symphonia::core::packet::Packet;
 use symphonia::core::units::{Duration, Timestamp};
 
 use super::WaveLayout;
+use crate::file_access::{FileAccess, OpenFile};
 use crate::frames::{Frames, Incidents};
 use crate::pcm_layout::PcmLayout;
 
 /// Blocks of samples from the data chunk.
 pub(crate) struct WaveBlocks {
-    reader: BufReader<File>,
+    reader: BufReader<OpenFile>,
     layout: WaveLayout,
     left_bytes: u64,
     next_frame: u64,
 }
 
 impl WaveBlocks {
-    pub(crate) fn open(path: &Path, layout: WaveLayout) -> io::Result<Self> {
-        let mut reader = BufReader::with_capacity(128 * 1024, File::open(path)?);
+    pub(crate) fn open(file: &dyn FileAccess, layout: WaveLayout) -> io::Result<Self> {
+        let mut reader = BufReader::with_capacity(128 * 1024, file.open()?);
         reader.seek(SeekFrom::Start(layout.data_at))?;
         Ok(Self { reader, left_bytes: layout.data_bytes, next_frame: 0, layout })
     }
@@ -62,8 +61,8 @@ pub(crate) struct WavePcmFrames {
 }
 
 impl WavePcmFrames {
-    pub(crate) fn open(path: &Path, layout: &WaveLayout, pcm: PcmLayout) -> io::Result<Self> {
-        Ok(Self { blocks: WaveBlocks::open(path, layout.clone())?, pcm, bytes: Vec::new() })
+    pub(crate) fn open(file: &dyn FileAccess, layout: &WaveLayout, pcm: PcmLayout) -> io::Result<Self> {
+        Ok(Self { blocks: WaveBlocks::open(file, layout.clone())?, pcm, bytes: Vec::new() })
     }
 }
 

@@ -9,3 +9,4 @@ mod ffmpeg_route;
 mod recordings;
 mod robustness;
 mod wav_values;
+mod without_paths;

@@ -1,0 +1,78 @@
+//! `hovertone serve`: hands out the page that is in this program. The browser computes; nothing of the page reaches this computer's files.
+
+mod answer;
+mod embedded;
+mod guests;
+
+use crate::args::ServeArguments;
+use crate::failure::{Ending, Failure};
+use crate::terminal::Terminal;
+use answer::{Answer, Asked, answer_to};
+use guests::Guests;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::thread;
+use tiny_http::{Header, Request, Response, Server};
+
+/// Requests that are answered at the same time: a browser asks for the few files of the page at once.
+const THREADS: usize = 4;
+
+/// Serves until it is interrupted.
+pub(crate) fn run(arguments: &ServeArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
+    let asked = SocketAddr::new(arguments.address, arguments.port);
+    let server = Server::http(asked).map_err(|error| {
+        let hint = "give another --port, or --port 0 for any that is free; --address must be one of this computer";
+        Failure::Failed { what: format!("{asked} cannot be served: {error}"), hint: hint.to_owned(), path: None }
+    })?;
+    let at = server.server_addr().to_ip().unwrap_or(asked);
+    let guests = Guests::of(at)?;
+    let url = guests.url();
+    terminal.text(&format!("{url}\n"))?;
+    terminal.flush()?;
+    if !at.ip().is_loopback() {
+        terminal.say("other computers can open this address with its token; Ctrl-C ends it");
+    }
+    if !arguments.no_open && open::that_detached(&url).is_err() {
+        terminal.say("no browser could be opened: open this address in one");
+    }
+    serve(&Arc::new(server), &Arc::new(guests));
+    Ok(Ending::Done)
+}
+
+fn serve(server: &Arc<Server>, guests: &Arc<Guests>) {
+    let work = |server: Arc<Server>, guests: Arc<Guests>| {
+        for request in server.incoming_requests() {
+            respond(request, &guests);
+        }
+    };
+    let more = (1..THREADS).map(|_| {
+        let (server, guests) = (Arc::clone(server), Arc::clone(guests));
+        thread::spawn(move || work(server, guests))
+    });
+    let more: Vec<_> = more.collect();
+    work(Arc::clone(server), Arc::clone(guests));
+    for thread in more {
+        // a thread that broke has nothing to hand over
+        let _ = thread.join();
+    }
+}
+
+fn respond(request: Request, guests: &Guests) {
+    let header = |name: &'static str| {
+        let found = request.headers().iter().find(|header| header.field.equiv(name));
+        found.map(|header| header.value.as_str())
+    };
+    let asked = Asked {
+        method: request.method().as_str(),
+        url: request.url(),
+        host: header("Host"),
+        origin: header("Origin"),
+        cookie: header("Cookie"),
+    };
+    let Answer { status, headers, body } = answer_to(&asked, guests);
+    let headers = headers.iter().filter_map(|(name, value)| Header::from_bytes(name.as_bytes(), value.as_bytes()).ok());
+    let mut response = Response::from_data(body).with_status_code(status);
+    headers.for_each(|header| response.add_header(header));
+    // a browser that went away needs no answer
+    let _ = request.respond(response);
+}

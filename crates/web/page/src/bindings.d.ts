@@ -1,0 +1,38 @@
+// What crates/web offers. `cargo xtask page` makes the module itself.
+declare module "hovertone-bindings" {
+  export default function init(options?: { module_or_path: URL | string }): Promise<unknown>;
+  export class Desk {
+    add(number: number, name: string, bytes: number): void;
+    remove(number: number): void;
+    hear(number: number, said: string, onShare: (share: number) => void): string;
+    levels(
+      number: number, fromS: number, toS: number, hzLow: number, hzHigh: number, columns: number, rows: number,
+    ): Levels;
+    sound(number: number, fromS: number, toS: number): Uint8Array;
+    identify(text: string, files: string, onShare: (share: number) => void): string;
+    report(onShare: (share: number) => void): string;
+  }
+  export class Levels {
+    columns: number;
+    rows: number;
+    from_s: number;
+    to_s: number;
+    hz_low: number;
+    hz_high: number;
+    level_db_low: number;
+    level_db_high: number;
+    declared_s: number;
+    take(): Uint8Array;
+    free(): void;
+  }
+  export function version(): string;
+  export function vehicles(): string;
+  export function level_colours(): Uint8Array;
+  export function experiment_text(entries: string): string;
+  export function experiment_entries(text: string): string;
+  export function simulator_lines(results: string): string;
+  export function example_plan(): string;
+  export function example_recording(load: number, trial: number): Uint8Array;
+}
+
+declare module "*.css";

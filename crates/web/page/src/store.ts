@@ -1,0 +1,429 @@
+// What the page knows, and what changes it. The experiment file's entries are the one place of vehicle, loads and masses.
+
+import { useEffect, useState } from "preact/hooks";
+import type { Answer, Entries, Identified, KnownVehicle, Lines, LoadEntries, Picture, Point, VehicleEntries } from "./answers";
+import { nameOf, uniqueName, matches } from "./names";
+import { Cancelled, Requests } from "./requests";
+
+export interface Recording {
+  number: number;
+  name: string;
+  file: File;
+  url: string;
+  state: "waiting" | "hearing" | "heard" | "cancelled";
+  share: number;
+  answer?: Answer;
+  fault?: string;
+  picture?: Picture;
+  isOpen: boolean;
+  /** The part that a person chose, where the recording is in no load. */
+  spanS?: Point;
+  bandHz?: Point;
+}
+
+export interface Fit {
+  state: "none" | "running" | "done" | "fault";
+  share: number;
+  fault?: string;
+  result?: Identified;
+  reportShare?: number;
+}
+
+/** Columns and rows of the first picture. */
+const PICTURE = { columns: 1200, rows: 384 };
+const HZ_MAX = 24_000;
+const END_S = 1e9;
+/** Time without a change after which loads are fitted again. */
+const SETTLE_MS = 350;
+
+export class Store {
+  version = "";
+  vehicles: KnownVehicle[] = [];
+  colours: Uint8Array = new Uint8Array();
+  recordings: Recording[] = [];
+  entries: Entries = { vehicle: {} };
+  fit: Fit = { state: "none", share: 0 };
+  pasted: { name: string; lines: Lines[] } | undefined;
+  fault = "";
+  /** Progress of what is made for a person: the example, a report. */
+  busy: { words: string; share: number } | undefined;
+  private requests = new Requests();
+  private listeners = new Set<() => void>();
+  private nextNumber = 1;
+  private timers = new Map<string, number>();
+
+  constructor() {
+    this.requests.ask({ kind: "start" }).then(
+      ({ version, vehicles, colours }) => this.change(() => Object.assign(this, { version, vehicles, colours })),
+      (error) => this.fail(error),
+    );
+  }
+
+  listen(listener: () => void): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+
+  private change(what: () => void) {
+    what();
+    for (const listener of this.listeners) listener();
+  }
+
+  fail(error: unknown) {
+    if (!(error instanceof Cancelled)) this.change(() => (this.fault = wordsOf(error)));
+  }
+
+  dismiss() {
+    this.change(() => ((this.fault = ""), (this.pasted = undefined)));
+  }
+
+  // --- files ---
+
+  /** Takes files: recordings, experiment files and results. A load may be named for the recordings. */
+  async take(files: Iterable<File>, load?: number) {
+    this.change(() => (this.fault = ""));
+    const taken: Recording[] = [];
+    for (const file of files) {
+      const name = nameOf(file);
+      if (/\.toml$/i.test(name)) await this.openExperiment(file);
+      else if (/\.json$/i.test(name)) await this.openResults(file, name);
+      else taken.push(this.takeRecording(file, name, load));
+    }
+    for (const recording of taken) if (!this.isFitted(recording)) this.hear(recording);
+  }
+
+  /** Whether the fit of the loads hears a recording, with its load. */
+  isFitted(recording: Recording): boolean {
+    return this.loadOf(recording) !== undefined && this.lacks().length === 0;
+  }
+
+  private takeRecording(file: File, name: string, load?: number): Recording {
+    const wanted = this.loads().flatMap((each) => each.recordings.map(fileOf)).filter((each) => !this.byName(each));
+    const known = wanted.find((each) => matches(each, name));
+    const number = this.nextNumber++;
+    const recording: Recording = {
+      number, file, name: known ?? uniqueName(name, (each) => this.byName(each) !== undefined),
+      url: URL.createObjectURL(file), state: "waiting", share: 0, isOpen: this.recordings.length === 0,
+    };
+    this.requests.add(number, recording.name, file);
+    this.change(() => this.recordings.push(recording));
+    if (load !== undefined) this.put(number, load);
+    this.draw(recording);
+    if (known) this.fitSoon();
+    return recording;
+  }
+
+  remove(number: number) {
+    const recording = this.recordings.find((each) => each.number === number);
+    if (!recording) return;
+    const load = this.loadOf(recording);
+    this.requests.cancel(tagOf(recording));
+    this.requests.remove(number);
+    URL.revokeObjectURL(recording.url);
+    this.change(() => {
+      this.takeOut(recording.name);
+      this.recordings = this.recordings.filter((each) => each !== recording);
+    });
+    if (load !== undefined) this.fitSoon();
+  }
+
+  private async openExperiment(file: File) {
+    try {
+      const entries = await this.requests.ask({ kind: "entries", text: await file.text() }, { first: true });
+      this.change(() => {
+        this.entries = { ...entries, vehicle: entries.vehicle ?? {} };
+        for (const load of this.loads()) {
+          const names = load.recordings.flatMap((each) => {
+            const pattern = fileOf(each);
+            const found = this.recordings.filter((recording) => matches(pattern, recording.name));
+            return found.length > 0 ? found.map((recording) => recording.name) : [each];
+          });
+          load.recordings = names;
+        }
+      });
+      this.hearAll();
+      this.fitSoon();
+    } catch (error) {
+      this.fail(new Error(`${file.name}: ${wordsOf(error)}`));
+    }
+  }
+
+  private async openResults(file: File, name: string) {
+    try {
+      const lines = await this.requests.ask({ kind: "simulators", results: await file.text() }, { first: true });
+      this.change(() => (this.pasted = { name, lines }));
+    } catch (error) {
+      this.fail(new Error(`${name}: ${wordsOf(error)}`));
+    }
+  }
+
+  // --- hearing ---
+
+  private draw(recording: Recording) {
+    const { columns, rows } = PICTURE;
+    this.levels(recording, [0, END_S], [0, HZ_MAX], columns, rows).then(
+      (picture) => this.change(() => (recording.picture = picture)),
+      () => {}, // the answer has the reason
+    );
+  }
+
+  levels(recording: Recording, spanS: Point, bandHz: Point, columns: number, rows: number): Promise<Picture> {
+    const { number } = recording;
+    return this.requests.ask({ kind: "levels", number, spanS, bandHz, columns, rows }, { tag: `${tagOf(recording)} levels` });
+  }
+
+  forgetLevels(recording: Recording) {
+    if (recording.state !== "waiting") this.requests.cancel(`${tagOf(recording)} levels`);
+  }
+
+  sound(recording: Recording, spanS: Point): Promise<Uint8Array<ArrayBuffer>> {
+    return this.requests.ask({ kind: "sound", number: recording.number, spanS }, { tag: tagOf(recording) });
+  }
+
+  hear(recording: Recording) {
+    this.requests.cancel(tagOf(recording));
+    this.change(() => Object.assign(recording, { state: "waiting", share: 0, fault: undefined }));
+    const onShare = (share: number) => this.change(() => Object.assign(recording, { state: "hearing", share }));
+    const said = this.saidOf(recording);
+    this.requests.ask({ kind: "hear", number: recording.number, said }, { tag: tagOf(recording), onShare }).then(
+      (answer) => this.change(() => Object.assign(recording, { state: "heard", answer, fault: undefined })),
+      (error) => {
+        if (error instanceof Cancelled) return;
+        this.change(() => Object.assign(recording, { state: "heard", answer: undefined, fault: wordsOf(error) }));
+      },
+    );
+  }
+
+  cancel(recording: Recording) {
+    this.requests.cancel(tagOf(recording));
+    this.change(() => Object.assign(recording, { state: "cancelled", share: 0 }));
+  }
+
+  cancelFit() {
+    this.requests.cancel("fit");
+    this.change(() => (this.fit = { state: "none", share: 0 }));
+    for (const recording of this.recordings) if (!recording.answer && recording.state === "waiting") this.hear(recording);
+  }
+
+  private hearAll() {
+    for (const recording of this.recordings) if (!this.isFitted(recording)) this.hear(recording);
+  }
+
+  /** What is said of a recording before it is heard: the vehicle, its mass as flown, and the chosen part. */
+  private saidOf(recording: Recording) {
+    const { preset, blades, gear, rotors, mass_kg, propeller_diameter_m: diameter_m } = this.entries.vehicle;
+    const load = this.loadOf(recording);
+    const added_kg = load === undefined ? 0 : (this.loads()[load].added_mass_kg ?? 0);
+    const [from_s, to_s] = recording.spanS ?? [];
+    const known = this.vehicles.some((vehicle) => vehicle.id === preset) ? preset : undefined;
+    return {
+      preset: known, blades, gear, rotors, diameter_m, mass_kg: mass_kg && mass_kg + added_kg,
+      band_hz: recording.bandHz, from_s, to_s,
+    };
+  }
+
+  // --- the experiment ---
+
+  loads(): LoadEntries[] {
+    return (this.entries.load ??= []);
+  }
+
+  byName(name: string): Recording | undefined {
+    return this.recordings.find((recording) => recording.name === name);
+  }
+
+  loadOf(recording: Recording): number | undefined {
+    const index = this.loads().findIndex((load) => load.recordings.some((each) => fileOf(each) === recording.name));
+    return index < 0 ? undefined : index;
+  }
+
+  recordingsOf(load: LoadEntries): { name: string; recording?: Recording }[] {
+    return load.recordings.map((each) => ({ name: fileOf(each), recording: this.byName(fileOf(each)) }));
+  }
+
+  setVehicle(vehicle: VehicleEntries) {
+    this.change(() => (this.entries = { ...this.entries, vehicle: withoutNothing(vehicle) }));
+    this.soon("hear", () => this.hearAll());
+    this.fitSoon();
+  }
+
+  addLoad(): number {
+    const number = this.loads().length + 1;
+    this.change(() => this.loads().push({ name: `load ${number}`, added_mass_kg: 0, recordings: [] }));
+    return number - 1;
+  }
+
+  setLoad(index: number, load: Partial<LoadEntries>) {
+    this.change(() => Object.assign(this.loads()[index], load));
+    this.fitSoon();
+  }
+
+  removeLoad(index: number) {
+    this.change(() => this.loads().splice(index, 1));
+    this.fitSoon();
+  }
+
+  /** Puts a recording into a load, or into none. */
+  put(number: number, load: number | undefined) {
+    const recording = this.recordings.find((each) => each.number === number);
+    if (!recording || this.loadOf(recording) === load) return;
+    this.change(() => {
+      this.takeOut(recording.name);
+      if (load !== undefined) this.loads()[load].recordings.push(recording.name);
+    });
+    this.fitSoon();
+    if (load === undefined && recording.answer) this.hear(recording);
+  }
+
+  private takeOut(name: string) {
+    for (const load of this.loads()) load.recordings = load.recordings.filter((each) => fileOf(each) !== name);
+  }
+
+  forget(load: LoadEntries, name: string) {
+    this.change(() => (load.recordings = load.recordings.filter((each) => fileOf(each) !== name)));
+    this.fitSoon();
+  }
+
+  /** The part of a recording to use; in a load it holds for all its recordings. */
+  setSpan(recording: Recording, spanS: Point | undefined) {
+    const load = this.loadOf(recording);
+    if (load === undefined) {
+      this.change(() => (recording.spanS = spanS));
+      this.soon(`span ${recording.number}`, () => this.hear(recording));
+    } else this.setLoad(load, { from_s: spanS?.[0], to_s: spanS?.[1] });
+  }
+
+  spanOf(recording: Recording): Point | undefined {
+    const load = this.loadOf(recording);
+    if (load === undefined) return recording.spanS;
+    const { from_s, to_s } = this.loads()[load];
+    return typeof from_s === "number" && typeof to_s === "number" ? [from_s, to_s] : undefined;
+  }
+
+  /** The band of the tone; in a load it holds for the experiment. */
+  setBand(recording: Recording, bandHz: Point | undefined) {
+    if (this.loadOf(recording) === undefined) {
+      this.change(() => (recording.bandHz = bandHz));
+      this.soon(`span ${recording.number}`, () => this.hear(recording));
+    } else {
+      this.change(() => (this.entries = { ...this.entries, tone: { ...this.entries.tone, band_hz: bandHz } }));
+      this.fitSoon();
+    }
+  }
+
+  bandOf(recording: Recording): Point | undefined {
+    return this.loadOf(recording) === undefined ? recording.bandHz : this.entries.tone?.band_hz;
+  }
+
+  /** What the experiment still lacks; empty where it can be fitted. */
+  lacks(): string[] {
+    const { vehicle } = this.entries;
+    const loads = this.loads();
+    const known = this.vehicles.find((each) => each.id === vehicle.preset);
+    const missing: string[] = [];
+    const hasTone = vehicle.blades || vehicle.gear || known?.blade_count || known?.gear || (this.entries.tone as { order?: unknown })?.order;
+    if (!vehicle.preset && !vehicle.rotors) missing.push("the number of rotors");
+    if (!hasTone) missing.push("the blades of a propeller");
+    if (!vehicle.mass_kg && !known?.mass_kg) missing.push("the mass of the vehicle");
+    if (loads.every((load) => load.recordings.length === 0)) missing.push("a recording in a load");
+    const absent = loads.flatMap((load) => this.recordingsOf(load)).filter(({ recording }) => !recording);
+    for (const { name } of absent.slice(0, 3)) missing.push(`the recording ${name}: drop it here`);
+    return missing;
+  }
+
+  private fitSoon() {
+    this.requests.cancel("fit");
+    if (this.lacks().length > 0) return this.change(() => (this.fit = { state: "none", share: 0 }));
+    this.change(() => (this.fit = { ...this.fit, state: "running", share: 0, fault: undefined }));
+    this.soon("fit", () => void this.runFit());
+  }
+
+  /** The experiment as a file: without loads that have no recording. */
+  async experimentText(): Promise<string> {
+    const load = this.loads().filter((each) => each.recordings.length > 0);
+    return this.requests.ask({ kind: "text", entries: { ...this.entries, load } }, { first: true });
+  }
+
+  private async runFit() {
+    const files = Object.fromEntries(this.recordings.map((recording) => [recording.name, recording.number]));
+    const onShare = (share: number) => this.change(() => (this.fit = { ...this.fit, state: "running", share }));
+    try {
+      const text = await this.experimentText();
+      const result = await this.requests.ask({ kind: "identify", text, files }, { tag: "fit", onShare });
+      this.change(() => {
+        this.fit = { state: "done", share: 1, result };
+        for (const { file, answer } of result.inputs) {
+          const recording = this.recordings.find((each) => each.number === file);
+          if (recording) Object.assign(recording, { answer, state: "heard", fault: undefined });
+        }
+      });
+    } catch (error) {
+      if (error instanceof Cancelled) return;
+      this.change(() => (this.fit = { state: "fault", share: 0, fault: wordsOf(error) }));
+      for (const recording of this.recordings) if (!recording.answer && recording.state === "waiting") this.hear(recording);
+    }
+  }
+
+  async report(): Promise<string> {
+    const onShare = (share: number) => this.change(() => (this.busy = { words: "The report is written", share }));
+    onShare(0);
+    try {
+      return await this.requests.ask({ kind: "report" }, { tag: "report", onShare });
+    } finally {
+      this.change(() => (this.busy = undefined));
+    }
+  }
+
+  /** Simulated hovers of the paper's vehicle with three loads. */
+  async example() {
+    const say = (share: number) =>
+      this.change(() => (this.busy = { words: "A drone is flown in simulation", share }));
+    try {
+      say(0);
+      const { experiment, recordings } = await this.requests.ask({ kind: "plan" });
+      for (const [index, { name, load, trial }] of recordings.entries()) {
+        const bytes = await this.requests.ask({ kind: "example", load, trial }, { first: true });
+        say((index + 1) / recordings.length);
+        if (index === 0) this.change(() => (this.entries = { ...experiment, load: [] }));
+        this.hear(this.takeRecording(new File([bytes], name, { type: "audio/wav" }), name));
+      }
+      this.change(() => (this.entries = experiment));
+      this.fitSoon();
+    } catch (error) {
+      this.fail(error);
+    } finally {
+      this.change(() => (this.busy = undefined));
+    }
+  }
+
+  toggle(recording: Recording) {
+    this.change(() => (recording.isOpen = !recording.isOpen));
+  }
+
+  private soon(what: string, work: () => void) {
+    clearTimeout(this.timers.get(what));
+    this.timers.set(what, setTimeout(work, SETTLE_MS) as unknown as number);
+  }
+}
+
+export function fileOf(recording: string | { file: string }): string {
+  return typeof recording === "string" ? recording : recording.file;
+}
+
+export function wordsOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+function tagOf(recording: Recording): string {
+  return `recording ${recording.number}`;
+}
+
+function withoutNothing(vehicle: VehicleEntries): VehicleEntries {
+  return Object.fromEntries(Object.entries(vehicle).filter(([, value]) => value !== undefined && value !== ""));
+}
+
+/** Draws a component again at each change of the store. */
+export function useStore(store: Store) {
+  const [, draw] = useState(0);
+  useEffect(() => store.listen(() => draw((count) => count + 1)), [store]);
+}

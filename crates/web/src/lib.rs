@@ -1,0 +1,24 @@
+//! hovertone in the browser: what a worker of the page calls. Bindings that translate; all arithmetic is in the crates that the command
+//! uses too.
+//!
+//! ```text
+//! slices       a file of the page, read slice by slice      answer      a record as JSON for the page
+//! heard_files  the files and their records                 campaign    an experiment and its results as JSON
+//! desk         all that the page can ask
+//! picture      a spectrogram as levels                     experiment  experiment files ⇄ JSON, vehicles
+//! example      simulated hovers to try
+//! ```
+
+mod answer;
+mod campaign;
+mod desk;
+mod example;
+mod experiment;
+mod heard_files;
+mod picture;
+mod slices;
+
+pub use desk::Desk;
+pub use example::{example_plan, example_recording};
+pub use experiment::{experiment_entries, experiment_text, level_colours, simulator_lines, vehicles, version};
+pub use picture::Levels;

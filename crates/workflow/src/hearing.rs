@@ -1,0 +1,236 @@
+//! From an open recording to its record.
+
+use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
+use hovertone::sound::Passes;
+use hovertone::speed::{Config, Error, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
+use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
+use hovertone_media::{Decoder, Recording};
+use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
+use serde::Serialize;
+use serde_json::Value;
+
+/// What is asked of a recording.
+#[derive(Clone, Copy, Debug)]
+pub struct Task<'a> {
+    /// Name in the output.
+    pub name: &'a str,
+    /// Settings of the analysis.
+    pub config: &'a Config,
+    /// The search for the tone, where its order is unknown; the order in `config` is then a placeholder.
+    pub discovery: Option<Discovery>,
+    /// Analyses of the rotors after the speed.
+    pub requests: Requests,
+    /// Whether the samples of the hover are used, and with them their warnings.
+    pub wants_samples: bool,
+}
+
+/// Analyses of the rotors after the speed. Each needs more passes over the sound.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Requests {
+    /// The condition of each rotor.
+    pub condition: bool,
+    /// The start of each rotor.
+    pub spin_up: bool,
+}
+
+/// A recording that was analysed.
+#[derive(Debug)]
+pub struct Heard {
+    /// The result.
+    pub record: SpeedRecord,
+    /// The settings of the analysis: the settings of the task with the tone that was found.
+    pub config: Config,
+    /// The start of each rotor, where it was requested.
+    pub spin_up: Option<SpinUp>,
+}
+
+/// Reason why a recording was not analysed, with its facts where they are known.
+#[derive(Debug)]
+pub struct NotHeard {
+    /// What happened, why, and what to do.
+    pub reason: String,
+    /// The kind of error in one word of files for programs.
+    pub class: &'static str,
+    /// Facts about the file.
+    pub facts: Option<Box<RecordingFacts>>,
+}
+
+impl NotHeard {
+    /// A reason before any fact was known.
+    pub fn because(class: &'static str, reason: impl ToString) -> Self {
+        Self { reason: reason.to_string(), class, facts: None }
+    }
+}
+
+/// Progress over all passes of a recording.
+#[derive(Clone, Copy, Debug)]
+pub struct Share {
+    /// Number of the pass, counted from 1.
+    pub pass: u32,
+    /// Number of planned passes.
+    pub pass_count: u32,
+    /// Share of all passes that is done, 0 to 1.
+    pub done: f64,
+}
+
+/// Analyses a recording.
+///
+/// # Errors
+/// Settings that do not fit the recording, and sound that cannot be read to its end.
+pub fn hear(
+    recording: &mut Recording,
+    task: &Task<'_>,
+    sha256: Option<String>,
+    on_share: impl FnMut(Share),
+) -> Result<Heard, NotHeard> {
+    let analysed = analysed(recording, task, on_share);
+    let facts = facts_of(recording, sha256);
+    let Analysed { analysis, config, found, spin_up } = match analysed {
+        Ok(analysed) => analysed,
+        Err(error) => {
+            return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
+        }
+    };
+    let matters = |warning: &&Warning| task.wants_samples || !matches!(warning, Warning::HoverShorterThanSample { .. });
+    let of_analysis = analysis.warnings.iter().filter(matters).map(Notice::from);
+    let notices = notices_of(recording).into_iter().chain(of_analysis).collect();
+    let record = record_of(task, &config, Answer::Heard(Box::new(analysis)), Some(facts));
+    let mut record = SpeedRecord { found, notices, ..record };
+    record.notices.extend(notice_of_reading(&record));
+    Ok(Heard { record, config, spin_up })
+}
+
+/// The record of a recording that could not be heard: its reason stands in place of an answer.
+pub fn failed_record(task: &Task<'_>, failure: NotHeard) -> SpeedRecord {
+    let NotHeard { reason, facts, .. } = failure;
+    record_of(task, task.config, Answer::Failed { reason }, facts.map(|facts| *facts))
+}
+
+/// What weakens a recording itself.
+pub fn notices_of(recording: &Recording) -> Vec<Notice> {
+    recording.warnings().iter().map(|warning| Notice::new(warning.to_string(), warning.hint())).collect()
+}
+
+/// What is known of an open recording.
+pub fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts {
+    let info = recording.info();
+    RecordingFacts {
+        sha256,
+        container: info.container.to_string(),
+        codec: info.codec.clone(),
+        decoder: match info.decoder {
+            Decoder::Native => "hovertone",
+            Decoder::Ffmpeg => "ffmpeg",
+            _ => "other",
+        }
+        .to_owned(),
+        sample_rate_hz: info.sample_rate_hz,
+        channel_count: info.channel_count,
+        channel: info.channel,
+        audio_track: info.audio_track,
+        audio_track_count: info.audio_track_count,
+        is_prefix: recording.is_prefix(),
+    }
+}
+
+/// From the progress of a pass to the progress over all passes of a recording.
+pub fn progress_of<F: FnMut(Share)>(
+    recording: &Recording,
+    mut on_share: F,
+) -> impl FnMut(hovertone::sound::Progress) + use<F> {
+    let (start_s, declared_s) = (recording.info().start_s, recording.info().declared_duration_s);
+    let mut heard_s: f64 = 0.0;
+    move |progress: hovertone::sound::Progress| {
+        let hovertone::sound::Progress { pass, pass_count, time_s, .. } = progress;
+        let time_s = time_s - start_s;
+        // after the first pass the length is known exactly; the header only estimates it
+        let length_s = if pass == 1 { declared_s } else { Some(heard_s) };
+        heard_s = heard_s.max(time_s);
+        let of_pass = length_s.filter(|&length_s| length_s > 0.0).map_or(0.0, |length_s| (time_s / length_s).min(1.0));
+        on_share(Share { pass, pass_count, done: (f64::from(pass - 1) + of_pass) / f64::from(pass_count) });
+    }
+}
+
+/// The kind of an error of the analysis: its settings do not fit the recording, or the sound could not be read to its end.
+fn class_of(error: &Error) -> &'static str {
+    match error {
+        Error::Signal(_) => "unreadable",
+        _ => "unfit_settings",
+    }
+}
+
+fn record_of(task: &Task<'_>, config: &Config, answer: Answer, recording: Option<RecordingFacts>) -> SpeedRecord {
+    SpeedRecord {
+        file: task.name.to_owned(),
+        method: config.method,
+        order: config.tone.order,
+        wants_condition: task.requests.condition,
+        settings: written(config),
+        recording,
+        answer,
+        found: None,
+        labels: None,
+        notices: Vec::new(),
+    }
+}
+
+/// Settings as JSON. Serialisation of settings does not fail.
+fn written(settings: &impl Serialize) -> Value {
+    serde_json::to_value(settings).unwrap_or_default()
+}
+
+/// The notice which reading of the tone was used, where the order was not given.
+fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
+    let reading = record.found_reading().filter(|_| record.speed().is_some())?;
+    let text =
+        format!("no tone was given; hovertone found order {}, {}: {}", reading.order, reading.meaning, reading.why);
+    Some(Notice::new(text, "check the blades and give --blades N; `hovertone tones` shows the other readings"))
+}
+
+/// Results of the passes over a recording.
+struct Analysed {
+    analysis: SpeedAnalysis,
+    config: Config,
+    found: Option<Found>,
+    spin_up: Option<SpinUp>,
+}
+
+fn analysed(recording: &mut Recording, task: &Task<'_>, on_share: impl FnMut(Share)) -> Result<Analysed, Error> {
+    let mut on_progress = progress_of(recording, on_share);
+    let Requests { condition, spin_up } = task.requests;
+    let config = task.config;
+    let speed_passes = match (task.discovery, spin_up) {
+        (Some(_), true) => passes_of_speed(config) + passes_of_spin_up(config),
+        (None, true) => passes_of_spin_up(config),
+        (_, false) => passes_of_speed(config),
+    };
+    let mut passes = Passes::planned(recording, speed_passes + u32::from(condition), &mut on_progress)?;
+    let mut analysed = match task.discovery {
+        Some(discovery) => {
+            let FoundSpeed { families, rotor, config, analysis, alternatives } =
+                tones_from_passes(&mut passes, config, &discovery)?;
+            let found = Found { settings: written(&discovery), families, rotor, alternatives };
+            Analysed { analysis, config, found: Some(found), spin_up: None }
+        }
+        None if spin_up => {
+            let (analysis, spin_up) = speed_after_spin_up(&mut passes, config)?;
+            Analysed { analysis, config: config.clone(), found: None, spin_up: Some(spin_up) }
+        }
+        None => {
+            let analysis = speed_from_passes(&mut passes, config)?;
+            Analysed { analysis, config: config.clone(), found: None, spin_up: None }
+        }
+    };
+    let has_tone = matches!(analysed.analysis.outcome, Outcome::Ok(_));
+    if spin_up && analysed.spin_up.is_none() && has_tone {
+        let (analysis, spin_up) = speed_after_spin_up(&mut passes, &analysed.config)?;
+        analysed = Analysed { analysis, spin_up: Some(spin_up), ..analysed };
+    }
+    if condition {
+        let conditions = conditions_from_analysis(&mut passes, &analysed.analysis, &analysed.config.tone)?;
+        if let Outcome::Ok(tone) = &mut analysed.analysis.outcome {
+            tone.rotors.iter_mut().zip(conditions).for_each(|(rotor, condition)| rotor.condition = condition);
+        }
+    }
+    Ok(analysed)
+}
