@@ -51,7 +51,7 @@ impl OutputFolder {
             let place = folder.place(&name);
             folder.outputs.refuse_input(&place)?;
             if folder.outputs.would_lose(&place) && !folder.list.has_unchanged(&name) {
-                let what = "this file was changed, or is none that hovertone wrote: nothing was written";
+                let what = "hovertone did not write this file, or it was changed since; nothing was written";
                 return Err(refused(what, "choose a new folder with -o DIR, or use --force to replace it", &place));
             }
         }

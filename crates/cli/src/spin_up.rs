@@ -32,7 +32,9 @@ pub(crate) fn names_of(
             let Some((layout, numbers)) = known else {
                 let is_unknown = |name: &&String| layouts.iter().all(|layout| number_in(layout, name).is_none());
                 let unknown = typed.iter().find(is_unknown).map_or_else(|| typed.join(","), String::clone);
-                return Err(refused(format!("--spin-up: \"{unknown}\" is no rotor of one frame with the others")));
+                return Err(refused(format!(
+                    "--spin-up names \"{unknown}\", and no frame has this rotor beside the others"
+                )));
             };
             (places(layout).iter().map(|place| place.replace('-', " ")).collect::<Vec<String>>(), numbers)
         }

@@ -12,7 +12,8 @@ Each finished recording is kept at once: a run that was stopped goes on where it
 changed are heard when the same command runs again. A file that cannot be heard is a row with its error.
 OUT holds recordings.parquet (a row for each recording), tracks/ (its speed over time) and overview.html.
 
-A pattern in quotes finds new recordings in a later run; without them the shell writes the names of today.
+Put a pattern into quotes: then hovertone reads it, and a later run finds new recordings too. Without quotes the shell
+replaces it by the names of today.
 
 Examples:
   hovertone batch archive -o speeds --blades 2

@@ -55,8 +55,13 @@ pub(crate) fn fits_phone_screen_and_paper(browser: &mut Browser, opened: &str) {
         assert_eq!(faults, Value::Array(Vec::new()), "{width} px, {medium}, {scheme}");
         let broken = browser.text("getComputedStyle(document.querySelector('#bibtex')).breakInside");
         assert_eq!(broken == "avoid", is_print, "the lines to cite are on one page: {broken}");
+        // Chromium repeats the head of a table on each page if it is never broken and holds no button
+        let may_repeat = browser.value("[...document.querySelectorAll('thead')].every(head => getComputedStyle(head).breakInside === 'avoid' && !head.querySelector('button'))");
+        assert_eq!(may_repeat, is_print, "heads of tables, {medium}");
     }
     browser.value("dispatchEvent(new Event('afterprint'))");
+    let is_sortable = browser.value("!!document.querySelector('thead button.sort')");
+    assert_eq!(is_sortable, true);
     browser.screen(SCREEN);
     browser.medium("", "light");
     let pdf = browser.pdf_text();

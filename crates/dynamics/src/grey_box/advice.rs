@@ -30,7 +30,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
             gains.into_iter().filter(|gain| fit.estimate(*gain).is_none()).map(Parameter::in_words).collect();
         if !untold.is_empty() {
             advice.push(Advice {
-                what: format!("{} is not told: this flight moves the rotors too little by it", untold.join(" and ")),
+                what: format!("{} is not told: it moves the rotors too little in this flight", untold.join(" and ")),
                 hint: doublet(axis),
             });
         }

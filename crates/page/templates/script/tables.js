@@ -42,6 +42,22 @@ const makeSortable = (table) => {
   }
 };
 
+// paper repeats the head of a table on each page, but not one with buttons
+const sortButtons = new Map();
+addEventListener("beforeprint", () => {
+  for (const button of all("thead .sort")) {
+    sortButtons.set(button, button.parentElement);
+    button.replaceWith(...button.childNodes);
+  }
+});
+addEventListener("afterprint", () => {
+  for (const [button, head] of sortButtons) {
+    button.append(...head.childNodes);
+    head.append(button);
+  }
+  sortButtons.clear();
+});
+
 // what a person reads in a cell, without words for screen readers
 const shownText = (cell) => {
   const copy = cell.cloneNode(true);

@@ -130,7 +130,8 @@ impl ScenarioFile {
         };
         if !self.pilot.holds_place && self.maneuvers.iter().any(|maneuver| needs_pilot(&maneuver)) {
             return Err(ScenarioError::Contradiction {
-                what: "nobody flies to the places of the maneuvers: holds_place is false".to_owned(),
+                what: "the maneuvers name places, and with holds_place = false the vehicle does not fly to them"
+                    .to_owned(),
                 hint: "leave holds_place out, or keep to hover, step, doublet and csv",
             });
         }
