@@ -1,12 +1,12 @@
 //! The speed of the rotor that the evidence hears where nothing is known of its tone.
 
 use super::by_family::OTHER_SPEED_FACTOR;
-use super::{Discovery, Families, FoundSpeed, at_ratio, config_for, speed_of};
+use super::{Discovery, Families, FoundSpeed, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
-use crate::stages::{Surveyed, reading_of};
+use crate::stages::{Surveyed, at_ratio, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, rule_out, search_range_rev_s};
 use hovertone_analysis::{Reading, SeenHarmonic, ToneFamily};
 use hovertone_signal::passes::Passes;
