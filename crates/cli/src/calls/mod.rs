@@ -146,14 +146,17 @@ mod tests {
         Call::new(line.split(' ').map(OsString::from), None)
     }
 
-    /// A rotor with two blades at 70 rev/s in some noise, for 3 s.
+    /// A rotor with two unlike blades at 70 rev/s in some noise, for 3 s.
     fn rotor() -> Samples {
         let mut state = 1_u32;
         let sample = |n: u32| {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             let noise = f64::from(state) / f64::from(u32::MAX) - 0.5;
-            let line = |k: f64| 0.1 / k * (std::f64::consts::TAU * 140.0 * k * f64::from(n) / 16_000.0).cos();
-            (0.03 * noise + (1..7).map(|k| line(f64::from(k))).sum::<f64>()) as f32
+            let line = |order: u32| {
+                let level = if order.is_multiple_of(2) { 0.2 } else { 0.04 } / f64::from(order);
+                level * (std::f64::consts::TAU * 70.0 * f64::from(order * n) / 16_000.0).cos()
+            };
+            (0.03 * noise + (1..13).map(line).sum::<f64>()) as f32
         };
         Samples::new((0..48_000).map(sample).collect(), 1, 16_000.0)
     }
