@@ -46,7 +46,7 @@ pub(crate) fn resolve(
         return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
     }
     if rotors < 2 {
-        let what = format!("{told} several rotors apart, and one rotor needs no name");
+        let what = format!("{told} several rotors apart, and only one is heard");
         return Err(Failure::usage(what, "give their number, as in --rotors 4"));
     }
     let Some(path) = &arguments.log else {

@@ -14,8 +14,8 @@
 //!    over loudness, slope, and the level of the shaft lines against the blade pass.
 //! 5. *Hypotheses* (`hypotheses`): each path at its octaves and families, compared on the same frames, with the prior of mass, diameter and
 //!    number of rotors.
-//! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of a hypothesis are the mean of both looks:
-//!    they are at the same lines, so that their sum would count each level twice.
+//! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of both looks add. In some recordings the
+//!    levels deceive; there they count for a tenth.
 //! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own.
 //! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
 //!    in a given band, below 0.

@@ -119,19 +119,6 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, known: &KnownRot
     }
 }
 
-/// A reading whose speed is multiplied by this ratio.
-pub(crate) fn at_ratio(reading: &Reading, ratio: f64) -> Reading {
-    let scaled = |speed: RotorSpeed| RotorSpeed::from_rad_s(ratio * speed.rad_s());
-    Reading {
-        tone_hz: ratio * reading.tone_hz,
-        speed: scaled(reading.speed),
-        motor_speed: scaled(reading.motor_speed),
-        tip_mach: reading.tip_mach.map(|mach| ratio * mach),
-        thrust_coefficient: reading.thrust_coefficient.map(|coefficient| coefficient / ratio.powi(2)),
-        ..reading.clone()
-    }
-}
-
 /// Scores all shaft speeds in the range of the settings, and takes the best.
 ///
 /// # Errors
@@ -151,7 +138,7 @@ pub(crate) fn candidates_from_survey(
         Some(leading_rev_s) => Ok(Candidates {
             map,
             leading_rev_s,
-            is_heard: beliefs.as_ref().is_some_and(Beliefs::is_resolved),
+            is_heard: beliefs.is_some(),
             is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,

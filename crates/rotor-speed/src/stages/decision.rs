@@ -67,11 +67,13 @@ fn why_no_rotor(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let survey = &surveyed.survey;
-    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
-    let not_held = not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover);
-    // the evidence has compared the rotor with mains hum, by all its lines: one that meets a line of the hum says nothing
+    let not_held_or_hum = || {
+        let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+        not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover)
+            .or_else(|| mains_hum_reason(&lines.clearest, survey))
+    };
     if candidates.is_heard {
-        return Ok(not_held);
+        return Ok(not_held_or_hum());
     }
     if candidates.is_named && evidence_is_too_small(surveyed, speed_rev_s, config) {
         return Ok(Some(NoTone::NoSeries));
@@ -81,8 +83,7 @@ fn why_no_rotor(
         not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
     }
     Ok(not_a_line
-        .or(not_held)
-        .or_else(|| mains_hum_reason(&lines.clearest, survey))
+        .or_else(not_held_or_hum)
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
