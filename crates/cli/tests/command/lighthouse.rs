@@ -6,37 +6,59 @@ use serde_json::Value;
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
 use std::net::{SocketAddr, TcpListener};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::thread;
 
 const CHROMIUM_SWITCHES: &str = "--chrome-flags=--headless --no-sandbox --disable-gpu";
 
+/// The program Lighthouse, with the browser that it looks with.
+pub(crate) struct Lighthouse {
+    program: String,
+    chromium: PathBuf,
+}
+
+impl Lighthouse {
+    /// `None` where it or a browser is missing and need not be there.
+    pub(crate) fn found() -> Option<Self> {
+        let program = std::env::var("HOVERTONE_LIGHTHOUSE").unwrap_or_else(|_| "lighthouse".to_owned());
+        let runs = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
+        let (Ok(_), Some(chromium)) = (runs, chromium_path()) else {
+            let is_required = std::env::var_os("HOVERTONE_REQUIRE_BROWSER").is_some();
+            assert!(
+                !is_required,
+                "Lighthouse and a browser are required: install chromium, and npm install --global lighthouse"
+            );
+            println!("skipped: no lighthouse on the PATH (HOVERTONE_LIGHTHOUSE names it), or no Chromium");
+            return None;
+        };
+        Some(Self { program, chromium })
+    }
+
+    /// What it finds on the page at an address, in these categories.
+    pub(crate) fn look_at(&self, url: &str, categories: &str) -> Value {
+        let folder = tempfile::tempdir().unwrap();
+        let found = folder.path().join("lighthouse.json");
+        let run = Command::new(&self.program)
+            .arg(url)
+            .arg(format!("--only-categories={categories}"))
+            .args(["--output=json", "--quiet", CHROMIUM_SWITCHES])
+            .arg(format!("--output-path={}", found.display()))
+            .env("CHROME_PATH", &self.chromium)
+            .output()
+            .unwrap();
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+        serde_json::from_str(&fs::read_to_string(found).unwrap()).unwrap()
+    }
+}
+
 #[test]
 fn lighthouse_finds_no_fault_of_accessibility() {
-    let program = std::env::var("HOVERTONE_LIGHTHOUSE").unwrap_or_else(|_| "lighthouse".to_owned());
-    let runs = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let (Ok(_), Some(chromium)) = (runs, chromium_path()) else {
-        let is_required = std::env::var_os("HOVERTONE_REQUIRE_BROWSER").is_some();
-        assert!(
-            !is_required,
-            "Lighthouse and a browser are required: install chromium, and npm install --global lighthouse"
-        );
-        println!("skipped: no lighthouse on the PATH (HOVERTONE_LIGHTHOUSE names it), or no Chromium");
-        return;
-    };
+    let Some(lighthouse) = Lighthouse::found() else { return };
     let folder = tempfile::tempdir().unwrap();
     identified(folder.path());
     let address = served(fs::read(folder.path().join("out/report.html")).unwrap());
-    let found = folder.path().join("lighthouse.json");
-    let run = Command::new(&program)
-        .arg(format!("http://{address}/"))
-        .args(["--only-categories=accessibility", "--output=json", "--quiet", CHROMIUM_SWITCHES])
-        .arg(format!("--output-path={}", found.display()))
-        .env("CHROME_PATH", chromium)
-        .output()
-        .unwrap();
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    let found: Value = serde_json::from_str(&fs::read_to_string(found).unwrap()).unwrap();
+    let found = lighthouse.look_at(&format!("http://{address}/"), "accessibility");
     let audits = found["audits"].as_object().unwrap();
     let scored = audits.values().filter(|audit| audit["score"].is_number()).count();
     let faults: Vec<String> = audits

@@ -1,6 +1,7 @@
 //! `hovertone serve` and its page in a real browser: from dropped files to the constant of the command, broken files, cancel, a phone.
 
-use crate::chromium::{Browser, chromium_path};
+use crate::chromium::Browser;
+use crate::lighthouse::Lighthouse;
 use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};
 use hovertone_sim::paper::{GRAVITY_M_S2, LOADS};
 use hovertone_sim::scenario::ScenarioFile;
@@ -289,26 +290,9 @@ fn the_example_fits_a_phone_and_a_wide_screen_in_both_colours() {
 
 #[test]
 fn lighthouse_is_content_with_the_served_page() {
-    let program = std::env::var("HOVERTONE_LIGHTHOUSE").unwrap_or_else(|_| "lighthouse".to_owned());
-    let runs = Command::new(&program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    let (Ok(_), Some(chromium)) = (runs, chromium_path()) else {
-        assert!(std::env::var_os("HOVERTONE_REQUIRE_BROWSER").is_none(), "Lighthouse and a browser are required");
-        println!("skipped: no lighthouse on the PATH (HOVERTONE_LIGHTHOUSE names it), or no Chromium");
-        return;
-    };
+    let Some(lighthouse) = Lighthouse::found() else { return };
     let served = Served::start();
-    let folder = tempfile::tempdir().unwrap();
-    let found = folder.path().join("lighthouse.json");
-    let run = Command::new(&program)
-        .arg(&served.url)
-        .args(["--only-categories=accessibility,best-practices", "--output=json", "--quiet"])
-        .arg("--chrome-flags=--headless --no-sandbox --disable-gpu")
-        .arg(format!("--output-path={}", found.display()))
-        .env("CHROME_PATH", chromium)
-        .output()
-        .unwrap();
-    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-    let found: Value = serde_json::from_str(&fs::read_to_string(found).unwrap()).unwrap();
+    let found = lighthouse.look_at(&served.url, "accessibility,best-practices");
     for category in ["accessibility", "best-practices"] {
         let score = found["categories"][category]["score"].as_f64().unwrap();
         let faults: Vec<&Value> =

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 def extra(module: str, name: str) -> Any:
@@ -12,3 +15,9 @@ def extra(module: str, name: str) -> Any:
         return importlib.import_module(module)
     except ImportError as error:
         raise ImportError(f"this needs {module.partition('.')[0]}: pip install 'hovertone[{name}]'") from error
+
+
+def axes_of(ax: Axes | None) -> Axes:
+    """Where to draw: as told, or the current axes of matplotlib."""
+    current: Axes = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+    return current

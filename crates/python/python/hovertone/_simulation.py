@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._extras import extra
+from ._extras import axes_of
 from ._progress import Progress, listening
 from ._rows import Json, Table, html_table
 from ._sound import load
@@ -65,7 +65,7 @@ class Simulation(Table):
         ax : matplotlib.axes.Axes, optional
             Where to draw.
         """
-        ax = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+        ax = axes_of(ax)
         for rotor in range(1, 5):
             ax.plot(self.truth["time_s"], self.truth[f"speed_{rotor}_rad_s"], label=f"rotor {rotor}", linewidth=1)
         ax.set(xlabel="time, s", ylabel="shaft speed, rad/s")

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._errors import FileError, WrongUseError
-from ._extras import extra
+from ._extras import axes_of
 from ._progress import Progress, listening
 from ._rows import Json, Table, filled, html_table
 from ._sound import Recording, to_hear
@@ -79,7 +79,7 @@ class Track(Table):
         ax : matplotlib.axes.Axes, optional
             Where to draw.
         """
-        ax = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+        ax = axes_of(ax)
         for rotor in np.unique(self.rotor):
             of = self.rotor == rotor
             time_s, speed, std = self.time_s[of], self.speed_rev_s[of], self.std_uncertainty_rev_s[of]

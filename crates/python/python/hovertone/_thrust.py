@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal, Union
 
 from . import _native
 from ._errors import NoRotorToneError, WrongUseError
-from ._extras import extra
+from ._extras import axes_of
 from ._progress import Progress, listening
 from ._rows import Json, Table, column_wise, filled, html_table
 from ._words import Path, words
@@ -133,7 +133,7 @@ class Identification(Table):
         ax : matplotlib.axes.Axes, optional
             Where to draw.
         """
-        ax = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+        ax = axes_of(ax)
         square = [load["speed_rad_s"] ** 2 for load in self.loads]
         ax.plot(square, [load["force_n"] for load in self.loads], "o", label="loads")
         if self.thrust_constant_total_n_s2 is not None and square:
@@ -255,7 +255,7 @@ class Fit(Table):
         ax : matplotlib.axes.Axes, optional
             Where to draw.
         """
-        ax = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+        ax = axes_of(ax)
         points = self.fit["points"]
         ax.stem([point["name"] for point in points], [100 * point["deviation_share"] for point in points])
         ax.set(ylabel="deviation of the force from C_f ω², %", title=f"{self.file} {self.group}".strip())
@@ -415,7 +415,7 @@ class Weighed(Table):
         ax : matplotlib.axes.Axes, optional
             Where to draw.
         """
-        ax = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+        ax = axes_of(ax)
         masses = {"as flown": self.mass_kg, "payload": self.payload_kg}
         for name, mass in masses.items():
             if mass is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._extras import extra
+from ._extras import axes_of
 from ._progress import Progress, listening
 from ._rows import Json, Table, column_wise, filled, html_table
 from ._sound import Recording, to_hear
@@ -125,7 +125,7 @@ class Tones(Table):
         ax : matplotlib.axes.Axes, optional
             Where to draw.
         """
-        ax = extra("matplotlib.pyplot", "plot").gca() if ax is None else ax
+        ax = axes_of(ax)
         for number, family in enumerate(self.families, 1):
             of = [(line["hz"], line["level_db"]) for line in family.harmonics]
             label = f"family {number}, {family.fundamental_hz:.1f} Hz" + (", the rotor's" if family.is_rotor else "")
