@@ -42,6 +42,9 @@ const SHIFTS: usize = 2 * HALF_SHIFTS + 1;
 pub(crate) trait SpeedAt {
     /// The speed at a time; `None` where the review has none.
     fn speed_rev_s_at(&self, time_s: f64) -> Option<f64>;
+
+    /// The mean speed of all rotors.
+    fn mean_rev_s(&self) -> f64;
 }
 
 /// The state of following. It takes no more memory after its start.
@@ -52,6 +55,8 @@ pub(crate) struct Follower {
     /// Mean height of the pattern over the last frames, and at the review.
     height: f64,
     review_height: f64,
+    /// Mean speed in the review over that of the pattern: the middle of the lines of rotors that are not told apart is not their mean.
+    scale: f64,
 }
 
 impl Follower {
@@ -78,13 +83,17 @@ impl Follower {
         });
         pattern.start(at_review[0]);
         let mut follower =
-            Self { stft, pattern, mean: SteadyMean::new(HOPS_PER_FRAME), height: 0.0, review_height: 0.0 };
-        let mut heights = Vec::new();
+            Self { stft, pattern, mean: SteadyMean::new(HOPS_PER_FRAME), height: 0.0, review_height: 0.0, scale: 1.0 };
+        let (mut heights, mut followed_rev_s) = (0.0, 0.0);
         follower.stft.restart(start_s);
-        follower.push_with(sound, &mut |centre_s, height| {
-            heights.extend(speeds.speed_rev_s_at(centre_s).map(|_| height));
+        follower.push_with(sound, &mut |centre_s, seen| {
+            if speeds.speed_rev_s_at(centre_s).is_some() {
+                heights += seen.height;
+                followed_rev_s += seen.speed_rev_s;
+            }
         });
-        follower.review_height = heights.iter().sum::<f64>() / heights.len() as f64;
+        let frames = at_review.len() as f64;
+        (follower.review_height, follower.scale) = (heights / frames, speeds.mean_rev_s() * frames / followed_rev_s);
         Some(follower)
     }
 
@@ -93,19 +102,19 @@ impl Follower {
         self.push_with(samples, &mut |_, _| {});
     }
 
-    fn push_with(&mut self, samples: &[f32], on_height: &mut dyn FnMut(f64, f64)) {
+    fn push_with(&mut self, samples: &[f32], on_seen: &mut dyn FnMut(f64, SeenPattern)) {
         let Self { stft, pattern, mean, height, .. } = self;
         stft.push(samples, |frame| {
             let seen = pattern.follow(frame.power);
             mean.push(seen.speed_rev_s);
             *height += (seen.height - *height) / HEIGHT_FRAMES;
-            on_height(frame.centre_s, seen.height);
+            on_seen(frame.centre_s, seen);
         });
     }
 
     /// The speed now. `None` where the rotors are lost.
     pub(crate) fn now(&mut self) -> Option<MeanSpeed> {
-        if self.is_lost() { None } else { self.mean.now() }
+        if self.is_lost() { None } else { self.mean.now().map(|mean| mean.scaled(self.scale)) }
     }
 
     /// Whether the rotors are no longer heard.

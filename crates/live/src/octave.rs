@@ -1,7 +1,7 @@
 //! Which octave: the beliefs of all reviews of the rotors that are followed, together.
 //!
 //! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
-//! multiply. A speed that a review does not name may still be the truth: the levels of the lines deceive in one recording of a hundred.
+//! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others.
 
 use hovertone_rotor_speed::EvidenceConfig;
 use hovertone_vehicle::Order;
@@ -44,7 +44,7 @@ pub(crate) struct Octave {
     speeds: Vec<PossibleSpeed>,
     /// Belief with which an octave is decided.
     belief_min: f64,
-    /// Belief in a speed that a review does not name: the share of recordings whose lines deceive.
+    /// Belief in a speed that a review does not name: the most that it leaves to others where it has decided.
     unnamed_belief: f64,
 }
 
@@ -54,7 +54,7 @@ impl Octave {
         Self {
             speeds: Vec::new(),
             belief_min: evidence.belief_min,
-            unnamed_belief: evidence.levels_deceive.max(f64::EPSILON),
+            unnamed_belief: (1.0 - evidence.belief_min).max(f64::EPSILON),
         }
     }
 

@@ -81,6 +81,10 @@ impl SpeedAt for HeardRotors {
         let share = (time_s - before.time_s) / (behind.time_s - before.time_s).max(f64::MIN_POSITIVE);
         is_hover.then_some(before.speed_rev_s + share * (behind.speed_rev_s - before.speed_rev_s))
     }
+
+    fn mean_rev_s(&self) -> f64 {
+        self.speed_rev_s
+    }
 }
 
 /// Analyses the sound.

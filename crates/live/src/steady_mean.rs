@@ -29,6 +29,13 @@ pub(crate) struct MeanSpeed {
     pub(crate) frame_count: usize,
 }
 
+impl MeanSpeed {
+    /// The speed times a factor near 1.
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Self { speed_rev_s: factor * self.speed_rev_s, ..self }
+    }
+}
+
 impl SteadyMean {
     /// For frames that overlap so that `apart` hops are the length of a frame.
     pub(crate) fn new(apart: usize) -> Self {

@@ -167,7 +167,8 @@ fn speed_of_candidate(
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
     let hover = hover_from_candidate(surveyed, candidates, speed_rev_s, config);
-    lines_from_hover(passes, surveyed, &hover, speed_rev_s, config)
+    let middle_rev_s = candidates.middle_rev_s(surveyed, &hover, speed_rev_s, config);
+    lines_from_hover(passes, surveyed, &hover, middle_rev_s, config)
         .and_then(|lines| decision_from_lines(passes, surveyed, candidates, &hover, speed_rev_s, lines, config))
         .and_then(|decision| speeds_from_decision(surveyed.heard, hover, decision, config))
         .or_else(|stop: Stop| stop.answer(surveyed.heard))

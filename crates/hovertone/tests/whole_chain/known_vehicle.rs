@@ -65,6 +65,40 @@ fn an_octave_on_which_levels_and_thrust_disagree_is_left_open() {
 }
 
 #[test]
+fn a_blade_pass_with_many_harmonics_is_no_faster_rotor() {
+    // thirty harmonics as loud, and an echo: twice the speed has more of the lines that vote, and jumps to it are no tune
+    let flat: Vec<(f64, f64)> = (1..=30).map(|k| (2.0 * f64::from(k), if k % 2 == 0 { 0.02 } else { 0.012 })).collect();
+    for seed in 0..4 {
+        let analysis = analyse(flight(&flat, seed), &known(0.11));
+        let speed_rev_s = tone(&analysis).speeds[0].speed.rev_s();
+        assert!((speed_rev_s / SPEED_REV_S - 1.0).abs() < 0.01, "{seed}: {speed_rev_s}");
+    }
+}
+
+#[test]
+fn a_slow_rotor_is_not_told_at_twice_its_speed() {
+    // 26 rev/s: its lines lie too close to prove a rotor, and yet the evidence tells which speed
+    let slow = |time_s: f64| 26.0 / SPEED_REV_S * wandering(time_s);
+    let lines: Vec<(f64, f64)> = (1..=40).map(|k| (2.0 * f64::from(k), 0.02)).collect();
+    let diameter_m = 0.43;
+    let thrust_n = 0.11 * 1.2 * 26.0_f64.powi(2) * f64::powi(diameter_m, 4);
+    let known = KnownRotor {
+        diameter_m: Some(diameter_m),
+        mass_kg: Some(4.0 * thrust_n / 9.806_65),
+        rotor_count: Some(4),
+        ..KnownRotor::default()
+    };
+    for seed in 0..4 {
+        let config = Config { known, all_methods: false, ..config(2.0) };
+        let analysis = analyse(sound(&[rotor(slow, &lines)], LENGTH_S, 0.01, seed), &config);
+        if let Outcome::Ok(found) = &analysis.outcome {
+            let speed_rev_s = found.speeds[0].speed.rev_s();
+            assert!((speed_rev_s / 26.0 - 1.0).abs() < 0.02, "{seed}: {speed_rev_s}");
+        }
+    }
+}
+
+#[test]
 fn noise_holds_no_rotor_whatever_is_known() {
     for seed in 0..8 {
         let analysis = analyse(sound(&[], LENGTH_S, 0.05, seed), &known(0.1));

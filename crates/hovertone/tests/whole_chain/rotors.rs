@@ -114,14 +114,18 @@ fn heard(rotors: &[Motion], seed: u64) -> Heard {
 }
 
 fn heard_by(rotors: &[Motion], sound: &Sound, tone: ToneConfig, seed: u64) -> Heard {
+    let mut config = Config::for_tone(tone);
+    config.rotors.count = 4;
+    heard_with(rotors, sound, config, seed)
+}
+
+fn heard_with(rotors: &[Motion], sound: &Sound, mut config: Config, seed: u64) -> Heard {
     let mut random = Pcg64::seed_from_u64(seed);
     let sampling = Sampling::new(RATE_HZ, LENGTH_S);
     let rotors: Vec<Rotor<'_>> = rotors.iter().map(|rotor| rotor.drawn(sound, &sampling, &mut random)).collect();
     let mut recording = Recording::of_rotors(&rotors, sampling);
     recording.add_noise(&Noise::white(sound.noise_std), &mut random);
     recording.scale(0.003);
-    let mut config = Config::for_tone(tone);
-    config.rotors.count = 4;
     config.method = Method::Separated;
     let mut signal = Signal::new(recording.samples_f32(), RATE_HZ);
     let analysis = speed_from_source(&mut signal, &config, &mut |_| {}).unwrap();
@@ -225,6 +229,24 @@ fn many_lines_of_four_rotors_are_no_other_sound() {
         for (index, found) in tone.rotors.iter().enumerate() {
             let error = found.speed.speed.rev_s() / heard.true_mean_rev_s(index) - 1.0;
             assert!(error.abs() < 1e-4, "seed {seed}: {error}");
+        }
+    }
+}
+
+#[test]
+fn more_rotors_than_those_of_a_quadrotor_are_found() {
+    let lines: Vec<(f64, f64)> = (1..=20).map(|k| (2.0 * f64::from(k), f64::from(k).powf(-0.5))).collect();
+    for (count, seed) in [(4, 90), (6, 91), (8, 92)] {
+        let mean_rev_s = |rotor: u32| 150.0 * (1.0 + 0.1 * (f64::from(rotor) / f64::from(count - 1) - 0.5));
+        let rotors: Vec<Motion> = (0..count).rev().map(mean_rev_s).map(Motion::swinging).collect();
+        let mut config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
+        config.rotors.is_count_known = false;
+        let heard = heard_with(&rotors, &Sound { lines: &lines, ..SOUND }, config, seed);
+        let tone = heard.tone();
+        assert_eq!(tone.rotors.len(), rotors.len());
+        for (index, found) in tone.rotors.iter().enumerate() {
+            let error = found.speed.speed.rev_s() / heard.true_mean_rev_s(index) - 1.0;
+            assert!(error.abs() < 1e-4, "{count} rotors: {error}");
         }
     }
 }

@@ -1,12 +1,12 @@
 //! The speed of the rotor that the evidence hears where nothing is known of its tone.
 
 use super::by_family::OTHER_SPEED_FACTOR;
-use super::{Discovery, Families, FoundSpeed, at_ratio, config_for, speed_of};
+use super::{Discovery, Families, FoundSpeed, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
-use crate::stages::{Surveyed, reading_of};
+use crate::stages::{Surveyed, at_ratio, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, rule_out, search_range_rev_s};
 use hovertone_analysis::{Reading, SeenHarmonic, ToneFamily};
 use hovertone_signal::passes::Passes;
@@ -40,7 +40,7 @@ impl Believed {
             None => BLADES.into_iter().zip(discovery.config.blade_shares).filter_map(propeller).collect(),
         };
         let wanted = WantedRotor { propellers, known: discovery.known };
-        let beliefs = surveyed.beliefs(&wanted, config).ok()??;
+        let beliefs = surveyed.beliefs(&wanted, config).ok()?.filter(Beliefs::is_resolved)?;
         let readings = readings_of(&beliefs, discovery);
         readings.first().filter(|first| first.plausibility > 0.0 && beliefs.is_clear(&config.evidence))?;
         let is_decided = beliefs.possible(config.evidence.belief_min).len() == 1;

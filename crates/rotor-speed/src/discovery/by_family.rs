@@ -1,11 +1,11 @@
 //! The speed of a tone family, by the lines of the survey.
 
 use super::by_beliefs::SAME_LINE_SHARE;
-use super::{Discovery, FoundSpeed, at_ratio, config_for, speed_of};
+use super::{Discovery, FoundSpeed, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
 use crate::pipeline::{passes_after_survey, speed_of_found_tone};
-use crate::stages::{Silence, Surveyed};
+use crate::stages::{Silence, Surveyed, at_ratio};
 use hovertone_analysis::{NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::RotorSpeed;

@@ -7,7 +7,7 @@ mod by_family;
 use crate::config::Config;
 use crate::error::Error;
 use crate::pipeline::{passes_after_survey, passes_of_speed};
-use crate::stages::{Silence, survey_from_source};
+use crate::stages::{Silence, at_ratio, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
 use crate::tone::{DiscoveryConfig, families_from_surveys};
 use by_beliefs::Believed;
@@ -189,17 +189,4 @@ fn config_for(config: &Config, reading: &Reading, factor: f64) -> Config {
     config.tone.speed_min = RotorSpeed::from_rad_s(reading.speed.rad_s() / factor);
     config.tone.speed_max = RotorSpeed::from_rad_s(reading.speed.rad_s() * factor);
     config
-}
-
-/// A reading whose speed is multiplied by this ratio.
-fn at_ratio(reading: &Reading, ratio: f64) -> Reading {
-    let scaled = |speed: RotorSpeed| RotorSpeed::from_rad_s(ratio * speed.rad_s());
-    Reading {
-        tone_hz: ratio * reading.tone_hz,
-        speed: scaled(reading.speed),
-        motor_speed: scaled(reading.motor_speed),
-        tip_mach: reading.tip_mach.map(|mach| ratio * mach),
-        thrust_coefficient: reading.thrust_coefficient.map(|coefficient| coefficient / ratio.powi(2)),
-        ..reading.clone()
-    }
 }

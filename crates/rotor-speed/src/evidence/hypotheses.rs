@@ -5,7 +5,7 @@ use super::excess::{Excess, Looks};
 use super::level_model::{LevelModel, OrderLevel};
 use super::levels::{NoiseLevel, levels_of_orders, noise_level};
 use super::own_lines::OwnPropeller;
-use super::search::{FACTORS, Multiple, ROTORS_APART, Search, VOTES_NATS_APART};
+use super::search::{Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
@@ -15,20 +15,13 @@ use std::ops::RangeInclusive;
 
 /// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats. *Decision.*
 const OTHER_VOTES_SHARE_MIN: f64 = 0.8;
-/// Largest difference of the logarithms of a speed and of an octave or family of another that is the same rotor's. *Numeric.*
-const RELATED: f64 = 0.05;
 /// Width of the speeds of a hover, as a share. *Decision.*
 const HOVER_WIDTH_SHARE: f64 = 0.024;
-/// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
-/// *Decision.*
+/// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything:
+/// then the evidence tells which speed, and not whether a rotor sounds. *Decision.*
 const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
-/// Weight of the nats of two looks where numbers of blades are compared: both are at the same sound, and tell blades no better than one.
-/// *Decision.*
-const BLADES_WEIGHT: f64 = 0.5;
-/// Weight of the nats of levels that deceive. *Decision.*
-const DECEIVED_WEIGHT: f64 = 0.1;
 /// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
 pub(crate) const AIR_KG_M3: f64 = 1.2;
 
@@ -42,6 +35,11 @@ pub(crate) struct Beliefs {
 }
 
 impl Beliefs {
+    /// Whether the evidence tells that a rotor sounds: the lines of the most probable one stand apart.
+    pub(crate) fn is_resolved(&self) -> bool {
+        is_resolved(&self.hypotheses)
+    }
+
     /// Whether the most probable speed has votes of its own, not those of its octaves alone.
     pub(crate) fn is_clear(&self, config: &EvidenceConfig) -> bool {
         self.hypotheses.first().is_some_and(|first| first.votes_nats >= config.votes_nats_min)
@@ -97,7 +95,7 @@ pub(crate) struct Hypothesis {
     factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
-    /// Evidence of the levels of its lines, in nats: of all looks together.
+    /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that two tell no more than one.
     levels_nats: f64,
     /// The evidence of the lines over the local floor, in the look that has the least: what the floor hides is no evidence that a rotor sounds.
     least_nats: f64,
@@ -140,16 +138,15 @@ pub(crate) struct WantedPropeller {
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     let Look { noise, mut of_propellers } = look_at(&looks.short, wanted, config)?;
     look_again(looks, &mut of_propellers, config);
-    let heard = of_propellers.into_iter().filter(|look| is_heard(&look.hypotheses, config));
-    let hypotheses = heard.filter(|look| !is_tune(look, &looks.short, config)).flat_map(|look| {
-        look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
-    });
-    let weight = if wanted.propellers.len() > 1 { BLADES_WEIGHT } else { 1.0 };
-    let weighted = |it: Hypothesis| {
-        let levels_nats = weight * it.levels_nats;
-        Hypothesis { nats: it.nats + levels_nats - it.levels_nats, levels_nats, ..it }
-    };
-    let hypotheses = with_doubt(hypotheses.map(weighted).collect(), config);
+    // where the blades are not known, a slow comb of other blades would hide all readings
+    let is_possible = |look: &OfPropeller| wanted.propellers.len() == 1 || is_resolved(&look.hypotheses);
+    let heard = of_propellers.into_iter().filter(|look| is_possible(look) && is_heard(&look.hypotheses, config));
+    let hypotheses: Vec<Hypothesis> = heard
+        .filter(|look| !is_tune(look, &looks.short, config))
+        .flat_map(|look| {
+            look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
+        })
+        .collect();
     (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise })
 }
 
@@ -157,9 +154,10 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
 fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool {
     let Some(first) = look.hypotheses.first() else { return true };
     let jumps_nats = match &look.search {
-        Some(search) => search.jumps_nats(first.path, first.factor),
-        None => Search::of(short, look.blades, &look.speeds_rev_s)
-            .and_then(|search| search.jumps_nats(first.path, first.factor)),
+        Some(search) => search.jumps_nats(first.speed_rev_s),
+        None => {
+            Search::of(short, look.blades, &look.speeds_rev_s).and_then(|search| search.jumps_nats(first.speed_rev_s))
+        }
     };
     jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
 }
@@ -193,10 +191,10 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
         let mut model = LevelModel::new(noise, look.blades, &config.levels);
         let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
         for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
-            let long_nats = model.evidence_nats(&seen.levels);
-            it.nats += long_nats;
+            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels));
+            it.nats += levels_nats - it.levels_nats;
+            it.levels_nats = levels_nats;
             it.least_nats = it.least_nats.min(model.presence_nats(&seen.levels));
-            it.levels_nats += long_nats;
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
@@ -276,26 +274,24 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
 fn is_heard(hypotheses: &[Hypothesis], config: &EvidenceConfig) -> bool {
     let best = hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
     hypotheses.first().zip(best).is_some_and(|(first, best)| {
-        first.least_nats >= config.levels_nats_min
-            && first.speed_rev_s >= RESOLVED_REV_S
-            && best.votes_nats >= config.votes_nats_min
+        first.least_nats >= config.levels_nats_min && best.votes_nats >= config.votes_nats_min
     })
 }
 
-/// Whether a speed is one of these multiples of another one.
-fn is_multiple(speed_rev_s: f64, of_rev_s: f64, factors: &[f64]) -> bool {
-    factors.iter().any(|factor| (speed_rev_s / (factor * of_rev_s)).ln().abs() < RELATED)
+/// Whether the lines of the most probable hypothesis stand apart.
+fn is_resolved(hypotheses: &[Hypothesis]) -> bool {
+    hypotheses.first().is_some_and(|first| first.speed_rev_s >= RESOLVED_REV_S)
 }
 
 /// The hypothesis that a rotor turns at this multiple of a path, with the evidence of its lines. `None` without speeds.
 fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut LevelModel<'_>) -> Option<Hypothesis> {
-    let &Multiple { path, factor, votes_nats, ref speeds_rev_s } = multiple;
+    let &Multiple { path, factor, votes_nats, speed_rev_s, ref speeds_rev_s } = multiple;
     let levels = levels_of_orders(excess, speeds_rev_s, blades);
     let levels_nats = model.evidence_nats(&levels);
     Some(Hypothesis {
         blades,
         speeds_rev_s: speeds_rev_s.clone(),
-        speed_rev_s: mean(speeds_rev_s)?,
+        speed_rev_s,
         hover_rev_s: most_frequent_rev_s(speeds_rev_s)?,
         path,
         factor,
@@ -326,7 +322,7 @@ fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
     let Some(&Hypothesis { path: best, speed_rev_s, votes_nats, .. }) = best else { return paths };
-    let is_family = |path: &Hypothesis| is_multiple(path.speed_rev_s, speed_rev_s, &FACTORS);
+    let is_family = |path: &Hypothesis| is_family(path.speed_rev_s, speed_rev_s);
     let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
     paths.retain(|path| path.path == best || is_family(path) || path.votes_nats >= least_nats);
     paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));
@@ -337,20 +333,6 @@ fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
         }
     }
     hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
-    hypotheses
-}
-
-/// The hypotheses, where the levels deceive in a share of the recordings: there they say little of what they seem to say.
-fn with_doubt(mut hypotheses: Vec<Hypothesis>, config: &EvidenceConfig) -> Vec<Hypothesis> {
-    let sum = |weight: f64| log_sum_exp(hypotheses.iter().map(|it| weight * it.levels_nats));
-    let (trusted, doubted) = (sum(1.0), sum(DECEIVED_WEIGHT));
-    for it in &mut hypotheses {
-        let trust = (1.0 - config.levels_deceive) * (it.levels_nats - trusted).exp();
-        let doubt = config.levels_deceive * (DECEIVED_WEIGHT * it.levels_nats - doubted).exp();
-        let levels_nats = (trust + doubt).ln();
-        it.nats += levels_nats - it.levels_nats;
-        it.levels_nats = levels_nats;
-    }
     hypotheses
 }
 

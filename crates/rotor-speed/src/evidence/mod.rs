@@ -14,9 +14,9 @@
 //!    over loudness, slope, and the level of the shaft lines against the blade pass.
 //! 5. *Hypotheses* (`hypotheses`): each path at its octaves and families, compared on the same frames, with the prior of mass, diameter and
 //!    number of rotors.
-//! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of both looks add. In some recordings the
-//!    levels deceive; there they count for a tenth.
-//! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own.
+//! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of a hypothesis are the mean of both looks:
+//!    they are at the same lines, so that their sum would count each level twice.
+//! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own, beside one or beside all that were separated.
 //! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
 //!    in a given band, below 0.
 //!
@@ -42,6 +42,7 @@ mod second_look;
 mod settings;
 mod votes;
 
+pub(crate) use companions::nats_beside;
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub use level_model::OrderLevel;

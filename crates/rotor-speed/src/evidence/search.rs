@@ -3,7 +3,7 @@
 use super::excess::Excess;
 use super::path::{best_path, gain_of_jumps_nats};
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
-use hovertone_signal::statistics::median;
+use hovertone_signal::statistics::{mean, median};
 use std::ops::{Range, RangeInclusive};
 
 /// Step of the logarithm of the speeds of the search: half the width of a line of a frame at the highest frequency. *Numeric.*
@@ -13,7 +13,9 @@ const WINDOW_RATIO: f64 = 1.6;
 /// Ratio of the starts of neighbouring windows; they overlap, so that each path is well inside of one. *Numeric.*
 const WINDOW_STEP_RATIO: f64 = 1.25;
 /// Speeds of the hypotheses over the speed of each path: octaves, and families of three. *Decision.*
-pub(super) const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
+const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
+/// Largest difference of the logarithms of a speed and of an octave or family of another that is the same rotor's. *Numeric.*
+const RELATED: f64 = 0.05;
 /// An octave down, none, and one up. *Physics.*
 const OCTAVES: [f64; 3] = [0.5, 1.0, 2.0];
 /// Smallest share of the most votes that a rotor's path has, less some nats. *Decision.*
@@ -41,6 +43,8 @@ pub(super) struct Multiple {
     pub(super) path: usize,
     pub(super) factor: f64,
     pub(super) speeds_rev_s: Vec<f64>,
+    /// Their mean.
+    pub(super) speed_rev_s: f64,
     /// Median over the frames of the votes for it, in nats.
     pub(super) votes_nats: f64,
 }
@@ -63,8 +67,9 @@ impl Search {
         self.paths.iter().map(|path| self.grid.speeds_of(path))
     }
 
-    /// The paths at all factors. One with far fewer votes than another is left out: the lines of a rotor sound in most frames. None where
-    /// none has the least votes of a rotor.
+    /// The paths at all factors. One with far fewer votes than the best is left out, unless it is an octave or a family of it: the lines of a
+    /// rotor sound in most frames, but only the first harmonics vote, and of octaves the faster one has more of these. None where none has the
+    /// least votes of a rotor.
     pub(super) fn multiples(&self, votes_nats_min: f64) -> Vec<Multiple> {
         let mut found: Vec<(Vec<usize>, Multiple)> = Vec::new();
         for factor in FACTORS {
@@ -75,34 +80,49 @@ impl Search {
                 }
                 if let Some(votes_nats) = median(&self.votes_along(&points)) {
                     let speeds_rev_s = self.grid.speeds_of(&points);
-                    found.push((points, Multiple { path, factor, speeds_rev_s, votes_nats }));
+                    let Some(speed_rev_s) = mean(&speeds_rev_s) else { continue };
+                    found.push((points, Multiple { path, factor, speeds_rev_s, speed_rev_s, votes_nats }));
                 }
             }
         }
-        let mut multiples: Vec<Multiple> = found.into_iter().map(|(_, multiple)| multiple).collect();
-        let most_nats = multiples.iter().map(|multiple| multiple.votes_nats).fold(f64::MIN, f64::max);
-        let least_nats =
-            if most_nats < votes_nats_min { f64::INFINITY } else { VOTES_SHARE_MIN * most_nats - VOTES_NATS_APART };
-        multiples.retain(|multiple| multiple.votes_nats >= least_nats);
-        multiples
+        let most = found.iter().max_by(|(_, a), (_, b)| a.votes_nats.total_cmp(&b.votes_nats));
+        let Some((_, most)) = most.filter(|(_, most)| most.votes_nats >= votes_nats_min) else { return Vec::new() };
+        let least_nats = VOTES_SHARE_MIN * most.votes_nats - VOTES_NATS_APART;
+        // beside the best one may be a path through the lines of several rotors
+        let is_other_octave = |it: &Multiple| {
+            is_family(it.speed_rev_s, most.speed_rev_s) && !is_at_ratio(it.speed_rev_s, most.speed_rev_s, 1.0)
+        };
+        let is_left = |it: &Multiple| it.votes_nats >= least_nats || is_other_octave(it);
+        found.iter().filter(|(_, it)| is_left(it)).map(|(_, it)| it.clone()).collect()
     }
 
     fn votes_along(&self, path: &[usize]) -> Vec<f64> {
         path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
     }
 
-    /// Votes that a voice or an instrument, which jumps, has more than this multiple of a path or the best of its octaves, in nats a frame.
-    pub(super) fn jumps_nats(&self, path: usize, factor: f64) -> Option<f64> {
-        let path = self.paths.get(path)?;
-        let octaves = OCTAVES.iter().filter_map(|octave| self.grid.times(path, octave * factor));
+    /// Votes that a voice or an instrument, which jumps, has more than a rotor near this speed or at one of its octaves and families, in nats a
+    /// frame. `None` without such a path.
+    pub(super) fn jumps_nats(&self, speed_rev_s: f64) -> Option<f64> {
+        let mean_rev_s = |path: &[usize]| mean(&self.grid.speeds_of(path));
+        let is_family = |path: &&Vec<usize>| mean_rev_s(path).is_some_and(|of_rev_s| is_family(of_rev_s, speed_rev_s));
         let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
-        let best_octave = octaves.max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
+        let best = self.paths.iter().filter(is_family).max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
         let is_near = |shift: isize| {
             let ratio = shift as f64 * GRID_STEP;
             OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
         };
-        Some(gain_of_jumps_nats(&self.votes, &best_octave, GRID_STEP, is_near))
+        Some(gain_of_jumps_nats(&self.votes, best, GRID_STEP, is_near))
     }
+}
+
+/// Whether a speed is that of another one's octave or family.
+pub(super) fn is_family(speed_rev_s: f64, of_rev_s: f64) -> bool {
+    FACTORS.iter().any(|&factor| is_at_ratio(speed_rev_s, of_rev_s, factor))
+}
+
+/// Whether a speed is another one times a factor.
+fn is_at_ratio(speed_rev_s: f64, of_rev_s: f64, factor: f64) -> bool {
+    (speed_rev_s / (factor * of_rev_s)).ln().abs() < RELATED
 }
 
 /// Whether two paths are equal but for the grid.

@@ -20,8 +20,6 @@ pub struct EvidenceConfig {
     /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
     /// speech 8 to 80.
     pub jumps_nats_max: f64,
-    /// Share of the recordings in which the levels deceive: an echo or unlike blades make a rotor sound like one in another octave.
-    pub levels_deceive: f64,
     /// Smallest belief with which an octave counts as decided: odds of 99 to 1.
     pub belief_min: f64,
     /// Levels of the lines of real rotors.
@@ -36,7 +34,6 @@ impl Default for EvidenceConfig {
             own_lines_nats_min: 3.0,
             companion_nats_min: 18.4,
             jumps_nats_max: 7.8,
-            levels_deceive: 0.01,
             belief_min: 0.99,
             levels: LineLevels::default(),
         }
@@ -50,7 +47,6 @@ impl EvidenceConfig {
         check_range("own_lines_nats_min", self.own_lines_nats_min, 0.0, 100.0)?;
         check_range("companion_nats_min", self.companion_nats_min, 0.0, 1000.0)?;
         check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
-        check_range("levels_deceive", self.levels_deceive, 0.0, 1.0)?;
         check_range("belief_min", self.belief_min, 0.5, 1.0)
     }
 }

@@ -107,6 +107,20 @@ pub(crate) struct RotorTracks {
     pub(crate) are_one_group: bool,
 }
 
+impl RotorTracks {
+    /// How many have a track.
+    pub(crate) fn heard_count(&self) -> usize {
+        self.rotors.iter().filter(|rotor| rotor.is_heard()).count()
+    }
+
+    /// The same of so many rotors: those that have a track, and others without one.
+    pub(crate) fn of_count(mut self, count: usize) -> Self {
+        self.rotors.sort_by_key(|rotor| !rotor.is_heard());
+        self.rotors.resize_with(count, RotorTrack::default);
+        self
+    }
+}
+
 /// One rotor.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RotorTrack {
@@ -115,6 +129,12 @@ pub(crate) struct RotorTrack {
     pub(crate) merged: Vec<Span>,
     /// When it is not heard, and no other rotor hides it: then it may be anywhere.
     pub(crate) lost: Vec<Span>,
+}
+
+impl RotorTrack {
+    fn is_heard(&self) -> bool {
+        self.track.blocks.iter().any(|block| block.is_heard)
+    }
 }
 
 impl RotorScout {

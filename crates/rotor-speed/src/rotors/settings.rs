@@ -24,11 +24,18 @@ impl Default for RotorsConfig {
 
 /// Rotors of a vehicle of which several are heard: most multirotors are quadrotors. *Decision.*
 const SEVERAL: u32 = 4;
+/// Rotors that are looked for where more than these are heard: no common multirotor has more. *Physics.*
+const MANY: u32 = 8;
 
 impl RotorsConfig {
     /// The same settings where several rotors are heard.
     pub(crate) fn with_several(self) -> Self {
         Self { count: SEVERAL, ..self }
+    }
+
+    /// The same settings where others are heard beside as many rotors.
+    pub(crate) fn with_many(self) -> Self {
+        Self { count: MANY, ..self }
     }
 
     /// Rotors for which one line may stand. A line that keeps its phase is that of one rotor; otherwise others may turn beside it, too near to be

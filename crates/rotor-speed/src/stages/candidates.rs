@@ -6,7 +6,7 @@ use crate::detection::or_mains_hum;
 use crate::error::Error;
 use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, blades_of_tone, search_range_rev_s};
-use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SpeedAnalysis, WeighedSpeed};
+use hovertone_analysis::{Hover, Meaning, NoTone, Outcome, Reading, Span, SpeedAnalysis, WeighedSpeed};
 use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
@@ -66,6 +66,16 @@ impl Candidates {
         }
     }
 
+    /// The middle of the speeds of all rotors in a hover, near one of them: the evidence hears the loudest rotor, and the lines of all are followed.
+    pub(crate) fn middle_rev_s(&self, surveyed: &Surveyed, hover: &Hover, speed_rev_s: f64, config: &Config) -> f64 {
+        if !self.is_heard {
+            return speed_rev_s;
+        }
+        let is_hover = |span: &Span| hover.segments.iter().any(|segment| segment.contains(span.middle_s()));
+        let rows = surveyed.survey.rows.iter().enumerate().filter(|(_, row)| is_hover(&row.span)).map(|(row, _)| row);
+        self.map.middle_near(rows, speed_rev_s, config.tone.band_half_width_share)
+    }
+
     /// The speeds that remain possible, most probable first; empty where one is decided.
     pub(crate) fn alternatives(&self, config: &Config) -> Vec<Reading> {
         match self.beliefs.as_ref().map_or(&[][..], |beliefs| beliefs.possible(config.evidence.belief_min)) {
@@ -119,6 +129,19 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, known: &KnownRot
     }
 }
 
+/// A reading whose speed is multiplied by this ratio.
+pub(crate) fn at_ratio(reading: &Reading, ratio: f64) -> Reading {
+    let scaled = |speed: RotorSpeed| RotorSpeed::from_rad_s(ratio * speed.rad_s());
+    Reading {
+        tone_hz: ratio * reading.tone_hz,
+        speed: scaled(reading.speed),
+        motor_speed: scaled(reading.motor_speed),
+        tip_mach: reading.tip_mach.map(|mach| ratio * mach),
+        thrust_coefficient: reading.thrust_coefficient.map(|coefficient| coefficient / ratio.powi(2)),
+        ..reading.clone()
+    }
+}
+
 /// Scores all shaft speeds in the range of the settings, and takes the best.
 ///
 /// # Errors
@@ -138,7 +161,7 @@ pub(crate) fn candidates_from_survey(
         Some(leading_rev_s) => Ok(Candidates {
             map,
             leading_rev_s,
-            is_heard: beliefs.is_some(),
+            is_heard: beliefs.as_ref().is_some_and(Beliefs::is_resolved),
             is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,

@@ -1,7 +1,7 @@
 //! Stage 5: lines → decision whether they belong to a rotor, whether its speed is right or a multiple, and which rotors there are. It
 //! makes one more pass where a weak tone is steady, and two more where several rotors are separated.
 
-use super::rotors::{rotors_from_hover, without_unheard};
+use super::rotors::heard_rotors;
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{mains_hum_reason, no_tone_reason, not_held_reason, or_mains_hum};
@@ -45,13 +45,9 @@ pub(crate) fn decision_from_lines(
         return Err(Silence { reason, hover: hover.clone(), warnings: lines.warnings }.into());
     }
     let wants_rotors = config.methods().any(|method| method == Method::Separated);
-    let rotors = if wants_rotors {
-        rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?
-    } else {
-        RotorTracks::default()
-    };
     let rotors =
-        without_unheard(rotors, surveyed, hover, config).unless_doubtful_beside(&lines.harmonic, config.tone.order);
+        if wants_rotors { heard_rotors(passes, surveyed, hover, speed_rev_s, config)? } else { RotorTracks::default() };
+    let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(config);
     Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed(speed_rev_s) })
 }
@@ -67,13 +63,11 @@ fn why_no_rotor(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let survey = &surveyed.survey;
-    let not_held_or_hum = || {
-        let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
-        not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover)
-            .or_else(|| mains_hum_reason(&lines.clearest, survey))
-    };
+    let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
+    let not_held = not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover);
+    // the evidence has compared the rotor with mains hum, by all its lines: one that meets a line of the hum says nothing
     if candidates.is_heard {
-        return Ok(not_held_or_hum());
+        return Ok(not_held);
     }
     if candidates.is_named && evidence_is_too_small(surveyed, speed_rev_s, config) {
         return Ok(Some(NoTone::NoSeries));
@@ -83,7 +77,8 @@ fn why_no_rotor(
         not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
     }
     Ok(not_a_line
-        .or_else(not_held_or_hum)
+        .or(not_held)
+        .or_else(|| mains_hum_reason(&lines.clearest, survey))
         .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 

@@ -3,13 +3,58 @@
 use super::Surveyed;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{Excess, OwnPropeller, loudness_db, own_lines_nats};
+use crate::evidence::{Excess, OwnPropeller, loudness_db, nats_beside, own_lines_nats};
 use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
 use crate::tone::{blades_of_tone, lines_between_speeds, lines_worth_hearing};
 use hovertone_analysis::Hover;
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
 use std::ops::RangeInclusive;
+
+/// The rotors whose own lines are heard. Where their number is not known and others are heard beside all of them, more are looked for, in two
+/// more passes. A multirotor has an even number of them: those that are not told apart belong to it as well.
+pub(super) fn heard_rotors(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    hover: &Hover,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<RotorTracks, Error> {
+    let few = separated_rotors(passes, surveyed, hover, speed_rev_s, config)?;
+    if config.rotors.is_count_known || !others_sound_beside(&few, surveyed, hover, config) {
+        return Ok(few);
+    }
+    passes.expect_more(2);
+    let for_many = Config { rotors: config.rotors.with_many(), ..config.clone() };
+    let many = separated_rotors(passes, surveyed, hover, speed_rev_s, &for_many)?;
+    let few_count = few.heard_count();
+    let most = if many.heard_count() > few_count { many } else { few };
+    let count = (few_count + 1).max(most.heard_count()).next_multiple_of(2);
+    Ok(most.of_count(count))
+}
+
+/// The rotors that are separated in two passes, without those whose own lines are not heard.
+fn separated_rotors(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    hover: &Hover,
+    speed_rev_s: f64,
+    config: &Config,
+) -> Result<RotorTracks, Error> {
+    Ok(without_unheard(rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?, surveyed, hover, config))
+}
+
+/// Whether another rotor is heard beside all of these, where each of them has a track.
+fn others_sound_beside(rotors: &RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> bool {
+    let Some((looks, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return false };
+    let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
+    let long = looks.long.within(&hover.spans_s());
+    let times_s: Vec<f64> = long.frames.iter().map(|frame| frame.centre_s).collect();
+    let speeds_rev_s: Option<Vec<Vec<f64>>> =
+        rotors.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
+    let nats = speeds_rev_s.and_then(|speeds_rev_s| nats_beside(&long, &speeds_rev_s, &propeller));
+    nats.is_some_and(|nats| nats >= config.evidence.companion_nats_min)
+}
 
 /// Separates the rotors in two passes: the first finds their speeds in a wide band, the second follows each rotor.
 pub(crate) fn rotors_from_hover(
@@ -38,12 +83,7 @@ pub(crate) fn rotors_from_hover(
 /// The tracks without those whose own lines are not heard: the lines that a rotor shares with no other one, in short and long frames together. Long
 /// frames resolve rotors that are close. A rotor that has no such line stays, because nothing can be said of it. The most doubtful one goes
 /// first: its lines may hide those of others.
-pub(super) fn without_unheard(
-    mut tracks: RotorTracks,
-    surveyed: &Surveyed,
-    hover: &Hover,
-    config: &Config,
-) -> RotorTracks {
+fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> RotorTracks {
     let Some((looks, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return tracks };
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
     let mut seen = [&looks.short, &looks.long].map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));

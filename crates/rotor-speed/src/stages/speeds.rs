@@ -1,12 +1,12 @@
 //! Stage 6: decision → the answer, by every wanted method.
 
-use super::{Decision, Lines, Silence, Stop};
+use super::{Decision, Lines, Silence, Stop, at_ratio};
 use crate::config::Config;
 use crate::detection::{warning_of_rotors, warning_of_samples, warnings_of_hover, warnings_of_speed};
 use crate::rotors::RotorTracks;
 use crate::speed::{HarmonicWeights, Track, excerpts_from_hover, mean_track, with_budget};
 use hovertone_analysis::{
-    Hover, Method, NoTone, Outcome, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, Warning,
+    Hover, Method, NoTone, Outcome, Reading, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, Warning,
 };
 
 /// Speeds over the hover and in each excerpt (*sample* in the paper), tracks, rotors, and warnings.
@@ -59,9 +59,18 @@ pub(crate) fn speeds_from_decision(
         None if are_all_apart => mean_track(&rotors, rotor_tracks.step_s()),
         None => lines.harmonic.points_in(None, order),
     };
+    let alternatives = as_heard(alternatives, speeds.first());
     let Lines { bands, ridges, .. } = lines;
     let tone = RotorTone { bands, window_s, speeds, track, rotors, samples, ridges, alternatives, weighed };
     Ok(SpeedAnalysis { heard, hover, outcome: Outcome::Ok(tone), warnings })
+}
+
+/// The readings at the speed that was heard for the first of them: the evidence knows it by wide frames and of the loudest rotor only. They are
+/// readings of the same lines, so that one ratio holds for all.
+fn as_heard(readings: Vec<Reading>, heard: Option<&SpeedEstimate>) -> Vec<Reading> {
+    let ratio = readings.first().zip(heard).map(|(first, heard)| heard.speed.rad_s() / first.speed.rad_s());
+    let Some(ratio) = ratio else { return readings };
+    readings.iter().map(|reading| at_ratio(reading, ratio)).collect()
 }
 
 /// One hover as each method analyses it.

@@ -278,6 +278,23 @@ impl CombMap {
         (weights > 0.0).then(|| sum / weights)
     }
 
+    /// The middle of all rotors within a share of the speed of one of them: the mean of what these rows say, each as its best score.
+    pub(crate) fn middle_near(
+        &self,
+        rows: impl Iterator<Item = usize>,
+        speed_rev_s: f64,
+        half_width_share: f64,
+    ) -> f64 {
+        let of_row = |row: usize| {
+            let (_, best_db) = self.best_near(row, speed_rev_s, half_width_share)?;
+            Some((self.mean_near(row, speed_rev_s, half_width_share)?, best_db.powi(2)))
+        };
+        let (sum, weights) = rows
+            .filter_map(of_row)
+            .fold((0.0, 0.0), |(sum, weights), (middle, weight)| (sum + weight * middle, weights + weight));
+        if weights > 0.0 { sum / weights } else { speed_rev_s }
+    }
+
     /// Best speed of a row over the whole search, and its score.
     pub(crate) fn best_of_row(&self, row: usize) -> Option<(f64, f64)> {
         self.best(row, |_| true)
