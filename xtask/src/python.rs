@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the tests need beside the package.
-const NEEDED: &str = "maturin, mypy, pytest, numpy, pandas, pyarrow, matplotlib, tqdm, nbclient, ipykernel";
+const NEEDED: &str =
+    "maturin, mypy, pytest, numpy, pandas, pyarrow, matplotlib, tqdm, nbclient, ipykernel, ray[data], dask[dataframe]";
 /// The number of tests in the last line of pytest: "82 passed in 60.1s".
 const PASSED: &str = " passed";
 
