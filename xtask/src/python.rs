@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the tests need beside the package.
-const NEEDED: &str = "maturin, mypy, pytest, numpy, pandas, pyarrow, matplotlib, tqdm, nbclient, ipykernel";
+const NEEDED: &str = "maturin, mypy, pytest, numpy, pandas, pyarrow, matplotlib, tqdm, nbclient, ipykernel, ray[data], dask[dataframe], \
+     moto[server]";
 /// The number of tests in the last line of pytest: "82 passed in 60.1s".
 const PASSED: &str = " passed";
 
@@ -74,7 +75,7 @@ fn interpreter(root: &Path) -> Result<Interpreter, String> {
 fn install(python: &Interpreter, package: &Path) -> Result<(), String> {
     // the package is built here, by maturin of this environment: pip would build it in a new one, from the network
     let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-build-isolation"];
-    let profile = "build-args=--profile dev --locked";
+    let profile = "build-args=--profile dev --locked --features stores";
     run_in(package, python.command().args(pip).args(["--force-reinstall", "--config-settings", profile, "."]))
 }
 

@@ -95,7 +95,11 @@ pub(crate) fn is_pattern(name: &str) -> bool {
 
 /// SHA-256 of a file in hexadecimal, read in pieces.
 pub(crate) fn sha256_of_file(path: &Path) -> io::Result<String> {
-    let mut file = File::open(path)?;
+    File::open(path).and_then(sha256_of)
+}
+
+/// SHA-256 of all that a reader gives, in hexadecimal.
+pub(crate) fn sha256_of(mut file: impl Read) -> io::Result<String> {
     let mut hasher = Sha256::new();
     let mut chunk = vec![0; CHUNK];
     loop {

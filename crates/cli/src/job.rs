@@ -1,6 +1,7 @@
 //! What is to be heard, and how: a recording with its settings.
 
 use crate::args::HearingArguments;
+use crate::stored::{is_address, opened};
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
 use hovertone_media::{MediaError, OpenOptions, Recording, Samples};
@@ -72,6 +73,7 @@ impl Job {
     pub(crate) fn open(&self, hearing: Hearing) -> Result<Recording, MediaError> {
         match &self.samples {
             Some(samples) => Recording::of_samples(samples, &hearing.open_options()),
+            None if is_address(&self.path) => opened(&self.path, &hearing.open_options()),
             None => Recording::open(&self.path, &hearing.open_options()),
         }
     }

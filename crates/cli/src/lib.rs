@@ -53,6 +53,7 @@ mod simulate;
 mod spectrogram;
 mod speed;
 mod spin_up;
+mod stored;
 mod temporary_file;
 mod terminal;
 mod thumbnail;

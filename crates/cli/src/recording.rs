@@ -1,9 +1,10 @@
 //! From recordings to records. No other file of the command line decodes sound.
 
 use crate::failure::Failure;
-use crate::files::{is_pattern, sha256_of_file};
+use crate::files::{is_pattern, sha256_of};
 pub(crate) use crate::job::{HeardJobs, Hearing, Job, Requests, in_memory};
 use crate::progress::{Progress, Share};
+use crate::stored::is_address;
 use crate::thumbnail::thumbnail_of;
 use hovertone::motors::{
     HeardCommands, HeardMotor, HeardTone, PASSES_OF_MOTOR, level_of_analysis, level_of_rotors, motor_from_sound,
@@ -171,7 +172,7 @@ fn opened_or_not(job: &Job, hearing: Hearing) -> Result<Recording, NotHeard> {
 
 fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, NotHeard> {
     let mut recording = opened_or_not(job, hearing)?;
-    let hashed = || job.sha256.clone().map_or_else(|| sha256_of_file(&job.path), Ok);
+    let hashed = || job.sha256.clone().map_or_else(|| recording.bytes().and_then(sha256_of), Ok);
     let sha256 = (hearing.wants_hash && job.samples.is_none()).then(hashed).transpose().map_err(|error| {
         NotHeard::because("unreadable", format!("the file could not be read to its end: {error}; check the disk"))
     })?;
@@ -186,6 +187,6 @@ fn wrong_kind(path: &Path) -> Option<String> {
     if path.is_dir() {
         return Some("this is a folder, not a recording; name the recordings in it, as in FOLDER/*.wav".to_owned());
     }
-    (!path.exists() && is_pattern(&path.to_string_lossy()))
+    (!path.exists() && is_pattern(&path.to_string_lossy()) && !is_address(path))
         .then(|| "no file matches this pattern; check the folder and the ending of its files".to_owned())
 }

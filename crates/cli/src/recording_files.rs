@@ -70,6 +70,12 @@ pub(crate) fn recordings_below(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
+/// Whether a name has the ending of a recording.
+#[cfg(feature = "stores")]
+pub(crate) fn is_recording(path: &Path) -> bool {
+    ending_of(path).is_some()
+}
+
 /// The ending of a recording as it is spelled; `None` for other files.
 fn ending_of(path: &Path) -> Option<String> {
     let ending = path.extension()?.to_str()?;

@@ -27,6 +27,11 @@ pub trait FileAccess: Send + Sync {
     fn path(&self) -> Option<&Path> {
         None
     }
+
+    /// The first read that failed. A decoder may have taken it for the end of the sound, which it is not.
+    fn failure(&self) -> Option<io::Error> {
+        None
+    }
 }
 
 impl FileAccess for PathBuf {

@@ -12,7 +12,7 @@ use crate::codec::CHANNEL_COUNT_MAX;
 use crate::container::{self, Container, Sniffed};
 use crate::error::MediaError;
 use crate::ffmpeg::FfmpegUse;
-use crate::file_access::FileAccess;
+use crate::file_access::{FileAccess, OpenFile};
 use crate::frames::{Frames, Incidents, Trim};
 use crate::mix::Mix;
 use crate::plan::{Plan, Route};
@@ -115,8 +115,14 @@ impl Recording {
     /// # Errors
     /// All reasons for missing sound; see [`MediaError`].
     pub fn open_file(file: Arc<dyn FileAccess>, options: &OpenOptions) -> Result<Self, MediaError> {
-        let sniffed = sniffed_from_file(&*file, &options.ffmpeg)?;
-        let tracks = Tracks::of(&*file, &sniffed, &options.ffmpeg)?;
+        let opened = Self::open_any(&file, options);
+        // what looks damaged where a read failed is not known to be
+        opened.map_err(|error| file.failure().map_or(error, MediaError::Read))
+    }
+
+    fn open_any(file: &Arc<dyn FileAccess>, options: &OpenOptions) -> Result<Self, MediaError> {
+        let sniffed = sniffed_from_file(&**file, &options.ffmpeg)?;
+        let tracks = Tracks::of(&**file, &sniffed, &options.ffmpeg)?;
         let audio_track_count = tracks.count();
         let mut warnings = Warnings::default();
         if let Some(extension) = file.name().extension().and_then(|extension| extension.to_str())
@@ -132,14 +138,14 @@ impl Recording {
             },
             None if audio_track_count == 1 => (0, tracks.plan(0)?),
             None => {
-                let choice = choose::first_audible_track(&*file, &tracks)?;
+                let choice = choose::first_audible_track(&**file, &tracks)?;
                 let (chosen, count, silent) = (choice.index + 1, audio_track_count, choice.silent);
                 warnings.put(MediaWarning::SeveralAudioTracks { chosen, count, silent });
                 (choice.index, choice.plan)
             }
         };
         plan.warnings.iter().cloned().for_each(|warning| warnings.put(warning));
-        Self::start(Arc::clone(&file), plan, index, audio_track_count, options, warnings)
+        Self::start(Arc::clone(file), plan, index, audio_track_count, options, warnings)
     }
 
     /// Opens samples in memory, which are one track.
@@ -208,6 +214,14 @@ impl Recording {
         &self.info
     }
 
+    /// The bytes of the file, from the first on.
+    ///
+    /// # Errors
+    /// The file cannot be opened again.
+    pub fn bytes(&self) -> std::io::Result<OpenFile> {
+        self.file.open()
+    }
+
     /// The warnings so far. More can come during a pass; a second pass changes nothing.
     pub fn warnings(&self) -> &[MediaWarning] {
         self.warnings.as_slice()
@@ -238,6 +252,9 @@ impl Recording {
             let wants_more = pass.trim.apply(&mut pass.interleaved, self.mix.channel_count);
             pass.non_finite_samples += self.mix.append(&mut pass.interleaved, &mut self.block);
             pass.has_ended = !(has_more && wants_more);
+        }
+        if let Some(error) = self.file.failure() {
+            return Err(error);
         }
         pass.heard_frames += self.block.len() as u64;
         self.note_incidents();

@@ -299,9 +299,7 @@ impl<'a> Tracks<'a> {
                 let why = format!("ffmpeg could not be started ({error})");
                 Err(MediaError::NeedsFfmpeg { container, codec, why })
             }
-            (None, _) => {
-                Err(MediaError::NeedsFfmpeg { container, codec, why: "ffmpeg may not be used here".to_owned() })
-            }
+            (None, _) => Err(MediaError::NeedsFfmpeg { container, codec, why: why_no_ffmpeg(self.ffmpeg) }),
         }
     }
 }
@@ -320,6 +318,14 @@ fn codec_guess(file: &dyn FileAccess, container: Container) -> String {
     told.unwrap_or_else(|| container.codec_guess().to_owned())
 }
 
+/// Why no ffmpeg is asked.
+fn why_no_ffmpeg(ffmpeg: &FfmpegUse) -> String {
+    match ffmpeg.program() {
+        Some(_) => "ffmpeg could read a copy on a disk only".to_owned(),
+        None => "ffmpeg may not be used here".to_owned(),
+    }
+}
+
 /// The list of tracks from ffmpeg, for containers without a native demuxer.
 fn inspection(
     file: &dyn FileAccess,
@@ -328,7 +334,7 @@ fn inspection(
 ) -> Result<ffmpeg::FfmpegInspection, MediaError> {
     let codec = codec_guess(file, container);
     let Some((program, path)) = ffmpeg.program().zip(file.path()) else {
-        return Err(MediaError::NeedsFfmpeg { container, codec, why: "ffmpeg may not be used here".to_owned() });
+        return Err(MediaError::NeedsFfmpeg { container, codec, why: why_no_ffmpeg(ffmpeg) });
     };
     let inspection = ffmpeg::inspect(&program, path, 0).map_err(|error| {
         let why = format!("ffmpeg could not be started ({error})");

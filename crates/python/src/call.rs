@@ -3,7 +3,7 @@
 use crate::failure::raised;
 use crate::heard::Heard;
 use crate::identified::Identified;
-use hovertone_cli::calls::{Call, LoadedSound, OnProgress};
+use hovertone_cli::calls::{Call, LoadedSound};
 use hovertone_cli::{Ending, Failure};
 use hovertone_media::Samples;
 use numpy::{Element, IntoPyArray, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
@@ -11,7 +11,11 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::ffi::OsString;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::panic::resume_unwind;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::sync::{Arc, OnceLock};
+use std::thread;
+use std::time::Duration;
 
 /// Hears the recordings of `speed` or `tones`; the first may be an array.
 #[pyfunction]
@@ -71,25 +75,65 @@ pub(crate) fn archive_row(py: Python<'_>, words: Vec<OsString>) -> PyResult<Boun
     run(py, words, None, Call::archive_row).map(|row| PyBytes::new(py, &row))
 }
 
+/// Runs a command on a thread of its own, while this one looks for interrupts: Python tells them to its main thread only.
 fn run<T: Send>(
     py: Python<'_>,
     words: Vec<OsString>,
     on_progress: Option<Py<PyAny>>,
     command: impl FnOnce(Call) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
-    let raised_by_listener: Arc<Mutex<Option<PyErr>>> = Arc::default();
-    let slot = Arc::clone(&raised_by_listener);
-    let listener = on_progress.map(|callable| -> OnProgress {
-        Arc::new(move |share| {
-            if let Err(error) = Python::attach(|py| callable.call1(py, (share,)).map(drop)) {
-                slot.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+    let listener = Arc::new(Listener { callable: on_progress, raised: OnceLock::new() });
+    let told = Arc::clone(&listener);
+    let call = Call::new(words, Some(Arc::new(move |share| told.tell(share))));
+    let ended = py.detach(|| {
+        thread::scope(|scope| {
+            let (sender, receiver) = mpsc::channel();
+            let running = scope.spawn(move || {
+                let ended = command(call);
+                // the receiver waits for the end of this thread in any case
+                let _ = sender.send(());
+                ended
+            });
+            while receiver.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+                listener.keep(Python::attach(|py| py.check_signals()));
             }
+            running.join()
         })
     });
-    let ended = py.detach(|| command(Call::new(words, listener)));
-    match raised_by_listener.lock().unwrap_or_else(PoisonError::into_inner).take() {
-        Some(error) => Err(error),
-        None => ended.map_err(|failure| raised(py, &failure)),
+    match (listener.raised.get(), ended) {
+        (Some(error), _) => Err(error.clone_ref(py)),
+        (None, Ok(ended)) => ended.map_err(|failure| raised(py, &failure)),
+        (None, Err(panic)) => resume_unwind(panic),
+    }
+}
+
+/// Time between two looks for an interrupt.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Who is told the progress of a call, and what ends it.
+struct Listener {
+    callable: Option<Py<PyAny>>,
+    /// What the callable or an interrupt has raised first.
+    raised: OnceLock<PyErr>,
+}
+
+impl Listener {
+    /// Tells the finished share. Where something was raised, the threads of the command are unwound to the thread of the call.
+    fn tell(&self, share: f64) {
+        if let Some(callable) = self.callable.as_ref().filter(|_| self.raised.get().is_none()) {
+            self.keep(Python::attach(|py| callable.call1(py, (share,)).map(drop)));
+        }
+        // what is dropped on the way tells its end, too
+        if self.raised.get().is_some() && !thread::panicking() {
+            resume_unwind(Box::new("the call has ended"));
+        }
+    }
+
+    fn keep(&self, told: PyResult<()>) {
+        if let Err(error) = told {
+            // the first one stays
+            let _ = self.raised.set(error);
+        }
     }
 }
 

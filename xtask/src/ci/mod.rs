@@ -135,7 +135,8 @@ impl Steps {
 
 /// Builds the program for tasks that run it, together with the module for Python: with the same features, so that nothing is built twice.
 pub(crate) fn build_program(root: &Path) -> Result<PathBuf, String> {
-    cargo(root, &["build", "--locked", "-p", "hovertone-cli", "-p", "hovertone-python"], &[])?;
+    let features = "hovertone-cli/stores,hovertone-python/stores";
+    cargo(root, &["build", "--locked", "-p", "hovertone-cli", "-p", "hovertone-python", "--features", features], &[])?;
     Ok(target(root).join("debug").join("hovertone"))
 }
 

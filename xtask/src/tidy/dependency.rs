@@ -12,7 +12,7 @@ struct Row {
 }
 
 /// All crates but those at the top: `cli`, `web`, `bench` and `python`.
-const LIBRARIES: [&str; 19] = [
+const LIBRARIES: [&str; 20] = [
     "vehicle",
     "fft",
     "signal",
@@ -24,6 +24,7 @@ const LIBRARIES: [&str; 19] = [
     "thrust",
     "hovertone",
     "media",
+    "stores",
     "sim",
     "logs",
     "exchange",
@@ -37,7 +38,7 @@ const LIBRARIES: [&str; 19] = [
 /// The line of the table.
 const TABLE_LINE: usize = line!() as usize + 2;
 /// From the lowest crate to the highest.
-const TABLE: [Row; 24] = [
+const TABLE: [Row; 25] = [
     Row { crate_name: "vehicle", may_use: &[] },
     Row { crate_name: "fft", may_use: &[] },
     Row { crate_name: "signal", may_use: &["fft"] },
@@ -52,6 +53,7 @@ const TABLE: [Row; 24] = [
         may_use: &["rotor-id", "rotor-speed", "live", "thrust", "dynamics", "signal", "analysis", "vehicle"],
     },
     Row { crate_name: "media", may_use: &["signal"] },
+    Row { crate_name: "stores", may_use: &["media"] },
     // The simulator does not know the estimator: so that recovering a simulated speed proves something.
     Row { crate_name: "sim", may_use: &["vehicle"] },
     Row { crate_name: "logs", may_use: &[] },

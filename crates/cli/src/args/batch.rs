@@ -26,8 +26,9 @@ Examples:
 #[derive(Args, Debug)]
 #[command(after_help = BATCH_EXAMPLES)]
 pub(crate) struct BatchArguments {
-    /// Folders with recordings at any depth, patterns, recordings, or lists: .txt with a name on each line; - is a list from stdin
-    #[arg(required = true, value_name = "DIR|PATTERN|LIST", value_parser = typed_path())]
+    /// Folders with recordings at any depth, patterns, recordings, or lists: .txt with a name on each line; - is a list from stdin.
+    /// Addresses in stores too: s3://BUCKET/FOLDER, gs://, az://, https://HOST/FILE (feature stores)
+    #[arg(required = true, value_name = "DIR|PATTERN|LIST|URL", value_parser = typed_path())]
     pub(crate) inputs: Vec<PathBuf>,
     /// Folder of the results
     #[arg(short, long, value_name = "OUT", value_parser = typed_path(), help_heading = "Output")]

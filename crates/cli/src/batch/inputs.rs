@@ -4,7 +4,9 @@ use crate::failure::Failure;
 use crate::files::{files_of, home_expanded, is_pattern};
 use crate::inputs::{is_stdin, read_text};
 use crate::recording_files::recordings_below;
+use crate::stored::{self, StoredRecording, is_address};
 use hovertone_archive::Plan;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -18,26 +20,58 @@ pub(crate) struct Names {
     names: Vec<String>,
     /// The paths that are no text, which their names only resemble.
     odd: BTreeMap<String, PathBuf>,
+    /// Those in stores, where the store has told what tells them from earlier ones.
+    stored: BTreeMap<String, String>,
+}
+
+/// A recording that was found.
+pub(crate) struct Found {
+    pub(crate) path: PathBuf,
+    /// What tells it from an earlier one of the same name, where it is known already.
+    state: Option<String>,
+}
+
+impl Found {
+    fn file(path: PathBuf) -> Self {
+        Self { path, state: None }
+    }
+}
+
+impl From<StoredRecording> for Found {
+    fn from(stored: StoredRecording) -> Self {
+        Self { path: stored.path, state: Some(stored.state) }
+    }
+}
+
+impl AsRef<Path> for Found {
+    fn as_ref(&self) -> &Path {
+        &self.path
+    }
 }
 
 impl Names {
     /// Of these recordings.
-    pub(crate) fn of(recordings: &[PathBuf]) -> Result<Self, Failure> {
-        let (mut names, mut odd) = (Vec::new(), BTreeMap::new());
-        for path in recordings {
+    pub(crate) fn of(recordings: &[Found]) -> Result<Self, Failure> {
+        let (mut names, mut odd, mut stored) = (Vec::new(), BTreeMap::new(), BTreeMap::new());
+        for Found { path, state } in recordings {
             let name = path.to_string_lossy().into_owned();
             if path.to_str().is_none() && odd.insert(name.clone(), path.clone()).is_some_and(|other| other != *path) {
                 let what = "the names of two recordings are no text in UTF-8, and look alike in a table";
                 return Err(Failure::failed(what, "rename one of them", path));
             }
+            if let Some(state) = state {
+                stored.insert(name.clone(), state.clone());
+            }
             names.push(name);
         }
-        Ok(Self { names, odd })
+        Ok(Self { names, odd, stored })
     }
 
     /// The plan, in the order of the names.
     pub(crate) fn plan(&self) -> Plan {
-        Plan::of(self.names.clone(), |name| state_of(&self.path(name)))
+        Plan::of(self.names.clone(), |name| {
+            self.stored.get(name).cloned().unwrap_or_else(|| state_of(&self.path(name)))
+        })
     }
 
     /// The path of a recording.
@@ -47,7 +81,7 @@ impl Names {
 }
 
 /// The recordings in the order in which they were found. A name of a list that leads nowhere stays, so that it has a row with its error.
-pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<Found>, Failure> {
     let mut found = Vec::new();
     for input in typed {
         let of_input = recordings_of_one(input)?;
@@ -59,6 +93,9 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> 
                 input if is_list(input) => {
                     ("this list names no recording", "write the name of a recording on each line")
                 }
+                input if is_address(input) => {
+                    ("no recording is at this address", "recordings are known by their endings, such as .wav or .mp4")
+                }
                 _ => ("no file matches this pattern", "check the folder and the ending of its files"),
             };
             return Err(Failure::failed(what, hint, input));
@@ -68,16 +105,19 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> 
     Ok(found)
 }
 
-fn recordings_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
-    if !input.exists() && input.to_string_lossy().contains("://") {
-        let hint = "copy the recordings to a disk first, or mount the store as a folder";
-        return Err(Failure::usage(format!("{}: hovertone reads files and no stores", input.display()), hint));
+fn recordings_of_one(input: &Path) -> Result<Vec<Found>, Failure> {
+    if is_list(input) && !input.is_dir() {
+        return names_in(input);
     }
+    if is_address(input) {
+        return Ok(stored::recordings_at(input)?.into_iter().map(Found::from).collect());
+    }
+    Ok(files_of_one(input)?.into_iter().map(Found::file).collect())
+}
+
+fn files_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
     if input.is_dir() {
         return Ok(recordings_below(input));
-    }
-    if is_list(input) {
-        return names_in(input);
     }
     let files = files_of(input);
     let is_missing = |path: &PathBuf| !path.exists();
@@ -98,11 +138,21 @@ fn is_list(input: &Path) -> bool {
 }
 
 /// The names in a list. Those in a file are relative to its folder, those from stdin to the current one.
-fn names_in(list: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let text = read_text(list, "a list of recordings")?;
+fn names_in(list: &Path) -> Result<Vec<Found>, Failure> {
+    let text = if is_address(list) { stored::text_of(list)? } else { read_text(list, "a list of recordings")? };
     let folder = if is_stdin(list) { Path::new("") } else { list.parent().unwrap_or(Path::new("")) };
     let names = text.lines().map(str::trim_end).filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    Ok(names.map(|name| folder.join(home_expanded(Path::new(name)))).collect())
+    let path = |name: &str| match Path::new(name) {
+        name if is_address(name) => name.to_owned(),
+        name => folder.join(home_expanded(name)),
+    };
+    let paths: Vec<PathBuf> = names.map(path).collect();
+    stored::refuse_addresses(&paths)?;
+    // a store is asked for each of them, so that some are asked at the same time
+    Ok(paths
+        .into_par_iter()
+        .map(|path| Found { state: is_address(&path).then(|| stored::state_of(&path)), path })
+        .collect())
 }
 
 /// Length and time of change of a file, by which one that changed is heard again. They stand in no table.

@@ -270,7 +270,17 @@ fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
     let words = ["batch", text(&archive), "-o", "none", "--shard"];
     refused_with(&[&words[..], &["3/2"]].concat(), &["--shard", "1/8"]);
     refused_with(&[&words[..], &["1/2", "--force"]].concat(), &["other jobs"]);
-    refused_with(&["batch", "s3://bucket/flights", "-o", "none"], &["s3://bucket/flights", "files and no stores"]);
+}
+
+#[cfg(not(feature = "stores"))]
+#[test]
+fn a_build_without_stores_says_how_to_read_addresses() {
+    let folder = tempfile::tempdir().unwrap();
+    let list = folder.path().join("list.txt");
+    fs::write(&list, "https://host/hover.wav\n").unwrap();
+    for input in ["s3://bucket/flights", "https://host/list.txt", text(&list)] {
+        refused_with(&["batch", input, "-o", "none"], &["built without stores", "--features stores"]);
+    }
 }
 
 #[test]

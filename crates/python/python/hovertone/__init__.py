@@ -10,11 +10,16 @@ threads of Python hear recordings at the same time.
 """
 
 from ._errors import FileError, HovertoneError, NoRotorToneError, WrongUseError
+from ._estimate import Estimate
+from ._export import export
+from ._fit import Fit, fit, fits
+from ._identify import Identification, identify
+from ._plan import FlightPlan, plan
 from ._simulation import Simulation, demo, simulate
 from ._sound import Sound, load
 from ._speed import Reading, Rotor, Speed, Track, speed, speeds, track
-from ._thrust import Estimate, Fit, FlightPlan, Identification, Weighed, export, fit, fits, identify, plan, weigh
 from ._tones import ToneFamily, Tones, tones
+from ._weigh import Weighed, weigh
 
 __all__ = [
     "Estimate",

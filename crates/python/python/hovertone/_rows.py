@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import dataclasses
-from collections.abc import Mapping
+import io
+from collections.abc import Iterable, Mapping
 from html import escape
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -38,6 +40,25 @@ class Table:
         return extra("pyarrow", "arrow").table(self._columns())
 
 
+class Shown(Table):
+    """A result that a notebook shows as two columns of facts, with its figure below."""
+
+    def _facts(self) -> Mapping[str, object]:
+        raise NotImplementedError
+
+    def figure(self) -> str | None:
+        """A figure as SVG; ``None`` where there is none."""
+        return None
+
+    def _repr_html_(self) -> str:
+        return html_table(self._facts()) + (self.figure() or "")
+
+
+def numbered(warnings: Iterable[str]) -> Json:
+    """Warnings as facts."""
+    return {f"warning {number}": words for number, words in enumerate(warnings, 1)}
+
+
 def column_wise(rows: list[Json]) -> dict[str, list[Any]]:
     """Columns of rows that have the same names."""
     return {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
@@ -52,3 +73,18 @@ def html_table(rows: Mapping[str, object]) -> str:
 
 def _shown(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def csv_columns(text: str) -> dict[str, list[Any]]:
+    """Columns of a CSV, with numbers as numbers."""
+    rows = list(csv.reader(io.StringIO(text)))
+    return {name: _numbers([row[index] for row in rows[1:]]) for index, name in enumerate(rows[0])}
+
+
+def _numbers(cells: list[str]) -> list[Any]:
+    for read in (int, float):
+        try:
+            return [None if cell == "" else read(cell) for cell in cells]
+        except ValueError:
+            pass
+    return list(cells)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._extras import axes_of
 from ._progress import Progress, listening
-from ._rows import Json, Table, html_table
+from ._rows import Json, Shown
 from ._sound import load
 from ._words import Path, words
 
@@ -28,7 +28,7 @@ __all__ = ["Simulation", "demo", "simulate"]
 
 
 @dataclass(frozen=True, eq=False)
-class Simulation(Table):
+class Simulation(Shown):
     """A simulated flight. As a table: the truth, one row for each step.
 
     Attributes
@@ -72,10 +72,10 @@ class Simulation(Table):
         ax.legend()
         return ax
 
-    def _repr_html_(self) -> str:
+    def _facts(self) -> Json:
         hover = self.json.get("hover") or {}
         shown = {name: self.json.get(name) for name in ("mass_kg", "gravity_m_s2", "seed")}
-        return html_table(shown | {name: value for name, value in hover.items() if not isinstance(value, list)})
+        return shown | {name: value for name, value in hover.items() if not isinstance(value, list)}
 
 
 def simulate(scenario: Path | None = None, *, output: Path | None = None, seed: int | None = None, force: bool = False,

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from . import _native
 from ._errors import FileError, WrongUseError
 from ._extras import axes_of
+from ._heard import OfSound
 from ._progress import Progress, listening
-from ._rows import Json, Table, filled, html_table
+from ._rows import Json, Table, filled, numbered
 from ._sound import Recording, to_hear
 from ._words import Path, words
 
@@ -167,7 +168,7 @@ class Reading:
 
 
 @dataclass(frozen=True, eq=False)
-class Speed(Table):
+class Speed(OfSound):
     """The rotor speed of a recording. No rotor tone is an answer with its reason, and no exception.
 
     Attributes
@@ -241,9 +242,7 @@ class Speed(Table):
     alternatives: tuple[Reading, ...]
     frame_count: int | None
     window_s: float | None
-    json: Json = field(repr=False)
     track: Track = field(repr=False)
-    _heard: _native.Heard | None = field(repr=False, default=None)
 
     @classmethod
     def _of(cls, heard: _native.Heard) -> Speed:
@@ -260,22 +259,8 @@ class Speed(Table):
             _heard=heard,
         )
 
-    def __getstate__(self) -> Json:
-        # a result that goes to another process leaves the sound behind
-        return self.__dict__ | {"_heard": None}
-
     def _columns(self) -> dict[str, Any]:
         return {name: [getattr(self, name)] for name in _SCALARS}
-
-    def figure(self) -> str | None:
-        """The spectrogram with bands and tracks as SVG, by another pass over the sound.
-
-        Returns
-        -------
-        str or None
-            ``None`` where the sound is shorter than a tenth of a second, or is not here: in another process, and where it was not heard.
-        """
-        return None if self._heard is None or self.status == "error" else self._heard.figure()
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the speed over time by matplotlib.
@@ -289,11 +274,10 @@ class Speed(Table):
         ax.set_title(self.file)
         return ax
 
-    def _repr_html_(self) -> str:
+    def _facts(self) -> Json:
         shown = ("file", "status", "speed_rev_s", "combined_std_uncertainty_rev_s", "speed_rpm", "spread_rev_s", "order", "tone_hz", "reason")
         rows: Json = {name: getattr(self, name) for name in shown}
-        rows |= {f"warning {number}": words for number, words in enumerate(self.warnings, 1)}
-        return html_table(rows) + (self.figure() or "")
+        return rows | numbered(self.warnings)
 
 
 def speed(

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._extras import axes_of
+from ._heard import OfSound
 from ._progress import Progress, listening
-from ._rows import Json, Table, column_wise, filled, html_table
+from ._rows import Json, column_wise, filled
 from ._sound import Recording, to_hear
 from ._speed import Reading, Status, one
 from ._words import words
@@ -67,7 +68,7 @@ class ToneFamily:
 
 
 @dataclass(frozen=True, eq=False)
-class Tones(Table):
+class Tones(OfSound):
     """The tone families of a recording. As a table: one row for each reading of each family.
 
     Attributes
@@ -92,17 +93,12 @@ class Tones(Table):
     speed_rev_s: float | None
     families: tuple[ToneFamily, ...]
     warnings: tuple[str, ...]
-    json: Json = field(repr=False)
-    _heard: _native.Heard | None = field(repr=False, default=None)
 
     @classmethod
     def _of(cls, heard: _native.Heard) -> Tones:
         data: Json = json.loads(heard.tones_json())
         families = tuple(ToneFamily._of(family) for family in data["families"])
         return filled(cls, data, families=families, warnings=tuple(data["warnings"]), json=data, _heard=heard)
-
-    def __getstate__(self) -> Json:
-        return self.__dict__ | {"_heard": None}
 
     def _columns(self) -> dict[str, Any]:
         rows = []
@@ -112,10 +108,6 @@ class Tones(Table):
                 of_reading = {name: value for name, value in vars(reading).items() if name != "gear"}
                 rows.append(of_family | of_reading)
         return column_wise(rows)
-
-    def figure(self) -> str | None:
-        """The spectrogram with the tone of the rotor as SVG, by another pass over the sound."""
-        return None if self._heard is None else self._heard.figure()
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the levels of the harmonics of all families by matplotlib.
@@ -136,11 +128,11 @@ class Tones(Table):
             ax.legend()
         return ax
 
-    def _repr_html_(self) -> str:
+    def _facts(self) -> Json:
         rows: Json = {"file": self.file, "status": self.status, "tone_hz": self.tone_hz, "speed_rev_s": self.speed_rev_s}
         for number, family in enumerate(self.families, 1):
             rows[f"family {number}"] = f"{family.fundamental_hz:.1f} Hz, {family.level_db:.0f} dB over the floor"
-        return html_table(rows) + (self.figure() or "")
+        return rows
 
 
 def tones(

@@ -30,7 +30,8 @@ def speeds(paths: Path | Sequence[Path], **flags: Unpack[BatchFlags]) -> ray.dat
     Parameters
     ----------
     paths : path or sequence of paths
-        Folders, patterns, recordings, or lists (.txt), that all machines of the cluster see under the same names.
+        Folders, patterns, recordings, or lists (.txt), that all machines of the cluster see under the same names; addresses such as
+        ``s3://bucket/folder`` where the package was built with stores.
     **flags
         The flags of ``hovertone batch`` that say how a recording is heard, as for :func:`hovertone.speed`.
 

@@ -1,0 +1,48 @@
+//! A build without stores.
+
+#[cfg(feature = "archive")]
+use super::StoredRecording;
+#[cfg(feature = "archive")]
+use crate::failure::Failure;
+use hovertone_media::{MediaError, OpenOptions, Recording};
+use std::io;
+use std::path::Path;
+#[cfg(feature = "archive")]
+use std::path::PathBuf;
+
+const WHAT: &str = "this hovertone was built without stores";
+
+#[cfg(feature = "archive")]
+fn refused(address: &Path) -> Failure {
+    let hint = "build it with them: cargo build --release --features stores; or copy the recordings to a disk";
+    Failure::usage(format!("{}: {WHAT}", address.display()), hint)
+}
+
+/// Refuses.
+#[cfg(feature = "archive")]
+pub(crate) fn recordings_at(address: &Path) -> Result<Vec<StoredRecording>, Failure> {
+    Err(refused(address))
+}
+
+/// Refuses.
+#[cfg(feature = "archive")]
+pub(crate) fn text_of(address: &Path) -> Result<String, Failure> {
+    Err(refused(address))
+}
+
+/// Refuses names of a list that are addresses.
+#[cfg(feature = "archive")]
+pub(crate) fn refuse_addresses(names: &[PathBuf]) -> Result<(), Failure> {
+    names.iter().find(|name| super::is_address(name)).map_or(Ok(()), |address| Err(refused(address)))
+}
+
+/// That of a recording that is not there.
+#[cfg(feature = "archive")]
+pub(crate) fn state_of(_: &Path) -> String {
+    "absent".to_owned()
+}
+
+/// Opens nothing.
+pub(crate) fn opened(_: &Path, _: &OpenOptions) -> Result<Recording, MediaError> {
+    Err(MediaError::Read(io::Error::other(WHAT)))
+}

@@ -1,0 +1,116 @@
+"""A mass from its sound."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._errors import NoRotorToneError
+from ._estimate import Estimate, estimate
+from ._export import Results, as_file
+from ._extras import axes_of
+from ._progress import Progress, listening
+from ._rows import Json, Shown, filled
+from ._words import Path, words
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from typing_extensions import Unpack
+
+    from ._flags import WeighFlags
+
+__all__ = ["Weighed", "weigh"]
+
+
+@dataclass(frozen=True)
+class Weighed(Shown):
+    """A mass from its sound.
+
+    Attributes
+    ----------
+    mass_kg : Estimate
+        Mass as flown, in kg.
+    payload_kg : Estimate or None
+        Mass of the payload, in kg, where the mass of the vehicle is known.
+    speed_rad_s : float
+        Shaft speed, in rad/s.
+    recording_count : int
+        Number of recordings with a rotor tone.
+    """
+
+    mass_kg: Estimate
+    payload_kg: Estimate | None
+    speed_rad_s: float
+    recording_count: int
+
+    def _columns(self) -> dict[str, Any]:
+        masses = {"mass_kg": self.mass_kg, "payload_kg": self.payload_kg}
+        values = {name: [mass and mass.value] for name, mass in masses.items()}
+        stds = {name.replace("_kg", "_std_kg"): [mass and mass.std_uncertainty] for name, mass in masses.items()}
+        return values | stds | {"speed_rad_s": [self.speed_rad_s], "recording_count": [self.recording_count]}
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the masses with their expanded uncertainties (k = 2) by matplotlib.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw.
+        """
+        ax = axes_of(ax)
+        masses = {"as flown": self.mass_kg, "payload": self.payload_kg}
+        for name, mass in masses.items():
+            if mass is not None:
+                ax.errorbar([name], [mass.value], yerr=[2 * (mass.std_uncertainty or 0.0)], fmt="o", capsize=4)
+        ax.set(ylabel="mass, kg")
+        return ax
+
+    def _facts(self) -> Json:
+        return {name: values[0] for name, values in self._columns().items()}
+
+
+def weigh(
+    recordings: Path | Sequence[Path] = (), *, constant: Results | None = None, progress: Progress = None, **flags: Unpack[WeighFlags]
+) -> Weighed:
+    """Mass of an unknown payload, from the sound of a hover and a known thrust constant.
+
+    Parameters
+    ----------
+    recordings : path or sequence of paths
+        Hovers with the same payload.
+    constant : path, Identification or Fit, optional
+        The constant, with mass, gravity and tone: an identification, or its results.json.
+    progress : callable or bool, optional
+        Told the finished share, from 0 to 1; ``True`` shows a bar by tqdm.
+    **flags
+        The flags of ``hovertone weigh``: `constant_n_s2` (N s², of the whole vehicle), `constant_std_n_s2`, `group`, `rotors`, `mass_kg`,
+        `mass_std_kg`; `gravity_m_s2`, `latitude_deg`, `height_m`; `blades`, `gear`, `order`, `vehicle`, `band`, `harmonics`;
+        `audio_track`, `channel`, `clock_correction_ppm`.
+
+    Returns
+    -------
+    Weighed
+        The mass as flown, and that of the payload.
+
+    Raises
+    ------
+    NoRotorToneError
+        No recording has a rotor tone.
+
+    Examples
+    --------
+    >>> weighed = weigh("hover.wav", constant_n_s2=2.831e-5, blades=2, rotors=1, mass_kg=0.4)
+    >>> f"{weighed.mass_kg.value:.3f} kg"
+    '0.428 kg'
+    """
+    paths = [recordings] if isinstance(recordings, str | os.PathLike) else list(recordings)
+    with as_file(constant) as results, listening(progress) as listener:
+        data, messages, _ = _native.printed(words("weigh", paths, flags | {"constant": results, "json": True}), listener)
+    if not data:
+        raise NoRotorToneError(messages.strip())
+    weighed = json.loads(data)
+    return filled(Weighed, weighed, mass_kg=filled(Estimate, weighed["mass_kg"]), payload_kg=estimate(weighed["payload_kg"]))
