@@ -4,6 +4,8 @@
 mod bindings;
 #[cfg(feature = "page")]
 mod bundle;
+#[cfg(feature = "page")]
+mod icons;
 mod toolchain;
 
 use crate::target;
@@ -36,7 +38,8 @@ fn test(root: &Path) -> Result<(), String> {
     }
     build(root, &target(root).join("page"))?;
     // features of the whole workspace, so that what `cargo xtask ci` has built is used again
-    let arguments = ["test", "--workspace", "--locked", "--features", "hovertone-cli/page", "--test", "command", "served::"];
+    let arguments =
+        ["test", "--workspace", "--locked", "--features", "hovertone-cli/page", "--test", "command", "served::"];
     run_in(root, Command::new("cargo").args(arguments))
 }
 
