@@ -264,6 +264,31 @@ fn a_recording_is_cancelled_and_heard_again() {
 }
 
 #[test]
+fn a_move_of_the_picture_draws_it_once() {
+    const MOVES: f64 = 10.0;
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), HOVER_S));
+    let served = Served::start();
+    browser.run_first(
+        "window.draws = 0; const clear = CanvasRenderingContext2D.prototype.clearRect; CanvasRenderingContext2D.prototype.clearRect = function (...place) { window.draws += 1; return clear.apply(this, place); };",
+    );
+    browser.open_url(&served.url);
+    browser.wait_for("document.querySelector('.drop')", PATIENCE);
+    browser.choose(INPUT, &[&sound]);
+    browser.wait_for("document.querySelector('.recording .answer') && document.querySelector('canvas')", PATIENCE);
+    click(&mut browser, "Zoom in");
+    thread::sleep(Duration::from_secs(2));
+    let draws = browser.value(&format!(
+        "(async () => {{ window.draws = 0; for (let move = 0; move < {MOVES}; move++) {{ document.querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', {{ key: move % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true }})); await new Promise((go) => setTimeout(go, 80)); }} return window.draws; }})()"
+    ));
+    // the detailed picture, which comes later, is drawn too
+    assert!((MOVES..=MOVES + 3.0).contains(&draws.as_f64().unwrap()), "{draws}");
+    stayed_at_home(&browser, &served);
+}
+
+#[test]
 fn the_example_fits_a_phone_and_a_wide_screen_in_both_colours() {
     let Some(mut browser) = Browser::start() else { return };
     let served = Served::start();

@@ -32,7 +32,8 @@ export class Campaign extends Observed {
     super();
     listening.onTold = (told) => this.hear(told);
     store.listen(() => this.phase === "judging" && this.trial?.state === "heard" && this.go("judged"));
-    listening.listen(() => listening.state === "off" && (this.phase === "hover" || this.phase === "recording") && this.go("weigh"));
+    // a trial that is not recorded to its end is lost with the microphone
+    listening.listen(() => listening.state === "off" && this.phase !== "weigh" && !this.trial && this.go("weigh"));
   }
 
   private go(phase: Phase, note = "") {
@@ -54,6 +55,7 @@ export class Campaign extends Observed {
   ready() {
     this.load = this.store.loadOfMass(this.addedKg);
     this.isByHand = false;
+    this.trial = undefined;
     this.go("hover");
   }
 

@@ -26,6 +26,7 @@ export class Listening extends Observed {
   }
 
   async start(said: unknown) {
+    if (this.state !== "off") return;
     this.change(() => Object.assign(this, { state: "asking", fault: "", now: undefined, strip: [], rotorsRevS: [], choices: [], isFrozen: false }));
     this.said = JSON.stringify(said);
     try {

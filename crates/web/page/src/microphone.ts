@@ -40,8 +40,9 @@ export class Microphone {
       throw new Error("browsers hand out the microphone only over HTTPS, or on this computer itself; open the page from such an address");
     }
     const context = new AudioContext();
+    let stream: MediaStream | undefined;
     try {
-      const stream = await navigator.mediaDevices.getUserMedia({ audio: mapped(() => false) });
+      stream = await navigator.mediaDevices.getUserMedia({ audio: mapped(() => false) });
       const [track] = stream.getAudioTracks();
       await context.resume();
       await context.audioWorklet.addModule(new URL("microphone.worklet.js", import.meta.url));
@@ -66,6 +67,7 @@ export class Microphone {
       node.connect(context.destination);
       return microphone;
     } catch (error) {
+      stream?.getTracks().forEach((track) => track.stop());
       void context.close();
       throw new Error(inWords(error));
     }

@@ -278,8 +278,9 @@ export class Store extends Observed {
   private async takeKept() {
     try {
       const { trials, entries } = await keptTrials();
-      if (trials.length === 0 || this.recordings.length > 0) return;
-      this.change(() => (this.entries = entries ?? this.entries));
+      if (trials.length === 0) return;
+      // who was faster, and has described another vehicle already, keeps it
+      if (entries && this.recordings.length === 0 && this.loads().length === 0) this.change(() => (this.entries = entries));
       for (const { name, bytes, answer } of trials) {
         const recording = this.takeRecording(new File([bytes], name, { type: "audio/wav" }), name, { isTrial: true, answer });
         if (!answer && !this.isFitted(recording)) this.hear(recording);
@@ -335,10 +336,12 @@ export class Store extends Observed {
     return number - 1;
   }
 
-  /** The load with a mass: the given one if it has no recording yet, one of the same mass, or a new one. */
+  /** The load with a mass: one of the same mass, one without recordings, or a new one. */
   loadOfMass(addedKg: number): number {
-    const known = this.loads().findIndex((load) => (load.added_mass_kg ?? 0) === addedKg);
-    const load = known < 0 ? this.addLoad() : known;
+    const loads = this.loads();
+    const same = loads.findIndex((load) => (load.added_mass_kg ?? 0) === addedKg);
+    const empty = loads.findIndex((load) => load.recordings.length === 0);
+    const load = same >= 0 ? same : empty >= 0 ? empty : this.addLoad();
     this.setLoad(load, { added_mass_kg: addedKg });
     return load;
   }
