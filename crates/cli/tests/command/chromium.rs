@@ -180,6 +180,28 @@ impl Browser {
         self.call("Input.insertText", json!({ "text": text }));
     }
 
+    /// Shows the page on a phone of this width, and allows touches.
+    #[cfg(feature = "page")]
+    pub(crate) fn phone(&mut self, width: u32) {
+        let screen = json!({ "width": width, "height": 844, "deviceScaleFactor": 2, "mobile": true });
+        self.call("Emulation.setDeviceMetricsOverride", screen);
+        self.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
+    }
+
+    /// Moves two fingers apart, from left and right of a place.
+    #[cfg(feature = "page")]
+    pub(crate) fn spread_fingers(&mut self, (x, y): (f64, f64)) {
+        const STEPS: u32 = 10;
+        const STEP_PX: f64 = 10.0;
+        for step in 0..=STEPS + 1 {
+            let kind = if step == 0 { "touchStart" } else { "touchMove" };
+            let away = STEP_PX * f64::from(step.min(STEPS) + 1);
+            let points = json!([{ "x": x - away, "y": y, "id": 0 }, { "x": x + away, "y": y, "id": 1 }]);
+            self.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+        }
+        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    }
+
     /// Runs a script in each page before its own.
     #[cfg(feature = "page")]
     pub(crate) fn run_first(&mut self, script: &str) {

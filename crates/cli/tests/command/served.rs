@@ -2,6 +2,7 @@
 
 mod microphone;
 mod offline;
+mod picture;
 
 use crate::chromium::Browser;
 use crate::lighthouse::Lighthouse;
@@ -260,31 +261,6 @@ fn a_recording_is_cancelled_and_heard_again() {
     browser.wait_for("document.querySelector('.working')?.innerText.includes('cancelled')", PATIENCE);
     click(&mut browser, "Hear it again");
     browser.wait_for("document.querySelector('.recording .answer')", PATIENCE);
-    stayed_at_home(&browser, &served);
-}
-
-#[test]
-fn a_move_of_the_picture_draws_it_once() {
-    const MOVES: f64 = 10.0;
-    let Some(mut browser) = Browser::start() else { return };
-    let folder = tempfile::tempdir().unwrap();
-    let sound = folder.path().join("hover.wav");
-    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(60.0), HOVER_S));
-    let served = Served::start();
-    browser.run_first(
-        "window.draws = 0; const clear = CanvasRenderingContext2D.prototype.clearRect; CanvasRenderingContext2D.prototype.clearRect = function (...place) { window.draws += 1; return clear.apply(this, place); };",
-    );
-    browser.open_url(&served.url);
-    browser.wait_for("document.querySelector('.drop')", PATIENCE);
-    browser.choose(INPUT, &[&sound]);
-    browser.wait_for("document.querySelector('.recording .answer') && document.querySelector('canvas')", PATIENCE);
-    click(&mut browser, "Zoom in");
-    thread::sleep(Duration::from_secs(2));
-    let draws = browser.value(&format!(
-        "(async () => {{ window.draws = 0; for (let move = 0; move < {MOVES}; move++) {{ document.querySelector('canvas').dispatchEvent(new KeyboardEvent('keydown', {{ key: move % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true }})); await new Promise((go) => setTimeout(go, 80)); }} return window.draws; }})()"
-    ));
-    // the detailed picture, which comes later, is drawn too
-    assert!((MOVES..=MOVES + 3.0).contains(&draws.as_f64().unwrap()), "{draws}");
     stayed_at_home(&browser, &served);
 }
 
