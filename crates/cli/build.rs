@@ -26,13 +26,12 @@ mod page {
         let missing = |error: std::io::Error| {
             format!("the page is not in {}: run `cargo xtask page` first ({error})", folder.display())
         };
-        let files = fs::read_dir(&folder).map_err(missing)?;
-        let mut names: Vec<String> = files.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+        let mut names = names_in(&folder).map_err(missing)?;
         names.sort();
         let mut list = "const FILES: &[EmbeddedFile] = &[\n".to_owned();
         for name in &names {
             let bytes = fs::read(folder.join(name)).map_err(missing)?;
-            let compressed = out.join(format!("{name}.gz"));
+            let compressed = out.join(format!("{}.gz", name.replace('/', "_")));
             fs::write(&compressed, gzip(&bytes)?).map_err(|error| error.to_string())?;
             writeln!(
                 list,
@@ -42,6 +41,20 @@ mod page {
             .map_err(|error| error.to_string())?;
         }
         fs::write(out.join("page_files.rs"), list + "];\n").map_err(|error| error.to_string())
+    }
+
+    /// The files of a folder and of the folders in it, by their paths from it.
+    fn names_in(folder: &Path) -> std::io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            let entry = entry?;
+            let name = entry.file_name().to_string_lossy().into_owned();
+            match entry.file_type()?.is_dir() {
+                true => names.extend(names_in(&entry.path())?.iter().map(|inner| format!("{name}/{inner}"))),
+                false => names.push(name),
+            }
+        }
+        Ok(names)
     }
 
     /// Where the page is: as told, or in the folder of what is built.

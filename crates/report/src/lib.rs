@@ -90,7 +90,7 @@ pub use quote::{Verdict, counted, quoted_constants, rotors_heard_text};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{ExperimentFacts, Identification, InputRecord, RESULTS_SCHEMA, results_json};
 pub use samples::{loads_data, samples_data};
-pub use speed::{SpeedWords, speed_in_words, speed_json, speed_table, track_csv};
+pub use speed::{LiveWords, SpeedWords, live_speed_in_words, speed_in_words, speed_json, speed_table, track_csv};
 pub use table_lines::table_text;
 pub use text_table::{Column, Row, TextTable};
 pub use thrust::{LOADS_FOOTNOTE, load_in_words, methods_table, thrust_summary, thrust_table};

@@ -108,6 +108,8 @@ pub struct SpeedWords {
     pub speed_rev_s: String,
     /// Its expanded uncertainty in rev/s.
     pub plus_minus_rev_s: String,
+    /// The same in percent of the speed.
+    pub plus_minus_percent: String,
     /// Its standard deviation over time in rev/s.
     pub spread_rev_s: String,
     /// Shaft speed in rpm.
@@ -124,9 +126,41 @@ pub fn speed_in_words(estimate: &SpeedEstimate) -> SpeedWords {
         tone_hz: next(),
         speed_rev_s: next(),
         plus_minus_rev_s: next(),
+        plus_minus_percent: percent_of(estimate.speed, estimate.combined_std_uncertainty_rev_s()),
         spread_rev_s: next(),
         speed_rpm: next(),
         speed_rad_s: next(),
+    }
+}
+
+fn percent_of(speed: RotorSpeed, std_rev_s: Option<f64>) -> String {
+    plus_minus(std_rev_s.map(|std_rev_s| 100.0 * std_rev_s / speed.rev_s()))
+}
+
+/// A live speed as printed, with digits that follow its uncertainty.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct LiveWords {
+    /// Shaft speed in rev/s.
+    pub speed_rev_s: String,
+    /// Its expanded uncertainty in rev/s.
+    pub plus_minus_rev_s: String,
+    /// The same in percent of the speed.
+    pub plus_minus_percent: String,
+    /// Shaft speed in rpm.
+    pub speed_rpm: String,
+    /// Shaft speed in rad/s.
+    pub speed_rad_s: String,
+}
+
+/// A live speed and its standard uncertainty in words.
+pub fn live_speed_in_words(speed: RotorSpeed, std_rev_s: f64) -> LiveWords {
+    let expanded = expanded(Some(std_rev_s)).map(RotorSpeed::from_rev_s);
+    LiveWords {
+        speed_rev_s: rounded(speed.rev_s(), expanded.map(RotorSpeed::rev_s)),
+        plus_minus_rev_s: plus_minus(Some(std_rev_s)),
+        plus_minus_percent: percent_of(speed, Some(std_rev_s)),
+        speed_rpm: rounded(speed.rpm(), expanded.map(RotorSpeed::rpm)),
+        speed_rad_s: rounded(speed.rad_s(), expanded.map(RotorSpeed::rad_s)),
     }
 }
 

@@ -4,29 +4,11 @@ use crate::answer::Answer;
 use crate::campaign::{self, LastIdentified};
 use crate::heard_files::HeardFiles;
 use crate::picture::{Levels, levels_of, sound_wav};
+use crate::said::SaidOnPage;
 use crate::slices::SlicedFile;
-use hovertone::speed::SpanConfig;
-use hovertone_vehicle::{Gear, find_preset};
-use hovertone_workflow::Said;
-use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use wasm_bindgen::prelude::wasm_bindgen;
-
-/// What the page says of vehicle, tone and span.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct SaidOnPage {
-    preset: Option<String>,
-    blades: Option<u32>,
-    gear: Option<Gear>,
-    diameter_m: Option<f64>,
-    mass_kg: Option<f64>,
-    rotors: Option<u32>,
-    band_hz: Option<(f64, f64)>,
-    from_s: Option<f64>,
-    to_s: Option<f64>,
-}
 
 /// All that a worker of the page holds.
 #[wasm_bindgen]
@@ -60,18 +42,7 @@ impl Desk {
     /// One line: what is said has no meaning.
     pub fn hear(&mut self, number: u32, said: &str, on_share: &js_sys::Function) -> Result<String, String> {
         let said: SaidOnPage = serde_json::from_str(said).map_err(|error| error.to_string())?;
-        let said = Said {
-            vehicle: said.preset.as_deref().and_then(find_preset),
-            blades: said.blades,
-            gear: said.gear,
-            diameter_m: said.diameter_m,
-            mass_kg: said.mass_kg,
-            rotors: said.rotors,
-            band_hz: said.band_hz,
-            span: SpanConfig { from_s: said.from_s, to_s: said.to_s },
-            ..Said::default()
-        };
-        let (config, discovery) = said.settings().map_err(|error| error.to_string())?;
+        let (config, discovery) = said.said().settings().map_err(|error| error.to_string())?;
         let record = self.heard.record_of(number, &config, discovery, &mut shown_by(on_share));
         Ok(json_of(&Answer::new(record)))
     }

@@ -98,11 +98,22 @@ pub(crate) fn sound_wav(recording: &mut Recording, [from_s, to_s]: [f64; 2]) -> 
 /// Samples of one channel as a WAV file of 16 bits.
 pub(crate) fn wav_of(samples: &[f32], sample_rate: u32) -> Result<Vec<u8>, String> {
     let spec = WavSpec { channels: 1, sample_rate, bits_per_sample: 16, sample_format: SampleFormat::Int };
+    let whole = |&sample: &f32| hovertone_sim::scenario::SampleFormat::whole_number(16, sample) as i16;
+    written(samples.iter().map(whole), spec)
+}
+
+/// Samples of one channel as a WAV file of 32-bit floats: the samples themselves.
+pub(crate) fn wav_of_floats(samples: &[f32], sample_rate: u32) -> Result<Vec<u8>, String> {
+    let spec = WavSpec { channels: 1, sample_rate, bits_per_sample: 32, sample_format: SampleFormat::Float };
+    written(samples.iter().copied(), spec)
+}
+
+fn written<S: hound::Sample>(samples: impl Iterator<Item = S>, spec: WavSpec) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
-    let mut write = || -> hound::Result<()> {
+    let write = || -> hound::Result<()> {
         let mut writer = WavWriter::new(&mut bytes, spec)?;
-        for &sample in samples {
-            writer.write_sample(hovertone_sim::scenario::SampleFormat::whole_number(16, sample) as i16)?;
+        for sample in samples {
+            writer.write_sample(sample)?;
         }
         writer.finalize()
     };

@@ -4,6 +4,8 @@
 mod bindings;
 #[cfg(feature = "page")]
 mod bundle;
+#[cfg(feature = "page")]
+mod icons;
 mod toolchain;
 
 use crate::target;
@@ -35,7 +37,9 @@ fn test(root: &Path) -> Result<(), String> {
         return Ok(());
     }
     build(root, &target(root).join("page"))?;
-    let arguments = ["test", "--package", "hovertone-cli", "--features", "page", "--test", "command", "served::"];
+    // features of the whole workspace, so that what `cargo xtask ci` has built is used again
+    let arguments =
+        ["test", "--workspace", "--locked", "--features", "hovertone-cli/page", "--test", "command", "served::"];
     run_in(root, Command::new("cargo").args(arguments))
 }
 

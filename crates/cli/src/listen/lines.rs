@@ -1,26 +1,15 @@
 //! Live speeds as lines: JSON for programs, and text for people without a screen.
 
-use super::view::{speed_in_words, status_in_words};
 use crate::failure::Failure;
 use hovertone::live::{Listener, LiveSpeed};
-use serde::Serialize;
+use hovertone_workflow::{LiveLine, live_status_in_words, live_words};
 
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
 
 /// One line of JSON.
-#[derive(Serialize)]
-struct JsonLine<'a> {
-    #[serde(flatten)]
-    speed: &'a LiveSpeed,
-    rotors_rev_s: &'a [f64],
-    possible_rev_s: Vec<f64>,
-}
-
 pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String, Failure> {
-    let possible_rev_s = listener.possible().iter().map(|possible| possible.speed_rev_s).collect();
-    let line = JsonLine { speed, rotors_rev_s: listener.rotors_rev_s(), possible_rev_s };
-    Ok(serde_json::to_string(&line).map_err(Failure::internal)? + "\n")
+    Ok(serde_json::to_string(&LiveLine::new(speed, listener)).map_err(Failure::internal)? + "\n")
 }
 
 /// Lines of text, one for each second.
@@ -37,9 +26,12 @@ impl PlainLines {
         if !self.count.is_multiple_of(SPEEDS_PER_LINE) {
             return None;
         }
-        let status = status_in_words(speed, reason);
+        let status = live_status_in_words(speed.status, reason);
         let is_new = status != self.last_status;
-        let words = match speed_in_words(speed) {
+        let in_words = live_words(speed);
+        let in_words =
+            in_words.map(|words| format!("{} ± {} rev/s (k = 2)", words.speed_rev_s, words.plus_minus_rev_s));
+        let words = match in_words {
             Some(words) if status.is_empty() || !is_new => words,
             Some(words) => format!("{words}, {status}"),
             None if is_new => status.clone(),

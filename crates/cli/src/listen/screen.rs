@@ -1,8 +1,9 @@
 //! The screen of `listen`: draws a view, and reads the keys.
 
-use super::view::{STRIP_S, View, digits_of, status_in_words};
+use super::view::{STRIP_S, View};
 use crate::failure::Failure;
 use hovertone::live::LiveStatus;
+use hovertone_workflow::{live_status_in_words, live_words};
 use ratatui::crossterm::event::{self, Event, KeyCode, KeyEventKind, KeyModifiers};
 use ratatui::layout::{Alignment, Constraint, Layout, Rect};
 use ratatui::style::{Color, Style, Stylize};
@@ -19,6 +20,8 @@ const LEVEL_DB_MIN: f64 = -80.0;
 const LOUD_DB: f64 = -3.0;
 /// Smallest part of the speed that the strip chart shows, so that a steady speed looks steady.
 const STRIP_SHARE_MIN: f64 = 0.01;
+/// Most decimals in large figures.
+const DECIMALS_LARGE: usize = 2;
 /// Width of the names before numbers.
 const NAME_WIDTH: usize = 10;
 
@@ -117,31 +120,26 @@ fn draw_speed(frame: &mut Frame<'_>, area: Rect, view: &View) {
         frame.render_widget(Paragraph::new(" the first answer comes after two seconds of sound"), area);
         return;
     };
-    let Some((speed_rev_s, std_rev_s)) = now.speed_rev_s.zip(now.std_uncertainty_rev_s) else {
-        let words = status_in_words(&now, &view.reason);
-        let text = Paragraph::new(format!(" {words}")).wrap(Wrap { trim: false });
+    let status = live_status_in_words(now.status, &view.reason);
+    let Some((speed_rev_s, words)) = now.speed_rev_s.zip(live_words(&now)) else {
+        let text = Paragraph::new(format!(" {status}")).wrap(Wrap { trim: false });
         frame.render_widget(text.yellow(), area);
         return;
     };
-    let digits = digits_of(2.0 * std_rev_s).min(2);
-    let figures = large_figures(&format!("{speed_rev_s:.digits$}"));
+    let decimals = words.speed_rev_s.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(DECIMALS_LARGE));
+    let figures = large_figures(&format!("{speed_rev_s:.decimals$}"));
     let width = figures[0].chars().count() as u16 + 3;
     let colour = if now.status == LiveStatus::Ok { Color::Green } else { Color::Yellow };
     let [large, beside] = Layout::horizontal([Constraint::Length(width), Constraint::Min(20)]).areas(area);
     let rows: Vec<Line<'_>> = figures.into_iter().map(|row| Line::from(format!(" {row}"))).collect();
     frame.render_widget(Paragraph::new(rows).style(Style::new().fg(colour)), large);
-    let percent = 200.0 * std_rev_s / speed_rev_s;
-    let words = vec![
-        Line::from(format!(
-            "rev/s  ± {:.digits$} (k = 2), {percent:.2} %",
-            2.0 * std_rev_s,
-            digits = digits_of(2.0 * std_rev_s)
-        )),
-        Line::from(format!("{:.0} rpm", 60.0 * speed_rev_s)),
-        Line::from(format!("{:.1} rad/s", std::f64::consts::TAU * speed_rev_s)),
-        Line::from(status_in_words(&now, &view.reason)).yellow(),
+    let lines = vec![
+        Line::from(format!("rev/s  ± {} (k = 2), {} %", words.plus_minus_rev_s, words.plus_minus_percent)),
+        Line::from(format!("{} rpm", words.speed_rpm)),
+        Line::from(format!("{} rad/s", words.speed_rad_s)),
+        Line::from(status).yellow(),
     ];
-    frame.render_widget(Paragraph::new(words), beside);
+    frame.render_widget(Paragraph::new(lines), beside);
 }
 
 fn draw_level(frame: &mut Frame<'_>, area: Rect, view: &View) {

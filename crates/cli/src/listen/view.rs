@@ -1,7 +1,7 @@
 //! What the screen shows: the speed now, the last minute, and what the last review found.
 
-use hovertone::live::{Listener, LiveSpeed, LiveStatus, PossibleSpeed};
-use hovertone_report::counted;
+use hovertone::live::{Listener, LiveSpeed};
+use hovertone_workflow::possible_in_words;
 use std::collections::VecDeque;
 
 /// Length of the strip chart, s.
@@ -55,45 +55,15 @@ impl View {
             return;
         }
         self.rotors_rev_s = listener.rotors_rev_s().to_vec();
-        self.choices = listener.possible().iter().map(choice_in_words).collect();
+        self.choices = listener.possible().iter().map(possible_in_words).collect();
         self.reason = listener.reason().map_or_else(String::new, ToString::to_string);
-    }
-}
-
-fn choice_in_words(possible: &PossibleSpeed) -> String {
-    let &PossibleSpeed { order, blades, speed_rev_s, belief } = possible;
-    let tone = match blades {
-        Some(blades) if order.lines_per_turn() == f64::from(blades) => counted(blades as usize, "blade"),
-        _ => format!("order {order}"),
-    };
-    format!("{speed_rev_s:.1} rev/s, {tone}, probability {:.0} %", 100.0 * belief)
-}
-
-/// A speed in words: "318.72 ± 0.14 rev/s (k = 2)".
-pub(crate) fn speed_in_words(speed: &LiveSpeed) -> Option<String> {
-    let (speed_rev_s, std_rev_s) = (speed.speed_rev_s?, speed.std_uncertainty_rev_s?);
-    let digits = digits_of(2.0 * std_rev_s);
-    Some(format!("{speed_rev_s:.digits$} ± {:.digits$} rev/s (k = 2)", 2.0 * std_rev_s))
-}
-
-/// Digits after the point that show two figures of an uncertainty.
-pub(crate) fn digits_of(expanded: f64) -> usize {
-    if expanded > 0.0 { (1.0 - expanded.log10().floor()).clamp(0.0, 4.0) as usize } else { 4 }
-}
-
-/// A status in words.
-pub(crate) fn status_in_words(speed: &LiveSpeed, reason: &str) -> String {
-    match speed.status {
-        LiveStatus::Ok => String::new(),
-        LiveStatus::Ambiguous => "several speeds are possible".to_owned(),
-        LiveStatus::NoRotorTone if reason.is_empty() => "no rotor tone so far".to_owned(),
-        LiveStatus::NoRotorTone => format!("no rotor tone: {reason}"),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hovertone::live::LiveStatus;
 
     pub(crate) fn speed(time_s: f64, speed_rev_s: Option<f64>) -> LiveSpeed {
         LiveSpeed {
@@ -114,12 +84,5 @@ mod tests {
         view.is_frozen = true;
         view.take(speed(1000.0, None));
         assert!(view.now.is_some_and(|now| now.time_s < 90.0) && !view.strip.is_empty());
-    }
-
-    #[test]
-    fn a_speed_has_two_figures_of_its_uncertainty() {
-        assert_eq!(speed_in_words(&speed(1.0, Some(318.7213))).unwrap(), "318.72 ± 0.14 rev/s (k = 2)");
-        assert_eq!(speed_in_words(&speed(1.0, None)), None);
-        assert_eq!([digits_of(0.0031), digits_of(1.4), digits_of(23.0), digits_of(0.0)], [4, 1, 0, 4]);
     }
 }

@@ -5,7 +5,7 @@ use super::guests::Guests;
 
 /// The page runs its own scripts and its own WebAssembly, and reaches nothing else.
 const POLICY: &str = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' blob: data:; \
-    media-src blob:; connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    media-src blob:; connect-src 'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 /// Headers of every answer.
 const ALWAYS: [(&str, &str); 6] = [
     ("Content-Security-Policy", POLICY),

@@ -44,17 +44,25 @@ pub(crate) struct Browser {
     session: Option<String>,
     next_id: u64,
     events: Vec<Value>,
-    _profile: tempfile::TempDir,
+    _profile: Option<tempfile::TempDir>,
 }
 
 impl Browser {
     /// Starts one. Where there is none, says so on a line that the run's summary counts, unless `HOVERTONE_REQUIRE_BROWSER` is set.
     pub(crate) fn start() -> Option<Self> {
         let profile = tempfile::tempdir().unwrap();
+        let mut browser = Self::start_in(profile.path(), &[])?;
+        browser._profile = Some(profile);
+        Some(browser)
+    }
+
+    /// Starts one with more switches, that keeps what pages keep in a folder.
+    pub(crate) fn start_in(profile: &Path, switches: &[String]) -> Option<Self> {
         let spawn = |name: &&str| {
             Command::new(name)
                 .args(SWITCHES)
-                .arg(format!("--user-data-dir={}", profile.path().display()))
+                .args(switches)
+                .arg(format!("--user-data-dir={}", profile.display()))
                 .arg("about:blank")
                 .stdin(Stdio::null())
                 .stdout(Stdio::null())
@@ -79,7 +87,7 @@ impl Browser {
         let stream = TcpStream::connect(host).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         let (socket, _) = tungstenite::client(address.as_str(), stream).unwrap();
-        let mut browser = Self { child, socket, session: None, next_id: 0, events: Vec::new(), _profile: profile };
+        let mut browser = Self { child, socket, session: None, next_id: 0, events: Vec::new(), _profile: None };
         let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }))["targetId"].clone();
         let attached = browser.call("Target.attachToTarget", json!({ "targetId": target, "flatten": true }));
         browser.session = attached["sessionId"].as_str().map(str::to_owned);
@@ -131,9 +139,10 @@ impl Browser {
         String::from_utf8_lossy(&bytes).into_owned()
     }
 
-    /// The value of an expression in the page; promises are waited for.
+    /// The value of an expression in the page, as if a person had asked for it; promises are waited for.
     pub(crate) fn value(&mut self, expression: &str) -> Value {
-        let parameters = json!({ "expression": expression, "returnByValue": true, "awaitPromise": true });
+        let parameters =
+            json!({ "expression": expression, "returnByValue": true, "awaitPromise": true, "userGesture": true });
         let answer = self.call("Runtime.evaluate", parameters);
         assert!(answer.get("exceptionDetails").is_none(), "{expression}: {answer}");
         answer["result"]["value"].clone()
@@ -145,11 +154,11 @@ impl Browser {
         value.as_str().unwrap_or_else(|| panic!("{expression} is no text but {value}")).to_owned()
     }
 
-    /// Waits until an expression is true in the page.
+    /// Waits until an expression, or what it promises, is true in the page.
     #[cfg(feature = "page")]
     pub(crate) fn wait_for(&mut self, expression: &str, patience: Duration) {
         let start = std::time::Instant::now();
-        while self.value(&format!("Boolean({expression})")) != true {
+        while self.value(&format!("(async () => Boolean(await ({expression})))()")) != true {
             let words = self.text("document.body.innerText");
             assert!(start.elapsed() < patience, "{expression} did not come true:\n{words}");
             thread::sleep(Duration::from_millis(50));
@@ -169,6 +178,34 @@ impl Browser {
     #[cfg(feature = "page")]
     pub(crate) fn type_text(&mut self, text: &str) {
         self.call("Input.insertText", json!({ "text": text }));
+    }
+
+    /// Shows the page on a phone of this width, and allows touches.
+    #[cfg(feature = "page")]
+    pub(crate) fn phone(&mut self, width: u32) {
+        let screen = json!({ "width": width, "height": 844, "deviceScaleFactor": 2, "mobile": true });
+        self.call("Emulation.setDeviceMetricsOverride", screen);
+        self.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
+    }
+
+    /// Moves two fingers apart, from left and right of a place.
+    #[cfg(feature = "page")]
+    pub(crate) fn spread_fingers(&mut self, (x, y): (f64, f64)) {
+        const STEPS: u32 = 10;
+        const STEP_PX: f64 = 10.0;
+        for step in 0..=STEPS + 1 {
+            let kind = if step == 0 { "touchStart" } else { "touchMove" };
+            let away = STEP_PX * f64::from(step.min(STEPS) + 1);
+            let points = json!([{ "x": x - away, "y": y, "id": 0 }, { "x": x + away, "y": y, "id": 1 }]);
+            self.call("Input.dispatchTouchEvent", json!({ "type": kind, "touchPoints": points }));
+        }
+        self.call("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
+    }
+
+    /// Runs a script in each page before its own.
+    #[cfg(feature = "page")]
+    pub(crate) fn run_first(&mut self, script: &str) {
+        self.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
     }
 
     /// Downloads go into a folder.

@@ -1,5 +1,9 @@
 //! `hovertone serve` and its page in a real browser: from dropped files to the constant of the command, broken files, cancel, a phone.
 
+mod microphone;
+mod offline;
+mod picture;
+
 use crate::chromium::Browser;
 use crate::lighthouse::Lighthouse;
 use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};

@@ -9,6 +9,7 @@ export interface SpeedWords {
   tone_hz: string;
   speed_rev_s: string;
   plus_minus_rev_s: string;
+  plus_minus_percent: string;
   spread_rev_s: string;
   speed_rpm: string;
   speed_rad_s: string;
@@ -47,6 +48,24 @@ export interface Answer {
   notices: Notice[];
   facts: { container: string; codec: string; sample_rate_hz: number; channel_count: number } | null;
   json: string;
+}
+
+/** What is heard of a block of the microphone. */
+export interface Told {
+  speeds: ToldSpeed[];
+  rotors_rev_s: number[];
+  choices: { words: string; blades: number | null }[];
+  recorded_s: number | null;
+}
+
+export interface ToldSpeed {
+  time_s: number;
+  status: "ok" | "ambiguous" | "no_rotor_tone";
+  speed_rev_s: number | null;
+  level_db: number;
+  clipped_share: number;
+  words: { speed_rev_s: string; plus_minus_rev_s: string; plus_minus_percent: string; speed_rpm: string; speed_rad_s: string } | null;
+  status_words: string;
 }
 
 export interface Picture {

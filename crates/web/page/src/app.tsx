@@ -2,16 +2,19 @@
 
 import { useEffect, useRef, useState } from "preact/hooks";
 import { Experiment } from "./experiment";
+import { Listen } from "./listen";
 import { filesOf } from "./names";
+import { useObserved } from "./observed";
 import { Recordings } from "./recordings";
 import { Result } from "./result";
 import { save } from "./save";
-import { useStore, type Store } from "./store";
+import type { Store } from "./store";
 import { Vehicle } from "./vehicle";
 
 export function App({ store }: { store: Store }) {
-  useStore(store);
-  const isEmpty = store.recordings.length === 0 && !store.busy && store.loads().length === 0;
+  useObserved(store);
+  const isListening = store.listening.state === "on";
+  const isEmpty = store.recordings.length === 0 && !store.busy && store.loads().length === 0 && !isListening;
   return (
     <>
       <header class="top">
@@ -21,7 +24,11 @@ export function App({ store }: { store: Store }) {
       <main>
         <Faults store={store} />
         {isEmpty && <Steps />}
-        <Drop store={store} isEmpty={isEmpty} />
+        <Listen store={store} />
+        {!isListening && store.recordings.some((recording) => recording.isTrial) && (
+          <p class="quiet kept">The trials of the microphone are kept in this browser. Listen again to go on with the campaign.</p>
+        )}
+        <Drop store={store} isEmpty={isEmpty} isListening={isListening} />
         {store.busy && (
           <p class="busy" role="status">
             {store.busy.words} … <progress value={store.busy.share} aria-label={store.busy.words} />
@@ -50,7 +57,7 @@ export function App({ store }: { store: Store }) {
 
 function Steps() {
   const steps = [
-    ["Record a hover", "Ten quiet seconds beside the vehicle, with any phone or camera. Then the same with a weight on it."],
+    ["Record a hover", "Ten quiet seconds beside the vehicle, with any phone or camera, or with this page. Then the same with a weight on it."],
     ["Drop the recordings", "Video or audio, as they are. Each tells the speed of its rotors, with its ±."],
     ["Weigh and compare", "Say what each hover weighed. The loads give C_f, its uncertainty, and whether F = C_f ω² holds."],
   ];
@@ -66,7 +73,7 @@ function Steps() {
   );
 }
 
-function Drop({ store, isEmpty }: { store: Store; isEmpty: boolean }) {
+function Drop({ store, isEmpty, isListening }: { store: Store; isEmpty: boolean; isListening: boolean }) {
   const [isOver, setOver] = useState(false);
   const input = useRef<HTMLInputElement>(null);
   useEffect(() => {
@@ -101,6 +108,7 @@ function Drop({ store, isEmpty }: { store: Store; isEmpty: boolean }) {
     <section class={`drop ${isEmpty ? "large" : ""} ${isOver ? "over" : ""}`} aria-label="Add recordings">
       <p>
         <button type="button" class="main" onClick={() => input.current!.click()}>Choose recordings</button>
+        {!isListening && <button type="button" onClick={() => store.startListening()}>Listen with the microphone</button>}
         {isEmpty && <button type="button" disabled={store.busy !== undefined} onClick={() => void store.example()}>Try an example</button>}
       </p>
       <p class="quiet">

@@ -1,6 +1,14 @@
 // What crates/web offers. `cargo xtask page` makes the module itself.
 declare module "hovertone-bindings" {
   export default function init(options?: { module_or_path: URL | string }): Promise<unknown>;
+  export class Ear {
+    constructor(sampleRateHz: number, said: string);
+    push(block: Float32Array): string;
+    choose(possible: number): void;
+    hear_by(said: string): void;
+    begin(): void;
+    end(): Uint8Array;
+  }
   export class Desk {
     add(number: number, name: string, bytes: number): void;
     remove(number: number): void;
@@ -12,19 +20,8 @@ declare module "hovertone-bindings" {
     identify(text: string, files: string, onShare: (share: number) => void): string;
     report(onShare: (share: number) => void): string;
   }
-  export class Levels {
-    columns: number;
-    rows: number;
-    from_s: number;
-    to_s: number;
-    hz_low: number;
-    hz_high: number;
-    level_db_low: number;
-    level_db_high: number;
-    declared_s: number;
-    take(): Uint8Array;
-    free(): void;
-  }
+  /** A picture whose cells are still in the module. */
+  export type Levels = Omit<import("./answers").Picture, "cells"> & { take(): Uint8Array; free(): void };
   export function version(): string;
   export function vehicles(): string;
   export function level_colours(): Uint8Array;

@@ -36,6 +36,7 @@ function Card({ store, recording }: { store: Store; recording: Recording }) {
           {recording.isOpen ? "Hide the picture" : "Picture and sound"}
         </button>}
         {recording.answer && <button type="button" onClick={() => save(`${recording.name}.json`, recording.answer!.json + "\n", "application/json")}>All numbers</button>}
+        {recording.isTrial && <button type="button" onClick={() => save(recording.name, recording.file, "audio/wav")}>Save the sound</button>}
       </p>
       {recording.isOpen && recording.answer?.status !== "error" && <Viewer store={store} recording={recording} />}
     </article>

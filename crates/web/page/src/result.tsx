@@ -26,18 +26,25 @@ export function Result({ store }: { store: Store }) {
   );
 }
 
+/** The constant for one rotor and for the vehicle, as they are quoted. */
+export function Quoted({ quote }: { quote: string }) {
+  const values = quote.split(/; |\n/)[0].replace(/^C_f = /, "").split(", ");
+  return (
+    <p class="constant" data-quote={quote}>
+      {values.map((value) => {
+        const [, number, whose] = /^(\(.*?\) \S+ N s²)(.*)$/.exec(value) ?? [undefined, value, ""];
+        return <span key={value}><strong>{withPowers(number)}</strong> <span class="quiet">{whose}</span></span>;
+      })}
+    </p>
+  );
+}
+
 function Constant({ store, result, isOld }: { store: Store; result: Identified; isOld: boolean }) {
   const [quote, verdict] = result.quote.trim().split("\n");
-  const [constants, share] = quote.split("; ");
-  const values = constants.replace(/^C_f = /, "").split(", ");
+  const share = quote.split("; ")[1];
   return (
     <div class={isOld ? "old" : ""}>
-      <p class="constant" data-quote={result.quote}>
-        {values.map((value) => {
-          const [, number, whose] = /^(\(.*?\) \S+ N s²)(.*)$/.exec(value) ?? [undefined, value, ""];
-          return <span key={value}><strong>{withPowers(number)}</strong> <span class="quiet">{whose}</span></span>;
-        })}
-      </p>
+      <Quoted quote={result.quote} />
       {share && <p>{share}</p>}
       <p class={`verdict ${result.holds ?? ""}`}>
         {result.holds && <span class="badge">{VERDICTS[result.holds]}</span>} {verdict?.replace(/^verdict: /, "")}

@@ -1,5 +1,5 @@
 /** Hands a file to the person, as a download. */
-export function save(name: string, content: string | Uint8Array<ArrayBuffer>, type = "text/plain") {
+export function save(name: string, content: BlobPart, type = "text/plain") {
   const url = URL.createObjectURL(new Blob([content], { type }));
   const link = document.createElement("a");
   [link.href, link.download] = [url, name];

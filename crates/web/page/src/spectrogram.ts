@@ -58,6 +58,9 @@ export function bitmapOf(picture: Picture, colours: Uint8Array): HTMLCanvasEleme
   return canvas;
 }
 
+/** Distance of points of a curve that are drawn, px. */
+const CURVE_STEP_PX = 0.5;
+
 /** Between time, frequency and places of a canvas of a size in pixels of the page. */
 export class Axes {
   readonly width: number;
@@ -196,19 +199,24 @@ function drawOverlay(context: CanvasRenderingContext2D, axes: Axes, overlay: Ove
 
 function drawCurve(context: CanvasRenderingContext2D, axes: Axes, curve: Overlay["curves"][number]) {
   const { fromS, toS } = axes.view;
+  const path = new Path2D();
+  let before = -Infinity;
+  let [lastX, lastY] = [-Infinity, -Infinity];
+  for (const [timeS, hz] of curve.points) {
+    if (timeS < fromS - curve.stepS || timeS > toS + curve.stepS) continue;
+    const [x, y] = [axes.x(timeS), axes.y(hz)];
+    const isNew = timeS - before > 1.6 * curve.stepS;
+    before = timeS;
+    // of a long recording, most points lie upon each other
+    if (!isNew && Math.abs(x - lastX) < CURVE_STEP_PX && Math.abs(y - lastY) < CURVE_STEP_PX) continue;
+    if (isNew) path.moveTo(x, y);
+    else path.lineTo(x, y);
+    [lastX, lastY] = [x, y];
+  }
   for (const [width, colour] of [[curve.width + 2, "rgba(0, 0, 0, 0.55)"], [curve.width, curve.colour]] as const) {
-    context.beginPath();
     context.lineWidth = width;
     context.strokeStyle = colour;
-    let before = -Infinity;
-    for (const [timeS, hz] of curve.points) {
-      if (timeS < fromS - curve.stepS || timeS > toS + curve.stepS) continue;
-      const [x, y] = [axes.x(timeS), axes.y(hz)];
-      if (timeS - before > 1.6 * curve.stepS) context.moveTo(x, y);
-      else context.lineTo(x, y);
-      before = timeS;
-    }
-    context.stroke();
+    context.stroke(path);
   }
 }
 

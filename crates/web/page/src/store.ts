@@ -1,8 +1,11 @@
 // What the page knows, and what changes it. The experiment file's entries are the one place of vehicle, loads and masses.
 
-import { useEffect, useState } from "preact/hooks";
 import type { Answer, Entries, Identified, KnownVehicle, Lines, LoadEntries, Picture, Point, VehicleEntries } from "./answers";
+import { Campaign } from "./campaign";
+import { forgetTrial, keepAnswer, keepEntries, keepTrial, keptTrials } from "./kept";
+import { Listening } from "./listening";
 import { nameOf, uniqueName, matches } from "./names";
+import { Observed } from "./observed";
 import { Cancelled, Requests } from "./requests";
 
 export interface Recording {
@@ -16,6 +19,8 @@ export interface Recording {
   fault?: string;
   picture?: Picture;
   isOpen: boolean;
+  /** A trial of the microphone, which the browser keeps. */
+  isTrial: boolean;
   /** The part that a person chose, where the recording is in no load. */
   spanS?: Point;
   bandHz?: Point;
@@ -36,7 +41,7 @@ const END_S = 1e9;
 /** Time without a change after which loads are fitted again. */
 const SETTLE_MS = 350;
 
-export class Store {
+export class Store extends Observed {
   version = "";
   vehicles: KnownVehicle[] = [];
   colours: Uint8Array = new Uint8Array();
@@ -47,26 +52,35 @@ export class Store {
   fault = "";
   /** Progress of what is made for a person: the example, a report. */
   busy: { words: string; share: number } | undefined;
+  readonly listening = new Listening();
+  readonly campaign = new Campaign(this, this.listening);
   private requests = new Requests();
-  private listeners = new Set<() => void>();
   private nextNumber = 1;
   private timers = new Map<string, number>();
 
+  /** The experiment as it was kept last. */
+  private keptText = "";
+
   constructor() {
-    this.requests.ask({ kind: "start" }).then(
-      ({ version, vehicles, colours }) => this.change(() => Object.assign(this, { version, vehicles, colours })),
-      (error) => this.fail(error),
-    );
+    super();
+    let state = this.listening.state;
+    this.listening.listen(() => this.listening.state !== state && this.change(() => (state = this.listening.state)));
+    void this.start();
   }
 
-  listen(listener: () => void): () => void {
-    this.listeners.add(listener);
-    return () => this.listeners.delete(listener);
+  private async start() {
+    try {
+      const { version, vehicles, colours } = await this.requests.ask({ kind: "start" });
+      this.change(() => Object.assign(this, { version, vehicles, colours }));
+    } catch (error) {
+      this.fail(error);
+    }
+    await this.takeKept();
   }
 
-  private change(what: () => void) {
-    what();
-    for (const listener of this.listeners) listener();
+  protected override change(what: () => void) {
+    super.change(what);
+    if (this.recordings.some((recording) => recording.isTrial)) this.keepExperiment();
   }
 
   fail(error: unknown) {
@@ -87,7 +101,7 @@ export class Store {
       const name = nameOf(file);
       if (/\.toml$/i.test(name)) await this.openExperiment(file);
       else if (/\.json$/i.test(name)) await this.openResults(file, name);
-      else taken.push(this.takeRecording(file, name, load));
+      else taken.push(this.takeRecording(file, name, { load }));
     }
     for (const recording of taken) if (!this.isFitted(recording)) this.hear(recording);
   }
@@ -97,13 +111,14 @@ export class Store {
     return this.loadOf(recording) !== undefined && this.lacks().length === 0;
   }
 
-  private takeRecording(file: File, name: string, load?: number): Recording {
+  private takeRecording(file: File, name: string, { load, isTrial = false, answer }: { load?: number; isTrial?: boolean; answer?: Answer } = {}): Recording {
     const wanted = this.loads().flatMap((each) => each.recordings.map(fileOf)).filter((each) => !this.byName(each));
     const known = wanted.find((each) => matches(each, name));
     const number = this.nextNumber++;
     const recording: Recording = {
       number, file, name: known ?? uniqueName(name, (each) => this.byName(each) !== undefined),
-      url: URL.createObjectURL(file), state: "waiting", share: 0, isOpen: this.recordings.length === 0,
+      url: URL.createObjectURL(file), state: answer ? "heard" : "waiting", share: 0, answer, isTrial,
+      isOpen: this.recordings.length === 0 && !isTrial,
     };
     this.requests.add(number, recording.name, file);
     this.change(() => this.recordings.push(recording));
@@ -120,6 +135,7 @@ export class Store {
     this.requests.cancel(tagOf(recording));
     this.requests.remove(number);
     URL.revokeObjectURL(recording.url);
+    if (recording.isTrial) void forgetTrial(recording.name).catch(() => {});
     this.change(() => {
       this.takeOut(recording.name);
       this.recordings = this.recordings.filter((each) => each !== recording);
@@ -186,12 +202,17 @@ export class Store {
     const onShare = (share: number) => this.change(() => Object.assign(recording, { state: "hearing", share }));
     const said = this.saidOf(recording);
     this.requests.ask({ kind: "hear", number: recording.number, said }, { tag: tagOf(recording), onShare }).then(
-      (answer) => this.change(() => Object.assign(recording, { state: "heard", answer, fault: undefined })),
+      (answer) => this.change(() => this.setAnswer(recording, answer)),
       (error) => {
         if (error instanceof Cancelled) return;
         this.change(() => Object.assign(recording, { state: "heard", answer: undefined, fault: wordsOf(error) }));
       },
     );
+  }
+
+  private setAnswer(recording: Recording, answer: Answer) {
+    Object.assign(recording, { state: "heard", answer, fault: undefined });
+    if (recording.isTrial) void keepAnswer(recording.name, answer).catch(() => {});
   }
 
   cancel(recording: Recording) {
@@ -211,15 +232,76 @@ export class Store {
 
   /** What is said of a recording before it is heard: the vehicle, its mass as flown, and the chosen part. */
   private saidOf(recording: Recording) {
-    const { preset, blades, gear, rotors, mass_kg, propeller_diameter_m: diameter_m } = this.entries.vehicle;
     const load = this.loadOf(recording);
-    const added_kg = load === undefined ? 0 : (this.loads()[load].added_mass_kg ?? 0);
+    const addedKg = load === undefined ? 0 : (this.loads()[load].added_mass_kg ?? 0);
     const [from_s, to_s] = recording.spanS ?? [];
+    return { ...this.saidOfVehicle(addedKg), band_hz: recording.bandHz, from_s, to_s };
+  }
+
+  private saidOfVehicle(addedKg: number) {
+    const { preset, blades, gear, rotors, mass_kg, propeller_diameter_m: diameter_m } = this.entries.vehicle;
     const known = this.vehicles.some((vehicle) => vehicle.id === preset) ? preset : undefined;
-    return {
-      preset: known, blades, gear, rotors, diameter_m, mass_kg: mass_kg && mass_kg + added_kg,
-      band_hz: recording.bandHz, from_s, to_s,
-    };
+    return { preset: known, blades, gear, rotors, diameter_m, mass_kg: mass_kg && mass_kg + addedKg };
+  }
+
+  // --- the microphone ---
+
+  startListening() {
+    void this.listening.start(this.saidOfVehicle(this.campaign.addedKg));
+  }
+
+  /** Listens by what is said of the vehicle now. */
+  hearLive() {
+    this.listening.hearBy(this.saidOfVehicle(this.campaign.addedKg));
+  }
+
+  /** Decides for one of the possible speeds: by the blades, where they decide, so that the trials know it too. */
+  chooseLive(index: number) {
+    const { blades } = this.listening.choices[index];
+    if (blades && !this.entries.vehicle.blades) this.setVehicle({ ...this.entries.vehicle, blades });
+    else this.listening.choose(index);
+  }
+
+  /** Takes a trial of the microphone into a load, keeps it, and judges it. */
+  takeTrial(bytes: Uint8Array<ArrayBuffer>, load: number): Recording {
+    const name = `${this.loads()[load].name.replace(/[^\p{L}\p{N}.+-]+/gu, "_")}_${this.loads()[load].recordings.length + 1}.wav`;
+    const recording = this.takeRecording(new File([bytes], name, { type: "audio/wav" }), name, { load, isTrial: true });
+    void navigator.storage?.persist?.().catch(() => false);
+    keepTrial({ name: recording.name, bytes }, this.entries).catch(() =>
+      this.fail(new Error("this browser keeps no trials: save their sound before you close the page")),
+    );
+    if (!this.isFitted(recording)) this.hear(recording);
+    return recording;
+  }
+
+  /** Trials of an earlier visit. */
+  private async takeKept() {
+    try {
+      const { trials, entries } = await keptTrials();
+      if (trials.length === 0) return;
+      // who was faster, and has described another vehicle already, keeps it
+      if (entries && this.recordings.length === 0 && this.loads().length === 0) this.change(() => (this.entries = entries));
+      for (const { name, bytes, answer } of trials) {
+        const recording = this.takeRecording(new File([bytes], name, { type: "audio/wav" }), name, { isTrial: true, answer });
+        if (!answer && !this.isFitted(recording)) this.hear(recording);
+      }
+    } catch {
+      // a browser that keeps nothing has nothing to bring back
+    }
+  }
+
+  private keepExperiment() {
+    const text = JSON.stringify(this.entries);
+    if (text === this.keptText) return;
+    this.keptText = text;
+    void keepEntries(this.entries).catch(() => {});
+  }
+
+  /** Takes all trials away, for another vehicle. */
+  newCampaign() {
+    for (const { isTrial, number } of [...this.recordings]) if (isTrial) this.remove(number);
+    this.change(() => (this.entries = { ...this.entries, load: this.loads().filter((load) => load.recordings.length > 0) }));
+    this.campaign.nextLoad();
   }
 
   // --- the experiment ---
@@ -244,6 +326,7 @@ export class Store {
   setVehicle(vehicle: VehicleEntries) {
     this.change(() => (this.entries = { ...this.entries, vehicle: withoutNothing(vehicle) }));
     this.soon("hear", () => this.hearAll());
+    this.hearLive();
     this.fitSoon();
   }
 
@@ -251,6 +334,16 @@ export class Store {
     const number = this.loads().length + 1;
     this.change(() => this.loads().push({ name: `load ${number}`, added_mass_kg: 0, recordings: [] }));
     return number - 1;
+  }
+
+  /** The load with a mass: one of the same mass, one without recordings, or a new one. */
+  loadOfMass(addedKg: number): number {
+    const loads = this.loads();
+    const same = loads.findIndex((load) => (load.added_mass_kg ?? 0) === addedKg);
+    const empty = loads.findIndex((load) => load.recordings.length === 0);
+    const load = same >= 0 ? same : empty >= 0 ? empty : this.addLoad();
+    this.setLoad(load, { added_mass_kg: addedKg });
+    return load;
   }
 
   setLoad(index: number, load: Partial<LoadEntries>) {
@@ -354,7 +447,7 @@ export class Store {
         this.fit = { state: "done", share: 1, result };
         for (const { file, answer } of result.inputs) {
           const recording = this.recordings.find((each) => each.number === file);
-          if (recording) Object.assign(recording, { answer, state: "heard", fault: undefined });
+          if (recording) this.setAnswer(recording, answer);
         }
       });
     } catch (error) {
@@ -420,10 +513,4 @@ function tagOf(recording: Recording): string {
 
 function withoutNothing(vehicle: VehicleEntries): VehicleEntries {
   return Object.fromEntries(Object.entries(vehicle).filter(([, value]) => value !== undefined && value !== ""));
-}
-
-/** Draws a component again at each change of the store. */
-export function useStore(store: Store) {
-  const [, draw] = useState(0);
-  useEffect(() => store.listen(() => draw((count) => count + 1)), [store]);
 }

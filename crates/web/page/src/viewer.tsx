@@ -66,29 +66,34 @@ function Picturesque({ store, recording, picture }: { store: Store; recording: R
     };
   }, [view.fromS, view.toS, view.hzLow, view.hzHigh, picture]);
 
+  const curves = useMemo(() => curvesOf(answer), [answer]);
   const overlay: Overlay = {
-    curves: curvesOf(answer),
+    curves,
     usedS: answer?.hover_s ?? [],
     bandsHz: answer?.bands_hz.slice(0, HARMONICS) ?? [],
     ruler: rulerOf(ruler, cursor, picture.hz_high),
     cursor, playedS, selection,
   };
-  useEffect(() => {
-    const element = canvas.current;
-    if (!element) return;
+  const draw = useRef(() => {});
+  draw.current = () => {
     const layers = [{ picture, bitmap }, ...(detail && detailBitmap ? [{ picture: detail, bitmap: detailBitmap }] : [])];
-    const draw = () => drawSpectrogram(element, view, layers, overlay);
-    const frame = requestAnimationFrame(draw);
-    const watcher = new ResizeObserver(draw);
-    watcher.observe(element);
+    if (canvas.current) drawSpectrogram(canvas.current, view, layers, overlay);
+  };
+  useEffect(() => {
+    const frame = requestAnimationFrame(() => draw.current());
+    return () => cancelAnimationFrame(frame);
+  });
+  useEffect(() => {
+    const again = () => draw.current();
+    const watcher = new ResizeObserver(again);
+    watcher.observe(canvas.current!);
     const scheme = matchMedia("(prefers-color-scheme: dark)");
-    scheme.addEventListener("change", draw);
+    scheme.addEventListener("change", again);
     return () => {
-      cancelAnimationFrame(frame);
-      scheme.removeEventListener("change", draw);
+      scheme.removeEventListener("change", again);
       watcher.disconnect();
     };
-  });
+  }, []);
 
   const moves = useMoves({
     canvas, view, whole, tool, setView, setSelection,

@@ -1,0 +1,133 @@
+//! The microphone of the page: blocks of samples in, what is heard now as JSON out; and the samples of a trial as a WAV file.
+
+use crate::picture::wav_of_floats;
+use crate::said::SaidOnPage;
+use hovertone::live::{Listener, LiveConfig, LiveSpeed};
+use hovertone_report::LiveWords;
+use hovertone_workflow::{live_status_in_words, live_words, possible_in_words};
+use serde::Serialize;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// Longest sound that is kept of a trial: a person who forgets to end it fills no memory.
+const KEPT_S_MAX: f64 = 600.0;
+
+/// Listens to the microphone.
+#[wasm_bindgen]
+pub struct Ear {
+    listener: Listener,
+    sample_rate_hz: f64,
+    /// The samples of the trial that is recorded.
+    trial: Option<Vec<f32>>,
+}
+
+/// What is told of a block.
+#[derive(Serialize)]
+struct Told {
+    speeds: Vec<ToldSpeed>,
+    /// What the last review found.
+    rotors_rev_s: Vec<f64>,
+    choices: Vec<Choice>,
+    /// Length of the trial so far.
+    recorded_s: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct ToldSpeed {
+    #[serde(flatten)]
+    speed: LiveSpeed,
+    words: Option<LiveWords>,
+    status_words: String,
+}
+
+/// One of several possible speeds.
+#[derive(Serialize)]
+struct Choice {
+    words: String,
+    blades: Option<u32>,
+}
+
+#[wasm_bindgen]
+impl Ear {
+    /// For sound at this rate. `said` is JSON: what the page says of the vehicle.
+    ///
+    /// # Errors
+    /// One line: what is said has no meaning.
+    #[wasm_bindgen(constructor)]
+    pub fn new(sample_rate_hz: f64, said: &str) -> Result<Self, String> {
+        let said: SaidOnPage = serde_json::from_str(said).map_err(|error| error.to_string())?;
+        let (config, discovery) = said.said().settings().map_err(|error| error.to_string())?;
+        let listener = Listener::new(sample_rate_hz, LiveConfig::of_analysis(config, discovery));
+        let listener = listener.map_err(|error| error.to_string())?;
+        Ok(Self { listener, sample_rate_hz, trial: None })
+    }
+
+    /// Takes in a block, and returns what is heard as JSON; an empty text where nothing is due.
+    ///
+    /// # Errors
+    /// Settings that the sample rate does not allow.
+    pub fn push(&mut self, block: &[f32]) -> Result<String, String> {
+        if let Some(trial) = self.trial.as_mut().filter(|trial| (trial.len() as f64) < KEPT_S_MAX * self.sample_rate_hz)
+        {
+            trial.extend_from_slice(block);
+        }
+        let mut heard = Vec::new();
+        let mut rest = block;
+        while !rest.is_empty() {
+            rest = self.listener.push(rest, &mut |speed| heard.push(speed));
+            if self.listener.wants_review() {
+                self.listener.review().map_err(|error| error.to_string())?;
+            }
+        }
+        if heard.is_empty() {
+            return Ok(String::new());
+        }
+        serde_json::to_string(&self.told(&heard)).map_err(|error| error.to_string())
+    }
+
+    fn told(&self, heard: &[LiveSpeed]) -> Told {
+        let reason = self.listener.reason().map_or_else(String::new, ToString::to_string);
+        let told = |speed: &LiveSpeed| ToldSpeed {
+            speed: *speed,
+            words: live_words(speed),
+            status_words: live_status_in_words(speed.status, &reason),
+        };
+        let possible = self.listener.possible();
+        Told {
+            speeds: heard.iter().map(told).collect(),
+            rotors_rev_s: self.listener.rotors_rev_s().to_vec(),
+            choices: possible
+                .iter()
+                .map(|possible| Choice { words: possible_in_words(possible), blades: possible.blades })
+                .collect(),
+            recorded_s: self.trial.as_ref().map(|trial| trial.len() as f64 / self.sample_rate_hz),
+        }
+    }
+
+    /// Decides for one of the possible speeds.
+    pub fn choose(&mut self, possible: usize) {
+        self.listener.choose(possible);
+    }
+
+    /// Takes what the page says of the vehicle now, and listens anew by it. A trial goes on.
+    ///
+    /// # Errors
+    /// One line: what is said has no meaning.
+    pub fn hear_by(&mut self, said: &str) -> Result<(), String> {
+        self.listener = Self::new(self.sample_rate_hz, said)?.listener;
+        Ok(())
+    }
+
+    /// Begins a trial: from now on the samples are kept.
+    pub fn begin(&mut self) {
+        self.trial = Some(Vec::new());
+    }
+
+    /// Ends the trial and returns its samples as a WAV file of 32-bit floats: the samples as the browser gave them. Empty without a trial.
+    ///
+    /// # Errors
+    /// None is known.
+    pub fn end(&mut self) -> Result<Vec<u8>, String> {
+        let Some(trial) = self.trial.take() else { return Ok(Vec::new()) };
+        wav_of_floats(&trial, self.sample_rate_hz.round() as u32)
+    }
+}
