@@ -18,12 +18,12 @@ fn name(line: &Value) -> &str {
 fn bench_recordings_of_a_propeller_have_the_known_speeds() {
     let Some(folder) = recordings("crazyflie-propeller") else { return };
     let known_rev_s = [325.6, 347.3, 360.1, 376.6, 388.3, 405.2, 405.1];
-    let lines = speed(&files_in(&folder, ".wav"), &["--rotors", "1"]).ends_with(0).json_lines();
+    // of one of them two speeds remain possible, with 98.98 % for the true one: a decision needs 99 %
+    let lines = speed(&files_in(&folder, ".wav"), &["--rotors", "1"]).ends_with(3).json_lines();
     assert_eq!(lines.len(), known_rev_s.len());
     let is_decided = |line: &&Value| line["status"] == "ok";
     assert!(lines.iter().filter(is_decided).count() >= 6, "{lines:?}");
     for (line, known) in lines.iter().zip(known_rev_s) {
-        // the belief in one of them is 98.98 %: then the speed is the first of those that are possible
         let told = if is_decided(&line) { line } else { &line["alternatives"][0] };
         let speed_rev_s = told["speed_rev_s"].as_f64().unwrap();
         assert!((speed_rev_s - known).abs() < 0.5, "{}: {speed_rev_s}, known {known}", name(line));
