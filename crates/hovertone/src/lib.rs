@@ -173,8 +173,11 @@ pub mod tones {
 /// #     let sample = |n: usize| {
 /// #         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
 /// #         let noise = f64::from(state) / f64::from(u32::MAX) - 0.5;
-/// #         let line = |k: f64| 0.1 / k * (std::f64::consts::TAU * 2.0 * k * rev_s * n as f64 / rate_hz).cos();
-/// #         (0.03 * noise + (1..7).map(|k| line(f64::from(k))).sum::<f64>()) as f32
+/// #         let line = |order: u32| {
+/// #             let level = if order.is_multiple_of(2) { 0.2 } else { 0.04 } / f64::from(order);
+/// #             level * (std::f64::consts::TAU * f64::from(order) * rev_s * n as f64 / rate_hz).cos()
+/// #         };
+/// #         (0.03 * noise + (1..13).map(line).sum::<f64>()) as f32
 /// #     };
 /// #     (0..80_000).map(sample).collect()
 /// # }

@@ -34,8 +34,9 @@ pub fn speed_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Spe
 }
 
 /// Passes that a speed needs: one for the survey, one for the lines, and two where a known number of rotors is separated. Where several are
-/// heard, two more separate them; where a weak tone is steady, one more tells its octave; where no rotor is heard there, but a slower
-/// shaft explains the tone, its lines take as many as the first ones. These are announced when they turn out to be needed.
+/// heard, two more separate them, and two more look for others beside these; where a weak tone is steady, one more tells its octave; where no
+/// rotor is heard there, but a slower shaft explains the tone, its lines take as many as the first ones. These are announced when they turn out
+/// to be needed.
 pub fn passes_of_speed(config: &Config) -> u32 {
     passes_of_survey() + passes_after_survey(config)
 }
