@@ -32,10 +32,11 @@ recordings = ["hover.wav"]
 
 
 def rotor(rev_s: float, duration_s: float = 5.0) -> NDArray[np.float32]:
-    """A rotor with two blades, in some noise."""
+    """A rotor with two unlike blades, in some noise."""
     time_s = np.arange(int(RATE_HZ * duration_s)) / RATE_HZ
     noise = np.random.default_rng(1).uniform(-0.015, 0.015, len(time_s))
-    lines = sum(0.1 / k * np.cos(2 * np.pi * 2 * k * rev_s * time_s) for k in range(1, 7))
+    levels = {order: (0.04 if order % 2 else 0.2) / order for order in range(1, 25)}
+    lines = sum(level * np.cos(2 * np.pi * order * rev_s * time_s) for order, level in levels.items())
     return (noise + lines).astype(np.float32)
 
 

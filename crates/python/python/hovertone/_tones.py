@@ -161,7 +161,7 @@ def tones(
     --------
     >>> family = tones("hover.wav").families[0]
     >>> f"{family.fundamental_hz:.1f} Hz"
-    '122.6 Hz'
+    '61.3 Hz'
     """
     heard = to_hear(recording, rate_hz)
     with listening(progress) as listener:
