@@ -1,4 +1,4 @@
-//! Other rotors of the same vehicle, beside one that is heard.
+//! Other rotors of the same vehicle, beside one or several that are heard.
 
 use super::excess::{Excess, Looks};
 use super::own_lines::{OwnPropeller, is_apart, loudness_db, own_lines_nats};

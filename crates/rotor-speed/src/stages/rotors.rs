@@ -20,39 +20,29 @@ pub(super) fn heard_rotors(
     speed_rev_s: f64,
     config: &Config,
 ) -> Result<RotorTracks, Error> {
-    let few = separated_rotors(passes, surveyed, hover, speed_rev_s, config)?;
+    let separated = |passes: &mut Passes<'_>, config: &Config| -> Result<RotorTracks, Error> {
+        Ok(without_unheard(rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?, surveyed, hover, config))
+    };
+    let few = separated(passes, config)?;
     if config.rotors.is_count_known || !others_sound_beside(&few, surveyed, hover, config) {
         return Ok(few);
     }
     passes.expect_more(2);
     let for_many = Config { rotors: config.rotors.with_many(), ..config.clone() };
-    let many = separated_rotors(passes, surveyed, hover, speed_rev_s, &for_many)?;
+    let many = separated(passes, &for_many)?;
     let few_count = few.heard_count();
     let most = if many.heard_count() > few_count { many } else { few };
     let count = (few_count + 1).max(most.heard_count()).next_multiple_of(2);
     Ok(most.of_count(count))
 }
 
-/// The rotors that are separated in two passes, without those whose own lines are not heard.
-fn separated_rotors(
-    passes: &mut Passes<'_>,
-    surveyed: &Surveyed,
-    hover: &Hover,
-    speed_rev_s: f64,
-    config: &Config,
-) -> Result<RotorTracks, Error> {
-    Ok(without_unheard(rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?, surveyed, hover, config))
-}
-
 /// Whether another rotor is heard beside all of these, where each of them has a track.
 fn others_sound_beside(rotors: &RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> bool {
     let Some((looks, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return false };
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let long = looks.long.within(&hover.spans_s());
-    let times_s: Vec<f64> = long.frames.iter().map(|frame| frame.centre_s).collect();
-    let speeds_rev_s: Option<Vec<Vec<f64>>> =
-        rotors.rotors.iter().map(|rotor| rotor.track.speeds_at(&times_s)).collect();
-    let nats = speeds_rev_s.and_then(|speeds_rev_s| nats_beside(&long, &speeds_rev_s, &propeller));
+    let SeenRotors { excess, speeds_rev_s } = SeenRotors::new(looks.long.within(&hover.spans_s()), rotors);
+    let all_rev_s: Option<Vec<Vec<f64>>> = speeds_rev_s.into_iter().collect();
+    let nats = all_rev_s.and_then(|all_rev_s| nats_beside(&excess, &all_rev_s, &propeller));
     nats.is_some_and(|nats| nats >= config.evidence.companion_nats_min)
 }
 
