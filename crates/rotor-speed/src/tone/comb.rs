@@ -189,11 +189,10 @@ impl CombMap {
 
     /// A speed that pooling has found to within its reach: the mean of what the rows around it say, each as its score.
     fn refined_rev_s(&self, speed_rev_s: f64) -> f64 {
-        let (sum, weights) = (0..self.scores_db.len())
+        let said = (0..self.scores_db.len())
             .filter_map(|row| self.best_near(row, speed_rev_s, 2.0 * POOL_HALF_WIDTH_SHARE))
-            .filter(|&(_, score)| score > 0.0)
-            .fold((0.0, 0.0), |(sum, weights), (speed, score)| (sum + speed * score.powi(2), weights + score.powi(2)));
-        if weights > 0.0 { sum / weights } else { speed_rev_s }
+            .filter(|&(_, score)| score > 0.0);
+        weighted_mean(said.map(|(speed, score)| (speed, score.powi(2)))).unwrap_or(speed_rev_s)
     }
 
     /// Settles the octave by how levels alternate. Lines between the blade pass and its harmonics can be those of the shaft,
@@ -271,11 +270,8 @@ impl CombMap {
     pub(crate) fn mean_near(&self, row: usize, speed_rev_s: f64, half_width_share: f64) -> Option<f64> {
         let (_, best_db) = self.best_near(row, speed_rev_s, half_width_share)?;
         let scores = self.speeds_rev_s.iter().copied().zip(self.scores_db.get(row)?.iter().copied());
-        let (sum, weights) = scores
-            .filter(|(speed, _)| (speed / speed_rev_s - 1.0).abs() <= half_width_share)
-            .map(|(speed, score)| (speed, (score - OUTSTANDING_SHARE * best_db).max(0.0).powi(2)))
-            .fold((0.0, 0.0), |(sum, weights), (speed, weight)| (sum + speed * weight, weights + weight));
-        (weights > 0.0).then(|| sum / weights)
+        let near = scores.filter(|(speed, _)| (speed / speed_rev_s - 1.0).abs() <= half_width_share);
+        weighted_mean(near.map(|(speed, score)| (speed, (score - OUTSTANDING_SHARE * best_db).max(0.0).powi(2))))
     }
 
     /// The middle of all rotors within a share of the speed of one of them: the mean of what these rows say, each as its best score.
@@ -289,10 +285,7 @@ impl CombMap {
             let (_, best_db) = self.best_near(row, speed_rev_s, half_width_share)?;
             Some((self.mean_near(row, speed_rev_s, half_width_share)?, best_db.powi(2)))
         };
-        let (sum, weights) = rows
-            .filter_map(of_row)
-            .fold((0.0, 0.0), |(sum, weights), (middle, weight)| (sum + weight * middle, weights + weight));
-        if weights > 0.0 { sum / weights } else { speed_rev_s }
+        weighted_mean(rows.filter_map(of_row)).unwrap_or(speed_rev_s)
     }
 
     /// Best speed of a row over the whole search, and its score.
@@ -309,6 +302,13 @@ impl CombMap {
             .filter(|&(speed, _)| is_wanted(speed))
             .max_by(|a, b| a.1.total_cmp(&b.1))
     }
+}
+
+/// The mean of values with their weights. `None` without a weight above 0.
+fn weighted_mean(weighted: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let (sum, weights) =
+        weighted.fold((0.0, 0.0), |(sum, weights), (value, weight)| (sum + value * weight, weights + weight));
+    (weights > 0.0).then(|| sum / weights)
 }
 
 #[cfg(test)]
