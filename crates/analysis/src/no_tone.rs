@@ -50,13 +50,6 @@ pub enum NoTone {
         /// Longest continuous time of that tone.
         held_s: f64,
     },
-    /// The lines belong to a slower shaft or to an instrument.
-    ForeignSeries {
-        /// Distance between the lines.
-        fundamental_hz: f64,
-        /// Tone of the strongest candidate.
-        tone_hz: f64,
-    },
     /// The tone lies above the bandwidth of the recording.
     BandCutByCodec {
         /// Expected frequency of the tone.
@@ -117,11 +110,6 @@ impl fmt::Display for NoTone {
                 f,
                 "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most, and others sound for longer; \
                  if a rotor is among them, choose its part with --from and --to"
-            ),
-            Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
-                f,
-                "there are lines {fundamental_hz:.1} Hz apart, which a rotor with its tone near {tone_hz:.0} Hz cannot make: they are of a \
-                 slower rotor, an engine or an instrument; check the blades or the gear"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,

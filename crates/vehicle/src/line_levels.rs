@@ -53,6 +53,8 @@ pub struct LineLevels {
     pub shaft_missing: f64,
     /// Share of places without a line of this rotor that hold a line of something else.
     pub foreign: f64,
+    /// Places that this share is worth beside those of one recording.
+    pub foreign_places: f64,
     /// Share of recordings in which an echo weakens every other line of the blade pass.
     pub echo: f64,
     /// Shaft speed below which multirotors get rare, rev/s.
@@ -98,6 +100,7 @@ impl Default for LineLevels {
             notch_std_db: 5.0,
             shaft_missing: 0.15,
             foreign: 0.05,
+            foreign_places: 60.0,
             echo: 0.03,
             slow_rev_s: 30.0,
             slow_std: 0.3,

@@ -68,8 +68,7 @@ impl Said<'_> {
         let mut config = Config::for_tone(tone);
         config.known = self.known()?;
         config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
-        // where nothing is said of the tone, the number of rotors is not searched for
-        config.rotors.is_count_known = config.known.rotor_count.is_some() || discovery.is_some();
+        config.rotors.is_count_known = config.known.rotor_count.is_some();
         let may_be_several = !config.rotors.is_count_known || config.rotors.count > 1;
         let default = if may_be_several && !self.mean_only { Method::Separated } else { Method::Harmonic };
         config.method = self.method.unwrap_or(default);

@@ -153,13 +153,13 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
 fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool {
     let Some(first) = look.hypotheses.first() else { return true };
-    let jumps_nats = match &look.search {
-        Some(search) => search.jumps_nats(first.speed_rev_s),
+    let jumps_gain = match &look.search {
+        Some(search) => search.jumps_gain(first.speed_rev_s),
         None => {
-            Search::of(short, look.blades, &look.speeds_rev_s).and_then(|search| search.jumps_nats(first.speed_rev_s))
+            Search::of(short, look.blades, &look.speeds_rev_s).and_then(|search| search.jumps_gain(first.speed_rev_s))
         }
     };
-    jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
+    jumps_gain.is_none_or(|gain| gain >= config.jumps_gain_max)
 }
 
 /// Adds to each hypothesis what the long frames show along its path, and sorts them again.
@@ -188,13 +188,14 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
     let noises: Vec<NoiseLevel> = seen.iter().flatten().flatten().map(|seen| seen.noise).collect();
     let Some(noise) = NoiseLevel::of_emptiest(noises, config.levels.foreign) else { return };
     for (look, seen) in of_propellers.iter_mut().zip(seen) {
-        let mut model = LevelModel::new(noise, look.blades, &config.levels);
+        let mut model = LevelModel::of_speeds(noise, look.blades, &config.levels);
+        let mut presence = LevelModel::of_presence(noise, look.blades, &config.levels);
         let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
         for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
             let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels));
             it.nats += levels_nats - it.levels_nats;
             it.levels_nats = levels_nats;
-            it.least_nats = it.least_nats.min(model.presence_nats(&seen.levels));
+            it.least_nats = it.least_nats.min(presence.flat_nats(&seen.levels));
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
@@ -248,11 +249,13 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     // lines that no wanted rotor explains are foreign, whatever another one would explain
     let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
     let of_propeller = |(propeller, multiples): (&WantedPropeller, Vec<Multiple>)| {
-        let mut model = LevelModel::new(noise, propeller.blades, &config.levels);
+        let mut model = LevelModel::of_speeds(noise, propeller.blades, &config.levels);
+        let mut presence = LevelModel::of_presence(noise, propeller.blades, &config.levels);
         let all = multiples.iter().filter_map(|multiple| {
             let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
+            let least_nats = presence.flat_nats(&hypothesis.levels);
             let nats = hypothesis.levels_nats + nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
-            Some(Hypothesis { nats, ..hypothesis })
+            Some(Hypothesis { nats, least_nats, ..hypothesis })
         });
         OfPropeller {
             blades: propeller.blades,
@@ -297,7 +300,7 @@ fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut 
         factor,
         votes_nats,
         levels_nats,
-        least_nats: model.presence_nats(&levels),
+        least_nats: 0.0,
         nats: 0.0,
         levels,
         belief: 0.0,

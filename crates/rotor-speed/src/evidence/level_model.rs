@@ -82,9 +82,18 @@ struct Scatter {
 }
 
 impl<'a> LevelModel<'a> {
-    /// The model of rotors with so many blades.
-    pub(super) fn new(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
-        let foreign = prior.foreign.max(noise.lines_share);
+    /// The model that tells the speeds of rotors with so many blades. Lines of other rotors and of motors lie at the orders of a rotor, so that
+    /// these hold lines of something else at least as often as in general.
+    pub(super) fn of_speeds(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
+        Self::new(noise, blades, prior, prior.foreign.max(noise.lines_share))
+    }
+
+    /// The model that tells a rotor from none: places hold lines of something else as often as this recording shows.
+    pub(super) fn of_presence(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
+        Self::new(noise, blades, prior, noise.foreign_share(prior))
+    }
+
+    fn new(noise: NoiseLevel, blades: u32, prior: &'a LineLevels, foreign: f64) -> Self {
         let table = |std_db: f64, missing: f64, notched: f64| {
             RatioTable::new(noise, &LineScatter { std_db, missing, notched, prior }, foreign)
         };
@@ -118,9 +127,9 @@ impl<'a> LevelModel<'a> {
         )
     }
 
-    /// The same as if the floor were flat. Where lines lie close, as those of a slow comb, they are a part of the floor: then it hides lines that
+    /// The evidence as if the floor were flat. Where lines lie close, as those of a slow comb, they are a part of the floor: then it hides lines that
     /// are not there. So the floor tells octaves apart, and no rotor from none.
-    pub(super) fn presence_nats(&mut self, levels: &[OrderLevel]) -> f64 {
+    pub(super) fn flat_nats(&mut self, levels: &[OrderLevel]) -> f64 {
         let flat: Vec<OrderLevel> = levels.iter().map(|level| OrderLevel { floor_db: 0.0, ..*level }).collect();
         self.evidence_nats(&flat)
     }
@@ -365,12 +374,12 @@ fn ln_weights(grid: &[f64], mean: f64, std: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    const NOISE: NoiseLevel = NoiseLevel { mean_db: -1.0, std_db: 1.0, lines_share: 0.05 };
+    const NOISE: NoiseLevel = NoiseLevel { mean_db: -1.0, std_db: 1.0, lines_share: 0.05, places: 180.0 };
 
     fn evidence(levels_db: &[f64], blades: u32) -> f64 {
         let levels: Vec<OrderLevel> =
             (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db, floor_db: 0.0 }).collect();
-        LevelModel::new(NOISE, blades, &LineLevels::default()).evidence_nats(&levels)
+        LevelModel::of_speeds(NOISE, blades, &LineLevels::default()).evidence_nats(&levels)
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::excess::Excess;
 use super::level_model::{LAST_HARMONIC, OrderLevel};
 use super::level_table;
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
+use hovertone_vehicle::LineLevels;
 
 /// Share of frames in which a line must be inside the band. *Decision.*
 const INSIDE_SHARE_MIN: f64 = 0.8;
@@ -73,6 +74,8 @@ pub struct NoiseLevel {
     pub std_db: f64,
     /// Share of the places that hold a line of something else.
     pub lines_share: f64,
+    /// Number of places.
+    pub places: f64,
 }
 
 impl NoiseLevel {
@@ -85,7 +88,15 @@ impl NoiseLevel {
             mean_db: median_of(|noise| noise.mean_db)?,
             std_db: median_of(|noise| noise.std_db)?,
             lines_share: median_of(|noise| noise.lines_share)?,
+            places: median_of(|noise| noise.places)?,
         })
+    }
+
+    /// Share of all places that hold a line of something else: the mean of that of recordings in general and of what this one shows, each by its
+    /// places.
+    pub(super) fn foreign_share(&self, prior: &LineLevels) -> f64 {
+        let LineLevels { foreign, foreign_places, .. } = *prior;
+        (foreign * foreign_places + self.lines_share * self.places) / (foreign_places + self.places)
     }
 
     /// Whether a level is that of a line.
@@ -104,9 +115,10 @@ pub(super) fn noise_level(excess: &Excess, speeds_rev_s: &[f64]) -> Option<Noise
     let deviations: Vec<f64> = levels.iter().map(|level| (level - mean_db).abs()).collect();
     let std_db = STD_PER_MEDIAN_DEVIATION * median(&deviations)?;
     let std_db = std_db.clamp(*NOISE_STD_DB.start(), *NOISE_STD_DB.end());
-    let noise = NoiseLevel { mean_db, std_db, lines_share: 0.0 };
+    let places = levels.len() as f64;
+    let noise = NoiseLevel { mean_db, std_db, lines_share: 0.0, places };
     let lines = levels.iter().filter(|&&level| noise.is_below(level)).count();
-    Some(NoiseLevel { lines_share: lines as f64 / levels.len() as f64, ..noise })
+    Some(NoiseLevel { lines_share: lines as f64 / places, ..noise })
 }
 
 #[cfg(test)]
@@ -115,7 +127,7 @@ mod tests {
 
     #[test]
     fn the_noise_is_the_median_of_the_emptiest() {
-        let noise = |mean_db: f64, lines_share: f64| NoiseLevel { mean_db, std_db: 1.5, lines_share };
+        let noise = |mean_db: f64, lines_share: f64| NoiseLevel { mean_db, std_db: 1.5, lines_share, places: 180.0 };
         let some = vec![noise(-1.0, 0.01), noise(5.0, 0.4), noise(-2.0, 0.0), noise(0.0, 0.02)];
         assert_eq!(NoiseLevel::of_emptiest(some, 0.05).unwrap().mean_db, -1.0);
         // where lines are everywhere, the fewest count

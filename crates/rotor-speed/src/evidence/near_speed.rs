@@ -1,4 +1,4 @@
-//! The evidence for a rotor near one speed, where the search over all speeds heard none.
+//! The evidence for a rotor near one speed: of a steady one, where the search over all speeds heard none, and of a known one in an exam.
 
 use super::excess::{Excess, Looks};
 use super::level_model::{LevelModel, OrderLevel};
@@ -65,7 +65,7 @@ impl PathNear {
         let speeds_rev_s = path_near(look, &vec![speed_rev_s; look.frames.len()], NEAR, table)?;
         let noise = noise_level(look, &speeds_rev_s)?;
         let levels = levels_of_orders(look, &speeds_rev_s, propeller.blades);
-        let levels_nats = LevelModel::new(noise, propeller.blades, propeller.prior).presence_nats(&levels);
+        let levels_nats = LevelModel::of_presence(noise, propeller.blades, propeller.prior).flat_nats(&levels);
         Some(Self { speeds_rev_s, levels, noise, levels_nats })
     }
 }

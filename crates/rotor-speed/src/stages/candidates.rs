@@ -20,40 +20,39 @@ pub(crate) struct Candidates {
     beliefs: Option<Beliefs>,
     /// Whether the evidence has heard a rotor: then it decides. Otherwise the thresholds do.
     pub(crate) is_heard: bool,
-    /// Whether the tone was named, and not found among families of lines.
-    pub(crate) is_named: bool,
     /// Whether several rotors are heard, where their number is not known.
     pub(crate) are_several: bool,
     /// Lowest speed of the search.
     rev_s_min: f64,
 }
 
+/// A rotor that the evidence heard before.
+pub(crate) struct HeardRotor {
+    pub(crate) speed_rev_s: f64,
+    /// Whether other rotors sound beside it.
+    pub(crate) are_several: bool,
+}
+
 impl Candidates {
-    /// Only this speed, for which a rotor was heard.
+    /// Only the speed at which a rotor was heard.
     ///
     /// # Errors
     /// A tone above half the sample rate.
     pub(crate) fn of_heard_rotor(
         surveyed: &Surveyed,
-        speed_rev_s: f64,
+        heard: &HeardRotor,
         sample_rate_hz: f64,
         config: &Config,
     ) -> Result<Self, Error> {
         let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
         Ok(Self {
             map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
-            leading_rev_s: speed_rev_s,
+            leading_rev_s: heard.speed_rev_s,
             beliefs: None,
             is_heard: true,
-            is_named: true,
-            are_several: false,
+            are_several: !config.rotors.is_count_known && heard.are_several,
             rev_s_min: *search_rev_s.start(),
         })
-    }
-
-    /// The same for a tone that was found, and that nobody has named.
-    pub(crate) fn of_found_tone(self) -> Self {
-        Self { is_named: false, ..self }
     }
 
     /// The speed of a slower shaft, where an analysis found that it explains a weak, steady tone better. `None` below the range of the search.
@@ -162,7 +161,6 @@ pub(crate) fn candidates_from_survey(
             map,
             leading_rev_s,
             is_heard: beliefs.as_ref().is_some_and(Beliefs::is_resolved),
-            is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,
             rev_s_min: *search_rev_s.start(),

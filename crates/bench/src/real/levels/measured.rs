@@ -200,7 +200,7 @@ mod tests {
             }
         };
         let levels = (1..=40).map(|order| OrderLevel { order, level_db: level_db(order), floor_db: 0.0 }).collect();
-        let noise = NoiseLevel { mean_db: -2.0, std_db: 0.5, lines_share: 0.1 };
+        let noise = NoiseLevel { mean_db: -2.0, std_db: 0.5, lines_share: 0.1, places: 100.0 };
         let lines = LinesNear { speed_rev_s: 80.0, votes_nats: 3.0, levels, noise, levels_nats: 50.0 };
         let speed = |speed_rev_s, belief| ComparedSpeed { speed_rev_s, belief };
         let speeds = vec![speed(81.0, 0.9), speed(160.0, 0.06), speed(40.0, 0.04)];
