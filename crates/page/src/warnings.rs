@@ -100,6 +100,9 @@ fn section_of(warning: &ThrustWarning) -> &'static str {
     match warning {
         ThrustWarning::ConstantDrifts(_)
         | ThrustWarning::TrialLeftOut { .. }
+        | ThrustWarning::TrialFarFromOthers { .. }
+        | ThrustWarning::TrialsDiffer { .. }
+        | ThrustWarning::MassFarFromKnown { .. }
         | ThrustWarning::ImplausibleFigureOfMerit { .. } => "loads",
         ThrustWarning::MassNotWeighed { .. }
         | ThrustWarning::LoudestRotor

@@ -26,10 +26,11 @@ pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error>
 
 /// Mass and payload in grams, with their expanded uncertainties.
 pub fn weighed_text(weighed: &WeighedHover) -> String {
+    let flights = if weighed.has_flight_scatter { "" } else { ", without the differences from flight to flight" };
     let grams = |mass_kg: Estimate| {
         let mass = mass_kg.scaled(1e3);
         match mass.std_uncertainty {
-            Some(_) => format!("{} g (k = 2)", with_uncertainty(mass.value, mass.std_uncertainty)),
+            Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
             None => format!("{} g (± is not known: the constant has none)", significant(mass.value, DIGITS)),
         }
     };

@@ -15,6 +15,7 @@ mod contradictions;
 mod demo;
 mod examples;
 mod exit_codes;
+mod filing;
 mod flight_logs;
 mod folded;
 mod greybox;

@@ -111,6 +111,7 @@ impl ExperimentFile {
             rotor_count,
             propeller_diameter_m: own_diameter_m.or_else(|| known.propeller_diameter_m()),
             is_weighed: self.vehicle.mass_kg.is_some(),
+            known_mass_kg: known.mass_kg(),
             config,
             air,
             uncertainty: self.uncertainty,
