@@ -88,14 +88,16 @@ impl<'a> Terminal<'a> {
         let _ = writeln!(self.err, "{line}");
     }
 
-    /// Text after a label, wrapped on a terminal with an indentation. Text with line breaks keeps them.
+    /// Text after a label, wrapped on a terminal with an indentation. Of text with line breaks the first line is wrapped: the others are a part
+    /// of a file, with a mark below its fault.
     fn labelled(&mut self, indent: &str, label: &str, colour: &str, words: &str) {
         let hanging = " ".repeat(indent.len() + label.len() + 1);
-        let width = self.err_width.filter(|_| !words.contains('\n'));
-        let lines = match width {
-            Some(width) => wrapped(words, width.saturating_sub(hanging.len())),
-            None => vec![words.to_owned()],
+        let (first, others) = words.split_once('\n').map_or((words, None), |(first, others)| (first, Some(others)));
+        let mut lines = match self.err_width {
+            Some(width) => wrapped(first, width.saturating_sub(hanging.len())),
+            None => vec![first.to_owned()],
         };
+        lines.extend(others.map(str::to_owned));
         let text = lines.join(&format!("\n{hanging}"));
         self.line(&format!("{indent}{colour}{label}{RESET} {text}"));
     }
@@ -150,7 +152,7 @@ impl<'a> Terminal<'a> {
 
     /// The number of warnings about recordings, and all messages about them, above their speeds.
     pub(crate) fn counted_notes(&mut self, records: &[&SpeedRecord]) {
-        self.warning_count(warnings_about(records));
+        self.warning_count(warning_count(records));
         self.notes(records);
     }
 
@@ -195,11 +197,6 @@ impl<'a> Terminal<'a> {
             self.warning(&kind.notice, "");
         }
     }
-}
-
-/// Number of warnings about recordings. A file that failed has an error, and counts as none.
-pub(crate) fn warnings_about(records: &[&SpeedRecord]) -> usize {
-    warning_count(records) - records.iter().filter(|record| record.has_failed()).count()
 }
 
 /// Columns of a terminal; `None` where the stream is none.

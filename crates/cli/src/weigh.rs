@@ -9,12 +9,12 @@ use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::tone_of;
-use crate::terminal::{Terminal, warnings_about};
+use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
-use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
+use hovertone_report::{Notice, SpeedRecord, warning_count, weighed_json, weighed_text};
 use hovertone_vehicle::{
     BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, check_not_negative,
     check_positive, is_swamped,
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     }
     let warning = weighed.as_ref().and_then(WeighedHover::warning);
     let about: Vec<&SpeedRecord> = records.iter().collect();
-    terminal.warning_count(warnings_about(&about) + warning.iter().count());
+    terminal.warning_count(warning_count(&about) + warning.iter().count());
     warning.iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
     terminal.notes(&about);
     if let Some(weighed) = &weighed {

@@ -19,6 +19,8 @@ use serde_json::Value;
 
 /// Digits of the speeds of several readings, of which at most one is right.
 const DIGITS_OF_READINGS: usize = 4;
+/// Most used stretches that stand in the table.
+const SEGMENTS_SHOWN: usize = 2;
 
 /// The speeds of all recordings, one row each. The folder that all files share stands below the table.
 pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
@@ -81,8 +83,17 @@ fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<S
     ]
 }
 
+/// The used stretches; of many, the time from the first to the last and the number of gaps, whose times stand with the cuts.
 fn cell_of_span(record: &SpeedRecord) -> String {
-    record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s))
+    let span = |span: &Span| format!("{:.1}–{:.1}", span.from_s, span.to_s);
+    let segments = record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments);
+    match (segments, record.used()) {
+        (_, None) => DASH.to_owned(),
+        (segments, Some(_)) if segments.len() <= SEGMENTS_SHOWN => {
+            segments.iter().map(span).collect::<Vec<_>>().join(", ")
+        }
+        (segments, Some(used)) => format!("{}, {} gaps", span(&used), segments.len() - 1),
+    }
 }
 
 /// One of several readings; its plausibility stands in the column of the uncertainty.

@@ -2,7 +2,7 @@
 
 use crate::number::{rounded, significant, with_uncertainty};
 use crate::version::VERSION;
-use hovertone_thrust::WeighedHover;
+use hovertone_thrust::{COVERAGE_FACTOR, WeighedHover};
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
 
@@ -34,9 +34,11 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
             None => format!("{} g (± is not known: the constant has none)", significant(mass.value, DIGITS)),
         }
     };
+    let share = weighed.mass_kg.std_uncertainty.map(|std| COVERAGE_FACTOR * std / weighed.mass_kg.value);
     let mut text = format!(
         "hovers at {} rpm ({} {})\nmass: {}\n",
-        rounded(weighed.speed.rpm(), Some(0.1)),
+        // m ∝ ω²: the speed is known to half of the share of the mass
+        rounded(weighed.speed.rpm(), share.map(|share| share / 2.0 * weighed.speed.rpm()).or(Some(10.0))),
         weighed.recording_count,
         if weighed.recording_count == 1 { "recording" } else { "recordings" },
         grams(weighed.mass_kg)

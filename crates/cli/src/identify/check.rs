@@ -1,7 +1,9 @@
 //! `identify --check`: what would be done, which files were found, and what is missing, without analysis.
 
 use super::logs::FlownLog;
-use super::recordings::{FoundRecordings, Missing, found_recordings, nearby, place_of, refuse_twice};
+use super::recordings::{
+    FoundRecordings, Missing, folder_without_recordings, found_recordings, nearby, place_of, refuse_twice,
+};
 use super::{ExperimentSource, LoadJob, hearing_of};
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
@@ -83,6 +85,9 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
         if let Some(folder) = closed_folder(&place_of(name, root)) {
             return Notice::new(format!("{}: {CLOSED_FOLDER}", folder.display()), GET_RIGHT);
         }
+        if let Some(folder) = folder_without_recordings(&place_of(name, root)) {
+            return Notice::new(format!("{}: {}", folder.path.display(), folder.what), folder.hint);
+        }
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
         let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
         Notice::new(what, "correct the name, or put the recordings there")
@@ -141,11 +146,12 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
 fn verdict(faults: usize, output: Option<&Path>) -> String {
     match (faults, output) {
         (0, Some(folder)) => format!(
-            "all files are there: now run the same command without --check; the results come into {}\n",
+            "ready: all files are there; now run the same command without --check: the results come into {}\n",
             folder.display()
         ),
         (0, None) => {
-            "all files are there: now run the same command without --check; -o DIR writes the report too\n".to_owned()
+            "ready: all files are there; now run the same command without --check, with -o DIR for the report\n"
+                .to_owned()
         }
         (faults, _) => format!("not ready: {}\n", counted(faults, "error")),
     }

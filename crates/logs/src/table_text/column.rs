@@ -41,7 +41,19 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
             None => LogColumn::TimeWithoutUnit,
         });
     }
-    if has(&["setpoint", "desired", "target", "torque", "thrust", "current", "temperature", "temp", "power"]) {
+    if has(&[
+        "squares",
+        "square",
+        "setpoint",
+        "desired",
+        "target",
+        "torque",
+        "thrust",
+        "current",
+        "temperature",
+        "temp",
+        "power",
+    ]) {
         return None;
     }
     let number = words.iter().find_map(|word| word.parse::<u32>().ok());
