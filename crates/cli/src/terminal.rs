@@ -215,3 +215,28 @@ fn stdout_failure(error: io::Error) -> Failure {
         },
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The message is wrapped at words; the lines of the file below it keep their columns.
+    #[test]
+    fn a_message_with_a_part_of_a_file_is_wrapped_and_the_part_is_not() {
+        let mut messages = Vec::new();
+        let part = "3 | name = \"a long text without an end\n  |        ^^^^^^^^^^^^^^^^^^^^^^^^^^^";
+        let mut terminal = Terminal {
+            out: Box::new(Vec::new()),
+            err: Box::new(StripStream::new(&mut messages)),
+            is_of_process: false,
+            err_width: Some(40),
+        };
+        let what = format!("a.toml: the experiment file has a fault: unclosed table\n{part}");
+        terminal.failure(&Failure::usage(what, "] is needed here"));
+        drop(terminal);
+        let said = String::from_utf8(messages).unwrap();
+        let (message, below) = said.split_once("3 | ").unwrap();
+        assert!(message.lines().all(|line| line.chars().count() <= 40) && message.contains("unclosed"), "{said}");
+        assert!(below.contains("without an end\n"), "{said}");
+    }
+}

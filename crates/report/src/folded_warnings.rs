@@ -220,6 +220,21 @@ mod tests {
     }
 
     #[test]
+    fn another_harmonic_is_another_kind() {
+        let left_out = |harmonic: u32, percent: u32| {
+            Notice::new(format!("harmonic {harmonic} is left out: its speed is {percent} % off"), "ignore")
+        };
+        let all = vec![vec![left_out(2, 1), left_out(3, 1)], vec![left_out(2, 4)], vec![left_out(3, 1)]];
+        let kinds = kinds_of(&all, &names(3));
+        let words = [
+            "harmonic 2 is left out: its speed is 1–4 % off (in 2 of 3",
+            "harmonic 3 is left out: its speed is 1 % off (in 2 of 3",
+        ];
+        assert_eq!(kinds.len(), 2);
+        assert!(texts(&kinds).iter().zip(words).all(|(text, words)| text.starts_with(words)), "{kinds:?}");
+    }
+
+    #[test]
     fn a_kind_of_warning_is_one_line_with_the_names_of_its_recordings() {
         let gaps = |percent: u32| Notice::new(format!("{percent} % of the frames hold no tone"), "move");
         let apart = || Notice::new("separated rotors: 2 of 4", "wait");

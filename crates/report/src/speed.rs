@@ -1,6 +1,7 @@
 //! Rotor speeds of recordings: a table for people, a JSON line and a track for programs.
 
 use crate::csv_text::text_of;
+use crate::cuts::used_in_words;
 use crate::notice::Notice;
 use crate::number::{DASH, expanded, plus_minus, rounded, significant, spread};
 use crate::printable::{printable, shared_folder};
@@ -19,8 +20,6 @@ use serde_json::Value;
 
 /// Digits of the speeds of several readings, of which at most one is right.
 const DIGITS_OF_READINGS: usize = 4;
-/// Most used stretches that stand in the table.
-const SEGMENTS_SHOWN: usize = 2;
 
 /// The speeds of all recordings, one row each. The folder that all files share stands below the table.
 pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
@@ -83,17 +82,8 @@ fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<S
     ]
 }
 
-/// The used stretches; of many, the time from the first to the last and the number of gaps, whose times stand with the cuts.
 fn cell_of_span(record: &SpeedRecord) -> String {
-    let span = |span: &Span| format!("{:.1}–{:.1}", span.from_s, span.to_s);
-    let segments = record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments);
-    match (segments, record.used()) {
-        (_, None) => DASH.to_owned(),
-        (segments, Some(_)) if segments.len() <= SEGMENTS_SHOWN => {
-            segments.iter().map(span).collect::<Vec<_>>().join(", ")
-        }
-        (segments, Some(used)) => format!("{}, {} gaps", span(&used), segments.len() - 1),
-    }
+    used_in_words(record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments))
 }
 
 /// One of several readings; its plausibility stands in the column of the uncertainty.

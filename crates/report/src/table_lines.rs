@@ -249,6 +249,16 @@ long name.wav  short
     }
 
     #[test]
+    fn a_part_of_gaps_alone_is_left_out() {
+        let mut table = TextTable::new(table().columns()[..3].to_vec());
+        table.push(vec!["a rather long name.wav".to_owned(), "60.17".to_owned(), DASH.to_owned()]);
+        let text = table_text(&table, Some(30));
+        assert!(text.contains("60.17") && !text.contains("spread") && text.matches("file").count() == 1, "{text}");
+        table.push(vec!["b.wav".to_owned(), "60.17".to_owned(), "0.3".to_owned()]);
+        assert!(table_text(&table, Some(30)).contains("spread"));
+    }
+
+    #[test]
     fn a_long_first_cell_stands_alone_where_it_leaves_no_room() {
         let mut table = TextTable::new(vec![Column::words("file"), Column::numbers("speed", "rev/s")]);
         table.push(vec!["a/very/long/name/of/a.wav".to_owned(), "60.17 ± 0.12".to_owned()]);

@@ -48,3 +48,28 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hovertone_vehicle::{Ending, RotorSpeed};
+
+    #[test]
+    fn the_speed_has_no_more_digits_than_the_mass_allows() {
+        let weighed = |std_kg: Option<f64>, has_flight_scatter: bool| {
+            weighed_text(&WeighedHover {
+                mass_kg: Estimate { value: 0.462, std_uncertainty: std_kg, ending: Ending::Solved },
+                payload_kg: None,
+                speed: RotorSpeed::from_rpm(3820.1234),
+                recording_count: 5,
+                has_flight_scatter,
+            })
+        };
+        // ± 0.6 % of the mass are ± 0.3 % of the speed, 12 rpm
+        assert!(
+            weighed(Some(0.0014), true).starts_with("hovers at 3820 rpm (5 recordings)\nmass: 462.0 ± 2.8 g (k = 2)\n")
+        );
+        assert!(weighed(None, true).starts_with("hovers at 3820 rpm"));
+        assert!(weighed(Some(0.0014), false).contains("(k = 2, without the differences from flight to flight)"));
+    }
+}

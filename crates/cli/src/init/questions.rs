@@ -186,6 +186,18 @@ mod tests {
         (draft, String::from_utf8(asked).unwrap())
     }
 
+    #[test]
+    fn long_lines_are_wrapped_at_words() {
+        let folder = folder_with(&["no_hull/1.MOV"]);
+        let mut asked = Vec::new();
+        let answers = "ardrone\n\n413g\n\n".as_bytes();
+        complete(Draft::default(), folder.path(), &mut Dialog::new(answers, &mut asked, Some(40))).unwrap();
+        let asked = String::from_utf8(asked).unwrap();
+        // the answers end the lines of the questions, and are not in what was asked
+        let lines: Vec<&str> = asked.lines().filter(|line| !line.contains(": ")).collect();
+        assert!(lines.len() > 5 && lines.iter().all(|line| line.chars().count() <= 40), "{asked}");
+    }
+
     fn folder_with(names: &[&str]) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         for name in names {

@@ -341,7 +341,7 @@ fn a_comparison_names_what_has_changed() {
     let itself = &hovertone(&["batch-compare", words[1], words[1], "--json"]).ends_with(0).json_lines()[0];
     assert_eq!(itself["rotors"][0]["has_changed"], false);
     let none = hovertone(&["batch-compare", text(&at("old")), words[2]]).ends_with(1);
-    assert!(none.stderr.contains("no folder of results"), "{}", none.stderr);
+    assert!(none.stderr.contains("not a folder that `hovertone batch -o` wrote"), "{}", none.stderr);
 }
 
 /// A name that is no text in UTF-8 is shown as well as it can be, and its recording is heard.

@@ -61,10 +61,10 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     advice.extend(fit.information.correlations.iter().map(|pair| Advice {
         what: format!(
-            "{} and {} go together (correlation {:.2})",
+            "{} and {} go together (correlation {})",
             pair.first.in_words(),
             pair.second.in_words(),
-            pair.correlation
+            format!("{:.2}", pair.correlation).replace('-', "−")
         ),
         hint: match pair.first.axis() {
             Some(axis) => format!("fly {} doublets of two lengths, 0.2 and 0.6 s", axis.in_words()),

@@ -125,6 +125,12 @@ mod tests {
     }
 
     #[test]
+    fn a_sum_of_squares_is_no_motor() {
+        assert_eq!(column_of("mean_sum_of_squares_rad2_s2"), None);
+        assert!(matches!(column_of("rotor_2_mean_speed_rev_s"), Some(LogColumn::MotorSpeed { motor: 2, .. })));
+    }
+
+    #[test]
     fn headers_as_programs_write_them() {
         use LogColumn::{MotorCommand, MotorSpeed, Rate, Time, TimeWithoutUnit};
         let deg = TAU / 360.0;
