@@ -229,10 +229,7 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
     assert_eq!(fs::read_dir(&full).unwrap().count(), 1, "nothing was written");
     batch(&archive, &out, &[]).ends_with(0);
     let words = ["batch", text(&archive), "-o", text(&out), "--rotors", "1", "--blades"];
-    refused_with(
-        &[&words[..], &["3"]].concat(),
-        &["other recordings or settings", "analysis.tone.order: 2.0 there, 3.0 here"],
-    );
+    refused_with(&[&words[..], &["3"]].concat(), &["other recordings or settings", "tone order: 2.0 there, 3.0 here"]);
     refused_with(&["batch", text(&archive.join("flight 0")), "-o", text(&out), "--blades", "2"], &["inputs: ", "here"]);
     let before = results(&out);
     // what a person wrote beside the results stays

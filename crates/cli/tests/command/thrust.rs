@@ -129,6 +129,8 @@ fn bad_tables_are_refused_or_flagged() {
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
     assert!(outlier["notices"].to_string().contains("line 4 of the table does not fit"), "{outlier}");
     assert!(outlier["notices"].to_string().contains("left out"), "{outlier}");
+    let said = hovertone(&["fit", text(&path)]).ends_with(0).stdout;
+    assert!(said.contains("4 table rows, 1 of them left out of the fit, mass_g against rpm"), "{said}");
     let expected = 0.4 * 9.80665 / RotorSpeed::from_rpm(3600.0).rad_s().powi(2);
     let found = number(&outlier, "/thrust_constant_total_n_s2/value");
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
