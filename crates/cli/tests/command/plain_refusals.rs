@@ -88,3 +88,12 @@ fn a_mass_in_grams_is_asked_about() {
     let flags = ["identify", "--vehicle", "ardrone", "--mass", "413=a.wav"];
     refused_with(&flags, &["413 without a unit is 413 kg", "did you mean 413g?"]);
 }
+
+/// A table that cannot be fitted still says what was done to its rows.
+#[test]
+fn rows_without_scatter_say_that_their_sign_was_turned() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("negative.csv");
+    fs::write(&table, "rpm,thrust_g\n1000,-10\n2000,-40\n3000,-90\n").unwrap();
+    refused_with(&["fit", text(&table)], &["lie exactly on F = C ω²", "thrust is negative: taken with the other sign"]);
+}
