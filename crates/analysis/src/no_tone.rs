@@ -89,10 +89,9 @@ impl fmt::Display for NoTone {
             }
             Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in {:.0} % of its frames; a rotor stands out in more than {:.0} %, \
-                 but the frames are too few to prove it; give a longer hover",
-                100.0 * line_share,
-                100.0 * line_share_min
+                "a tone near {tone_hz:.0} Hz may be a rotor (it stands out in {:.0} % of its frames), but the hover is too short to be sure; \
+                 record a longer one",
+                100.0 * line_share
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,

@@ -99,15 +99,12 @@ impl Warning {
             Self::OtherSteadySpeed { .. } => "choose the part you mean with --from and --to",
             Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
-            Self::FewFrames { .. } => "use shorter frames, longer samples, or a larger frames_max",
+            Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "rotors with equal speeds cannot be separated; to separate others, place the microphone nearer and keep the high \
                  frequencies"
             }
-            Self::RotorsNotApart { .. } => {
-                "the mean speed is still valid, with a larger uncertainty; to separate more rotors, place the microphone nearer and \
-                 keep the high frequencies"
-            }
+            Self::RotorsNotApart { .. } => "the mean speed is right; its ± is larger",
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
             Self::SeveralLines { .. } => {
                 "the rotors turn at different speeds, and the result follows the loudest; a narrower --band follows one line"
@@ -149,7 +146,7 @@ impl fmt::Display for Warning {
             Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
             Self::FewFrames { frame_count } => write!(f, "a sample has few frames: {frame_count}"),
             Self::RotorsNotApart { resolved: 0, of, has_mean: true } => {
-                write!(f, "the {of} rotors could not be separated and are heard as a group")
+                write!(f, "the speeds of the {of} rotors are too close to separate them: they are heard as a group")
             }
             Self::RotorsNotApart { resolved: 0, of, .. } => {
                 write!(f, "the {of} rotors could not be separated: one tone is used for all of them")

@@ -50,6 +50,7 @@ fn differ(name: &str, there: &Value, here: &Value, differences: &mut Vec<String>
         _ if there == here => {}
         _ => {
             let name = name.strip_prefix("settings.").unwrap_or(name);
+            let name = in_words(name.strip_prefix("analysis.").unwrap_or(name));
             differences.push(format!("{name}: {} there, {} here", shown(there), shown(here)));
         }
     }
@@ -59,8 +60,17 @@ fn value_of<'a>(object: &'a Map<String, Value>, key: &str) -> &'a Value {
     object.get(key).unwrap_or(&Value::Null)
 }
 
+/// "known rotor count" of `known.rotor_count`.
+fn in_words(name: &str) -> String {
+    name.replace(['.', '_'], " ")
+}
+
 fn shown(value: &Value) -> String {
     match value {
+        Value::Object(entries) => {
+            let entry = |(name, value): (&String, &Value)| format!("{} {}", in_words(name), shown(value));
+            entries.iter().map(entry).collect::<Vec<_>>().join(", ")
+        }
         Value::Null => "none".to_owned(),
         Value::Array(values) => values.iter().map(shown).collect::<Vec<_>>().join(" "),
         Value::String(text) => text.clone(),
@@ -86,13 +96,20 @@ mod tests {
 
     #[test]
     fn what_differs_is_named_with_both_values() {
-        let there = identity(json!({"known": {"rotor_count": 4}, "order": 2.0}));
+        let there = identity(
+            json!({"known": {"rotor_count": 4, "shaft_speed": {"rev_s_high": 80, "rev_s_low": 20}}, "order": 2.0}),
+        );
         assert!(there.differences(&there).is_empty());
         let here = identity(json!({"known": {"rotor_count": 2}, "order": 2.0, "channel": 1}));
         let here = BatchIdentity { inputs: vec!["A".to_owned(), "B".to_owned()], ..here };
         assert_eq!(
             there.differences(&here),
-            ["inputs: DIR there, A B here", "channel: none there, 1 here", "known.rotor_count: 4 there, 2 here"]
+            [
+                "inputs: DIR there, A B here",
+                "channel: none there, 1 here",
+                "known rotor count: 4 there, 2 here",
+                "known shaft speed: rev s high 80, rev s low 20 there, none here"
+            ]
         );
     }
 }

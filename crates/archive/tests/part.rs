@@ -22,6 +22,7 @@ fn record(file: &str, answer: Answer) -> SpeedRecord {
         answer,
         found: None,
         labels: None,
+        spoiled: None,
         notices: vec![Notice::new("quiet", "record nearer")],
     }
 }

@@ -27,10 +27,13 @@ pub(crate) fn refuse_copies<'a>(
             let Ok(sha256) = sha256_of_file(&job.path) else { continue };
             job.sha256 = Some(sha256.clone());
             if let Some(first) = known.insert(sha256, job.name.clone()) {
-                let what = format!(
-                    "{first} and {} are the same recording: as two trials they would make the ± too small",
-                    job.name
-                );
+                let what = match first == job.name {
+                    true => format!("{first} is given twice, and it can belong to one load only"),
+                    false => format!(
+                        "{first} and {} are the same recording: as two trials they would make the ± too small",
+                        job.name
+                    ),
+                };
                 return Err(Failure::Usage { what, hint: hint.to_owned(), path: path.map(Path::to_owned) });
             }
         }

@@ -127,6 +127,7 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
 
 /// Reads results.json, or one group of the results of a table.
 pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedRotor, Failure> {
+    refuse_number(path)?;
     let text = read_text(path, "the results")?;
     identified_from_results(&text, group).map_err(|error| match error {
         ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
@@ -143,5 +144,14 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             let hint = "give the results.json that `hovertone identify EXPERIMENT.toml -o DIR` wrote";
             Failure::failed(error.to_string(), hint, path)
         }
+    })
+}
+
+/// Refuses a number where the file of the results is needed.
+fn refuse_number(path: &Path) -> Result<(), Failure> {
+    let number = path.to_str().filter(|text| text.parse::<f64>().is_ok() && !path.exists());
+    number.map_or(Ok(()), |number| {
+        let hint = format!("of a number, `hovertone weigh` takes --constant-n-s2 {number}");
+        Err(Failure::usage(format!("{number} is a number, and the file results.json is needed here"), hint))
     })
 }

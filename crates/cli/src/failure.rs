@@ -2,6 +2,7 @@
 
 use crate::caller::typed_words;
 use crate::see_help::see_help;
+use hovertone_report::printable;
 use hovertone_vehicle::{ConfigError, Contradiction, QuantityError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -95,9 +96,22 @@ impl Failure {
 
     pub(crate) fn cannot_write(error: &io::Error, path: &Path) -> Self {
         let (what, hint) = match error.kind() {
+            io::ErrorKind::NotFound if path.parent().is_some_and(Path::is_dir) => {
+                ("no file can be made in the folder of this name".to_owned(), "choose another place")
+            }
             io::ErrorKind::NotFound => {
                 ("the folder of this file does not exist".to_owned(), "make the folder, or choose another place")
             }
+            io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => match path
+                .ancestors()
+                .find(|part| part.is_file())
+            {
+                Some(file) => (
+                    format!("{} is a file, so nothing can be written below it", printable(&file.display().to_string())),
+                    "choose another place",
+                ),
+                None => (format!("this file cannot be written: {error}"), "choose another place"),
+            },
             io::ErrorKind::PermissionDenied if is_protected(path) => {
                 ("this file is protected against writing".to_owned(), "choose another name, or remove the protection")
             }

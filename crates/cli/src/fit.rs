@@ -9,8 +9,8 @@ use crate::terminal::Terminal;
 
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
-    ForcePoint, Gravity, NoScatter, PlanError, PlanWish, PointNoise, SquareLawFit, ThrustCoefficients, ThrustSettings,
-    ThrustWarning, TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
+    ForcePoint, Gravity, NoScatter, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
+    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
     torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
@@ -118,7 +118,9 @@ fn fitted_table(
         };
         Failure::failed(what, "correct or remove that row of the table", path)
     })?;
-    refuse_without_scatter(&fit, &points, group, path)?;
+    if let Some(reason) = fit.why_no_uncertainty(&points) {
+        return Err(without_scatter(reason, group, table, path));
+    }
     let is_mass = |row: &StandRow| matches!(row.force, StandForce::Mass { .. });
     let is_weighed = group.rows.iter().all(is_mass);
     let total = with_gravity(fit.thrust_constant_n_s2, plan.gravity, is_weighed);
@@ -182,26 +184,21 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
     Ok(())
 }
 
-/// Refuses rows whose scatter tells no uncertainty.
-fn refuse_without_scatter(
-    fit: &SquareLawFit,
-    points: &[ForcePoint],
-    group: &StandGroup,
-    path: &Path,
-) -> Result<(), Failure> {
-    let Some(reason) = fit.why_no_uncertainty(points) else { return Ok(()) };
+/// The failure of rows whose scatter tells no uncertainty, with what was done to them.
+fn without_scatter(reason: NoScatter, group: &StandGroup, table: &StandTable, path: &Path) -> Failure {
     let rows = match reason {
         NoScatter::Computed => "give the measured rows",
         _ => "measure more rows",
     };
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
-    Err(Failure::Usage {
-        what: format!("{group}{reason}"),
+    let notes: String = table.notes.iter().map(|note| format!("; {note}")).collect();
+    Failure::Usage {
+        what: format!("{group}{reason}{notes}"),
         hint: format!(
             "{rows}, or state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g)"
         ),
         path: Some(path.to_owned()),
-    })
+    }
 }
 
 /// The uncertainty of gravity is common to all masses and does not average out.

@@ -4,6 +4,7 @@
 use crate::failure::Failure;
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::temporary_file::TemporaryFile;
+use hovertone_media::Container;
 use std::fs::{self, File};
 use std::io::{self, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
@@ -11,8 +12,10 @@ use std::sync::Mutex;
 
 /// Name of stdin in messages and in the output.
 pub(crate) const STDIN: &str = "stdin";
-/// Bytes per step of a copy.
+/// Bytes per step of a copy. The first step shows the kind of the file.
 const CHUNK: usize = 1 << 20;
+/// Most bytes that are kept of stdin: a day of stereo sound in 16 bits, at 48 kHz.
+const STDIN_BYTES_MAX: u64 = 16_600_000_000;
 
 /// Stdin as far as this run has used it.
 enum Used {
@@ -87,18 +90,38 @@ pub(crate) fn recording_of_stdin() -> Result<PathBuf, Failure> {
     let what = "the recording";
     let mut used = first_use(what)?;
     let (kept, mut file) = TemporaryFile::with_prefix("hovertone-stdin-").map_err(|error| cannot_keep(&error))?;
-    let mut chunk = vec![0; CHUNK];
+    let mut chunk = Vec::with_capacity(CHUNK);
+    let mut kept_bytes = 0;
     loop {
-        match io::stdin().read(&mut chunk) {
-            Ok(0) => break,
-            Ok(count) => file.write_all(&chunk[..count]).map_err(|error| cannot_keep(&error))?,
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(cannot_read(&error, what)),
+        chunk.clear();
+        io::stdin().take(CHUNK as u64).read_to_end(&mut chunk).map_err(|error| cannot_read(&error, what))?;
+        if kept_bytes == 0 {
+            refuse_no_sound(&chunk)?;
         }
+        kept_bytes += chunk.len() as u64;
+        if chunk.is_empty() {
+            break;
+        }
+        if kept_bytes > STDIN_BYTES_MAX {
+            return Err(Failure::usage("stdin is longer than a day of sound", "give the recording as a file"));
+        }
+        file.write_all(&chunk).map_err(|error| cannot_keep(&error))?;
     }
     let place = kept.path().to_owned();
     *used = Used::Kept { _file: kept };
     Ok(place)
+}
+
+/// Refuses the beginning of stdin where it is that of no sound: the rest could be endless.
+fn refuse_no_sound(beginning: &[u8]) -> Result<(), Failure> {
+    // nothing at all is a recording like others, whose row says that it is empty
+    if beginning.is_empty() || Container::of_beginning(beginning).is_some() {
+        return Ok(());
+    }
+    let what = "stdin is no audio or video file that hovertone can read: its first bytes match no format".to_owned();
+    let hint =
+        "send a recording, as in `hovertone speed - < hover.wav`; give what only ffmpeg can read as a file".to_owned();
+    Err(Failure::Failed { what, hint, path: None })
 }
 
 /// Removes what was kept of stdin.

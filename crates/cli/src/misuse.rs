@@ -2,6 +2,7 @@
 
 use crate::args::Arguments;
 use crate::failure::Failure;
+use crate::nearest::nearest;
 use crate::see_help::see_help;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
@@ -58,10 +59,7 @@ impl Misuse {
             },
             ErrorKind::ValueValidation => Self { what: format!("{name} {value}: {}", reason_of(error)), hint: None },
             ErrorKind::UnknownArgument => Self::of_unknown(&name, error, words),
-            ErrorKind::InvalidSubcommand => Self {
-                what: format!("there is no command \"{}\"", text(ContextKind::InvalidSubcommand)),
-                hint: suggestion(error, ContextKind::SuggestedSubcommand),
-            },
+            ErrorKind::InvalidSubcommand => Self::of_unknown_command(&text(ContextKind::InvalidSubcommand)),
             ErrorKind::ArgumentConflict => {
                 let other = flag_of(&text(ContextKind::PriorArg));
                 if name == other || other.is_empty() {
@@ -85,6 +83,14 @@ impl Misuse {
         }
     }
 
+    /// A word in the place of a command.
+    fn of_unknown_command(name: &str) -> Self {
+        let commands = Arguments::command();
+        let nearest = nearest(name, commands.get_subcommands().map(Command::get_name));
+        let hint = nearest.map(|nearest| format!("did you mean {nearest}?"));
+        Self { what: format!("there is no command \"{name}\""), hint }
+    }
+
     /// A word that is neither a flag nor a value.
     fn of_unknown(name: &str, error: &clap::Error, words: &[OsString]) -> Self {
         let is_negative = |word: &str| {
@@ -94,7 +100,9 @@ impl Misuse {
             words.iter().filter_map(|word| word.to_str()).find(|word| is_negative(word) && word.starts_with(name));
         if let Some(word) = negative {
             let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();
-            return Self { what: format!("{word} is negative, and no value here may be"), hint: Some(hint) };
+            let is_mass = words.windows(2).any(|pair| pair[0] == "--mass" && pair[1] == *word);
+            let what = if is_mass { "a mass cannot be negative" } else { "this value cannot be negative" };
+            return Self { what: format!("{word}: {what}"), hint: Some(hint) };
         }
         let what = if name.starts_with('-') {
             format!("there is no flag {name}")
@@ -179,15 +187,17 @@ mod tests {
             ),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
+            ("hovertone speeed a.wav", "there is no command \"speeed\" (did you mean speed?)"),
+            ("hovertone speed2", "there is no command \"speed2\" (did you mean speed?)"),
+            ("hovertone identfy", "there is no command \"identfy\" (did you mean identify?)"),
+            ("hovertone spectogram", "there is no command \"spectogram\" (did you mean spectrogram?)"),
+            ("hovertone quality", "there is no command \"quality\" (see `hovertone --help`)"),
             ("hovertone speed", "this is missing: <FILE>... (see `hovertone speed --help`)"),
             ("hovertone demo extra", "\"extra\" is one word too many (see `hovertone demo --help`)"),
             ("hovertone identify a.toml --check --json", "--check cannot be used with --json (leave one of them out)"),
             ("hovertone speed a.wav --blades 2 --blades 3", "--blades is given more than once (give it once)"),
-            (
-                "hovertone identify --mass -0.4=a.mov",
-                "-0.4=a.mov is negative, and no value here may be (write the value",
-            ),
-            ("hovertone speed a.wav --gear -8:69", "-8:69 is negative, and no value here may be (write the value"),
+            ("hovertone identify --mass -0.4=a.mov", "-0.4=a.mov: a mass cannot be negative (write the value"),
+            ("hovertone speed a.wav --gear -8:69", "-8:69: this value cannot be negative (write the value"),
         ] {
             let line_said = said(line);
             assert!(line_said.starts_with(expected) && !line_said.contains('\n'), "{line}: {line_said}");

@@ -3,10 +3,12 @@
 use crate::failure::Failure;
 use crate::file_list::FileList;
 use crate::output_file::{OutputFile, is_left_by_run};
-use crate::outputs::{Outputs, refused, write_whole};
+use crate::outputs::{Outputs, refuse_dash, refused, write_whole};
 use crate::rights::CLOSED_FOLDER;
+use crate::temporary_file::BeingWritten;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// What a run leaves in its folder.
 pub(crate) struct FolderContent<'a> {
@@ -24,6 +26,7 @@ pub(crate) struct OutputFolder {
     path: PathBuf,
     outputs: Outputs,
     list: FileList,
+    being_written: OnceLock<BeingWritten>,
 }
 
 impl OutputFolder {
@@ -37,10 +40,12 @@ impl OutputFolder {
 
     /// The folder, before anything is written.
     pub(crate) fn checked(path: &Path, outputs: Outputs, content: &FolderContent<'_>) -> Result<Self, Failure> {
-        let folder = Self { path: path.to_owned(), outputs, list: FileList::of(path, content.run) };
+        refuse_dash(path)?;
+        let list = FileList::of(path, content.run);
+        let folder = Self { path: path.to_owned(), outputs, list, being_written: OnceLock::new() };
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
             let what = format!(
-                "this folder is not empty, and its content was changed or is not of an earlier run for the same {}: nothing was written",
+                "this folder has other files than an earlier run for the same {} left: nothing was written",
                 content.name
             );
             let hint = "choose a new folder with -o DIR, or use --force to write there: files of the same names are \
@@ -91,6 +96,7 @@ impl OutputFolder {
 
     /// Begins a file. The folders of its name are made.
     pub(crate) fn create(&self, name: &str) -> Result<OutputFile, Failure> {
+        self.being_written.get_or_init(|| BeingWritten::begin(&self.path));
         let place = self.place(name);
         if let Some(folder) = place.parent() {
             fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;

@@ -38,6 +38,7 @@ impl Outputs {
 
     /// Begins a file.
     pub(crate) fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
+        refuse_dash(place)?;
         self.refuse_input(place)?;
         if self.would_lose(place) {
             let what = "this file exists already: it was not replaced";
@@ -62,9 +63,18 @@ impl Outputs {
         if !self.inputs.iter().any(|input| is_same_file(input, place)) {
             return Ok(());
         }
-        let what = "this file would be written, and the same command reads it: its content would be lost";
+        let what = "the output has the same name as an input: nothing was written";
         Err(refused(what, "choose another name for the output", place))
     }
+}
+
+/// Refuses a dash as the name of an output: as an input it means stdin, so that a person expects stdout, and gets a file of this name.
+pub(crate) fn refuse_dash(place: &Path) -> Result<(), Failure> {
+    if place.as_os_str() != "-" {
+        return Ok(());
+    }
+    let hint = "give a name; a file or folder that is really called - is written ./-";
+    Err(Failure::usage("- as an output is no name, and it does not mean stdout here", hint))
 }
 
 /// Writes the content of a file that was begun, and puts it into its place.

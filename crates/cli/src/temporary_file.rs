@@ -11,6 +11,9 @@ use tempfile::NamedTempFile;
 /// The temporary files of this run. An interrupt holds it until the process ends, so that no file comes after it.
 static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
+/// Folders that this run writes into. An interrupt leaves them incomplete.
+static FOLDERS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
 /// Whether the process ends with this run. In a program that calls, interrupts are that program's.
 static ENDS_WITH_RUN: AtomicBool = AtomicBool::new(false);
 
@@ -69,16 +72,38 @@ impl Drop for TemporaryFile {
     }
 }
 
+/// A folder that is being written. After an interrupt its results are incomplete, and the interrupt says so.
+pub(crate) struct BeingWritten {
+    folder: PathBuf,
+}
+
+impl BeingWritten {
+    pub(crate) fn begin(folder: &Path) -> Self {
+        folders().insert(folder.to_owned());
+        Self { folder: folder.to_owned() }
+    }
+}
+
+impl Drop for BeingWritten {
+    fn drop(&mut self) {
+        folders().remove(&self.folder);
+    }
+}
+
+fn folders() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    FOLDERS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 fn files() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(unix)]
 mod interrupt {
-    use super::files;
+    use super::{files, folders};
     use crate::failure::Failure;
     use crate::terminal::Terminal;
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
     use std::io::{self, ErrorKind};
@@ -91,7 +116,7 @@ mod interrupt {
     pub(super) fn watch() {
         WATCH.call_once(|| {
             // without it an interrupt leaves files that the next run removes
-            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+            let Ok(mut signals) = Signals::new([SIGHUP, SIGINT, SIGTERM]) else { return };
             std::thread::spawn(move || signals.forever().for_each(end));
         });
     }
@@ -106,8 +131,15 @@ mod interrupt {
                 _ => {}
             }
         }
+        for folder in folders().iter() {
+            Terminal::of_process().failure(&is_incomplete(folder));
+        }
         // it ends the process as if nobody had watched: a shell with a loop around the command sees the interrupt
         let _ = emulate_default_handler(signal);
+    }
+
+    fn is_incomplete(folder: &Path) -> Failure {
+        Failure::failed("interrupted: the results in this folder are incomplete", "run the same command again", folder)
     }
 
     fn cannot_remove(error: &io::Error, file: &Path) -> Failure {

@@ -88,14 +88,16 @@ impl<'a> Terminal<'a> {
         let _ = writeln!(self.err, "{line}");
     }
 
-    /// Text after a label, wrapped on a terminal with an indentation. Text with line breaks keeps them.
+    /// Text after a label, wrapped on a terminal with an indentation. Of text with line breaks the first line is wrapped: the others are a part
+    /// of a file, with a mark below its fault.
     fn labelled(&mut self, indent: &str, label: &str, colour: &str, words: &str) {
         let hanging = " ".repeat(indent.len() + label.len() + 1);
-        let width = self.err_width.filter(|_| !words.contains('\n'));
-        let lines = match width {
-            Some(width) => wrapped(words, width.saturating_sub(hanging.len())),
-            None => vec![words.to_owned()],
+        let (first, others) = words.split_once('\n').map_or((words, None), |(first, others)| (first, Some(others)));
+        let mut lines = match self.err_width {
+            Some(width) => wrapped(first, width.saturating_sub(hanging.len())),
+            None => vec![first.to_owned()],
         };
+        lines.extend(others.map(str::to_owned));
         let text = lines.join(&format!("\n{hanging}"));
         self.line(&format!("{indent}{colour}{label}{RESET} {text}"));
     }
@@ -150,7 +152,7 @@ impl<'a> Terminal<'a> {
 
     /// The number of warnings about recordings, and all messages about them, above their speeds.
     pub(crate) fn counted_notes(&mut self, records: &[&SpeedRecord]) {
-        self.warning_count(warnings_about(records));
+        self.warning_count(warning_count(records));
         self.notes(records);
     }
 
@@ -197,11 +199,6 @@ impl<'a> Terminal<'a> {
     }
 }
 
-/// Number of warnings about recordings. A file that failed has an error, and counts as none.
-pub(crate) fn warnings_about(records: &[&SpeedRecord]) -> usize {
-    warning_count(records) - records.iter().filter(|record| record.has_failed()).count()
-}
-
 /// Columns of a terminal; `None` where the stream is none.
 pub(crate) fn width_of(stream: &impl IsTerminal) -> Option<usize> {
     let size = stream.is_terminal().then(terminal_size::terminal_size).flatten();
@@ -216,5 +213,30 @@ fn stdout_failure(error: io::Error) -> Failure {
             hint: "check where the output is redirected to".to_owned(),
             path: None,
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The message is wrapped at words; the lines of the file below it keep their columns.
+    #[test]
+    fn a_message_with_a_part_of_a_file_is_wrapped_and_the_part_is_not() {
+        let mut messages = Vec::new();
+        let part = "3 | name = \"a long text without an end\n  |        ^^^^^^^^^^^^^^^^^^^^^^^^^^^";
+        let mut terminal = Terminal {
+            out: Box::new(Vec::new()),
+            err: Box::new(StripStream::new(&mut messages)),
+            is_of_process: false,
+            err_width: Some(40),
+        };
+        let what = format!("a.toml: the experiment file has a fault: unclosed table\n{part}");
+        terminal.failure(&Failure::usage(what, "] is needed here"));
+        drop(terminal);
+        let said = String::from_utf8(messages).unwrap();
+        let (message, below) = said.split_once("3 | ").unwrap();
+        assert!(message.lines().all(|line| line.chars().count() <= 40) && message.contains("unclosed"), "{said}");
+        assert!(below.contains("without an end\n"), "{said}");
     }
 }

@@ -12,9 +12,9 @@ use crate::settings::tone_of;
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
-use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs};
+use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
-use hovertone_report::{SpeedRecord, weighed_json, weighed_text};
+use hovertone_report::{Notice, SpeedRecord, warning_count, weighed_json, weighed_text};
 use hovertone_vehicle::{
     BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, check_not_negative,
     check_positive, is_swamped,
@@ -56,7 +56,11 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         let checked = weighed.check().and_then(|()| model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
-    terminal.counted_notes(&records.iter().collect::<Vec<_>>());
+    let warning = weighed.as_ref().and_then(WeighedHover::warning);
+    let about: Vec<&SpeedRecord> = records.iter().collect();
+    terminal.warning_count(warning_count(&about) + warning.iter().count());
+    warning.iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
+    terminal.notes(&about);
     if let Some(weighed) = &weighed {
         if arguments.json {
             terminal.data(&weighed_json(weighed).map_err(Failure::internal)?)?;

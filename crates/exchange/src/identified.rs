@@ -256,10 +256,12 @@ fn unladen_hover(results: &Value, experiment: &Value) -> Option<UnladenHover> {
 }
 
 /// From the standard uncertainty of the mean speed of a load to the standard deviation of a trial. The scatter is pooled over the loads,
-/// so the first load is enough.
+/// so the first load is enough. One trial in all shows no scatter.
 fn trial_std_share(results: &Value) -> Option<f64> {
     let number = |load: &Value, name: &str| load.get(name).and_then(Value::as_f64);
-    results.get("loads")?.as_array()?.iter().find_map(|load| {
+    let loads = results.get("loads")?.as_array()?;
+    let trials: f64 = loads.iter().filter_map(|load| number(load, "trial_count")).sum();
+    loads.iter().filter(|_| trials > 1.0).find_map(|load| {
         let share = number(load, "std_uncertainty_rad_s")? / number(load, "speed_rad_s")?;
         Some(share * number(load, "trial_count")?.sqrt()).filter(|share| share.is_finite())
     })

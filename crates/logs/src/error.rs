@@ -72,7 +72,7 @@ pub enum LogError {
         columns: String,
     },
     /// Two columns with the same quantity.
-    #[error("columns \"{first}\" and \"{second}\" have the same meaning")]
+    #[error("columns \"{first}\" and \"{second}\" are read as the same signal")]
     Twice {
         /// Header of the first.
         first: String,

@@ -68,6 +68,13 @@ pub enum Container {
 }
 
 impl Container {
+    /// The container of a file that begins with these bytes; `None` for unknown content. A long tag in front of the sound counts as MP3.
+    pub fn of_beginning(bytes: &[u8]) -> Option<Self> {
+        let sniffed = container_from_content(&mut io::Cursor::new(bytes)).ok()?;
+        let has_tag = mpeg_audio::id3v2_len(bytes) > 0;
+        sniffed.map(|sniffed| sniffed.container).or(has_tag.then_some(Self::Mp3))
+    }
+
     /// Name for people.
     pub fn name(self) -> &'static str {
         match self {

@@ -19,7 +19,7 @@ pub enum MediaError {
     NotAFile,
 
     /// An empty file.
-    #[error("the file is empty (0 bytes): copying it probably failed; copy it again")]
+    #[error("there is nothing in it (0 bytes); copy or record it again")]
     Empty,
 
     /// No known signature.

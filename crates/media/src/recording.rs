@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::io::{BufReader, Seek, SeekFrom};
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -87,6 +88,13 @@ pub struct Recording {
     is_prefix: bool,
 }
 
+/// Audio samples at full scale: the largest of 16 bits is 0.99997. Floats beyond it were not clipped. *Physics.*
+const FULL_SCALE: RangeInclusive<f32> = 0.9999..=1.0;
+/// A larger share of audio samples at full scale is no single peak: a sine that just reaches full scale has 0.9 %. *Decision.*
+const OVERDRIVEN_SHARE: f64 = 0.05;
+/// … if there are audio samples of this length at full scale: a click is shorter. *Decision.*
+const OVERDRIVEN_S: f64 = 0.1;
+
 /// One pass through the sound.
 struct Pass {
     frames: Box<dyn Frames>,
@@ -94,6 +102,8 @@ struct Pass {
     interleaved: Vec<f32>,
     incidents: Incidents,
     non_finite_samples: u64,
+    /// Samples at full scale.
+    full_samples: u64,
     heard_frames: u64,
     has_ended: bool,
     /// The block was already decoded, to prove that there is one.
@@ -257,6 +267,8 @@ impl Recording {
             return Err(error);
         }
         pass.heard_frames += self.block.len() as u64;
+        let full: u32 = self.block.iter().map(|sample| u32::from(FULL_SCALE.contains(&sample.abs()))).sum();
+        pass.full_samples += u64::from(full);
         self.note_incidents();
         Ok(())
     }
@@ -264,7 +276,7 @@ impl Recording {
     fn note_incidents(&mut self) {
         // lengths in headers are by the clock of the recorder
         let rate = self.pass.frames.sample_rate_hz();
-        let Pass { incidents, non_finite_samples, heard_frames, has_ended, .. } = &self.pass;
+        let Pass { incidents, non_finite_samples, full_samples, heard_frames, has_ended, .. } = &self.pass;
         if *non_finite_samples > 0 {
             self.warnings.put_larger(MediaWarning::NonFiniteSamples { count: *non_finite_samples });
         }
@@ -277,6 +289,11 @@ impl Recording {
         }
         if let Some(message) = &incidents.ffmpeg_message {
             self.warnings.put(MediaWarning::Ffmpeg { message: message.clone() });
+        }
+        let full_share = *full_samples as f64 / (*heard_frames).max(1) as f64;
+        let full_s = *full_samples as f64 / rate;
+        if *has_ended && full_share > OVERDRIVEN_SHARE && full_s > OVERDRIVEN_S {
+            self.warnings.put(MediaWarning::Overdriven { share: full_share });
         }
         if *has_ended {
             let decoded_s = *heard_frames as f64 / rate;
@@ -330,6 +347,7 @@ impl Pass {
             interleaved: Vec::new(),
             incidents: Incidents::default(),
             non_finite_samples: 0,
+            full_samples: 0,
             heard_frames: 0,
             has_ended: false,
             is_block_ahead: false,

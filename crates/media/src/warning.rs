@@ -42,6 +42,11 @@ pub enum MediaWarning {
         /// Number of samples.
         count: u64,
     },
+    /// Many audio samples are at full scale: the recorder could not follow the sound.
+    Overdriven {
+        /// Their share of all.
+        share: f64,
+    },
     /// The file has several audio tracks, and none was requested.
     SeveralAudioTracks {
         /// Number of the chosen track, counted from 1.
@@ -81,6 +86,7 @@ impl MediaWarning {
             }
             Self::CorruptPackets { .. } => "leave the damaged part out, or copy the file again",
             Self::NonFiniteSamples { .. } => "look at the program that wrote the file; a hover needs a clean stretch",
+            Self::Overdriven { .. } => "record again with less gain, or from further away",
             Self::SeveralAudioTracks { .. } => "choose another with --audio-track N",
             Self::HalfRateAac { .. } => {
                 "tones above half the rate are missing; record as AAC-LC or PCM if you need them"
@@ -114,6 +120,9 @@ impl fmt::Display for MediaWarning {
             }
             Self::NonFiniteSamples { count } => {
                 write!(f, "NaN or infinite audio samples: {count}; they were replaced by zero")
+            }
+            Self::Overdriven { share } => {
+                write!(f, "the recording is overdriven: {:.0} % of its audio samples are at full scale", 100.0 * share)
             }
             Self::SeveralAudioTracks { chosen, count, silent } => {
                 write!(f, "audio track {chosen} of {count} is used")?;

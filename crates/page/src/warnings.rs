@@ -66,7 +66,8 @@ impl Warnings {
         for (index, (input, name)) in missing.into_iter().chain(told) {
             lines.extend(lines_of(input, name, index, folded));
         }
-        let count = table.map_or(0, |table| table.warnings.len()) + warning_count(&records);
+        let failed = records.iter().filter(|record| record.has_failed()).count();
+        let count = table.map_or(0, |table| table.warnings.len()) + warning_count(&records) + failed;
         lines.truncate(LINES_MAX);
         Self { counted: counted(count, "warning"), more: count.saturating_sub(lines.len()), lines, notices }
     }
@@ -100,6 +101,9 @@ fn section_of(warning: &ThrustWarning) -> &'static str {
     match warning {
         ThrustWarning::ConstantDrifts(_)
         | ThrustWarning::TrialLeftOut { .. }
+        | ThrustWarning::TrialFarFromOthers { .. }
+        | ThrustWarning::TrialsDiffer { .. }
+        | ThrustWarning::MassFarFromKnown { .. }
         | ThrustWarning::ImplausibleFigureOfMerit { .. } => "loads",
         ThrustWarning::MassNotWeighed { .. }
         | ThrustWarning::LoudestRotor

@@ -5,7 +5,7 @@ use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
 use hovertone_thrust::{
-    BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget, p_value_text,
+    BudgetInput, BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget, p_value_text,
 };
 
 /// Contributions below this share of the constant have no line for people; the JSON has all of them.
@@ -168,10 +168,12 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "bootstrap over trials, {} resamples (seed {}): u = {} %, to be compared with the two contributions of the speed together\n",
+            "bootstrap over trials, {} resamples (seed {}): u = {} %; compare it with \"{}\" and \"{}\" together\n",
             drawn.draws,
             drawn.seed,
-            significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2)
+            significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2),
+            BudgetInput::SpeedStatistics.title(),
+            BudgetInput::SpeedEstimator.title(),
         )
     })
 }

@@ -1,10 +1,13 @@
 //! The cuts of a recording on one line.
 
+use crate::number::DASH;
 use hovertone_analysis::{Cut, CutReason, Span};
 use std::collections::BTreeSet;
 
 /// Most stretches on the line; the others are summed up.
 const STRETCHES_MAX: usize = 6;
+/// Most used stretches that stand in a table.
+const SEGMENTS_SHOWN: usize = 2;
 /// Cuts with a smaller gap count as adjacent.
 const TOUCHING_S: f64 = 1e-6;
 const EDGE: &str = "edge of the hover";
@@ -39,6 +42,18 @@ pub fn cuts_in_words(cuts: &[Cut]) -> Option<String> {
     }
     let words: Vec<String> = sums.iter().map(|(reason, sum_s)| format!("{sum_s:.1} s {reason}")).collect();
     Some(format!("{} stretches: {}", stretches.len(), words.join(", ")))
+}
+
+/// The used stretches; of many, the time from the first to the last and the number of gaps, whose times stand with the cuts.
+pub(crate) fn used_in_words(segments: &[Span]) -> String {
+    let times = |from_s: f64, to_s: f64| format!("{from_s:.1}–{to_s:.1}");
+    match segments {
+        [] => DASH.to_owned(),
+        [first, .., last] if segments.len() > SEGMENTS_SHOWN => {
+            format!("{}, {} gaps", times(first.from_s, last.to_s), segments.len() - 1)
+        }
+        few => few.iter().map(|span| times(span.from_s, span.to_s)).collect::<Vec<_>>().join(", "),
+    }
 }
 
 impl Stretch {
@@ -156,5 +171,15 @@ mod tests {
             .collect();
         let expected = "10 stretches: 7.5 s no rotor heard, 7.5 s handling noise";
         assert_eq!(cuts_in_words(&cuts).as_deref(), Some(expected));
+    }
+
+    /// What is cut from the middle is not told as used.
+    #[test]
+    fn the_used_times_have_the_gaps_of_the_cuts() {
+        let span = |from_s: f64, to_s: f64| Span { from_s, to_s };
+        assert_eq!(used_in_words(&[]), "–");
+        assert_eq!(used_in_words(&[span(0.5, 9.5)]), "0.5–9.5");
+        assert_eq!(used_in_words(&[span(0.0, 4.5), span(6.0, 10.0)]), "0.0–4.5, 6.0–10.0");
+        assert_eq!(used_in_words(&[span(0.0, 1.0), span(2.0, 3.0), span(4.0, 5.0)]), "0.0–5.0, 2 gaps");
     }
 }

@@ -78,8 +78,12 @@ pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
     let group = if table.group.is_empty() { String::new() } else { format!(": {}", printable(&table.group)) };
     let meaning = constant.std_uncertainty.map_or("± is not known", |_| "k = 2");
+    let left_out = match table.fit.points.iter().filter(|point| point.is_gross).count() {
+        0 => String::new(),
+        count => format!(", {count} of them left out of the fit"),
+    };
     let mut text = format!(
-        "{}{group}\n{}, {} against {}\n\n{}\nC_f, one rotor = {} ({meaning})\n",
+        "{}{group}\n{}{left_out}, {} against {}\n\n{}\nC_f, one rotor = {} ({meaning})\n",
         printable(&table.file),
         counted(table.row_count, "table row"),
         printable(&table.force_column),

@@ -1,7 +1,7 @@
 //! How much flying a wanted uncertainty needs.
 
 use crate::number::significant;
-use hovertone_thrust::{BudgetInput, FlightPlan, PlanWish};
+use hovertone_thrust::{BudgetInput, FlightPlan, PlanWish, compared};
 
 /// The plan as text, with the range of loads that would show an intercept.
 pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
@@ -12,27 +12,32 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         .collect();
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {
-        Some(ratio) if ratio <= range => "these loads also show an intercept of 2 % of the force".to_owned(),
-        Some(ratio) => format!(
-            "to test the square law against an intercept the heaviest must weigh {ratio:.2} times the lightest; these reach {range:.2}"
-        ),
-        None => "no range of loads shows an intercept with so few trials".to_owned(),
+        Some(ratio) if ratio <= range => {
+            "These loads also test F = C_f ω²: they show an intercept of 2 % of the force.".to_owned()
+        }
+        Some(ratio) => {
+            let [ratio, range] = compared([ratio, range]);
+            format!(
+                "To test F = C_f ω², the heaviest load must weigh {ratio} times the lightest. Yours weighs {range} times."
+            )
+        }
+        None => "With these few trials, no range of loads tests F = C_f ω² to 2 % of the force.".to_owned(),
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {
-            "\nassumed: one tone is used for all rotors; --rotors-separated plans for separated rotors (docs/budget.md)"
+            "\nAssumed: one speed is used for all rotors; --rotors-separated plans for separated rotors (docs/budget.md)."
         }
         _ => "",
     };
     format!(
         "{} loads (add {}), {} trials of each, {:.0} s of hover in each trial: {:.1} minutes of hover\n\
-         expected: C_f to {:.2} % (k = 2), most of it from: {}{separated}\n{intercept}\n",
+         Expected: C_f ± {} % (k = 2). Most of it: {}.{separated}\n{intercept}\n",
         plan.load_count,
         added.join(", "),
         plan.trials_per_load,
         plan.trial_s,
         plan.hover_s / 60.0,
-        100.0 * plan.expanded_share,
+        significant(100.0 * plan.expanded_share, 2),
         plan.largest.title(),
     )
 }

@@ -11,6 +11,8 @@ const RECORDINGS_MIN: usize = 3;
 const NAMES_MAX: usize = 6;
 /// Most names after "all but".
 const EXCEPTIONS_MAX: usize = 3;
+/// Words whose number is a name: warnings about another one are of another kind.
+const NUMBERED: [&str; 1] = ["harmonic"];
 /// Sign for a number in the shape of a text.
 const NUMBER: &str = "#";
 
@@ -65,11 +67,14 @@ pub fn own_reason(record: &SpeedRecord, folded: &[FoldedWarning]) -> Option<Stri
     record.reason().filter(|_| !missing_speed(record).iter().any(is_folded))
 }
 
-/// Number of lines of warnings about recordings. A recording without a speed is one, where its reason is not folded.
+/// Number of lines of warnings about recordings. A recording without a speed is one, where its reason is not folded; a file that failed has an
+/// error, and is none.
 pub fn warning_count(records: &[&SpeedRecord]) -> usize {
     let folded = folded_warnings(records);
-    let of_one =
-        |record: &&SpeedRecord| own_notices(record, &folded).len() + usize::from(own_reason(record, &folded).is_some());
+    let of_one = |record: &&SpeedRecord| {
+        let has_reason = own_reason(record, &folded).is_some() && !record.has_failed();
+        own_notices(record, &folded).len() + usize::from(has_reason)
+    };
     folded.len() + records.iter().map(of_one).sum::<usize>()
 }
 
@@ -170,10 +175,13 @@ fn text_of_all(texts: &[&str]) -> String {
 
 /// The words of a text with a sign in place of each number.
 fn shape(text: &str) -> Vec<String> {
+    let before = std::iter::once("").chain(text.split(' '));
     text.split(' ')
-        .map(|word| {
+        .zip(before)
+        .map(|(word, word_before)| {
             let Word { before, digits, after, .. } = Word::of(word);
-            if digits.is_empty() { word.to_owned() } else { format!("{before}{NUMBER}{after}") }
+            let is_name = digits.is_empty() || NUMBERED.contains(&word_before);
+            if is_name { word.to_owned() } else { format!("{before}{NUMBER}{after}") }
         })
         .collect()
 }
@@ -209,6 +217,21 @@ mod tests {
 
     fn texts(kinds: &[FoldedWarning]) -> Vec<&str> {
         kinds.iter().map(|kind| kind.notice.text.as_str()).collect()
+    }
+
+    #[test]
+    fn another_harmonic_is_another_kind() {
+        let left_out = |harmonic: u32, percent: u32| {
+            Notice::new(format!("harmonic {harmonic} is left out: its speed is {percent} % off"), "ignore")
+        };
+        let all = vec![vec![left_out(2, 1), left_out(3, 1)], vec![left_out(2, 4)], vec![left_out(3, 1)]];
+        let kinds = kinds_of(&all, &names(3));
+        let words = [
+            "harmonic 2 is left out: its speed is 1–4 % off (in 2 of 3",
+            "harmonic 3 is left out: its speed is 1 % off (in 2 of 3",
+        ];
+        assert_eq!(kinds.len(), 2);
+        assert!(texts(&kinds).iter().zip(words).all(|(text, words)| text.starts_with(words)), "{kinds:?}");
     }
 
     #[test]

@@ -82,8 +82,8 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
     ]);
     let rpm = |rad_s: Option<f64>| rad_s.map_or(DASH.to_owned(), |s| format!("{:.0}", RotorSpeed::from_rad_s(s).rpm()));
     text.push(vec![
-        format!("{} as heard", heard.vehicle_name),
-        String::new(),
+        heard.vehicle_name.clone(),
+        "as heard".to_owned(),
         significant(unit.scale(heard.thrust_constant_n_s2), 5),
         "1".to_owned(),
         heard.mass_kg.map_or(DASH.to_owned(), grams),

@@ -25,8 +25,8 @@ impl Verdict {
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
             format!(" (χ² = {:.2}, {})", agreement.chi_square, p_value_text(agreement.p_value))
         });
+        let heard = table.loads.iter().filter(|load| load.speed.is_some()).count();
         if !table.loads.iter().any(|load| load.fits.is_some()) {
-            let heard = table.loads.iter().filter(|load| load.speed.is_some()).count();
             let why = match heard {
                 0 | 1 => "there is no second load to compare with",
                 _ => {
@@ -37,6 +37,9 @@ impl Verdict {
         }
         match misfits.as_slice() {
             [] => Self::Holds(format!("every load agrees with the others{agreement}")),
+            all if all.len() > 1 && all.len() == heard => {
+                Self::Fails(format!("the loads do not fit each other: {}{agreement}", all.join(", ")))
+            }
             [one] => Self::Fails(format!("this load does not fit the others: {one}{agreement}")),
             several => Self::Fails(format!("these loads do not fit the others: {}{agreement}", several.join(", "))),
         }
@@ -59,8 +62,10 @@ pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
         _ => format!(", {} for the whole vehicle", quoted(total)),
     };
     let share = total.std_uncertainty.map(|std| 100.0 * COVERAGE_FACTOR * std / total.value);
-    let meaning = share
-        .map_or("; ± is not known".to_owned(), |percent| format!("; ± is {percent:.2} %, with k = {COVERAGE_FACTOR}"));
+    let flights = if table.has_one_trial() { ", without the differences from flight to flight" } else { "" };
+    let meaning = share.map_or("; ± is not known".to_owned(), |percent| {
+        format!("; ± is {percent:.2} %, with k = {COVERAGE_FACTOR}{flights}")
+    });
     Some(format!("C_f = {} for one rotor{vehicle}{meaning}", quoted(per_rotor)))
 }
 

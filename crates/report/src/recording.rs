@@ -81,6 +81,8 @@ pub struct SpeedRecord {
     pub found: Option<Found>,
     /// Labels of the rotors, where they were requested.
     pub labels: Option<RotorLabels>,
+    /// A fault of the recording that explains a missing tone, and what to do: it stands in place of the reason of the analysis.
+    pub spoiled: Option<String>,
     /// Warnings about the file and the analysis.
     pub notices: Vec<Notice>,
 }
@@ -162,7 +164,7 @@ impl SpeedRecord {
         match &self.answer {
             Answer::Failed { reason } => Some(reason.clone()),
             Answer::Heard(analysis) => match &analysis.outcome {
-                Outcome::NoRotorTone { reason } => Some(reason.to_string()),
+                Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.is_some() => Some(
                     "several readings of the tone stay plausible; count the blades and give --blades N, or give --diameter-m, \
@@ -170,8 +172,8 @@ impl SpeedRecord {
                         .to_owned(),
                 ),
                 Outcome::Ok(tone) if tone.alternatives.iter().all(|reading| reading.thrust_coefficient.is_none()) => Some(
-                    "the lines fit several shaft speeds, and their levels do not decide between them; give --diameter-m, --mass-kg and \
-                     --rotors: the thrust of the hover decides"
+                    "the lines fit several shaft speeds, and their levels do not decide between them; the thrust of the hover decides if \
+                     you also give the diameter of the propellers (--diameter-m), the mass and the number of rotors"
                         .to_owned(),
                 ),
                 Outcome::Ok(_) => Some(

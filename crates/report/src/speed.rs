@@ -1,6 +1,7 @@
 //! Rotor speeds of recordings: a table for people, a JSON line and a track for programs.
 
 use crate::csv_text::text_of;
+use crate::cuts::used_in_words;
 use crate::notice::Notice;
 use crate::number::{DASH, expanded, plus_minus, rounded, significant, spread};
 use crate::printable::{printable, shared_folder};
@@ -82,7 +83,7 @@ fn cells_of_speed(name: String, estimate: &SpeedEstimate, used: String) -> Vec<S
 }
 
 fn cell_of_span(record: &SpeedRecord) -> String {
-    record.used().map_or(DASH.to_owned(), |used| format!("{:.1}–{:.1}", used.from_s, used.to_s))
+    used_in_words(record.analysis().map_or(&[][..], |analysis| &analysis.hover.segments))
 }
 
 /// One of several readings; its plausibility stands in the column of the uncertainty.

@@ -1,5 +1,6 @@
 //! A table as lines of text: aligned columns, folded to the width of a terminal.
 
+use crate::number::DASH;
 use crate::printable::{printable, width_of, wrapped};
 use crate::text_table::{Row, TextTable};
 use std::fmt;
@@ -19,9 +20,13 @@ const WORDS_WIDTH_MIN: usize = 20;
 pub fn table_text(table: &TextTable, width: Option<usize>) -> String {
     let table = Shown::of(table).narrowed(width);
     let parts = width.map_or_else(|| vec![(1..table.heads.len()).collect()], |width| table.parts(width));
-    // rows of words stand in the first part alone
-    let has_cells = table.rows.iter().any(|row| matches!(row, Row::Cells(_)));
-    let shown = parts.iter().enumerate().filter(|(index, _)| *index == 0 || has_cells);
+    // rows of words stand in the first part alone, and a part of gaps alone tells nothing
+    let tells = |index: &usize, row: &Row| match row {
+        Row::Cells(cells) => cells.get(*index).is_some_and(|cell| !cell.is_empty() && cell != DASH),
+        Row::Words(..) => false,
+    };
+    let has_cells = |part: &[usize]| part.iter().any(|index| table.rows.iter().any(|row| tells(index, row)));
+    let shown = parts.iter().enumerate().filter(|(index, part)| *index == 0 || has_cells(part));
     let texts: Vec<String> = shown.map(|(index, others)| table.part(others, width, index == 0)).collect();
     texts.join("\n")
 }
@@ -241,6 +246,16 @@ long name.wav  short
         table.push_words("b.wav".to_owned(), "no rotor tone".to_owned());
         let text = table_text(&table, Some(20));
         assert!(text.ends_with("no rotor tone\n") && text.matches("file").count() == 1, "{text}");
+    }
+
+    #[test]
+    fn a_part_of_gaps_alone_is_left_out() {
+        let mut table = TextTable::new(table().columns()[..3].to_vec());
+        table.push(vec!["a rather long name.wav".to_owned(), "60.17".to_owned(), DASH.to_owned()]);
+        let text = table_text(&table, Some(30));
+        assert!(text.contains("60.17") && !text.contains("spread") && text.matches("file").count() == 1, "{text}");
+        table.push(vec!["b.wav".to_owned(), "60.17".to_owned(), "0.3".to_owned()]);
+        assert!(table_text(&table, Some(30)).contains("spread"));
     }
 
     #[test]

@@ -12,8 +12,7 @@ use hovertone_vehicle::{Estimate, RotorSpeed};
 pub(crate) const CONSTANT_UNIT: &str = "N s²";
 
 /// The meaning of ± in a table of loads.
-pub const LOADS_FOOTNOTE: &str =
-    "± of a load is k = 2 of its own weighing and speeds; the ± of the answer adds effects that all loads share.";
+pub const LOADS_FOOTNOTE: &str = "The ± of a load covers its mass and speed (k = 2). The ± of C_f adds what all loads share: air, floor, scale, unseparated rotors.";
 
 /// The table of one method: a row for each load, like tables 1 and 2 of the paper.
 pub fn thrust_table(table: &ThrustTable) -> TextTable {

@@ -89,7 +89,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         let is_near = rotor.and_then(|rotor| found.families.get(rotor)).is_some_and(|rotor| family.is_near(rotor));
         let kind = match family.remark {
             Some(Remark::NearMains) => Remark::NearMains.text(),
-            _ if is_near => "another rotor, or the same in drift",
+            _ if is_near => "another rotor, or this one at a changing speed",
             Some(remark) => remark.text(),
             None => "another tone",
         };

@@ -2,7 +2,7 @@
 
 use crate::number::{rounded, significant, with_uncertainty};
 use crate::version::VERSION;
-use hovertone_thrust::WeighedHover;
+use hovertone_thrust::{COVERAGE_FACTOR, WeighedHover};
 use hovertone_vehicle::Estimate;
 use serde::Serialize;
 
@@ -26,16 +26,19 @@ pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error>
 
 /// Mass and payload in grams, with their expanded uncertainties.
 pub fn weighed_text(weighed: &WeighedHover) -> String {
+    let flights = if weighed.has_flight_scatter { "" } else { ", without the differences from flight to flight" };
     let grams = |mass_kg: Estimate| {
         let mass = mass_kg.scaled(1e3);
         match mass.std_uncertainty {
-            Some(_) => format!("{} g (k = 2)", with_uncertainty(mass.value, mass.std_uncertainty)),
+            Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
             None => format!("{} g (± is not known: the constant has none)", significant(mass.value, DIGITS)),
         }
     };
+    let share = weighed.mass_kg.std_uncertainty.map(|std| COVERAGE_FACTOR * std / weighed.mass_kg.value);
     let mut text = format!(
         "hovers at {} rpm ({} {})\nmass: {}\n",
-        rounded(weighed.speed.rpm(), Some(0.1)),
+        // m ∝ ω²: the speed is known to half of the share of the mass
+        rounded(weighed.speed.rpm(), share.map(|share| share / 2.0 * weighed.speed.rpm()).or(Some(10.0))),
         weighed.recording_count,
         if weighed.recording_count == 1 { "recording" } else { "recordings" },
         grams(weighed.mass_kg)
@@ -44,4 +47,29 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         text += &format!("payload: {}\n", grams(payload_kg));
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hovertone_vehicle::{Ending, RotorSpeed};
+
+    #[test]
+    fn the_speed_has_no_more_digits_than_the_mass_allows() {
+        let weighed = |std_kg: Option<f64>, has_flight_scatter: bool| {
+            weighed_text(&WeighedHover {
+                mass_kg: Estimate { value: 0.462, std_uncertainty: std_kg, ending: Ending::Solved },
+                payload_kg: None,
+                speed: RotorSpeed::from_rpm(3820.1234),
+                recording_count: 5,
+                has_flight_scatter,
+            })
+        };
+        // ± 0.6 % of the mass are ± 0.3 % of the speed, 12 rpm
+        assert!(
+            weighed(Some(0.0014), true).starts_with("hovers at 3820 rpm (5 recordings)\nmass: 462.0 ± 2.8 g (k = 2)\n")
+        );
+        assert!(weighed(None, true).starts_with("hovers at 3820 rpm"));
+        assert!(weighed(Some(0.0014), false).contains("(k = 2, without the differences from flight to flight)"));
+    }
 }

@@ -16,6 +16,7 @@ mod campaign;
 mod drift;
 mod fit;
 mod force;
+mod misfiled;
 mod plan;
 pub mod regression;
 mod settings;
@@ -46,5 +47,5 @@ pub use square_law::{
 pub use statistics::COVERAGE_FACTOR;
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
-pub use warning::{ThrustWarning, p_value_text};
+pub use warning::{ThrustWarning, compared, p_value_text};
 pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

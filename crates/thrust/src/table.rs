@@ -62,6 +62,13 @@ impl ThrustTable {
     }
 }
 
+impl ThrustTable {
+    /// Whether one trial is all there is: nothing shows how much the speed differs from flight to flight.
+    pub fn has_one_trial(&self) -> bool {
+        self.loads.iter().flat_map(|load| &load.trials).filter(|trial| trial.speed.is_some()).count() == 1
+    }
+}
+
 /// One row of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LoadThrust {

@@ -1,8 +1,10 @@
 //! Warnings about a thrust constant, each with a hint. They are values; nothing here prints.
 
 use crate::drift::{Drift, DriftKind};
+use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::statistics::COVERAGE_FACTOR;
+use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
 use std::fmt;
 
@@ -11,6 +13,9 @@ const NAMES_MAX: usize = 5;
 
 /// Smallest p-value that is printed as a number. *Decision.*
 const P_VALUE_SHOWN_MIN: f64 = 1e-4;
+
+/// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
+const POINT_MARGIN: f64 = 1.5;
 
 /// A reason to doubt a thrust constant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,6 +34,49 @@ pub enum ThrustWarning {
         mass_that_fits_std_kg: Option<f64>,
         /// Off by a factor, and left out of the fit.
         is_left_out: bool,
+    },
+    /// All loads, or all rows of a table, disagree: there are no others that agree.
+    LoadsDisagree {
+        /// Names of the loads or rows.
+        names: Vec<String>,
+        /// They are rows of a table.
+        are_rows: bool,
+    },
+    /// A trial needs another thrust than the others of its load.
+    TrialFarFromOthers {
+        /// Name of its load.
+        load: String,
+        /// Name of its recording.
+        recording: String,
+        /// Its ω² over that of the others, minus 1.
+        thrust_share: f64,
+    },
+    /// The few trials of a load need different thrusts.
+    TrialsDiffer {
+        /// Name of the load.
+        load: String,
+        /// The recording that needs the least thrust.
+        least: String,
+        /// The recording that needs the most.
+        most: String,
+        /// Largest over smallest ω², minus 1.
+        thrust_share: f64,
+    },
+    /// The rotors turned slower under the heavier of two loads.
+    HeavierTurnedSlower {
+        /// Name of the heavier load.
+        heavy: String,
+        /// Name of the lighter load.
+        light: String,
+    },
+    /// A load that is far from the mass of the known vehicle.
+    MassFarFromKnown {
+        /// Name of the load.
+        load: String,
+        /// Its mass as flown.
+        mass_kg: f64,
+        /// Mass of the preset or of the model.
+        known_kg: f64,
     },
     /// Many rows of a table disagree with the others.
     RowsDoNotFit {
@@ -112,6 +160,19 @@ impl ThrustWarning {
             Self::LoadDoesNotFit { mass_that_fits_kg: None, is_left_out: false, .. } => {
                 "check the thrust and the recordings of that load"
             }
+            Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale, the propellers",
+            Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
+                "are masses exchanged? Check them, and which recording belongs to which load"
+            }
+            Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
+                "is it filed under the right load? If it is, check it with `hovertone speed`"
+            }
+            Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
+                "is the decimal point in the right place, or is it another vehicle? An error of the mass is an error of C_f"
+            }
+            Self::MassFarFromKnown { .. } => {
+                "check the mass, its unit and the name of the vehicle: an error of the mass is an error of C_f"
+            }
             Self::RowsDoNotFit { .. } => {
                 "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"
             }
@@ -125,13 +186,16 @@ impl ThrustWarning {
             Self::MixedBenchAndHover => {
                 "on a bench a rotor stands alone and the air around it is still; fit bench runs and hovers apart to compare them"
             }
-            Self::SingleLoad => "measure a second load: one load cannot show whether it fits",
+            Self::SingleLoad => "measure a second load",
             Self::OneRecordingEach { .. } => {
                 "record each load several times, five if possible: land and start again between"
             }
             Self::EqualLoads { .. } => "measure loads as far apart as is safe: equal ones show nothing of the law",
+            Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
+                "check the masses, and which recording belongs to which load"
+            }
             Self::NarrowLoadRange(_) => {
-                "the square law is assumed, not tested; `hovertone fit --plan` says what loads and trials would do"
+                "C_f is still valid near these loads; `hovertone fit --plan` plans loads and trials"
             }
             Self::OtherLawPreferred { .. } => {
                 "C_f belongs to the square law, which simulators use: use it near the measured speeds"
@@ -160,6 +224,28 @@ impl ThrustWarning {
     }
 }
 
+impl ThrustWarning {
+    /// The warning about the load that is farthest from the mass of the known vehicle, where one is outside of [`KNOWN_MASS_SHARES`].
+    pub fn of_masses<'a>(loads: impl IntoIterator<Item = (&'a str, Force)>, known_kg: f64) -> Option<Self> {
+        let masses = loads.into_iter().filter_map(|(name, force)| Some((name, force.mass_kg()?)));
+        let distance = |mass_kg: f64| (mass_kg / known_kg).ln().abs();
+        let far = masses.filter(|(_, mass_kg)| !KNOWN_MASS_SHARES.contains(&(mass_kg / known_kg)));
+        let (name, mass_kg) = far.max_by(|(_, a_kg), (_, b_kg)| distance(*a_kg).total_cmp(&distance(*b_kg)))?;
+        Some(Self::MassFarFromKnown { load: name.to_owned(), mass_kg, known_kg })
+    }
+
+    /// Whether trials or masses seem to stand at the wrong load.
+    pub(crate) fn is_of_misfiled(&self) -> bool {
+        matches!(
+            self,
+            Self::LoadsDisagree { .. }
+                | Self::TrialFarFromOthers { .. }
+                | Self::TrialsDiffer { .. }
+                | Self::HeavierTurnedSlower { .. }
+        )
+    }
+}
+
 /// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
 pub fn p_value_text(p_value: f64) -> String {
     if p_value < P_VALUE_SHOWN_MIN {
@@ -184,6 +270,46 @@ fn drift_text(drift: &Drift) -> String {
     format!("the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
 }
 
+fn range_text(range: &LoadRange) -> String {
+    let Some(needed) = range.force_ratio_needed else {
+        return "the loads scatter too much about F = C_f ω² to test it".to_owned();
+    };
+    let [ratio, needed] = compared([range.force_ratio, needed]);
+    format!(
+        "the loads are too alike to test F = C_f ω²: the heaviest is {ratio} times the lightest, and {needed} times is needed"
+    )
+}
+
+/// Two different ratios with two decimals, or with as many as show that they differ.
+pub fn compared(ratios: [f64; 2]) -> [String; 2] {
+    let printed = |decimals: usize| ratios.map(|ratio| format!("{ratio:.decimals$}"));
+    (2..=6).map(printed).find(|[one, other]| one != other).unwrap_or_else(|| printed(2))
+}
+
+/// The first names of a list.
+fn first_names(names: &[String]) -> String {
+    let more = if names.len() > NAMES_MAX { ", …" } else { "" };
+    names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ") + more
+}
+
+/// A mass in grams.
+fn mass_text(mass_kg: f64) -> String {
+    let grams = 1e3 * mass_kg;
+    if grams < 100.0 { format!("{grams:.1} g") } else { format!("{grams:.0} g") }
+}
+
+/// A ratio with two digits.
+fn ratio_text(ratio: f64) -> String {
+    let decimals = (1.0 - ratio.log10().floor()).clamp(0.0, 3.0) as usize;
+    format!("{ratio:.decimals$}")
+}
+
+/// Whether a ratio of masses is about ten, or a tenth.
+fn is_shifted_point(ratio: f64) -> bool {
+    let near_ten = 10.0 / POINT_MARGIN..=10.0 * POINT_MARGIN;
+    near_ten.contains(&ratio) || near_ten.contains(&ratio.recip())
+}
+
 impl fmt::Display for ThrustWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -201,12 +327,30 @@ impl fmt::Display for ThrustWarning {
                 }
                 if *is_left_out { f.write_str("; it is left out: its constant is more than twice or less than half that of the others") } else { Ok(()) }
             }
+            Self::LoadsDisagree { names, are_rows } => {
+                let noun = if *are_rows { "rows" } else { "loads" };
+                write!(f, "the {noun} do not fit each other: {}", first_names(names))
+            }
+            Self::TrialFarFromOthers { load, recording, thrust_share } => {
+                let than = if *thrust_share > 0.0 { "more" } else { "less" };
+                let percent = 100.0 * thrust_share.abs();
+                write!(f, "{recording} of load \"{load}\" needs {percent:.0} % {than} thrust than the others")
+            }
+            Self::TrialsDiffer { load, least, most, thrust_share } => {
+                write!(f, "{most} of load \"{load}\" needs {:.0} % more thrust than {least}", 100.0 * thrust_share)
+            }
+            Self::HeavierTurnedSlower { heavy, light } => {
+                write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
+            }
+            Self::MassFarFromKnown { load, mass_kg, known_kg } => write!(
+                f,
+                "load \"{load}\" weighs {}, {} times as much as the named vehicle, {}",
+                mass_text(*mass_kg),
+                ratio_text(mass_kg / known_kg),
+                mass_text(*known_kg)
+            ),
             Self::RowsDoNotFit { names, are_left_out } => {
-                let shown = names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ");
-                write!(f, "{} rows do not fit the others: {shown}", names.len())?;
-                if names.len() > NAMES_MAX {
-                    f.write_str(", …")?;
-                }
+                write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
                 if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { Ok(()) }
             }
             Self::TrialLeftOut { load, recording } => {
@@ -216,28 +360,15 @@ impl fmt::Display for ThrustWarning {
                 "half of the constants are more than twice or less than half the others, and nothing shows which half is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
-            Self::SingleLoad => f.write_str("there is only one load: nothing shows whether it fits"),
+            Self::SingleLoad => f.write_str("there is only one load, so the law cannot be tested"),
             Self::OneRecordingEach { load_count: 1 } => {
-                f.write_str("there is one recording: the ± does not contain how much the speed differs from flight to flight")
+                f.write_str("there is one usable recording: the ± does not contain how much the speed differs from flight to flight")
             }
             Self::OneRecordingEach { .. } => f.write_str(
                 "each load has one recording, so the law cannot be tested; the ± comes from the scatter of the loads",
             ),
             Self::EqualLoads { count } => write!(f, "all {count} loads are equal, or nearly so"),
-            Self::NarrowLoadRange(range) => {
-                let open = format!("±{:.1} % of the force (k = 2)", 100.0 * COVERAGE_FACTOR * range.intercept_std_share);
-                match range.force_ratio_needed {
-                    Some(needed) => write!(
-                        f,
-                        "the largest force is only {:.2} times the smallest, so that an intercept within {open} would not show; {needed:.1} times is enough",
-                        range.force_ratio
-                    ),
-                    None => write!(
-                        f,
-                        "the forces scatter so much that an intercept within {open} would not show; a wider range of loads would not help"
-                    ),
-                }
-            }
+            Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
             Self::OtherLawPreferred { law, probability } => {
                 write!(f, "{} describes the loads better (probability {:.0} %)", law.formula(), 100.0 * probability)
             }

@@ -24,6 +24,9 @@ pub fn are_masses_of_one_vehicle(given_kg: f64, known_kg: f64) -> bool {
     (known_kg / MASS_FACTOR_MAX..=known_kg * MASS_FACTOR_MAX).contains(&given_kg)
 }
 
+/// Masses of loads, over the mass of their known vehicle, that raise no question: without battery or camera, up to a heavy payload. *Decision.*
+pub const KNOWN_MASS_SHARES: RangeInclusive<f64> = 0.8..=3.0;
+
 /// Ratios of a given to an expected mass at which the given one is in grams: a thousand, with a wide margin. *Decision.*
 pub const GRAMS_FACTOR: RangeInclusive<f64> = 100.0..=10_000.0;
 

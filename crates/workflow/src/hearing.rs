@@ -2,10 +2,11 @@
 
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::Passes;
-use hovertone::speed::{Config, Error, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
-use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
-use hovertone_media::{Decoder, Recording};
+use hovertone::speed::{Config, Error, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
+use hovertone::tones::{Discovery, FoundSpeed, Reading, tones_from_passes};
+use hovertone_media::{Decoder, MediaWarning, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
+use hovertone_vehicle::KNOWN_RANGE_MARGIN;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -84,9 +85,10 @@ pub fn hear(
     on_share: impl FnMut(Share),
 ) -> Result<Heard, NotHeard> {
     let analysed = analysed(recording, task, on_share);
+    let spoiled = analysed.as_ref().ok().and_then(|analysed| why_no_tone(recording, analysed));
     let facts = facts_of(recording, sha256);
     let Analysed { analysis, config, found, spin_up } = match analysed {
-        Ok(analysed) => analysed,
+        Ok(analysed) => analysed.with_likeliest_first(),
         Err(error) => {
             return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
         }
@@ -95,7 +97,7 @@ pub fn hear(
     let of_analysis = analysis.warnings.iter().filter(matters).map(Notice::from);
     let notices = notices_of(recording).into_iter().chain(of_analysis).collect();
     let record = record_of(task, &config, Answer::Heard(Box::new(analysis)), Some(facts));
-    let mut record = SpeedRecord { found, notices, ..record };
+    let mut record = SpeedRecord { found, notices, spoiled, ..record };
     record.notices.extend(notice_of_reading(&record));
     Ok(Heard { record, config, spin_up })
 }
@@ -131,6 +133,34 @@ pub fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts
         audio_track_count: info.audio_track_count,
         is_prefix: recording.is_prefix(),
     }
+}
+
+/// The fault of a recording that explains why no tone was found in it, and what to do.
+fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
+    let Outcome::NoRotorTone { reason } = &analysed.analysis.outcome else { return None };
+    let warnings = recording.warnings();
+    let is_silent = matches!(reason, NoTone::Silence);
+    if is_silent && warnings.iter().any(|warning| matches!(warning, MediaWarning::NonFiniteSamples { .. })) {
+        let why = "the audio samples are NaN or infinite, which are no sound; look at the program that wrote the file";
+        return Some(why.to_owned());
+    }
+    if let Some(overdriven) = warnings.iter().find(|warning| matches!(warning, MediaWarning::Overdriven { .. })) {
+        return Some(format!("{overdriven}; {}", overdriven.hint()));
+    }
+    // the search goes beyond the known speeds of the vehicle by a margin
+    let tone = &analysed.config.tone;
+    let tone_hz = tone.order.lines_per_turn() * tone.speed_max.rev_s() / KNOWN_RANGE_MARGIN;
+    let half_rate_hz = recording.info().sample_rate_hz / 2.0;
+    let is_rate_low = !is_silent && analysed.found.is_none() && half_rate_hz < tone_hz;
+    is_rate_low.then(|| {
+        format!(
+            "the sample rate is too low: nothing above {:.1} kHz is recorded, and the tone of order {} may lie up to {:.1} kHz; record \
+             at a higher rate, or follow a tone of lower order",
+            half_rate_hz / 1e3,
+            tone.order,
+            tone_hz / 1e3
+        )
+    })
 }
 
 /// From the progress of a pass to the progress over all passes of a recording.
@@ -170,6 +200,7 @@ fn record_of(task: &Task<'_>, config: &Config, answer: Answer, recording: Option
         answer,
         found: None,
         labels: None,
+        spoiled: None,
         notices: Vec::new(),
     }
 }
@@ -193,6 +224,20 @@ struct Analysed {
     config: Config,
     found: Option<Found>,
     spin_up: Option<SpinUp>,
+}
+
+impl Analysed {
+    /// With the readings that stay plausible sorted by their plausibility.
+    fn with_likeliest_first(mut self) -> Self {
+        let sort = |readings: &mut Vec<Reading>| readings.sort_by(|a, b| b.plausibility.total_cmp(&a.plausibility));
+        if let Outcome::Ok(tone) = &mut self.analysis.outcome {
+            sort(&mut tone.alternatives);
+        }
+        if let Some(found) = &mut self.found {
+            sort(&mut found.alternatives);
+        }
+        self
+    }
 }
 
 fn analysed(recording: &mut Recording, task: &Task<'_>, on_share: impl FnMut(Share)) -> Result<Analysed, Error> {

@@ -1,5 +1,6 @@
 //! Arguments of `serve`.
 
+use super::groups::whole_number;
 use clap::Args;
 use std::net::{IpAddr, Ipv4Addr};
 
@@ -20,7 +21,7 @@ Examples:
 #[cfg_attr(not(feature = "page"), allow(dead_code))]
 pub(crate) struct ServeArguments {
     /// Port of this computer; 0 is any that is free
-    #[arg(long, value_name = "N", default_value_t = 4680)]
+    #[arg(long, value_name = "N", default_value_t = 4680, value_parser = whole_number(0..=u16::MAX))]
     pub(crate) port: u16,
     /// IP address to serve at; other computers can reach all but the loopback address
     #[arg(long, value_name = "IP", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST), value_parser = address)]

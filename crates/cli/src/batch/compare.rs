@@ -49,7 +49,7 @@ impl Results {
             |what: &str| Failure::failed(what, "give the folder -o of a `hovertone batch` that has ended", folder);
         let text = fs::read_to_string(folder.join(IDENTITY)).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound if !folder.exists() => is_none("there is no such folder"),
-            _ => is_none("this is no folder of results"),
+            _ => is_none("this is not a folder that `hovertone batch -o` wrote"),
         })?;
         let identity: BatchIdentity =
             serde_json::from_str(&text).map_err(|_| is_none("this folder does not say what its results are of"))?;

@@ -8,6 +8,10 @@ use hovertone_report::{fixed, printable, signed, with_uncertainty};
 use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Order, RotorSpeed};
 use serde_json::json;
 
+/// Millionths in a hundredth.
+const PPM_PER_PERCENT: f64 = 1e4;
+/// Largest error of a clock.
+const CLOCK_PERCENT_MAX: f64 = CLOCK_CORRECTION_PPM_MAX / PPM_PER_PERCENT;
 /// What a crystal changes with the warmth of a room, in millionths: a correction is no better.
 const WARMTH_PPM: f64 = 5.0;
 
@@ -108,14 +112,17 @@ fn order_in_words(comparison: &Comparison) -> String {
             comparison.band()
         ),
         _ if !is_rotor => format!(
-            "tone: fail, heard / known is {ratio}, which no clock explains: they are off by {CLOCK_CORRECTION_PPM_MAX} millionths at \
-             most. Is the known frequency right, or was the file resampled or slowed down?\n"
+            "tone: fail, heard / known is {ratio}, which no clock explains: they are off by {CLOCK_PERCENT_MAX} % at most. Is the known frequency right, or was the file resampled or slowed down?\n"
         ),
         _ => format!(
-            "order: fail, heard / known is {ratio}, which no order explains, nor a clock: they are off by {CLOCK_CORRECTION_PPM_MAX} \
-             millionths at most. Was another rotor heard, or the file resampled or slowed down?\n"
+            "order: fail, heard / known is {ratio}, which no order explains, nor a clock: they are off by {CLOCK_PERCENT_MAX} % at most. Was another rotor heard, or the file resampled or slowed down?\n"
         ),
     }
+}
+
+/// "0.129 ± 0.030 %", from millionths.
+fn percent(ppm: f64, std_ppm: f64) -> String {
+    format!("{} %", with_uncertainty(ppm / PPM_PER_PERCENT, Some(std_ppm / PPM_PER_PERCENT)))
 }
 
 fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
@@ -125,11 +132,11 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     // a direction is told where it is known
     let off = if check.is_significant() {
         let direction = if check.correction_ppm > 0.0 { "fast" } else { "slow" };
-        let off = with_uncertainty(check.correction_ppm.abs(), Some(check.correction_std_ppm));
-        format!("it runs {direction} by {off} millionths")
+        let off = percent(check.correction_ppm.abs(), check.correction_std_ppm);
+        format!("it runs {direction} by {off}")
     } else {
-        let off = with_uncertainty(check.correction_ppm, Some(check.correction_std_ppm));
-        format!("it is off by {off} millionths")
+        let off = percent(check.correction_ppm, check.correction_std_ppm);
+        format!("it is off by {off}")
     };
     let advice = match judgement {
         Judgement::Undecided if check.expanded_ppm() >= arguments.clock_ppm => {
@@ -139,11 +146,12 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         _ => "",
     };
     let verdict = word(judgement);
-    let mut text = format!("clock: {verdict}, {off} (k = 2), at most {} are expected{advice}\n", arguments.clock_ppm);
+    let normal = arguments.clock_ppm / PPM_PER_PERCENT;
+    let mut text = format!("clock: {verdict}, {off} (k = 2); normal is up to {normal} %{advice}\n");
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
         format!(
-            "correction: none, because no clock is off by more than {CLOCK_CORRECTION_PPM_MAX} millionths: check the known speed, and \
+            "correction: none, because no clock is off by more than {CLOCK_PERCENT_MAX} %: check the known speed, and \
              whether the recording was slowed down\n"
         )
     } else if check.is_significant() {

@@ -8,13 +8,13 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
 use crate::settings::config_of;
-use crate::terminal::{Terminal, warnings_about};
+use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words};
 use hovertone::calibration::Judgement;
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
-use hovertone_report::{Notice, SpeedRecord};
+use hovertone_report::{Notice, SpeedRecord, warning_count};
 use hovertone_vehicle::{Order, RotorSpeed, check_range};
 use std::ops::{Range, RangeInclusive};
 
@@ -80,7 +80,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
 
 fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut Terminal) {
     let records: Vec<&SpeedRecord> = heard.record.iter().collect();
-    terminal.warning_count(usize::from(notice.is_some()) + heard.notices.len() + warnings_about(&records));
+    terminal.warning_count(usize::from(notice.is_some()) + heard.notices.len() + warning_count(&records));
     if let Some(notice) = notice {
         terminal.warning(notice, "");
     }

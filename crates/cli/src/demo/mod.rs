@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     Ok(identified.ending())
 }
 
-const TRUTH_TITLE: &str = "Against the truth of the sound as written, m g / mean(Σω²), times four rotors";
+const TRUTH_TITLE: &str = "Compared with the simulated truth";
 
 const FOOTNOTE: &str = "
 The paper's columns are printed with the units that their numbers have: rpm, rad/s, and

@@ -74,7 +74,7 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
     })?;
     if !has_unit && mass_kg > MASS_ALONE_KG_MAX {
         return Err(format!(
-            "{mass_kg} kg is heavier than a multirotor for this method: write {mass_kg}g for grams, or {mass_kg}kg"
+            "{text} without a unit is {mass_kg} kg: did you mean {mass_kg}g? ({mass_kg}kg is that heavy)"
         ));
     }
     let of_mass = KnownRotor { mass_kg: Some(mass_kg), ..KnownRotor::default() };

@@ -54,8 +54,7 @@ impl Draft {
 
     /// The diameter, and why it matters.
     fn diameter_lines(&self, vehicle: Option<&Vehicle>) -> String {
-        const WHY: &str = "# The diameter tells a speed from its double and its half: with the mass it tells how fast the rotors must turn,\n\
-                           # so that half or twice the speed is ruled out. C_T needs it too.\n";
+        const WHY: &str = "# With the diameter and the mass, half and double the speed can be ruled out. C_T needs the diameter too.\n";
         let of_vehicle = vehicle.and_then(|vehicle| vehicle.propeller_diameter_m).map(|diameter| diameter.value);
         let value = match (self.diameter_m, of_vehicle) {
             (Some(diameter_m), _) => line("propeller_diameter_m", &diameter_m.to_string(), "from tip to tip"),
@@ -165,7 +164,7 @@ mod tests {
             let file: ExperimentFile = toml::from_str(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
             let experiment = file.resolve(None).unwrap();
             assert_eq!(experiment.rotor_count, rotors);
-            assert!(experiment.is_weighed && text.contains("from its double and its half"), "{text}");
+            assert!(experiment.is_weighed && text.contains("half and double the speed"), "{text}");
             let names: Vec<&str> = experiment.loads.iter().map(|load| load.name.as_str()).collect();
             assert_eq!(names, ["small", "no \"hull\" [1]", "x"]);
             for (resolved, typed) in experiment.loads.iter().zip(&loads) {

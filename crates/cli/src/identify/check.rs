@@ -1,7 +1,9 @@
 //! `identify --check`: what would be done, which files were found, and what is missing, without analysis.
 
 use super::logs::FlownLog;
-use super::recordings::{FoundRecordings, Missing, found_recordings, nearby, place_of, refuse_twice};
+use super::recordings::{
+    FoundRecordings, Missing, folder_without_recordings, found_recordings, nearby, place_of, refuse_twice,
+};
 use super::{ExperimentSource, LoadJob, hearing_of};
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
@@ -15,7 +17,7 @@ use hovertone_report::{
 };
 use std::path::Path;
 
-/// Fewest loads that can show whether the square law holds.
+/// Fewest loads that test the square law well.
 const LOADS_WANTED: usize = 3;
 
 /// Prints the plan of an experiment and what it lacks. A recording that is missing, or cannot be read, is a failure.
@@ -53,6 +55,7 @@ pub(super) fn run(
     terminal.flush()?;
     let faults = faults_of(&plan, &missing, arguments.data_root.as_deref().unwrap_or(&source.folder));
     faults.iter().for_each(|fault| terminal.error(fault));
+    experiment.mass_warning().iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
     wishes_of(experiment).iter().for_each(|wish| terminal.warning(wish, ""));
     terminal.text(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
     Ok(if faults.is_empty() { Ending::Done } else { Ending::FilesFailed })
@@ -82,6 +85,9 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
         if let Some(folder) = closed_folder(&place_of(name, root)) {
             return Notice::new(format!("{}: {CLOSED_FOLDER}", folder.display()), GET_RIGHT);
         }
+        if let Some(folder) = folder_without_recordings(&place_of(name, root)) {
+            return Notice::new(format!("{}: {}", folder.path.display(), folder.what), folder.hint);
+        }
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!("; {nearby}"));
         let what = format!("no file matches {name} of load \"{}\"{nearby}", load.name);
         Notice::new(what, "correct the name, or put the recordings there")
@@ -101,7 +107,10 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
         matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
     });
     let loads = experiment.loads.len();
-    let few = format!("{}: only {LOADS_WANTED} or more can show whether F = C_f ω² holds", counted(loads, "load"));
+    let few = match loads {
+        1 => "there is only one load, so the law F = C_f ω² cannot be tested".to_owned(),
+        _ => format!("{} test the law F = C_f ω² weakly: {LOADS_WANTED} or more are better", counted(loads, "load")),
+    };
     [
         (
             experiment.is_weighed || hovers().next().is_none(),
@@ -112,7 +121,7 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
             experiment.propeller_diameter_m.is_some(),
             match experiment.config.known.shaft_speed {
                 Some(_) => "the diameter of the propellers is not known: the thrust coefficient C_T is left out",
-                None => "the diameter of the propellers is not known: it tells a speed from its double and its half, and C_T needs it",
+                None => "the diameter of the propellers is not known: with it, half and double the speed can be ruled out, and C_T needs it",
             },
             "write vehicle.propeller_diameter_m, or give --diameter-m",
         ),
@@ -136,8 +145,14 @@ fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
 
 fn verdict(faults: usize, output: Option<&Path>) -> String {
     match (faults, output) {
-        (0, Some(folder)) => format!("ready: without --check the results would be in {}\n", folder.display()),
-        (0, None) => "ready: without --check the constant would be printed; -o DIR writes the report too\n".to_owned(),
+        (0, Some(folder)) => format!(
+            "ready: all files are there; now run the same command without --check: the results come into {}\n",
+            folder.display()
+        ),
+        (0, None) => {
+            "ready: all files are there; now run the same command without --check, with -o DIR for the report\n"
+                .to_owned()
+        }
         (faults, _) => format!("not ready: {}\n", counted(faults, "error")),
     }
 }

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::files::{files_of, home_expanded};
 use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::recording::{Job, Requests};
-use crate::recording_files::groups_in;
+use crate::recording_files::{RecordingGroup, groups_below, groups_in};
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use hovertone::experiment::ExperimentLoad;
 use std::path::{Path, PathBuf};
@@ -145,6 +145,9 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     if let Some(folder) = missing.iter().find_map(|missing| closed_folder(&place_of(missing.name, root))) {
         return Failure::failed(CLOSED_FOLDER, GET_RIGHT, &folder);
     }
+    if let Some(folder) = missing.iter().find_map(|missing| folder_without_recordings(&place_of(missing.name, root))) {
+        return Failure::failed(folder.what, folder.hint, &folder.path);
+    }
     let listed = missing.iter().take(NAMES_MAX).map(|Missing { load, name }| {
         let nearby = nearby(&place_of(name, root)).map_or(String::new(), |nearby| format!(" ({nearby})"));
         format!("{name} of load \"{}\"{nearby}", load.name)
@@ -169,11 +172,34 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     }
 }
 
+/// A folder that is named in place of its recordings and holds none.
+pub(super) struct EmptyFolder {
+    pub(super) path: PathBuf,
+    pub(super) what: &'static str,
+    pub(super) hint: String,
+}
+
+/// What to say of a folder that holds no recording itself: the folders below it that do.
+pub(super) fn folder_without_recordings(place: &Path) -> Option<EmptyFolder> {
+    let is_named = place.is_dir() && groups_in(place).is_empty();
+    let below = is_named.then(|| groups_below(place))?;
+    let shown: Vec<String> = below.iter().take(NAMES_MAX).map(in_words).collect();
+    let hint = match shown.is_empty() {
+        true => "name the folder of the recordings".to_owned(),
+        false => format!("name a folder below it: there is {}", shown.join(", ")),
+    };
+    Some(EmptyFolder { path: place.to_owned(), what: "this folder holds no recording", hint })
+}
+
+/// "a/*.wav (3)".
+fn in_words(group: &RecordingGroup) -> String {
+    format!("{} ({})", group.pattern.display(), group.files.len())
+}
+
 /// The recordings in the folder of a pattern that matches none of them: often the ending is spelled otherwise.
 pub(super) fn nearby(pattern: &Path) -> Option<String> {
     let folder = pattern.parent()?;
     let groups = groups_in(folder);
-    let shown: Vec<String> =
-        groups.iter().map(|group| format!("{} ({})", group.pattern.display(), group.files.len())).collect();
+    let shown: Vec<String> = groups.iter().map(in_words).collect();
     (!shown.is_empty()).then(|| format!("there is {}", shown.join(", ")))
 }

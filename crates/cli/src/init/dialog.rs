@@ -1,22 +1,25 @@
 //! Questions and answers, line by line.
 
 use crate::failure::Failure;
+use hovertone_report::folded;
 use std::io::{BufRead, Write};
 
 /// A person who answers questions.
 pub(super) struct Dialog<R, W> {
     answers: R,
     questions: W,
+    /// Columns of the terminal, where the questions stand on one.
+    width: Option<usize>,
 }
 
 impl<R: BufRead, W: Write> Dialog<R, W> {
-    pub(super) fn new(answers: R, questions: W) -> Self {
-        Self { answers, questions }
+    pub(super) fn new(answers: R, questions: W, width: Option<usize>) -> Self {
+        Self { answers, questions, width }
     }
 
     /// A line that needs no answer. A failure to write it is ignored: the question after it would fail too.
     pub(super) fn say(&mut self, line: &str) {
-        let _ = writeln!(self.questions, "{line}");
+        let _ = writeln!(self.questions, "{}", folded(line, self.width));
     }
 
     /// Asks until the answer has a meaning. An empty answer is `None`, which `meaning` may take too.
@@ -26,7 +29,7 @@ impl<R: BufRead, W: Write> Dialog<R, W> {
         mut meaning: impl FnMut(Option<&str>) -> Result<T, String>,
     ) -> Result<T, Failure> {
         loop {
-            let _ = write!(self.questions, "{question} ");
+            let _ = write!(self.questions, "{} ", folded(question, self.width));
             let _ = self.questions.flush();
             let mut line = String::new();
             let count = self.answers.read_line(&mut line);

@@ -11,7 +11,7 @@ use crate::identify::ExperimentSource;
 use crate::outputs::{Outputs, written};
 use crate::recording_files::recordings_of;
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
-use crate::terminal::Terminal;
+use crate::terminal::{Terminal, width_of};
 use crate::typed::quoted;
 use crate::vehicles::preset;
 use dialog::Dialog;
@@ -29,11 +29,14 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let can_ask = io::stdin().is_terminal() && io::stderr().is_terminal();
     let draft = match draft.missing(vehicle) {
         missing if missing.is_empty() => draft,
-        _ if can_ask => questions::complete(draft, Path::new(""), &mut Dialog::new(io::stdin().lock(), io::stderr()))?,
+        _ if can_ask => questions::complete(
+            draft,
+            Path::new(""),
+            &mut Dialog::new(io::stdin().lock(), io::stderr(), width_of(&io::stderr())),
+        )?,
         missing => {
-            let what =
-                format!("nothing can be asked without a terminal, and these are missing: {}", missing.join("; "));
-            return Err(Failure::usage(what, "add them, or run `hovertone init` in a terminal"));
+            let what = format!("this is no terminal, so init cannot ask. Add: {}", missing.join("; "));
+            return Err(Failure::usage(what, "or run `hovertone init` in a terminal"));
         }
     };
     let vehicle = draft.preset.as_deref().map(preset).transpose()?;
@@ -46,7 +49,7 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let name = quoted(&arguments.output.display().to_string());
     let known = &source.experiment.config.known;
     if known.diameter_m.is_none() && known.shaft_speed.is_none() {
-        terminal.say("The diameter of the propellers is not in it. Measure it and add it: it tells a speed from its double and its half.");
+        terminal.say("The diameter of the propellers is not in it. Measure it and add it: with it, half and double the speed can be ruled out.");
     }
     terminal.say(&format!("Look at what it would do: hovertone identify {name} --check"));
     terminal.say(&format!("Identify the constant:    hovertone identify {name} -o results"));

@@ -45,9 +45,7 @@ pub(super) fn complete<R: BufRead, W: Write>(
     }
     let knows_diameter = vehicle.is_some_and(|vehicle| vehicle.propeller_diameter_m.is_some());
     if draft.diameter_m.is_none() && !knows_diameter {
-        dialog.say(
-            "\nThe diameter of the propellers tells a speed from its double and its half: with the mass it tells how fast they must turn.",
-        );
+        dialog.say("\nWith the diameter of the propellers, hovertone can rule out half and double the speed.");
         draft.diameter_m =
             dialog.ask("Diameter, from tip to tip, as 200mm, 8in or 0.2 (in m) [not known]:", diameter_m)?;
     }
@@ -184,8 +182,20 @@ mod tests {
     /// The draft after these answers, and what was asked.
     fn answered(draft: Draft, folder: &Path, answers: &str) -> (Result<Draft, Failure>, String) {
         let mut asked = Vec::new();
-        let draft = complete(draft, folder, &mut Dialog::new(answers.as_bytes(), &mut asked));
+        let draft = complete(draft, folder, &mut Dialog::new(answers.as_bytes(), &mut asked, None));
         (draft, String::from_utf8(asked).unwrap())
+    }
+
+    #[test]
+    fn long_lines_are_wrapped_at_words() {
+        let folder = folder_with(&["no_hull/1.MOV"]);
+        let mut asked = Vec::new();
+        let answers = "ardrone\n\n413g\n\n".as_bytes();
+        complete(Draft::default(), folder.path(), &mut Dialog::new(answers, &mut asked, Some(40))).unwrap();
+        let asked = String::from_utf8(asked).unwrap();
+        // the answers end the lines of the questions, and are not in what was asked
+        let lines: Vec<&str> = asked.lines().filter(|line| !line.contains(": ")).collect();
+        assert!(lines.len() > 5 && lines.iter().all(|line| line.chars().count() <= 40), "{asked}");
     }
 
     fn folder_with(names: &[&str]) -> tempfile::TempDir {
@@ -207,7 +217,7 @@ mod tests {
         let masses: Vec<f64> = draft.loads.iter().map(|load| load.mass_kg).collect();
         assert_eq!(masses, [0.413, 0.444], "{asked}");
         assert!(draft.loads[0].recordings[0].ends_with("no_hull/*.MOV"), "{draft:?}");
-        for words in ["from its double and its half", "2 recordings", "talk.mp3:", "Known vehicles: ardrone"] {
+        for words in ["half and double the speed", "2 recordings", "talk.mp3:", "Known vehicles: ardrone"] {
             assert!(asked.contains(words), "{words}:\n{asked}");
         }
     }

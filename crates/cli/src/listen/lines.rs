@@ -35,7 +35,7 @@ impl PlainLines {
             Some(words) if status.is_empty() || !is_new => words,
             Some(words) => format!("{words}, {status}"),
             None if is_new => status.clone(),
-            None => "–".to_owned(),
+            None => "no speed".to_owned(),
         };
         self.last_status = status;
         let clipping = if speed.clipped_share > 0.0 { ", clipped" } else { "" };

@@ -134,7 +134,8 @@ fn draw_speed(frame: &mut Frame<'_>, area: Rect, view: &View) {
     let rows: Vec<Line<'_>> = figures.into_iter().map(|row| Line::from(format!(" {row}"))).collect();
     frame.render_widget(Paragraph::new(rows).style(Style::new().fg(colour)), large);
     let lines = vec![
-        Line::from(format!("rev/s  ± {} (k = 2), {} %", words.plus_minus_rev_s, words.plus_minus_percent)),
+        Line::from("rev/s"),
+        Line::from(format!("± {} (k = 2)", words.plus_minus_rev_s)),
         Line::from(format!("{} rpm", words.speed_rpm)),
         Line::from(format!("{} rad/s", words.speed_rad_s)),
         Line::from(status).yellow(),

@@ -225,14 +225,11 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
     write_archive(&archive, 2);
     fs::create_dir(&full).unwrap();
     fs::write(full.join("notes.txt"), "precious").unwrap();
-    refused_with(&["batch", text(&archive), "-o", text(&full)], &["not empty", "-o DIR"]);
+    refused_with(&["batch", text(&archive), "-o", text(&full)], &["has other files", "-o DIR"]);
     assert_eq!(fs::read_dir(&full).unwrap().count(), 1, "nothing was written");
     batch(&archive, &out, &[]).ends_with(0);
     let words = ["batch", text(&archive), "-o", text(&out), "--rotors", "1", "--blades"];
-    refused_with(
-        &[&words[..], &["3"]].concat(),
-        &["other recordings or settings", "analysis.tone.order: 2.0 there, 3.0 here"],
-    );
+    refused_with(&[&words[..], &["3"]].concat(), &["other recordings or settings", "tone order: 2.0 there, 3.0 here"]);
     refused_with(&["batch", text(&archive.join("flight 0")), "-o", text(&out), "--blades", "2"], &["inputs: ", "here"]);
     let before = results(&out);
     // what a person wrote beside the results stays
@@ -341,7 +338,7 @@ fn a_comparison_names_what_has_changed() {
     let itself = &hovertone(&["batch-compare", words[1], words[1], "--json"]).ends_with(0).json_lines()[0];
     assert_eq!(itself["rotors"][0]["has_changed"], false);
     let none = hovertone(&["batch-compare", text(&at("old")), words[2]]).ends_with(1);
-    assert!(none.stderr.contains("no folder of results"), "{}", none.stderr);
+    assert!(none.stderr.contains("not a folder that `hovertone batch -o` wrote"), "{}", none.stderr);
 }
 
 /// A name that is no text in UTF-8 is shown as well as it can be, and its recording is heard.

@@ -44,13 +44,13 @@ const CASES: [(&str, i32, &str); 47] = [
     ("spectrogram a.wav --blades 2 -o nowhere/x.png", 1, "nowhere/x.png"),
     ("init --vehicle ardrone --mass 413g=a.wav -o nowhere/x.toml", 1, "nowhere/x.toml"),
     // what would be written would replace something
-    ("identify good.toml -o full", 2, "not empty"),
-    ("demo -o full", 2, "not empty"),
-    ("simulate flight.toml -o full", 2, "not empty"),
+    ("identify good.toml -o full", 2, "has other files"),
+    ("demo -o full", 2, "has other files"),
+    ("simulate flight.toml -o full", 2, "has other files"),
     ("speed a.wav --blades 2 --track full/notes.csv", 2, "exists already"),
     ("spectrogram a.wav --blades 2 -o full/notes.png", 2, "exists already"),
     ("init --vehicle ardrone --mass 413g=a.wav -o good.toml", 2, "exists already"),
-    ("speed a.wav --blades 2 --track a.wav --force", 2, "same command reads it"),
+    ("speed a.wav --blades 2 --track a.wav --force", 2, "same name as an input"),
     // what was typed, or stands in a file, has no meaning
     ("speed a.wav --blades 0", 2, "--blades"),
     ("identify broken.toml", 2, "mas_kg"),

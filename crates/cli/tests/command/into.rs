@@ -78,7 +78,7 @@ fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
     export(&results, &[&into[..], &["--force"]].concat()).ends_with(0);
     for place in [&model, &results] {
         let refused = export(&results, &["--into", text(&model), "-o", text(place), "--force"]).ends_with(2);
-        assert!(refused.stderr.contains("the same command reads it"), "{}", refused.stderr);
+        assert!(refused.stderr.contains("same name as an input"), "{}", refused.stderr);
     }
     assert_eq!(fs::read_to_string(&model).unwrap(), IRIS);
     let results = text(&results);

@@ -169,7 +169,7 @@ fn names_of_loads_cannot_move_the_cursor() {
     fs::write(&experiment, hostile.replace("added_mass_kg = 0.05", "added_mass_kg = 0.15")).unwrap();
     let run = hovertone(&["identify", &experiment, "-v"]).ends_with(0);
     assert!(!run.stdout.contains('\u{1b}') && !run.stderr.contains('\u{1b}'), "{}{}", run.stdout, run.stderr);
-    assert!(run.stderr.contains("load \"l\\u{1b}[2J1\" does not fit"), "{}", run.stderr);
+    assert!(run.stderr.contains("the loads do not fit each other: l0, l\\u{1b}[2J1"), "{}", run.stderr);
     let verdict = run.stdout.lines().find(|line| line.starts_with("verdict: ")).unwrap();
     assert!(verdict.contains("not fit") && verdict.contains("l\\u{1b}[2J1"), "{verdict}");
 }
@@ -186,7 +186,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("fit --plan --mass-kg -1", "error: mass_kg = -1"),
         ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 64 (hint: "),
         ("identify --vehicle ardrone --mass -1 a.wav", "error: --mass -1: "),
-        ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav is negative"),
+        ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav: a mass cannot be negative"),
         ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),

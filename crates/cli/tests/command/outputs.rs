@@ -25,7 +25,7 @@ pub(crate) fn keeps(file: &Path, arguments: &[&str], words: &[&str]) {
 fn an_output_that_is_an_input_is_refused_also_by_force() {
     let folder = tempfile::tempdir().unwrap();
     let wav = noise(folder.path(), "vict.wav");
-    let words = ["the same command reads it", "vict.wav"];
+    let words = ["same name as an input", "vict.wav"];
     keeps(&wav, &["speed", "--blades", "2", text(&wav), "--track", text(&wav)], &words);
     keeps(&wav, &["speed", "--blades", "2", text(&wav), "--track", text(&wav), "--force"], &words);
     let pattern = folder.path().join("*.wav");
@@ -37,13 +37,13 @@ fn an_output_that_is_an_input_is_refused_also_by_force() {
     )
     .unwrap();
     let with_log = ["speed", "--vehicle", "ardrone", text(&wav), "--log", text(&log), "--track", text(&log), "--force"];
-    keeps(&log, &with_log, &["the same command reads it", "flight.csv"]);
+    keeps(&log, &with_log, &["same name as an input", "flight.csv"]);
     for log in [text(&log), "./flight.csv"] {
         let run = |words: &[&str]| {
             let at = folder.path();
             let before = fs::read(at.join("flight.csv")).unwrap();
             let run = hovertone_with(words, |command| command.current_dir(at)).ends_with(2);
-            assert!(run.stderr.contains("the same command reads it"), "{words:?}: {}", run.stderr);
+            assert!(run.stderr.contains("same name as an input"), "{words:?}: {}", run.stderr);
             assert_eq!(fs::read(at.join("flight.csv")).unwrap(), before, "{words:?}");
         };
         run(&["log", "flight.csv", "--signal", "motor_1_rpm", "-o", log, "--force"]);
@@ -51,15 +51,15 @@ fn an_output_that_is_an_input_is_refused_also_by_force() {
     // a picture may be a recording or a log by its name
     let steps = folder.path().join("steps.png");
     fs::copy(&log, &steps).unwrap();
-    keeps(&steps, &["motor", text(&steps), "--figure", text(&steps), "--force"], &["the same command reads it"]);
+    keeps(&steps, &["motor", text(&steps), "--figure", text(&steps), "--force"], &["same name as an input"]);
     let png = noise(folder.path(), "x.png");
-    keeps(&png, &["spectrogram", text(&png), "-o", text(&png), "--force"], &["the same command reads it"]);
+    keeps(&png, &["spectrogram", text(&png), "-o", text(&png), "--force"], &["same name as an input"]);
     let results = folder.path().join("results.json");
     fs::write(&results, RESULTS).unwrap();
     keeps(
         &results,
         &["export", text(&results), "--to", "json", "-o", text(&results), "--force"],
-        &["the same command reads it"],
+        &["same name as an input"],
     );
 }
 
@@ -75,7 +75,7 @@ fn an_input_by_another_name_is_the_same_file() {
         keeps(
             &wav,
             &["speed", "--blades", "2", text(&wav), "--track", text(name), "--force"],
-            &["the same command reads it"],
+            &["same name as an input"],
         );
     }
 }
@@ -89,7 +89,7 @@ fn a_recording_of_a_new_experiment_is_not_replaced_by_its_file() {
         keeps(
             &wav,
             &["init", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&wav), "--force"],
-            &["the same command reads it"],
+            &["same name as an input"],
         );
     }
 }
@@ -105,14 +105,14 @@ fn the_files_that_experiments_and_scenarios_read_are_inputs() {
         "[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\nrecordings = [\"out/report.html\"]\n",
     )
     .unwrap();
-    let words = ["the same command reads it", "report.html"];
+    let words = ["same name as an input", "report.html"];
     keeps(&recording, &["identify", text(&experiment), "-o", text(&out), "--force"], &words);
     let flight = folder.path().join("flight");
     fs::create_dir(&flight).unwrap();
     let (scenario, commands) = (flight.join("scenario.toml"), flight.join("truth.csv"));
     fs::write(&scenario, "[[maneuver]]\nkind = \"csv\"\nfile = \"truth.csv\"\nduration_s = 0.4\n").unwrap();
     fs::write(&commands, "time_s,roll\n0.0,0.1\n0.2,-0.1\n").unwrap();
-    keeps(&commands, &["simulate", text(&scenario), "-o", text(&flight), "--force"], &["the same command reads it"]);
+    keeps(&commands, &["simulate", text(&scenario), "-o", text(&flight), "--force"], &["same name as an input"]);
 }
 
 #[test]
@@ -176,10 +176,10 @@ fn results_go_into_a_new_folder_or_one_of_results() {
     fs::create_dir(&thesis).unwrap();
     fs::write(thesis.join("results.json"), "precious").unwrap();
     let file = thesis.join("results.json");
-    keeps(&file, &["identify", text(&experiment), "-o", text(&thesis)], &["not empty", "-o DIR", "--force"]);
+    keeps(&file, &["identify", text(&experiment), "-o", text(&thesis)], &["has other files", "-o DIR", "--force"]);
     assert_eq!(fs::read_dir(&thesis).unwrap().count(), 1);
     // the folder of the experiment itself is not empty either
-    refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["not empty"]);
+    refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["has other files"]);
     let out = folder.path().join("out");
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
     let listed = checked_list(&out);
@@ -217,7 +217,7 @@ fn an_experiment_file_that_was_changed_is_no_demos() {
     let experiment = folder.path().join("experiment.toml");
     fs::write(&experiment, "# Written by `hovertone demo` (hovertone 0.1.0, seed 1).\n[vehicle]\nmass_kg = 0.42\n")
         .unwrap();
-    keeps(&experiment, &["demo", "-o", text(folder.path())], &["was changed", "--force"]);
+    keeps(&experiment, &["demo", "-o", text(folder.path())], &["has other files", "--force"]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
@@ -245,11 +245,11 @@ fn results_of_another_experiment_are_replaced_only_by_force() {
     hovertone(&identify).ends_with(3);
     let other = folder.path().join("other.toml");
     fs::write(&other, fs::read_to_string(&experiment).unwrap().replace("\"a\"\n", "\"b\"\n")).unwrap();
-    keeps_all(&out, &["identify", text(&other), "-o", text(&out)], &["not empty", "same experiment", "--force"]);
+    keeps_all(&out, &["identify", text(&other), "-o", text(&out)], &["has other files", "same experiment", "--force"]);
     // the same recordings and masses, typed, are another experiment: they leave experiment.toml
     let mass = format!("413g={}", text(&folder.path().join("a.wav")));
     let typed = ["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)];
-    keeps_all(&out, &typed, &["not empty", "same experiment"]);
+    keeps_all(&out, &typed, &["has other files", "same experiment"]);
     // a table that a person changed
     let table = out.join("tables.md");
     fs::write(&table, "precious").unwrap();
@@ -318,7 +318,7 @@ fn a_recording_counts_once() {
     // one file under one name in two loads
     let loads = load("one", 0.0, "a.wav") + &load("two", 0.05, "a.wav");
     fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
-    refused_with(&["identify", text(&experiment)], &["a.wav and a.wav are the same recording"]);
+    refused_with(&["identify", text(&experiment)], &["a.wav is given twice, and it can belong to one load only"]);
     let weigh = ["weigh", text(&first), text(&second), "--constant-n-s2", "2.831e-5", "--vehicle", "ardrone"];
     refused_with(&weigh, &words[..3]);
 }

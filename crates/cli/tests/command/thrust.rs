@@ -34,7 +34,7 @@ fn the_papers_rows_fit_with_462_g_and_not_with_472() {
     let rotor = number(&right, "/thrust_constant_per_rotor_n_s2/value");
     assert!((rotor * 4.0 - number(&right, "/thrust_constant_total_n_s2/value")).abs() < 1e-18);
     assert!(number(&right, "/fit/agreement/chi_square") < 0.1);
-    assert!(right.to_string().contains("only 1.12 times the smallest"), "{right}");
+    assert!(right.to_string().contains("the heaviest is 1.12 times the lightest, and 1.41 times is needed"), "{right}");
     let wrong = fit(472);
     assert!((number(&wrong, "/fit/agreement/p_value") - 0.0055).abs() < 2e-4);
     let misfits: Vec<&Value> =
@@ -129,6 +129,8 @@ fn bad_tables_are_refused_or_flagged() {
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
     assert!(outlier["notices"].to_string().contains("line 4 of the table does not fit"), "{outlier}");
     assert!(outlier["notices"].to_string().contains("left out"), "{outlier}");
+    let said = hovertone(&["fit", text(&path)]).ends_with(0).stdout;
+    assert!(said.contains("4 table rows, 1 of them left out of the fit, mass_g against rpm"), "{said}");
     let expected = 0.4 * 9.80665 / RotorSpeed::from_rpm(3600.0).rad_s().powi(2);
     let found = number(&outlier, "/thrust_constant_total_n_s2/value");
     assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");

@@ -20,7 +20,10 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     for axis in Axis::ALL {
         if !inputs.has_loop[axis as usize] {
             advice.push(Advice {
-                what: format!("{} is not told: the log has no command or no measurement of it", axis.in_words()),
+                what: format!(
+                    "the flight does not show {}: the log has no command or no measurement of it",
+                    axis.in_words()
+                ),
                 hint: format!("log the command and the {} of the vehicle", measurement(axis)),
             });
             continue;
@@ -30,13 +33,13 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
             gains.into_iter().filter(|gain| fit.estimate(*gain).is_none()).map(Parameter::in_words).collect();
         if !untold.is_empty() {
             advice.push(Advice {
-                what: format!("{} is not told: it moves the rotors too little in this flight", untold.join(" and ")),
+                what: format!("the flight does not show {}: it moves the rotors too little", untold.join(" and ")),
                 hint: doublet(axis),
             });
         }
         if fit.estimate(Parameter::Limit(axis)).is_none() {
             advice.push(Advice {
-                what: format!("the limit of {} is not told: the commands stay far below it", axis.in_words()),
+                what: format!("the flight does not show the limit of {}: the commands were too small", axis.in_words()),
                 hint: format!(
                     "fly {} with the largest command, or keep to commands as large as in this flight",
                     axis.in_words()
@@ -46,22 +49,22 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     if fit.estimate(Parameter::TimeConstant).is_none() {
         advice.push(Advice {
-            what: "the time constant is not told: the speeds change too slowly".to_owned(),
+            what: "the flight does not show the time constant: the speeds change too slowly".to_owned(),
             hint: "fly doublets of yaw and climb, whose commands change at once".to_owned(),
         });
     }
     if fit.estimate(Parameter::Load).is_none() {
         advice.push(Advice {
-            what: "the square term of the load is not told: the range of speeds is too small".to_owned(),
+            what: "the flight does not show the square term of the load: the range of speeds is too small".to_owned(),
             hint: "fly climbs and descents with the largest command".to_owned(),
         });
     }
     advice.extend(fit.information.correlations.iter().map(|pair| Advice {
         what: format!(
-            "{} and {} go together (correlation {:.2})",
+            "{} and {} go together (correlation {})",
             pair.first.in_words(),
             pair.second.in_words(),
-            pair.correlation
+            format!("{:.2}", pair.correlation).replace('-', "−")
         ),
         hint: match pair.first.axis() {
             Some(axis) => format!("fly {} doublets of two lengths, 0.2 and 0.6 s", axis.in_words()),

@@ -39,7 +39,7 @@ pub use time::time_s_from_text;
 use hovertone_rotor_speed::{
     Config, HoverConfig, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig,
 };
-use hovertone_thrust::{Air, Force, ThrustSettings, UncertaintyInputs, VehicleModel};
+use hovertone_thrust::{Air, Force, ThrustSettings, ThrustWarning, UncertaintyInputs, VehicleModel};
 use hovertone_vehicle::{ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
@@ -201,6 +201,8 @@ pub struct Experiment {
     pub model: Option<VehicleModel>,
     /// Whether the vehicle was weighed. The mass of a preset or a model belongs to another specimen.
     pub is_weighed: bool,
+    /// Mass of the preset or of the model, where known.
+    pub known_mass_kg: Option<f64>,
     /// The air, where known.
     pub air: Option<Air>,
     /// Limits of the effects that no recording shows.
@@ -236,9 +238,18 @@ impl Experiment {
             air_density_kg_m3: self.air.map(|air| air.density_kg_m3()),
             clock_ppm: self.config.budget.clock_ppm,
             is_weighed: self.is_weighed,
+            known_mass_kg: self.known_mass_kg,
             uncertainty: self.uncertainty,
             ..ThrustSettings::for_rotors(self.rotor_count)
         }
+    }
+}
+
+impl Experiment {
+    /// The warning about a load that is far from the mass of the known vehicle.
+    pub fn mass_warning(&self) -> Option<ThrustWarning> {
+        let loads = self.loads.iter().map(|load| (load.name.as_str(), load.force));
+        ThrustWarning::of_masses(loads, self.known_mass_kg?)
     }
 }
 

@@ -6,8 +6,8 @@ use hovertone_analysis::Method;
 use hovertone_rotor_speed::{BudgetConfig, Config, SpanConfig, ToneConfig};
 use hovertone_thrust::{Air, Force, Gravity, VehicleModel, check_gravity, check_latitude};
 use hovertone_vehicle::{
-    CLOCK_CORRECTION_PPM_MAX, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order, SaidOfVehicle, Vehicle,
-    are_masses_of_one_vehicle, check_diameter, check_range, is_swamped, presets,
+    CLOCK_CORRECTION_PPM_MAX, GRAMS_FACTOR, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, MASS_FACTOR_MAX, Order,
+    SaidOfVehicle, Vehicle, are_masses_of_one_vehicle, check_diameter, check_range, is_swamped, presets,
 };
 
 /// Default standard uncertainty of a mass, kg: a kitchen scale that shows whole grams. *Decision.*
@@ -111,6 +111,7 @@ impl ExperimentFile {
             rotor_count,
             propeller_diameter_m: own_diameter_m.or_else(|| known.propeller_diameter_m()),
             is_weighed: self.vehicle.mass_kg.is_some(),
+            known_mass_kg: known.mass_kg(),
             config,
             air,
             uncertainty: self.uncertainty,
@@ -285,10 +286,13 @@ impl ExperimentFile {
         if let Some(known_kg) = known.mass_kg()
             && !are_masses_of_one_vehicle(mass_kg, known_kg)
         {
-            return Err(ExperimentError::OutOfRange {
-                name: "vehicle.mass_kg".to_owned(),
-                value: mass_kg,
-                must_be: "differs from the mass of the preset or the model by more than ten times; masses are in kg",
+            let is_in_grams = GRAMS_FACTOR.contains(&(mass_kg / known_kg));
+            let meant = if is_in_grams { format!("; did you mean {}?", mass_kg / 1e3) } else { String::new() };
+            return Err(ExperimentError::Contradiction {
+                what: format!(
+                    "vehicle.mass_kg = {mass_kg} is {mass_kg} kg, and the preset or the model weighs {known_kg} kg{meant}"
+                ),
+                hint: "masses are in kg; check this one, and the name of the vehicle",
             });
         }
         not_negative(&named("added_mass_kg"), added_mass_kg)?;

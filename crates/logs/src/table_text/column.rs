@@ -41,7 +41,19 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
             None => LogColumn::TimeWithoutUnit,
         });
     }
-    if has(&["setpoint", "desired", "target", "torque", "thrust", "current", "temperature", "temp", "power"]) {
+    if has(&[
+        "squares",
+        "square",
+        "setpoint",
+        "desired",
+        "target",
+        "torque",
+        "thrust",
+        "current",
+        "temperature",
+        "temp",
+        "power",
+    ]) {
         return None;
     }
     let number = words.iter().find_map(|word| word.parse::<u32>().ok());
@@ -110,6 +122,12 @@ mod tests {
         {
             assert_eq!(unit_of(header), unit, "{header}");
         }
+    }
+
+    #[test]
+    fn a_sum_of_squares_is_no_motor() {
+        assert_eq!(column_of("mean_sum_of_squares_rad2_s2"), None);
+        assert!(matches!(column_of("rotor_2_mean_speed_rev_s"), Some(LogColumn::MotorSpeed { motor: 2, .. })));
     }
 
     #[test]

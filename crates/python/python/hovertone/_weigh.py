@@ -40,12 +40,15 @@ class Weighed(Shown):
         Shaft speed, in rad/s.
     recording_count : int
         Number of recordings with a rotor tone.
+    has_flight_scatter : bool
+        Whether the uncertainty contains how much the speed differs from flight to flight.
     """
 
     mass_kg: Estimate
     payload_kg: Estimate | None
     speed_rad_s: float
     recording_count: int
+    has_flight_scatter: bool
 
     def _columns(self) -> dict[str, Any]:
         masses = {"mass_kg": self.mass_kg, "payload_kg": self.payload_kg}

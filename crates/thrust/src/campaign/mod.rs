@@ -15,6 +15,9 @@ use hovertone_vehicle::RotorSpeed;
 /// count as this many independent ones. *Decision.*
 const FREEDOM_OF_FRAMES: f64 = 20.0;
 
+/// Loads whose forces differ by less than this share count as equal: they show nothing of the law. *Decision.*
+pub(crate) const EQUAL_FORCES_SHARE: f64 = 0.005;
+
 /// A load with a speed.
 pub(crate) struct HeardLoad<'a> {
     /// Its index among all loads.
@@ -97,7 +100,8 @@ impl Campaign<'_> {
 }
 
 impl HeardLoad<'_> {
-    fn point(&self) -> ForcePoint {
+    /// The load as a point for the fit.
+    pub(crate) fn point(&self) -> ForcePoint {
         let square = self.speed_rad_s.powi(2);
         ForcePoint {
             name: self.load.name.clone(),
@@ -124,7 +128,8 @@ pub(crate) fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64
     f64::from(rotor_count) / f64::from(rotors_running.max(1))
 }
 
-fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
+/// Mean shaft speed of a trial.
+pub(crate) fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
     mean(&trial.counted().iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
 }
 

@@ -3,28 +3,26 @@
 #[cfg(test)]
 mod campaign_tests;
 #[cfg(test)]
+mod misfiled_tests;
+#[cfg(test)]
 mod suspicious_tests;
 #[cfg(test)]
 mod tests;
 
 use crate::air::{ThrustCoefficients, figure_of_merit, is_plausible_merit, thrust_constant_n_s2};
 use crate::budget::{UncertaintyBudget, budget_of_fit};
-use crate::campaign::{Campaign, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
+use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
 use crate::drift::drifts;
 use crate::force::Force;
+use crate::misfiled::misfiled;
 use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
-use crate::square_law::{
-    ForceLaw, ForcePoint, LoadRange, PointNoise, PointVerdict, SquareLawFit, are_split, square_law_fit,
-};
+use crate::square_law::{ForceLaw, ForcePoint, PointNoise, PointVerdict, SquareLawFit, are_split, square_law_fit};
 use crate::statistics::{mean, std, student_factor};
 use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
 use hovertone_analysis::Method;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
-
-/// Loads whose forces differ by less than this share count as equal: they show nothing of the law. *Decision.*
-const EQUAL_FORCES_SHARE: f64 = 0.005;
 
 /// Up to this many misfits of a table have a warning each; more are listed in one. *Decision.*
 const MISFITS_BY_NAME: usize = 3;
@@ -67,6 +65,8 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
         Force::Weight { vehicle_mass_kg, .. } => Some(vehicle_mass_kg),
         Force::Thrust { .. } => None,
     });
+    let forces = || loads.iter().map(|load| (load.name.as_str(), load.force));
+    warnings.extend(settings.known_mass_kg.and_then(|known_kg| ThrustWarning::of_masses(forces(), known_kg)));
     warnings.extend(mass_kg.filter(|_| !settings.is_weighed).map(|mass_kg| ThrustWarning::MassNotWeighed { mass_kg }));
     if settings.follows_loudest && loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
         warnings.push(ThrustWarning::LoudestRotor);
@@ -240,14 +240,21 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
     let mut warnings: Vec<ThrustWarning> = campaign.gross_trials.iter().map(left_out).collect();
     let is_gross =
         |name: &str| fit.is_some_and(|fit| fit.points.iter().any(|point| point.is_gross && point.name == name));
-    warnings.extend(rows.iter().filter(|row| row.fits == Some(false)).map(|row| ThrustWarning::LoadDoesNotFit {
-        name: row.name.clone(),
-        is_row: false,
-        mass_that_fits_kg: row.mass_that_fits_kg,
-        mass_that_fits_std_kg: row.mass_that_fits_std_kg,
-        is_left_out: is_gross(&row.name),
-    }));
-    if matches!(campaign.noise, PointNoise::Unrepeated { .. }) {
+    let misfits: Vec<&LoadThrust> = rows.iter().filter(|row| row.fits == Some(false)).collect();
+    if misfits.len() > 1 && misfits.len() == campaign.loads.len() {
+        let names = misfits.iter().map(|row| row.name.clone()).collect();
+        warnings.push(ThrustWarning::LoadsDisagree { names, are_rows: false });
+    } else {
+        warnings.extend(misfits.into_iter().map(|row| ThrustWarning::LoadDoesNotFit {
+            name: row.name.clone(),
+            is_row: false,
+            mass_that_fits_kg: row.mass_that_fits_kg,
+            mass_that_fits_std_kg: row.mass_that_fits_std_kg,
+            is_left_out: is_gross(&row.name),
+        }));
+    }
+    warnings.extend(misfiled(campaign));
+    if matches!(campaign.noise, PointNoise::Unrepeated { .. }) && !campaign.loads.is_empty() {
         warnings.push(ThrustWarning::OneRecordingEach { load_count: campaign.loads.len() });
     }
     let kinds = |is_hover: bool| campaign.loads.iter().any(|load| load.is_hover() == is_hover);
@@ -255,7 +262,11 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
         warnings.push(ThrustWarning::MixedBenchAndHover);
     }
     let are_split = campaign.are_split || are_split_points(&campaign.points);
-    warnings.extend(fit.map(|fit| range_warnings(&campaign.points, fit, are_split)).unwrap_or_default());
+    // a range that would be wide enough for misfiled trials tells nothing about the loads
+    let is_contradicted = warnings.iter().any(ThrustWarning::is_of_misfiled);
+    let of_range = fit.map(|fit| range_warnings(&campaign.points, fit, are_split)).unwrap_or_default();
+    let tells = |warning: &ThrustWarning| !is_contradicted || !matches!(warning, ThrustWarning::NarrowLoadRange(_));
+    warnings.extend(of_range.into_iter().filter(tells));
     warnings
 }
 
@@ -275,10 +286,7 @@ fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) ->
     } else if most / least - 1.0 < EQUAL_FORCES_SHARE {
         vec![ThrustWarning::EqualLoads { count: points.len() }]
     } else {
-        let is_too_narrow = |range: &LoadRange| {
-            !range.shows_intercept && range.force_ratio_needed.is_none_or(|needed| needed > range.force_ratio)
-        };
-        let narrow = fit.range.filter(is_too_narrow).map(ThrustWarning::NarrowLoadRange);
+        let narrow = fit.range.filter(|range| !range.shows_intercept).map(ThrustWarning::NarrowLoadRange);
         narrow.into_iter().chain(law_warning(fit)).collect()
     }
 }
@@ -294,7 +302,10 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
         is_left_out: point.is_gross,
     };
     let misfits: Vec<&PointVerdict> = fit.points.iter().filter(|point| point.fits == Some(false)).collect();
-    let mut warnings: Vec<ThrustWarning> = if misfits.len() <= MISFITS_BY_NAME {
+    let mut warnings: Vec<ThrustWarning> = if misfits.len() > 1 && misfits.len() == points.len() {
+        let names = misfits.iter().map(|point| point.name.clone()).collect();
+        vec![ThrustWarning::LoadsDisagree { names, are_rows: true }]
+    } else if misfits.len() <= MISFITS_BY_NAME {
         misfits.into_iter().map(misfit).collect()
     } else {
         let named = |are_left_out: bool| {

@@ -25,6 +25,8 @@ pub struct ThrustSettings {
     pub unresolved_std_share: f64,
     /// Whether this vehicle was weighed. The mass of a preset or of a model belongs to another specimen.
     pub is_weighed: bool,
+    /// Mass of the preset or of the model, to which the loads are compared.
+    pub known_mass_kg: Option<f64>,
     /// Limits of the effects that were not measured.
     pub uncertainty: UncertaintyInputs,
 }
@@ -40,6 +42,7 @@ impl ThrustSettings {
             follows_loudest: true,
             unresolved_std_share: 0.0,
             is_weighed: true,
+            known_mass_kg: None,
             uncertainty: UncertaintyInputs::default(),
         }
     }

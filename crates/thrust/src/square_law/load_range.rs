@@ -35,23 +35,15 @@ pub(super) fn load_range(points: &[&ForcePoint], line: &LineFit, noise: PointNoi
     let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
     let mean = forces().sum::<f64>() / points.len() as f64;
     let intercept_std_share = factor * line.intercept_std / mean;
-    // relative uncertainty of each load: it is assumed to be the same at any range
-    let squares: f64 = points
-        .iter()
-        .map(|point| match noise {
-            PointNoise::FromResiduals => (factor / point.force_n).powi(2),
-            _ => {
-                (point.force_std_n / point.force_n).powi(2)
-                    + (point.speed_square_std_rad2_s2 / point.speed_square_rad2_s2).powi(2)
-            }
-        })
-        .sum();
-    Some(LoadRange {
-        force_ratio: most / least,
-        intercept_std_share,
-        shows_intercept: intercept_std_share <= INTERCEPT_STD_SHARE_MAX,
-        force_ratio_needed: force_ratio_for_intercept((squares / points.len() as f64).sqrt(), points.len()),
-    })
+    let force_ratio = most / least;
+    // the uncertainty of evenly spaced loads of the same range with this intercept: it is assumed to be the same at any range
+    let std_share = intercept_std_share / self::intercept_std_share(1.0, points.len(), force_ratio);
+    let shows_intercept = intercept_std_share <= INTERCEPT_STD_SHARE_MAX;
+    let needed = force_ratio_for_intercept(std_share, points.len());
+    // loads that show it are far enough apart, also between two steps of the search
+    let enough = needed.map_or(force_ratio, |needed| needed.min(force_ratio));
+    let force_ratio_needed = if shows_intercept { Some(enough) } else { needed };
+    Some(LoadRange { force_ratio, intercept_std_share, shows_intercept, force_ratio_needed })
 }
 
 /// Smallest ratio of the largest to the smallest force that shows an intercept, for `load_count` evenly spaced loads, each with

@@ -6,6 +6,7 @@ pub use contradiction::WeighError;
 
 use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std, student_factor};
+use crate::warning::ThrustWarning;
 use hovertone_vehicle::{Ending, Estimate, MASS_FACTOR_MAX, RotorSpeed};
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -19,7 +20,7 @@ const STRIPPED_SHARE_MIN: f64 = 0.5;
 /// Speeds of one load lie closer than this many of their standard uncertainties. *Decision.*
 const ALIKE_STD_MAX: f64 = 4.0;
 /// … or closer than this share, 3 % of the mass: trials in moving air differ by more than they state. *Decision.*
-const ALIKE_SHARE_MAX: f64 = 0.015;
+pub(crate) const ALIKE_SHARE_MAX: f64 = 0.015;
 /// Recordings scatter as the trials behind the constant did while at least this share of such trials scatters more. *Decision.*
 const USUAL_CHANCE_MIN: f64 = 0.4;
 
@@ -65,6 +66,9 @@ pub struct WeighedHover {
     pub speed: RotorSpeed,
     /// Number of recordings with a speed.
     pub recording_count: usize,
+    /// Whether the ± contains how much the speed differs from flight to flight: several recordings show it, or the flights behind the
+    /// constant did.
+    pub has_flight_scatter: bool,
 }
 
 /// Two hovers that carry different loads.
@@ -110,6 +114,12 @@ impl WeighedHover {
 }
 
 impl WeighedHover {
+    /// The warning that the ± of one recording lacks the differences between flights, where there is a ±.
+    pub fn warning(&self) -> Option<ThrustWarning> {
+        let lacks_scatter = !self.has_flight_scatter && self.mass_kg.std_uncertainty.is_some();
+        lacks_scatter.then_some(ThrustWarning::OneRecordingEach { load_count: 1 })
+    }
+
     /// Compares the weighed mass with the mass of the vehicle's model, which another specimen may exceed or not reach.
     ///
     /// # Errors
@@ -158,6 +168,7 @@ impl AcousticScale {
             payload_kg: self.vehicle_mass_kg.map(payload),
             speed: RotorSpeed::from_rad_s(speed_rad_s),
             recording_count: hovers.len(),
+            has_flight_scatter: hovers.len() > 1 || self.trial_std_share.is_some(),
         })
     }
 

@@ -41,7 +41,7 @@ export function Vehicle({ store }: { store: Store }) {
         </div>
       </details>
       {!known && !vehicle.blades && (
-        <p class="quiet">The number of blades tells a speed from its double and its half; diameter, mass and rotors do too.</p>
+        <p class="quiet">With the number of blades, half and double the speed can be ruled out; diameter, mass and rotors help too.</p>
       )}
     </section>
   );

@@ -1,0 +1,105 @@
+//! Slips in filing recordings: a mass that is not the vehicle's, a recording under the wrong load, a single flight.
+
+use crate::testkit::{hovertone, steady_hover, text, write_hover};
+use hovertone_vehicle::RotorSpeed;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// A hover of the AR.Drone with this mass, by its constant of 2.83e-5 N s².
+fn hover(folder: &Path, name: &str, mass_kg: f64) -> PathBuf {
+    let path = folder.join(name);
+    let speed = RotorSpeed::from_rad_s((mass_kg * 9.807 / 2.83e-5).sqrt());
+    write_hover(&path, steady_hover("ardrone", speed, 3.0));
+    path
+}
+
+#[test]
+fn a_mass_that_is_not_the_vehicles_is_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let wav = hover(folder.path(), "a.wav", 0.413);
+    for (vehicle, mass, words) in [
+        ("ardrone", "4.13", ["weighs 4130 g, 10 times", "413 g", "decimal point"]),
+        ("ardrone", "0.05", ["weighs 50.0 g, 0.12 times", "413 g", "decimal point"]),
+        ("ardrone", "1.5", ["weighs 1500 g, 3.6 times", "413 g", "name of the vehicle"]),
+        ("mambo", "413g", ["weighs 413 g, 6.6 times", "63.0 g", "name of the vehicle"]),
+    ] {
+        let load = format!("{mass}={}", text(&wav));
+        let check = hovertone(&["identify", "--vehicle", vehicle, "--mass", &load, "--check"]).ends_with(0);
+        words.iter().for_each(|word| assert!(check.stderr.contains(word), "{word}: {}", check.stderr));
+    }
+    let load = format!("4.13={}", text(&wav));
+    let run = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load]).ends_with(0);
+    assert!(run.stderr.contains("weighs 4130 g, 10 times"), "{}", run.stderr);
+    let load = format!("462g={}", text(&wav));
+    let usual = hovertone(&["identify", "--vehicle", "ardrone", "--mass", &load, "--check"]).ends_with(0);
+    assert!(!usual.stderr.contains(" times "), "{}", usual.stderr);
+}
+
+/// The ± of one flight does not contain how flights differ: identify and weigh say so, beside the number and in a warning.
+#[test]
+fn one_flight_says_what_its_uncertainty_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b) = (hover(folder.path(), "a.wav", 0.413), hover(folder.path(), "b.wav", 0.414));
+    let out = folder.path().join("out");
+    let identify = ["identify", "--vehicle", "ardrone", "--mass", "413g", text(&a), "-o", text(&out)];
+    let (warning, beside) =
+        ("from flight to flight (hint: record each", "k = 2, without the differences from flight to flight");
+    let one = hovertone(&identify).ends_with(0);
+    assert!(one.stderr.contains(warning) && one.stdout.contains(beside), "{}{}", one.stdout, one.stderr);
+    let results = out.join("results.json");
+    let weigh = ["weigh", text(&b), "--constant", text(&results)];
+    let weighed = hovertone(&weigh).ends_with(0);
+    assert!(
+        weighed.stderr.contains(warning) && weighed.stdout.contains(beside),
+        "{}{}",
+        weighed.stdout,
+        weighed.stderr
+    );
+    let json: Value =
+        serde_json::from_str(&hovertone(&[&weigh[..], &["--json"]].concat()).ends_with(0).stdout).unwrap();
+    assert_eq!(json["has_flight_scatter"], false);
+    // two flights behind the constant show it
+    let both = ["identify", "--vehicle", "ardrone", "--mass", "413g", text(&a), text(&b), "-o", text(&out), "--force"];
+    let both = hovertone(&both).ends_with(0);
+    assert!(!both.stdout.contains(beside), "{}", both.stdout);
+    assert!(!hovertone(&weigh).ends_with(0).stdout.contains(beside));
+}
+
+#[test]
+fn a_recording_under_the_wrong_load_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str, mass_kg: f64| text(&hover(folder.path(), name, mass_kg)).to_owned();
+    let light: Vec<String> =
+        (0..4).map(|n| of(&format!("light{n}.wav"), 0.413 * (1.0 + 1e-3 * f64::from(n)))).collect();
+    let (heavy, other) = (of("heavy.wav", 0.462), of("other.wav", 0.4625));
+    let with = |more: &[&str]| {
+        let light = light.iter().map(String::as_str);
+        let words =
+            ["identify", "--vehicle", "ardrone", "--mass", "413g"].into_iter().chain(light).chain(more.iter().copied());
+        hovertone(&words.collect::<Vec<_>>()).ends_with(0)
+    };
+    let wrong = with(&[&heavy, "--mass", "462g", &other]);
+    assert!(wrong.stderr.contains("needs 12 % more thrust than the others"), "{}", wrong.stderr);
+    assert!(
+        wrong.stderr.contains("is it filed under the right load?") && !wrong.stderr.contains("times is"),
+        "{}",
+        wrong.stderr
+    );
+    let right = with(&["--mass", "462g", &heavy, &other]);
+    assert!(!right.stderr.contains("filed under"), "{}", right.stderr);
+}
+
+#[test]
+fn exchanged_masses_are_asked_about_and_fit_no_others() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str, mass_kg: f64| text(&hover(folder.path(), name, mass_kg)).to_owned();
+    let (light, again) = (of("light.wav", 0.413), of("again.wav", 0.4135));
+    let (heavy, twice) = (of("heavy.wav", 0.462), of("twice.wav", 0.4625));
+    let identify = ["identify", "--vehicle", "ardrone", "--mass", "462g"];
+    let single = hovertone(&[&identify[..], &[&light, "--mass", "413g", &heavy]].concat()).ends_with(0);
+    let slower = "the rotors turned slower under the heavier load \"light\" than under the lighter \"heavy\"";
+    assert!(single.stderr.contains(slower) && single.stderr.contains("are masses exchanged?"), "{}", single.stderr);
+    let double = hovertone(&[&identify[..], &[&light, &again, "--mass", "413g", &heavy, &twice]].concat()).ends_with(0);
+    assert!(double.stdout.contains("verdict: the loads do not fit each other: "), "{}", double.stdout);
+    assert!(!double.stdout.contains("others") && !double.stderr.contains("the others"), "{}", double.stderr);
+}

@@ -1,0 +1,90 @@
+//! Trials that look as if they belong to another load, and loads whose masses look exchanged.
+
+use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, HeardLoad, trial_rad_s};
+use crate::square_law::{ForcePoint, PointNoise, is_off_by_a_factor};
+use crate::statistics::{COVERAGE_FACTOR, median};
+use crate::warning::ThrustWarning;
+use crate::weighing::ALIKE_SHARE_MAX;
+
+/// Fewest trials of a load among which one can be called far from the others. *Decision.*
+const TRIALS_MIN: usize = 4;
+/// A trial is far from the others if its thrust differs by this many of their scaled median deviations … *Decision.*
+const FAR_DEVIATIONS: f64 = 5.0;
+/// … and by this share: trials in moving air differ by no more. *Decision.*
+const FAR_SHARE: f64 = 2.0 * ALIKE_SHARE_MAX;
+/// Standard deviation of a normal distribution over its median absolute deviation. *Numeric.*
+const STD_PER_MEDIAN_DEVIATION: f64 = 1.4826;
+
+/// A trial and the thrust that it needs.
+struct TrialSquare<'a> {
+    recording: &'a str,
+    /// ω².
+    square: f64,
+}
+
+/// Warnings about trials and loads of which some may be filed under a wrong mass.
+pub(crate) fn misfiled(campaign: &Campaign<'_>) -> Vec<ThrustWarning> {
+    let mut warnings: Vec<ThrustWarning> =
+        campaign.loads.iter().flat_map(|load| far_trials(load, &squares_of(load, campaign))).collect();
+    warnings.extend(exchanged_loads(campaign));
+    warnings
+}
+
+/// The trials of a load that are not left out.
+fn squares_of<'a>(load: &HeardLoad<'a>, campaign: &Campaign<'_>) -> Vec<TrialSquare<'a>> {
+    let is_left_out = |recording: &str| {
+        campaign.gross_trials.iter().any(|gross| gross.load == load.load.name && gross.recording == recording)
+    };
+    let trials = load.load.trials.iter().filter(|trial| !is_left_out(&trial.recording));
+    let square = |speed_rad_s: f64| speed_rad_s.powi(2);
+    trials
+        .filter_map(|trial| Some(TrialSquare { recording: &trial.recording, square: square(trial_rad_s(trial)?) }))
+        .collect()
+}
+
+/// Trials that need another thrust than the others. Of few trials nothing shows which one is wrong: both ends are named.
+fn far_trials(load: &HeardLoad<'_>, trials: &[TrialSquare<'_>]) -> Vec<ThrustWarning> {
+    let name = || load.load.name.clone();
+    if trials.len() < TRIALS_MIN {
+        let least = trials.iter().min_by(|a, b| a.square.total_cmp(&b.square));
+        let most = trials.iter().max_by(|a, b| a.square.total_cmp(&b.square));
+        let differ = least.zip(most).and_then(|(least, most)| {
+            let thrust_share = most.square / least.square - 1.0;
+            let [least, most] = [least, most].map(|trial| trial.recording.to_owned());
+            (thrust_share > FAR_SHARE).then(|| ThrustWarning::TrialsDiffer { load: name(), least, most, thrust_share })
+        });
+        return differ.into_iter().collect();
+    }
+    let Some(middle) = median(&trials.iter().map(|trial| trial.square).collect::<Vec<_>>()) else { return Vec::new() };
+    let share = |trial: &TrialSquare<'_>| trial.square / middle - 1.0;
+    let deviations: Vec<f64> = trials.iter().map(|trial| share(trial).abs()).collect();
+    let std_share = STD_PER_MEDIAN_DEVIATION * median(&deviations).unwrap_or_default();
+    let is_far = |trial: &&TrialSquare<'_>| share(trial).abs() > FAR_SHARE.max(FAR_DEVIATIONS * std_share);
+    let warning = |trial: &TrialSquare<'_>| ThrustWarning::TrialFarFromOthers {
+        load: name(),
+        recording: trial.recording.to_owned(),
+        thrust_share: share(trial),
+    };
+    trials.iter().filter(is_far).map(warning).collect()
+}
+
+/// The pair of hovers whose heavier load turned slower by the largest share. Repeated trials show how much is chance; without them a
+/// difference counts that trials of one load do not have.
+fn exchanged_loads(campaign: &Campaign<'_>) -> Option<ThrustWarning> {
+    let is_repeated = matches!(campaign.noise, PointNoise::Measured { .. });
+    let hovers = || campaign.loads.iter().filter(|load| load.is_hover());
+    let constant = |load: &HeardLoad<'_>| ForcePoint::thrust_constant_n_s2(&load.point());
+    let slower = |light: &HeardLoad<'_>, heavy: &HeardLoad<'_>| {
+        let chance = match is_repeated {
+            true => COVERAGE_FACTOR * campaign.student_factor() * light.speed_std_share.hypot(heavy.speed_std_share),
+            false => ALIKE_SHARE_MAX,
+        };
+        let share = 1.0 - heavy.speed_rad_s / light.speed_rad_s;
+        let is_heavier = heavy.force_n > light.force_n * (1.0 + EQUAL_FORCES_SHARE);
+        (is_heavier && share > chance && !is_off_by_a_factor(constant(heavy), constant(light))).then_some(share)
+    };
+    let pairs = hovers().flat_map(|light| hovers().map(move |heavy| (light, heavy)));
+    let exchanged = pairs.filter_map(|(light, heavy)| Some((slower(light, heavy)?, light, heavy)));
+    let (_, light, heavy) = exchanged.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(ThrustWarning::HeavierTurnedSlower { heavy: heavy.load.name.clone(), light: light.load.name.clone() })
+}
