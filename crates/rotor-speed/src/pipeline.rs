@@ -3,8 +3,8 @@
 use crate::config::Config;
 use crate::error::Error;
 use crate::stages::{
-    Candidates, HeardRotor, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate,
-    lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
+    Candidates, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate, lines_from_hover,
+    passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
 };
 use crate::tone::search_range_rev_s;
 use hovertone_analysis::{Hover, Method, Outcome, RotorEstimate, SpeedAnalysis};
@@ -101,11 +101,11 @@ fn speed_from_candidates(
 pub(crate) fn speed_of_heard_rotor(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
-    heard: &HeardRotor,
+    speed_rev_s: f64,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let candidates = Candidates::of_heard_rotor(surveyed, heard, passes.sample_rate_hz(), config)?;
-    speed_from_candidates(passes, surveyed, &candidates, config)
+    let candidates = Candidates::of_heard_rotor(surveyed, speed_rev_s, passes.sample_rate_hz(), config)?;
+    speed_of_candidate(passes, surveyed, &candidates, speed_rev_s, config)
 }
 
 /// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that

@@ -69,7 +69,8 @@ impl Said<'_> {
         config.known = self.known()?;
         config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
         config.rotors.is_count_known = config.known.rotor_count.is_some();
-        let may_be_several = !config.rotors.is_count_known || config.rotors.count > 1;
+        // where nothing is said of the tone, one that nobody has named is not searched for more rotors
+        let may_be_several = config.rotors.count > 1 || !config.rotors.is_count_known && discovery.is_none();
         let default = if may_be_several && !self.mean_only { Method::Separated } else { Method::Harmonic };
         config.method = self.method.unwrap_or(default);
         config.span = self.span;

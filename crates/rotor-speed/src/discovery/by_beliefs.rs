@@ -6,7 +6,7 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
-use crate::stages::{HeardRotor, Surveyed, at_ratio, reading_of};
+use crate::stages::{Surveyed, at_ratio, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, rule_out, search_range_rev_s};
 use hovertone_analysis::{Reading, SeenHarmonic, ToneFamily};
 use hovertone_signal::passes::Passes;
@@ -26,8 +26,6 @@ pub(super) struct Believed {
     readings: Vec<Reading>,
     /// Whether the evidence decides for one speed.
     is_decided: bool,
-    /// Whether it hears several rotors.
-    are_several: bool,
 }
 
 impl Believed {
@@ -46,8 +44,7 @@ impl Believed {
         let readings = readings_of(&beliefs, discovery);
         readings.first().filter(|first| first.plausibility > 0.0 && beliefs.is_clear(&config.evidence))?;
         let is_decided = beliefs.possible(config.evidence.belief_min).len() == 1;
-        let are_several = surveyed.excess.as_ref().is_some_and(|looks| beliefs.are_several(looks, &config.evidence));
-        Some(Self { beliefs, readings, is_decided, are_several })
+        Some(Self { beliefs, readings, is_decided })
     }
 
     /// Whether a family of lines has one of the readings that the evidence finds possible.
@@ -83,8 +80,7 @@ impl Believed {
         };
         let Some(first) = family.readings.first().cloned() else { return Ok(None) };
         let found = config_for(config, &first, OTHER_SPEED_FACTOR);
-        let heard = HeardRotor { speed_rev_s: first.speed.rev_s(), are_several: self.are_several };
-        let analysis = speed_of_heard_rotor(passes, surveyed, &heard, &found)?;
+        let analysis = speed_of_heard_rotor(passes, surveyed, first.speed.rev_s(), &found)?;
         let Some(speed) = speed_of(&analysis, &found) else { return Ok(None) };
         let ratio = speed.speed.rad_s() / first.speed.rad_s();
         let ratio = if (ratio - 1.0).abs() < SAME_LINE_SHARE { ratio } else { 1.0 };

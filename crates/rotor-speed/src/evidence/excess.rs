@@ -4,6 +4,7 @@ use super::floor::{Floor, FloorShape, FloorSums};
 use super::level_table::{Level, LevelTable};
 use super::rounding::Rounding;
 use hovertone_signal::spectrogram::{Stft, Window};
+use hovertone_signal::statistics::median;
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
 use std::sync::Arc;
@@ -32,7 +33,7 @@ const SKIRT_SHARE: f64 = 0.5;
 const SIDE_LOBES: Range<usize> = 8..40;
 /// A side lobe may be higher than that of a steady line by this factor, because the line moves. *Decision.*
 const SIDE_LOBE_MARGIN: f64 = 2.0;
-/// Share of the power that a quarter of the frames exceeds, below which no rotor hovers: before take-off, after landing. *Decision.*
+/// Share of the median power of the frames below which no rotor hovers: before take-off, after landing. *Decision.*
 const QUIET_SHARE: f64 = 0.01;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
@@ -232,9 +233,8 @@ impl Frames {
     fn finish(self) -> Excess {
         let bin_hz = self.stft.bin_hz();
         let mut frames = self.frames;
-        let mut powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
-        powers.sort_by(f64::total_cmp);
-        let power_min = QUIET_SHARE * powers.get(3 * powers.len() / 4).copied().unwrap_or(0.0);
+        let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
+        let power_min = QUIET_SHARE * median(&powers).unwrap_or(0.0);
         frames.retain(|frame| frame.mean_power > power_min);
         Excess { bin_hz, frames, floor: Arc::new(self.floors.shape()) }
     }

@@ -153,13 +153,13 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
 fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool {
     let Some(first) = look.hypotheses.first() else { return true };
-    let jumps_gain = match &look.search {
-        Some(search) => search.jumps_gain(first.speed_rev_s),
+    let jumps_nats = match &look.search {
+        Some(search) => search.jumps_nats(first.speed_rev_s),
         None => {
-            Search::of(short, look.blades, &look.speeds_rev_s).and_then(|search| search.jumps_gain(first.speed_rev_s))
+            Search::of(short, look.blades, &look.speeds_rev_s).and_then(|search| search.jumps_nats(first.speed_rev_s))
         }
     };
-    jumps_gain.is_none_or(|gain| gain >= config.jumps_gain_max)
+    jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
 }
 
 /// Adds to each hypothesis what the long frames show along its path, and sorts them again.

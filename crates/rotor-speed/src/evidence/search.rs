@@ -100,9 +100,9 @@ impl Search {
         path.iter().zip(&self.votes).map(|(&point, votes)| f64::from(votes[point])).collect()
     }
 
-    /// Votes that a voice or an instrument, which jumps, has more than a rotor near this speed or at one of its octaves and families, over those of
-    /// the rotor. `None` without such a path, or where it has no votes.
-    pub(super) fn jumps_gain(&self, speed_rev_s: f64) -> Option<f64> {
+    /// Votes that a voice or an instrument, which jumps, has more than a rotor near this speed or at one of its octaves and families, in nats a
+    /// frame. `None` without such a path.
+    pub(super) fn jumps_nats(&self, speed_rev_s: f64) -> Option<f64> {
         let mean_rev_s = |path: &[usize]| mean(&self.grid.speeds_of(path));
         let is_family = |path: &&Vec<usize>| mean_rev_s(path).is_some_and(|of_rev_s| is_family(of_rev_s, speed_rev_s));
         let sum = |path: &[usize]| self.votes_along(path).into_iter().sum::<f64>();
@@ -111,8 +111,7 @@ impl Search {
             let ratio = shift as f64 * GRID_STEP;
             OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
         };
-        let votes_nats = mean(&self.votes_along(best)).filter(|&nats| nats > 0.0)?;
-        Some(gain_of_jumps_nats(&self.votes, best, GRID_STEP, is_near) / votes_nats)
+        Some(gain_of_jumps_nats(&self.votes, best, GRID_STEP, is_near))
     }
 }
 

@@ -17,8 +17,9 @@ pub struct EvidenceConfig {
     /// Smallest evidence for another rotor of the vehicle, in nats: its path is the best of many, and the tail rotor of a helicopter beside its
     /// main rotor had 16.
     pub companion_nats_min: f64,
-    /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, over those of the rotor.
-    pub jumps_gain_max: f64,
+    /// Most votes that a voice or an instrument, which jumps, may have more than the rotor, in nats a frame. Flights have up to 6, tunes and
+    /// speech 8 to 80.
+    pub jumps_nats_max: f64,
     /// Smallest belief with which an octave counts as decided: odds of 99 to 1.
     pub belief_min: f64,
     /// Levels of the lines of real rotors.
@@ -32,7 +33,7 @@ impl Default for EvidenceConfig {
             levels_nats_min: 4.6,
             own_lines_nats_min: 3.0,
             companion_nats_min: 18.4,
-            jumps_gain_max: 1.0,
+            jumps_nats_max: 9.0,
             belief_min: 0.99,
             levels: LineLevels::default(),
         }
@@ -45,7 +46,7 @@ impl EvidenceConfig {
         check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;
         check_range("own_lines_nats_min", self.own_lines_nats_min, 0.0, 100.0)?;
         check_range("companion_nats_min", self.companion_nats_min, 0.0, 1000.0)?;
-        check_range("jumps_gain_max", self.jumps_gain_max, 0.0, 100.0)?;
+        check_range("jumps_nats_max", self.jumps_nats_max, 0.0, 100.0)?;
         check_range("belief_min", self.belief_min, 0.5, 1.0)
     }
 }

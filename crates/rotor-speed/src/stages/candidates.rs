@@ -26,13 +26,6 @@ pub(crate) struct Candidates {
     rev_s_min: f64,
 }
 
-/// A rotor that the evidence heard before.
-pub(crate) struct HeardRotor {
-    pub(crate) speed_rev_s: f64,
-    /// Whether other rotors sound beside it.
-    pub(crate) are_several: bool,
-}
-
 impl Candidates {
     /// Only the speed at which a rotor was heard.
     ///
@@ -40,17 +33,17 @@ impl Candidates {
     /// A tone above half the sample rate.
     pub(crate) fn of_heard_rotor(
         surveyed: &Surveyed,
-        heard: &HeardRotor,
+        speed_rev_s: f64,
         sample_rate_hz: f64,
         config: &Config,
     ) -> Result<Self, Error> {
         let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
         Ok(Self {
             map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
-            leading_rev_s: heard.speed_rev_s,
+            leading_rev_s: speed_rev_s,
             beliefs: None,
             is_heard: true,
-            are_several: !config.rotors.is_count_known && heard.are_several,
+            are_several: false,
             rev_s_min: *search_rev_s.start(),
         })
     }
