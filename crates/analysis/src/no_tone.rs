@@ -50,6 +50,13 @@ pub enum NoTone {
         /// Longest continuous time of that tone.
         held_s: f64,
     },
+    /// The lines belong to a slower shaft or to an instrument.
+    ForeignSeries {
+        /// Distance between the lines.
+        fundamental_hz: f64,
+        /// Tone of the strongest candidate.
+        tone_hz: f64,
+    },
     /// The tone lies above the bandwidth of the recording.
     BandCutByCodec {
         /// Expected frequency of the tone.
@@ -79,10 +86,7 @@ impl fmt::Display for NoTone {
             Self::OutsideRecording => f.write_str("the recording has no sound between the chosen times; choose others with --from and --to"),
             Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover"),
             Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
-            Self::NoSeries => f.write_str(
-                "nothing sounds like a rotor for half of the recording; choose the part with the rotor with --from and --to, or place the \
-                 microphone nearer",
-            ),
+            Self::NoSeries => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
             Self::NoHover => f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off"),
             Self::NoFrame { window_s, hover_s } => {
                 write!(
@@ -112,6 +116,11 @@ impl fmt::Display for NoTone {
                 f,
                 "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most, and others sound for longer; \
                  if a rotor is among them, choose its part with --from and --to"
+            ),
+            Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
+                f,
+                "there are lines {fundamental_hz:.1} Hz apart, which a rotor with its tone near {tone_hz:.0} Hz cannot make: they are of a \
+                 slower rotor, an engine or an instrument; check the blades or the gear"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,

@@ -71,6 +71,21 @@ pub fn speed_from_survey(
     }
 }
 
+/// The stages after the survey for a tone that was found, and that nobody has named: it may be a single line.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub(crate) fn speed_of_found_tone(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    config: &Config,
+) -> Result<SpeedAnalysis, Error> {
+    match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
+        Ok(candidates) => speed_from_candidates(passes, surveyed, &candidates.of_found_tone(), config),
+        Err(stop) => stop.answer(surveyed.heard),
+    }
+}
+
 fn speed_from_candidates(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,

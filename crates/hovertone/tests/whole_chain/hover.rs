@@ -89,12 +89,12 @@ fn a_recording_that_starts_late_keeps_its_clock() {
 
 #[test]
 fn a_given_band_is_where_it_is_looked_for() {
-    let lines = [(2.0, 0.02), (4.0, 0.01), (6.0, 0.01), (8.0, 0.008), (10.0, 0.005), (12.0, 0.005)];
+    let lines = [(2.0, 0.02), (4.0, 0.01), (6.0, 0.01)];
     let quiet = rotor(|_| 90.0, &lines);
-    let loud = rotor(|_| 75.0, &lines.map(|(order, level)| (order, 10.0 * level)));
+    let loud = rotor(|_| 61.7, &[(2.0, 0.3), (4.0, 0.1), (6.0, 0.1)]);
     let samples = sound(&[quiet, loud], 5.0, 0.003, 10);
     let mut config = config(2.0);
-    assert!((tone(&analyse(samples.clone(), &config)).speeds[0].speed.rev_s() - 75.0).abs() < 0.1);
+    assert!((tone(&analyse(samples.clone(), &config)).speeds[0].speed.rev_s() - 61.7).abs() < 0.1);
     config.tone.band_hz = Some((170.0, 190.0));
     assert!((tone(&analyse(samples, &config)).speeds[0].speed.rev_s() - 90.0).abs() < 0.1);
 }

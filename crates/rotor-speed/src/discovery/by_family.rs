@@ -4,9 +4,9 @@ use super::by_beliefs::SAME_LINE_SHARE;
 use super::{Discovery, FoundSpeed, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
-use crate::pipeline::{passes_after_survey, speed_from_survey};
+use crate::pipeline::{passes_after_survey, speed_of_found_tone};
 use crate::stages::{Silence, Surveyed, at_ratio};
-use hovertone_analysis::{NoTone, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
+use hovertone_analysis::{NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::RotorSpeed;
 
@@ -24,7 +24,7 @@ pub(super) fn speed_of_family(
     config: &Config,
     discovery: &Discovery,
 ) -> Result<FoundSpeed, Error> {
-    let Some(reading) = families[rotor].readings.first() else {
+    let Some(first) = families[rotor].readings.first() else {
         let analysis = Silence::because(NoTone::NoSeries).analysis(surveyed.heard());
         return Ok(FoundSpeed { families, rotor: None, config: config.clone(), analysis, alternatives: Vec::new() });
     };
@@ -36,10 +36,24 @@ pub(super) fn speed_of_family(
         if !std::mem::take(&mut is_first) {
             passes.expect_more(passes_after_survey(&found));
         }
-        let analysis = speed_from_survey(passes, surveyed, &found)?;
+        let analysis = speed_of_found_tone(passes, surveyed, &found)?;
         Ok((found, analysis))
     };
+    let mut reading = first;
     let (mut found, mut analysis) = analysed(reading, OTHER_SPEED_FACTOR)?;
+    // lines that one reading cannot explain refute it, not the others
+    let is_refuted = |analysis: &SpeedAnalysis| {
+        matches!(analysis.outcome, Outcome::NoRotorTone { reason: NoTone::ForeignSeries { .. } })
+    };
+    for other in families[rotor].plausible_readings(discovery.config.plausible_min).into_iter().skip(1) {
+        if !is_refuted(&analysis) {
+            break;
+        }
+        let next = analysed(other, OTHER_SPEED_FACTOR)?;
+        if !is_refuted(&next.1) {
+            (reading, (found, analysis)) = (other, next);
+        }
+    }
     if !speed_of(&analysis, &found).is_none_or(|speed| is_near(speed.speed, reading)) {
         (found, analysis) = analysed(reading, 1.0 + SAME_TONE_SHARE)?;
     }

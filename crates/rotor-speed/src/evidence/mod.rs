@@ -17,10 +17,11 @@
 //! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of a hypothesis are the mean of both looks:
 //!    they are at the same lines, so that their sum would count each level twice.
 //! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own, beside one or beside all that were separated.
-//! 8. *Near a speed* (`near_speed`): where none is heard, the evidence for a rotor that keeps its phase, whose weak lines show in long spectra only.
+//! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
+//!    in a given band, below 0.
 //!
 //! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor, its lines
-//! stand apart in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has twice the votes.
+//! stand apart in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 7.8 nats a frame more.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).

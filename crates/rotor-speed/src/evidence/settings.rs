@@ -33,7 +33,7 @@ impl Default for EvidenceConfig {
             levels_nats_min: 4.6,
             own_lines_nats_min: 3.0,
             companion_nats_min: 18.4,
-            jumps_nats_max: 9.0,
+            jumps_nats_max: 7.8,
             belief_min: 0.99,
             levels: LineLevels::default(),
         }

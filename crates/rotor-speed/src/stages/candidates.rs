@@ -20,6 +20,8 @@ pub(crate) struct Candidates {
     beliefs: Option<Beliefs>,
     /// Whether the evidence has heard a rotor: then it decides. Otherwise the thresholds do.
     pub(crate) is_heard: bool,
+    /// Whether the tone was named, and not found among families of lines.
+    pub(crate) is_named: bool,
     /// Whether several rotors are heard, where their number is not known.
     pub(crate) are_several: bool,
     /// Lowest speed of the search.
@@ -27,7 +29,7 @@ pub(crate) struct Candidates {
 }
 
 impl Candidates {
-    /// Only the speed at which a rotor was heard.
+    /// Only this speed, for which a rotor was heard.
     ///
     /// # Errors
     /// A tone above half the sample rate.
@@ -43,9 +45,15 @@ impl Candidates {
             leading_rev_s: speed_rev_s,
             beliefs: None,
             is_heard: true,
+            is_named: true,
             are_several: false,
             rev_s_min: *search_rev_s.start(),
         })
+    }
+
+    /// The same for a tone that was found, and that nobody has named.
+    pub(crate) fn of_found_tone(self) -> Self {
+        Self { is_named: false, ..self }
     }
 
     /// The speed of a slower shaft, where an analysis found that it explains a weak, steady tone better. `None` below the range of the search.
@@ -154,6 +162,7 @@ pub(crate) fn candidates_from_survey(
             map,
             leading_rev_s,
             is_heard: beliefs.as_ref().is_some_and(Beliefs::is_resolved),
+            is_named: true,
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,
             rev_s_min: *search_rev_s.start(),

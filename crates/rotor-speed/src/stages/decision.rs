@@ -10,9 +10,10 @@ use crate::evidence::{OwnPropeller, nats_near};
 use crate::harmonic::HarmonicTracer;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use crate::tone::{blades_of_tone, lines_and_between};
+use crate::tone::{blades_of_tone, foreign_series, lines_and_between};
 use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
 use hovertone_signal::passes::Passes;
+use hovertone_vehicle::BLADES_MAX;
 
 /// A candidate that is one rotor, or several.
 pub(crate) struct Decision {
@@ -52,9 +53,6 @@ pub(crate) fn decision_from_lines(
 }
 
 /// The reason why the lines do not belong to a rotor at this speed. `None` where they do.
-///
-/// The evidence has compared what it hears with mains hum, machines and voices. Where it hears no blade pass, only a rotor that keeps its phase may
-/// sound, whose weak lines show in spectra that are longer than its frames. It knows no gears.
 fn why_no_rotor(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -65,37 +63,39 @@ fn why_no_rotor(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let survey = &surveyed.survey;
-    let hum = || mains_hum_reason(&lines.clearest, survey);
-    let why_no_lines = match blades_of_tone(&config.tone) {
-        Some(_) if candidates.is_heard => None,
-        Some(blades) if is_steady(surveyed, hover, lines, speed_rev_s, blades, config) => {
-            slower_shaft(passes, hover, lines, speed_rev_s, config)?.or_else(hum)
-        }
-        Some(_) => Some(NoTone::NoSeries),
-        None => no_tone_reason(&lines.clearest, &config.ridge).or_else(hum),
-    };
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
-    let restless_s = restless_s(hover, survey, &candidates.map);
-    Ok(why_no_lines.or_else(|| not_held_reason(restless_s, hover, tone_hz, &config.hover)))
+    let not_held = not_held_reason(restless_s(hover, survey, &candidates.map), hover, tone_hz, &config.hover);
+    // the evidence has compared the rotor with mains hum, by all its lines: one that meets a line of the hum says nothing
+    if candidates.is_heard {
+        return Ok(not_held);
+    }
+    if candidates.is_named && evidence_is_too_small(surveyed, speed_rev_s, config) {
+        return Ok(Some(NoTone::NoSeries));
+    }
+    let mut not_a_line = no_tone_reason(&lines.clearest, &config.ridge);
+    if not_a_line.is_some() && lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min {
+        not_a_line = slower_shaft(passes, hover, lines, speed_rev_s, config)?;
+    }
+    Ok(not_a_line
+        .or(not_held)
+        .or_else(|| mains_hum_reason(&lines.clearest, survey))
+        .or_else(|| foreign_series(survey, hover, &config.tone, config.rotors.are_several(), speed_rev_s)))
 }
 
-/// Whether the lines keep their phase, and have the levels of a rotor in both looks together.
-fn is_steady(
-    surveyed: &Surveyed,
-    hover: &Hover,
-    lines: &Lines,
-    speed_rev_s: f64,
-    blades: u32,
-    config: &Config,
-) -> bool {
-    let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let nats = || surveyed.excess.as_ref().and_then(|looks| nats_near(looks, speed_rev_s, &propeller));
-    lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min
-        && nats().is_some_and(|nats| nats >= config.evidence.levels_nats_min)
+/// Whether the levels of all orders are too little evidence for a rotor at this speed, where they can be compared: where a single line is
+/// followed, others need not sound. Who gives a band says that a tone is in it; then evidence against it alone refutes it.
+fn evidence_is_too_small(surveyed: &Surveyed, speed_rev_s: f64, config: &Config) -> bool {
+    let blades = blades_of_tone(&config.tone).filter(|_| config.tone.harmonics > 1);
+    let heard = surveyed.excess.as_ref().zip(blades);
+    let nats = heard.and_then(|(looks, blades)| {
+        nats_near(looks, speed_rev_s, &OwnPropeller { blades, prior: &config.evidence.levels })
+    });
+    let nats_min = if config.tone.band_hz.is_some() { 0.0 } else { config.evidence.levels_nats_min };
+    nats.is_some_and(|nats| nats < nats_min)
 }
 
 /// Tests in one pass whether lines between the assumed ones sound as well, so that a slower shaft explains them better: the comb cannot
-/// decide this for a weak, steady tone.
+/// decide this for a weak, steady tone. A gear mesh has too high an order for the question.
 fn slower_shaft(
     passes: &mut Passes<'_>,
     hover: &Hover,
@@ -104,6 +104,9 @@ fn slower_shaft(
     config: &Config,
 ) -> Result<Option<NoTone>, Error> {
     let order = config.tone.order.lines_per_turn();
+    if order > BLADES_MAX {
+        return Ok(None);
+    }
     let found = lines.harmonic.speed_in(None, config.tone.order);
     let steady_rev_s = found.map_or(speed_rev_s, |found| found.speed.rev_s());
     let bands = lines_and_between(&lines.channel_bands, order, steady_rev_s);

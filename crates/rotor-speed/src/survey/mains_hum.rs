@@ -18,6 +18,8 @@ const PEAK_ERROR_BINS: f64 = 0.08;
 const OWN_SHARE: f64 = 0.0003;
 /// The same in addition, Hz: the error of the peak. *Numeric.*
 const OWN_HZ: f64 = 0.15;
+/// Largest deviation of the fundamental of a series from the frequency of the hum, as a share, at which the series is hum. *Decision.*
+const SERIES_SHARE: f64 = 0.01;
 /// Smallest height of a line of hum over its surroundings, dB. *Decision.*
 const OVER_DB_MIN: f64 = 10.0;
 /// Smallest power of a line, re a sine of full scale: the rounding of 16 bits, 2⁻³⁰/12, over the power 1/2 of such a sine: −98 dB. The rounding of
@@ -38,6 +40,8 @@ const LOW_MULTIPLES_DB: f64 = 15.0;
 const LOW_MULTIPLES: usize = 3;
 /// Number of multiples whose presence is examined. *Decision.*
 const PATTERN_MULTIPLES: usize = 8;
+/// Largest fraction of the mains frequency that a fundamental may be: an eighth. *Decision.*
+const FRACTIONS_MAX: u32 = 8;
 
 /// Mains hum of a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +71,14 @@ impl MainsHum {
         let multiple = (mean_hz / self.mains_hz).round().max(1.0);
         let off_hz = (mean_hz - multiple * self.mains_hz).abs();
         off_hz <= OWN_SHARE * mean_hz + OWN_HZ && std_hz <= GRID_SHARE * mean_hz + OWN_HZ
+    }
+
+    /// Whether a series with this fundamental is hum: the fundamental is a multiple of the mains frequency, or a simple fraction of one.
+    pub(crate) fn explains(&self, fundamental_hz: f64) -> bool {
+        (1..=FRACTIONS_MAX).any(|part| {
+            let multiple = (f64::from(part) * fundamental_hz / self.mains_hz).round().max(1.0);
+            (f64::from(part) * fundamental_hz / (multiple * self.mains_hz) - 1.0).abs() < SERIES_SHARE
+        })
     }
 
     /// The lowest line of the hum in a band.
