@@ -82,13 +82,12 @@ struct Scatter {
 }
 
 impl<'a> LevelModel<'a> {
-    /// The model that tells the speeds of rotors with so many blades. Lines of other rotors and of motors lie at the orders of a rotor, so that
-    /// these hold lines of something else at least as often as in general.
+    /// The model that tells speeds apart. Motors and other rotors have lines at the orders of a rotor: at least as many as there are in general.
     pub(super) fn of_speeds(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
         Self::new(noise, blades, prior, prior.foreign.max(noise.lines_share))
     }
 
-    /// The model that tells a rotor from none: places hold lines of something else as often as this recording shows.
+    /// The model that tells a rotor from none: lines of something else are as frequent as this recording shows.
     pub(super) fn of_presence(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
         Self::new(noise, blades, prior, noise.foreign_share(prior))
     }
