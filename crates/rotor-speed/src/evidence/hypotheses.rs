@@ -10,7 +10,7 @@ use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
 use hovertone_signal::statistics::{log_sum_exp, mean};
-use hovertone_vehicle::KnownRotor;
+use hovertone_vehicle::{KnownRotor, LineLevels};
 use std::ops::RangeInclusive;
 
 /// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats. *Decision.*
@@ -188,14 +188,13 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
     let noises: Vec<NoiseLevel> = seen.iter().flatten().flatten().map(|seen| seen.noise).collect();
     let Some(noise) = NoiseLevel::of_emptiest(noises, config.levels.foreign) else { return };
     for (look, seen) in of_propellers.iter_mut().zip(seen) {
-        let mut model = LevelModel::of_speeds(noise, look.blades, &config.levels);
-        let mut presence = LevelModel::of_presence(noise, look.blades, &config.levels);
+        let mut models = LevelModels::new(noise, look.blades, &config.levels);
         let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
         for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
-            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels));
+            let levels_nats = 0.5 * (it.levels_nats + models.of_speeds.evidence_nats(&seen.levels));
             it.nats += levels_nats - it.levels_nats;
             it.levels_nats = levels_nats;
-            it.least_nats = it.least_nats.min(presence.flat_nats(&seen.levels));
+            it.least_nats = it.least_nats.min(models.of_presence.flat_nats(&seen.levels));
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
@@ -249,13 +248,11 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     // lines that no wanted rotor explains are foreign, whatever another one would explain
     let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
     let of_propeller = |(propeller, multiples): (&WantedPropeller, Vec<Multiple>)| {
-        let mut model = LevelModel::of_speeds(noise, propeller.blades, &config.levels);
-        let mut presence = LevelModel::of_presence(noise, propeller.blades, &config.levels);
+        let mut models = LevelModels::new(noise, propeller.blades, &config.levels);
         let all = multiples.iter().filter_map(|multiple| {
-            let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
-            let least_nats = presence.flat_nats(&hypothesis.levels);
+            let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut models)?;
             let nats = hypothesis.levels_nats + nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
-            Some(Hypothesis { nats, least_nats, ..hypothesis })
+            Some(Hypothesis { nats, ..hypothesis })
         });
         OfPropeller {
             blades: propeller.blades,
@@ -286,11 +283,31 @@ fn is_resolved(hypotheses: &[Hypothesis]) -> bool {
     hypotheses.first().is_some_and(|first| first.speed_rev_s >= RESOLVED_REV_S)
 }
 
+/// The models of the levels of one propeller in the noise of one look.
+struct LevelModels<'a> {
+    of_speeds: LevelModel<'a>,
+    of_presence: LevelModel<'a>,
+}
+
+impl<'a> LevelModels<'a> {
+    fn new(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
+        Self {
+            of_speeds: LevelModel::of_speeds(noise, blades, prior),
+            of_presence: LevelModel::of_presence(noise, blades, prior),
+        }
+    }
+}
+
 /// The hypothesis that a rotor turns at this multiple of a path, with the evidence of its lines. `None` without speeds.
-fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut LevelModel<'_>) -> Option<Hypothesis> {
+fn hypothesis_of(
+    multiple: &Multiple,
+    blades: u32,
+    excess: &Excess,
+    models: &mut LevelModels<'_>,
+) -> Option<Hypothesis> {
     let &Multiple { path, factor, votes_nats, speed_rev_s, ref speeds_rev_s } = multiple;
     let levels = levels_of_orders(excess, speeds_rev_s, blades);
-    let levels_nats = model.evidence_nats(&levels);
+    let levels_nats = models.of_speeds.evidence_nats(&levels);
     Some(Hypothesis {
         blades,
         speeds_rev_s: speeds_rev_s.clone(),
@@ -300,7 +317,7 @@ fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut 
         factor,
         votes_nats,
         levels_nats,
-        least_nats: 0.0,
+        least_nats: models.of_presence.flat_nats(&levels),
         nats: 0.0,
         levels,
         belief: 0.0,

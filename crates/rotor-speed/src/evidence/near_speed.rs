@@ -1,4 +1,4 @@
-//! The evidence for a rotor near one speed: of a steady one, where the search over all speeds heard none, and of a known one in an exam.
+//! The evidence for a rotor near one speed: where the search over all speeds heard none, and in an exam.
 
 use super::excess::{Excess, Looks};
 use super::level_model::{LevelModel, OrderLevel};
