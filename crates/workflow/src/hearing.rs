@@ -3,7 +3,7 @@
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::Passes;
 use hovertone::speed::{Config, Error, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
-use hovertone::tones::{Discovery, FoundSpeed, Reading, tones_from_passes};
+use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
 use hovertone_vehicle::KNOWN_RANGE_MARGIN;
@@ -88,7 +88,7 @@ pub fn hear(
     let spoiled = analysed.as_ref().ok().and_then(|analysed| why_no_tone(recording, analysed));
     let facts = facts_of(recording, sha256);
     let Analysed { analysis, config, found, spin_up } = match analysed {
-        Ok(analysed) => analysed.with_likeliest_first(),
+        Ok(analysed) => analysed,
         Err(error) => {
             return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
         }
@@ -224,20 +224,6 @@ struct Analysed {
     config: Config,
     found: Option<Found>,
     spin_up: Option<SpinUp>,
-}
-
-impl Analysed {
-    /// With the readings that stay plausible sorted by their plausibility.
-    fn with_likeliest_first(mut self) -> Self {
-        let sort = |readings: &mut Vec<Reading>| readings.sort_by(|a, b| b.plausibility.total_cmp(&a.plausibility));
-        if let Outcome::Ok(tone) = &mut self.analysis.outcome {
-            sort(&mut tone.alternatives);
-        }
-        if let Some(found) = &mut self.found {
-            sort(&mut found.alternatives);
-        }
-        self
-    }
 }
 
 fn analysed(recording: &mut Recording, task: &Task<'_>, on_share: impl FnMut(Share)) -> Result<Analysed, Error> {

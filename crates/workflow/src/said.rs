@@ -69,7 +69,7 @@ impl Said<'_> {
         config.known = self.known()?;
         config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
         config.rotors.is_count_known = config.known.rotor_count.is_some();
-        // where nothing is said of the tone, one that nobody has named is not searched for more rotors
+        // no more rotors are searched for in a tone that nobody has named
         let may_be_several = config.rotors.count > 1 || !config.rotors.is_count_known && discovery.is_none();
         let default = if may_be_several && !self.mean_only { Method::Separated } else { Method::Harmonic };
         config.method = self.method.unwrap_or(default);

@@ -92,7 +92,7 @@ impl Believed {
         Ok(Some(FoundSpeed { families, rotor: Some(0), config: found, analysis, alternatives }))
     }
 
-    /// The believed reading and an answer, where the beliefs decide for another octave; otherwise none.
+    /// The believed reading and an answer, most plausible first, where the beliefs decide for another octave; otherwise none.
     pub(super) fn objection(&self, answered: Reading) -> Vec<Reading> {
         let rev_s = answered.speed.rev_s();
         let is_other = self.beliefs.hypotheses.first().is_some_and(|first| !first.is_of_same_vehicle(rev_s));
@@ -100,7 +100,8 @@ impl Believed {
             return Vec::new();
         }
         let first = self.readings[0].clone();
-        vec![first.clone(), Reading { plausibility: 1.0 - first.plausibility, ..answered }]
+        let answered = Reading { plausibility: 1.0 - first.plausibility, ..answered };
+        if first.plausibility < answered.plausibility { vec![answered, first] } else { vec![first, answered] }
     }
 
     /// A family of the survey with these readings beside its own; the evidence knows the speed better.
