@@ -1,7 +1,7 @@
 //! What a person quotes of an identified experiment: the constant with its ±, and the verdict on the loads.
 
 use crate::number::{PowerOfTen, with_uncertainty};
-use crate::thrust::CONSTANT_UNIT;
+use crate::thrust::{CONSTANT_UNIT, WITHOUT_FLIGHTS};
 use hovertone_analysis::RotorsHeardCounts;
 use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, p_value_text};
 use hovertone_vehicle::Estimate;
@@ -62,7 +62,7 @@ pub fn quoted_constants(table: &ThrustTable) -> Option<String> {
         _ => format!(", {} for the whole vehicle", quoted(total)),
     };
     let share = total.std_uncertainty.map(|std| 100.0 * COVERAGE_FACTOR * std / total.value);
-    let flights = if table.has_one_trial() { ", without the differences from flight to flight" } else { "" };
+    let flights = if table.has_one_trial() { WITHOUT_FLIGHTS } else { "" };
     let meaning = share.map_or("; ± is not known".to_owned(), |percent| {
         format!("; ± is {percent:.2} %, with k = {COVERAGE_FACTOR}{flights}")
     });

@@ -11,6 +11,9 @@ use hovertone_vehicle::{Estimate, RotorSpeed};
 /// Unit of every thrust constant: newton per (rad/s)².
 pub(crate) const CONSTANT_UNIT: &str = "N s²";
 
+/// What the ± of a single trial lacks.
+pub(crate) const WITHOUT_FLIGHTS: &str = ", without the differences from flight to flight";
+
 /// The meaning of ± in a table of loads.
 pub const LOADS_FOOTNOTE: &str = "The ± of a load covers its mass and speed (k = 2). The ± of C_f adds what all loads share: air, floor, scale, unseparated rotors.";
 

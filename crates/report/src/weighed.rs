@@ -1,6 +1,7 @@
 //! The mass of a hovering vehicle from its sound.
 
 use crate::number::{rounded, significant, with_uncertainty};
+use crate::thrust::WITHOUT_FLIGHTS;
 use crate::version::VERSION;
 use hovertone_thrust::{COVERAGE_FACTOR, WeighedHover};
 use hovertone_vehicle::Estimate;
@@ -26,7 +27,7 @@ pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error>
 
 /// Mass and payload in grams, with their expanded uncertainties.
 pub fn weighed_text(weighed: &WeighedHover) -> String {
-    let flights = if weighed.has_flight_scatter { "" } else { ", without the differences from flight to flight" };
+    let flights = if weighed.has_flight_scatter { "" } else { WITHOUT_FLIGHTS };
     let grams = |mass_kg: Estimate| {
         let mass = mass_kg.scaled(1e3);
         match mass.std_uncertainty {

@@ -1,6 +1,6 @@
 //! Trials that look as if they belong to another load, and loads whose masses look exchanged.
 
-use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, HeardLoad, trial_rad_s};
+use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, HeardLoad};
 use crate::square_law::{ForcePoint, PointNoise, is_off_by_a_factor};
 use crate::statistics::{COVERAGE_FACTOR, median};
 use crate::warning::ThrustWarning;
@@ -25,21 +25,15 @@ struct TrialSquare<'a> {
 /// Warnings about trials and loads of which some may be filed under a wrong mass.
 pub(crate) fn misfiled(campaign: &Campaign<'_>) -> Vec<ThrustWarning> {
     let mut warnings: Vec<ThrustWarning> =
-        campaign.loads.iter().flat_map(|load| far_trials(load, &squares_of(load, campaign))).collect();
+        campaign.loads.iter().flat_map(|load| far_trials(load, &squares_of(load))).collect();
     warnings.extend(exchanged_loads(campaign));
     warnings
 }
 
 /// The trials of a load that are not left out.
-fn squares_of<'a>(load: &HeardLoad<'a>, campaign: &Campaign<'_>) -> Vec<TrialSquare<'a>> {
-    let is_left_out = |recording: &str| {
-        campaign.gross_trials.iter().any(|gross| gross.load == load.load.name && gross.recording == recording)
-    };
-    let trials = load.load.trials.iter().filter(|trial| !is_left_out(&trial.recording));
-    let square = |speed_rad_s: f64| speed_rad_s.powi(2);
-    trials
-        .filter_map(|trial| Some(TrialSquare { recording: &trial.recording, square: square(trial_rad_s(trial)?) }))
-        .collect()
+fn squares_of<'a>(load: &HeardLoad<'a>) -> Vec<TrialSquare<'a>> {
+    let trials = load.recordings.iter().zip(&load.trials_rad_s);
+    trials.map(|(recording, speed_rad_s)| TrialSquare { recording, square: speed_rad_s.powi(2) }).collect()
 }
 
 /// Trials that need another thrust than the others. Of few trials nothing shows which one is wrong: both ends are named.

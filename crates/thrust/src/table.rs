@@ -60,9 +60,7 @@ impl ThrustTable {
             _ => self.method.name(),
         }
     }
-}
 
-impl ThrustTable {
     /// Whether one trial is all there is: nothing shows how much the speed differs from flight to flight.
     pub fn has_one_trial(&self) -> bool {
         self.loads.iter().flat_map(|load| &load.trials).filter(|trial| trial.speed.is_some()).count() == 1

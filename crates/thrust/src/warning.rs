@@ -222,9 +222,7 @@ impl ThrustWarning {
             }
         }
     }
-}
 
-impl ThrustWarning {
     /// The warning about the load that is farthest from the mass of the known vehicle, where one is outside of [`KNOWN_MASS_SHARES`].
     pub fn of_masses<'a>(loads: impl IntoIterator<Item = (&'a str, Force)>, known_kg: f64) -> Option<Self> {
         let masses = loads.into_iter().filter_map(|(name, force)| Some((name, force.mass_kg()?)));

@@ -25,6 +25,8 @@ pub(crate) struct HeardLoad<'a> {
     pub(crate) load: &'a LoadSpeeds,
     /// Mean shaft speed of each of its trials, without trials that are off by a factor.
     pub(crate) trials_rad_s: Vec<f64>,
+    /// The recordings of these trials.
+    pub(crate) recordings: Vec<&'a str>,
     /// Mean over these trials.
     pub(crate) speed_rad_s: f64,
     /// Relative standard uncertainty of that mean …
@@ -128,8 +130,7 @@ pub(crate) fn whole_vehicle_factor(rotors_running: u32, rotor_count: u32) -> f64
     f64::from(rotor_count) / f64::from(rotors_running.max(1))
 }
 
-/// Mean shaft speed of a trial.
-pub(crate) fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
+fn trial_rad_s(trial: &TrialSpeeds) -> Option<f64> {
     mean(&trial.counted().iter().map(|sample| sample.speed.rad_s()).collect::<Vec<_>>())
 }
 
@@ -160,7 +161,8 @@ fn gross_trials(loads: &[LoadSpeeds], rotor_count: u32) -> GrossTrials {
 
 fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &[bool]) -> Option<HeardLoad<'a>> {
     let kept = || load.trials.iter().zip(gross).filter(|(_, gross)| !**gross).map(|(trial, _)| trial);
-    let trials_rad_s: Vec<f64> = kept().filter_map(trial_rad_s).collect();
+    let speed_of = |trial: &'a TrialSpeeds| Some((trial.recording.as_str(), trial_rad_s(trial)?));
+    let (recordings, trials_rad_s): (Vec<&str>, Vec<f64>) = kept().filter_map(speed_of).unzip();
     let speed_rad_s = mean(&trials_rad_s)?;
     let within: Vec<f64> = kept()
         .flat_map(TrialSpeeds::counted)
@@ -173,6 +175,7 @@ fn heard_load<'a>(index: usize, load: &'a LoadSpeeds, rotor_count: u32, gross: &
         index,
         load,
         trials_rad_s,
+        recordings,
         speed_rad_s,
         speed_std_share: estimator / speed_rad_s,
         estimator_std_share: estimator / speed_rad_s,
