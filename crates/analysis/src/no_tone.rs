@@ -96,14 +96,14 @@ impl fmt::Display for NoTone {
             }
             Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
                 f,
-                "a tone near {tone_hz:.0} Hz may be a rotor (it stands out in {:.0} % of its frames), but the hover is too short to be sure; \
+                "a tone near {tone_hz:.0} Hz may be a rotor (it is heard in {:.0} % of the frames), but the hover is too short to be certain; \
                  record a longer one",
                 100.0 * line_share
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames; a rotor stands out in more than {:.0} %; \
-                 place the microphone nearer, or give a longer hover",
+                "the clearest tone, near {tone_hz:.0} Hz, is heard in {} of the frames, and a rotor would be heard in more than {:.0} %; \
+                 place the microphone nearer, or record a longer hover",
                 percent_in_words(*line_share),
                 100.0 * line_share_min
             ),
@@ -119,7 +119,7 @@ impl fmt::Display for NoTone {
             ),
             Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
                 f,
-                "there are lines {fundamental_hz:.1} Hz apart, which a rotor with its tone near {tone_hz:.0} Hz cannot make: they are of a \
+                "something makes lines every {fundamental_hz:.1} Hz, and a rotor with its tone near {tone_hz:.0} Hz cannot make them: it is a \
                  slower rotor, an engine or an instrument; check the blades or the gear"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
@@ -129,13 +129,13 @@ impl fmt::Display for NoTone {
             ),
             Self::SlowerShaft { line_count, .. } => write!(
                 f,
-                "the tone is weak, and {line_count} lines sound between the lines that this rotor can make: a slower \
+                "the tone is weak, and {line_count} lines sound between the harmonics of this rotor: a slower \
                  shaft makes them; check the blades or the gear"
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
-                "the best candidate, near {tone_hz:.0} Hz, stands out in {} of its frames, and none of its harmonics is heard; \
-                 place the microphone nearer, or give a longer hover",
+                "the clearest tone, near {tone_hz:.0} Hz, is heard in {} of the frames, and none of its harmonics is heard; \
+                 place the microphone nearer, or record a longer hover",
                 percent_in_words(*line_share)
             ),
         }

@@ -59,9 +59,9 @@ impl Remark {
     /// Description for people.
     pub fn text(self) -> &'static str {
         match self {
-            Self::NearMains => "mains hum?",
-            Self::Brief => "brief: a beep or a call?",
-            Self::SingleLine => "a single line",
+            Self::NearMains => "mains hum (?)",
+            Self::Brief => "short tone (a beep or a call?)",
+            Self::SingleLine => "single line",
         }
     }
 }

@@ -82,13 +82,32 @@ pub enum Warning {
 }
 
 impl Warning {
+    /// Whether it concerns the way in which one tone is followed, and nothing that the recording holds.
+    pub fn is_about_followed_tone(&self) -> bool {
+        match self {
+            Self::RidgeOnBandEdge { .. }
+            | Self::HarmonicLeftOut { .. }
+            | Self::FewHarmonicsAgree { .. }
+            | Self::FewFrames { .. }
+            | Self::RotorsNotApart { .. }
+            | Self::RotorCountUnknown { .. }
+            | Self::SeveralLines { .. } => true,
+            Self::BandCutByCodec { .. }
+            | Self::OtherSteadySpeed { .. }
+            | Self::HoverShorterThanSample { .. }
+            | Self::ManyGaps { .. } => false,
+        }
+    }
+
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
-            Self::HarmonicLeftOut { harmonic: 1, .. } => "ignore this if the other harmonics agree, or narrow --band",
+            Self::HarmonicLeftOut { harmonic: 1, .. } => {
+                "the speed comes from the other harmonics; --band narrows the search"
+            }
             Self::HarmonicLeftOut { .. } => {
-                "ignore this if the other harmonics agree; --harmonics 1 follows the tone alone"
+                "the speed comes from the other harmonics; --harmonics 1 uses the first one only"
             }
             Self::BandCutByCodec { .. } => {
                 "record without compression, or at a higher bit rate, to use the harmonics above"
@@ -101,14 +120,11 @@ impl Warning {
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "rotors with equal speeds cannot be separated; to separate others, place the microphone nearer and keep the high \
-                 frequencies"
+                "nothing can separate rotors at equal speeds; for others, place the microphone nearer and record without compression"
             }
-            Self::RotorsNotApart { .. } => "the mean speed is right; its ± is larger",
+            Self::RotorsNotApart { .. } => "the mean speed is still right; its ± is larger",
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
-            Self::SeveralLines { .. } => {
-                "the rotors turn at different speeds, and the result follows the loudest; a narrower --band follows one line"
-            }
+            Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",
         }
     }
 }
@@ -123,15 +139,15 @@ impl fmt::Display for Warning {
                     100.0 * frames_share
                 )
             }
-            Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is left out: {reason}"),
+            Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is not used: {reason}"),
             Self::BandCutByCodec { above_hz } => {
                 write!(f, "the recording holds nothing above {:.1} kHz: a codec or the recorder cut it", above_hz / 1e3)
             }
             Self::FewHarmonicsAgree { used, of } => {
                 if 2 * used < *of {
-                    write!(f, "only {used} of {of} harmonics agree")
+                    write!(f, "only {used} of {of} harmonics show the same speed")
                 } else {
-                    f.write_str("the first harmonic does not agree with the others")
+                    f.write_str("the first harmonic shows another speed than the others")
                 }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
@@ -143,22 +159,30 @@ impl fmt::Display for Warning {
                     "the hover of {hover_s:.1} s is shorter than a sample ({length_s:.1} s) and is used as one sample"
                 )
             }
-            Self::ManyGaps { gap_share } => write!(f, "{:.0} % of the frames hold no tone", 100.0 * gap_share),
-            Self::FewFrames { frame_count } => write!(f, "a sample has few frames: {frame_count}"),
+            Self::ManyGaps { gap_share } => {
+                write!(f, "the tone is not heard in {:.0} % of the frames", 100.0 * gap_share)
+            }
+            Self::FewFrames { frame_count } => write!(f, "a sample has only {frame_count} frames"),
             Self::RotorsNotApart { resolved: 0, of, has_mean: true } => {
                 write!(f, "the speeds of the {of} rotors are too close to separate them: they are heard as a group")
             }
             Self::RotorsNotApart { resolved: 0, of, .. } => {
                 write!(f, "the {of} rotors could not be separated: one tone is used for all of them")
             }
-            Self::RotorsNotApart { resolved, of, .. } => write!(f, "separated rotors: {resolved} of {of}"),
+            Self::RotorsNotApart { resolved, of, .. } => {
+                write!(f, "only {resolved} of the {of} rotors could be separated")
+            }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
                 "the number of rotors is not known: the ± allows for other rotors, with speeds that differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::SeveralLines { spread_share } => {
-                write!(f, "the spread of the ridge is {:.1} % of the speed", 100.0 * spread_share)
+                write!(
+                    f,
+                    "the speed that is followed varies by {:.1} % (standard deviation): it may jump from rotor to rotor",
+                    100.0 * spread_share
+                )
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The settings of an analysis, from the arguments about tone, vehicle and analysis.
 
-use crate::args::{AnalysisArguments, KnownArguments, ToneArguments};
+use crate::args::{AnalysisArguments, KnownArguments, ToneArguments, TonesArguments};
 use crate::failure::Failure;
 use crate::vehicles::preset;
 use hovertone::speed::{Config, SpanConfig, ToneConfig};
@@ -86,13 +86,8 @@ pub(crate) fn check_tips_heard(known: &KnownArguments, records: &[SpeedRecord]) 
     Ok(speeds.try_for_each(|speed| check_tips(diameter_m, speed))?)
 }
 
-/// The search for a tone of unknown order with the facts about the vehicle, and settings for it whose order is a placeholder.
-/// `wants_all` lists all families of tones; otherwise the search ends at the family of the rotor.
-pub(crate) fn discovery_of(
-    arguments: &KnownArguments,
-    vehicle: Option<&str>,
-    wants_all: bool,
-) -> Result<(ToneConfig, Discovery), Failure> {
-    let vehicle = vehicle.map(preset).transpose()?;
-    Ok(Said { vehicle, ..said_of_known(arguments) }.discovery(wants_all)?)
+/// The search for all families of tones with the facts about the vehicle, and settings for it whose order is a placeholder.
+pub(crate) fn search_of(arguments: &TonesArguments) -> Result<(ToneConfig, Discovery), Failure> {
+    let vehicle = arguments.vehicle.as_deref().map(preset).transpose()?;
+    Ok(Said { vehicle, blades: arguments.blades, ..said_of_known(&arguments.known) }.discovery(true)?)
 }

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use anstream::{AutoStream, StripStream};
 use hovertone_report::{
     Notice, SpeedRecord, counted, folded, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, printable,
-    warning_count, wrapped,
+    weaknesses_in_words, wrapped,
 };
 use std::io::{self, BufWriter, ErrorKind, IsTerminal, Write};
 
@@ -150,9 +150,11 @@ impl<'a> Terminal<'a> {
         }
     }
 
-    /// The number of warnings about recordings, and all messages about them, above their speeds.
+    /// The number of recordings without a speed and of warnings, and all messages about them, above their speeds.
     pub(crate) fn counted_notes(&mut self, records: &[&SpeedRecord]) {
-        self.warning_count(warning_count(records));
+        if let Some(words) = weaknesses_in_words(records) {
+            self.heading(&words);
+        }
         self.notes(records);
     }
 
@@ -194,7 +196,10 @@ impl<'a> Terminal<'a> {
             self.labelled("", "cut:", PLAIN, &printable(&kind.notice.text));
         }
         for kind in &folded {
-            self.warning(&kind.notice, "");
+            match kind.notice.text.split_once(": ").filter(|_| kind.is_missing_speed) {
+                Some((label, reason)) => self.labelled("", &format!("{label}:"), PLAIN, &printable(reason)),
+                None => self.warning(&kind.notice, ""),
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, in_memory, opened, records_of};
-use crate::settings::{discovery_of, span_of};
+use crate::settings::{search_of, span_of};
 use crate::terminal::Terminal;
 use hovertone::speed::Config;
 use hovertone_media::{Recording, Samples};
@@ -49,7 +49,7 @@ struct Plan {
 }
 
 fn resolve(arguments: &TonesArguments) -> Result<Plan, Failure> {
-    let (tone, discovery) = discovery_of(&arguments.known, arguments.vehicle.as_deref(), true)?;
+    let (tone, discovery) = search_of(arguments)?;
     let mut config = Config::for_tone(tone);
     config.span = span_of(arguments.from, arguments.to)?;
     config.check()?;

@@ -3,6 +3,7 @@
 use crate::cuts::{cut_in_short, cuts_in_words};
 use crate::names::short_names;
 use crate::notice::Notice;
+use crate::quote::counted;
 use crate::recording::SpeedRecord;
 
 /// Fewer recordings stand side by side: nothing is folded.
@@ -76,6 +77,22 @@ pub fn warning_count(records: &[&SpeedRecord]) -> usize {
         own_notices(record, &folded).len() + usize::from(has_reason)
     };
     folded.len() + records.iter().map(of_one).sum::<usize>()
+}
+
+/// "1 recording without a speed, 2 warnings": what stands above the speeds of recordings. `None` where there is nothing to tell.
+pub fn weaknesses_in_words(records: &[&SpeedRecord]) -> Option<String> {
+    let missing = records.iter().filter(|record| record.reason().is_some() && !record.has_failed()).count();
+    let folded = folded_warnings(records);
+    let of_several = folded.iter().filter(|kind| !kind.is_missing_speed).count();
+    let warnings = of_several + records.iter().map(|record| own_notices(record, &folded).len()).sum::<usize>();
+    let mut words = Vec::new();
+    if missing > 0 {
+        words.push(format!("{} without a speed", counted(missing, "recording")));
+    }
+    if warnings > 0 {
+        words.push(counted(warnings, "warning"));
+    }
+    (!words.is_empty()).then(|| words.join(", "))
 }
 
 /// The warnings of a recording that could be read.

@@ -73,6 +73,7 @@ pub use flight_log_tables::flight_log_tables;
 pub use flight_plan::flight_plan_text;
 pub use folded_warnings::{
     FoldedWarning, distinct_notices, folded_cuts, folded_warnings, own_cuts, own_notices, own_reason, warning_count,
+    weaknesses_in_words,
 };
 pub use grey_box::{
     CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables, grey_box_text,

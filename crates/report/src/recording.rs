@@ -104,7 +104,7 @@ impl SpeedRecord {
         }
     }
 
-    /// The speed by the configured method; `None` where several readings of the tone stay plausible.
+    /// The speed by the configured method; `None` where several speeds explain the sound.
     pub fn speed(&self) -> Option<&SpeedEstimate> {
         self.tone()?.speed(self.method).filter(|_| !self.is_ambiguous())
     }
@@ -167,18 +167,18 @@ impl SpeedRecord {
                 Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.is_some() => Some(
-                    "several readings of the tone stay plausible; count the blades and give --blades N, or give --diameter-m, \
+                    "several rotor speeds explain this sound; count the blades and give --blades N, or give --diameter-m, \
                      --mass-kg and --rotors"
                         .to_owned(),
                 ),
                 Outcome::Ok(tone) if tone.alternatives.iter().all(|reading| reading.thrust_coefficient.is_none()) => Some(
-                    "the lines fit several shaft speeds, and their levels do not decide between them; the thrust of the hover decides if \
-                     you also give the diameter of the propellers (--diameter-m), the mass and the number of rotors"
+                    "several rotor speeds explain this sound; give the diameter of the propellers (--diameter-m), the mass (--mass-kg) and the \
+                     number of rotors (--rotors): they rule out speeds that cannot carry the vehicle"
                         .to_owned(),
                 ),
                 Outcome::Ok(_) => Some(
-                    "the lines fit several shaft speeds, and neither their levels nor the thrust of the hover decides between them; check \
-                     the diameter of the propeller and the vehicle, or record nearer"
+                    "several rotor speeds explain this sound, and more than one of them can carry the vehicle; check the diameter of the \
+                     propellers and the vehicle, or place the microphone nearer"
                         .to_owned(),
                 ),
             },

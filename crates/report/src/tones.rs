@@ -16,6 +16,8 @@ use serde_json::Value;
 const DIGITS: usize = 4;
 /// Standard deviation of a fundamental over time, Hz, up to which a tone is steady: it has two decimals.
 const STEADY_HZ: f64 = 0.1;
+/// Lines of a shaft and of a gear are named as the meaning of another family from this plausibility on.
+const RARE_PLAUSIBILITY_MIN: f64 = 0.1;
 /// Indentation of the table of a family.
 const INDENT: &str = "   ";
 
@@ -72,14 +74,16 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     let rotor = found.rotor.filter(|_| record.tone().is_some());
     let remark = rotor.and_then(|rotor| found.families.get(rotor)).and_then(|family| family.remark);
     let verdict = match (rotor, remark) {
-        (Some(_), Some(Remark::SingleLine)) => "one tone: of a rotor, or of something else",
-        (Some(_), _) if record.is_ambiguous() => "a rotor; the sound does not settle its shaft speed",
-        (Some(_), _) => "a rotor",
-        (None, _) => "no rotor tone",
+        (Some(_), Some(Remark::SingleLine)) => "one tone: of a rotor, or of something else".to_owned(),
+        (Some(_), _) if record.is_ambiguous() => "a rotor; the sound does not tell its speed".to_owned(),
+        (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| {
+            format!("a rotor at {} rev/s", significant(heard.speed.rev_s(), DIGITS))
+        }),
+        (None, _) => "no rotor tone".to_owned(),
     };
     text += &format!("{verdict}\n");
     if found.families.is_empty() {
-        text += "\nno family of lines stands out\n";
+        text += "\nno tone stands out\n";
     }
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
         text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(family, width));
@@ -89,28 +93,30 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         let is_near = rotor.and_then(|rotor| found.families.get(rotor)).is_some_and(|rotor| family.is_near(rotor));
         let kind = match family.remark {
             Some(Remark::NearMains) => Remark::NearMains.text(),
-            _ if is_near => "another rotor, or this one at a changing speed",
+            _ if is_near && possible_readings(family).next().is_some() => {
+                "another rotor, or this one at a changing speed"
+            }
             Some(remark) => remark.text(),
             None => "another tone",
         };
-        text += &format!("\n{}\n{}", kind_and_place(kind, family), readings_in_a_line(&family.readings));
+        text += &format!("\n{}\n{}", kind_and_place(kind, family), readings_in_a_line(family));
     }
     text
 }
 
-/// "rotor: 360.2 Hz × 1–9, 31 dB over the floor, all the time".
+/// "rotor: harmonics 1–9 of 360.2 Hz, 31 dB over the noise, all the time".
 fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
-    let lines = if family.harmonics.len() == 1 {
-        if kind == Remark::SingleLine.text() { String::new() } else { format!(" ({})", Remark::SingleLine.text()) }
-    } else {
-        format!(" × {}", numbers_in_words(&family.harmonics))
-    };
     let time = match (100.0 * family.time_share).round() {
         100.0 => "all the time".to_owned(),
         percent => format!("{percent:.0} % of the time ({:.1}–{:.1} s)", family.span.from_s, family.span.to_s),
     };
     let fundamental = significant(family.fundamental_hz, digits(family));
-    format!("{kind}: {fundamental} Hz{lines}, {:.0} dB over the floor, {time}", family.level_db)
+    let lines = match family.harmonics.len() {
+        1 if kind == Remark::SingleLine.text() => format!("{fundamental} Hz"),
+        1 => format!("a {} at {fundamental} Hz", Remark::SingleLine.text()),
+        _ => format!("harmonics {} of {fundamental} Hz", numbers_in_words(&family.harmonics)),
+    };
+    format!("{kind}: {lines}, {:.0} dB over the noise, {time}", family.level_db)
 }
 
 /// "1–4, 6, 8".
@@ -192,15 +198,20 @@ fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
         .collect()
 }
 
-fn readings_in_a_line(readings: &[Reading]) -> String {
-    let possible = readings.iter().filter(|reading| reading.plausibility > 0.0);
-    let words: Vec<String> = possible
-        .filter(|reading| !matches!(reading.meaning, Meaning::ShaftLines { .. }) || reading.plausibility > 0.1)
+/// The readings that nothing rules out; lines of a shaft and of a gear only where they are likely.
+fn possible_readings(family: &ToneFamily) -> impl Iterator<Item = &Reading> {
+    let is_rare = |reading: &Reading| matches!(reading.meaning, Meaning::ShaftLines { .. } | Meaning::Mesh { .. });
+    let least = move |reading: &Reading| if is_rare(reading) { RARE_PLAUSIBILITY_MIN } else { 0.0 };
+    family.readings.iter().filter(move |reading| reading.plausibility > least(reading))
+}
+
+fn readings_in_a_line(family: &ToneFamily) -> String {
+    let words: Vec<String> = possible_readings(family)
         .map(|reading| format!("{}: {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
         .collect();
     match words.is_empty() {
-        true => format!("{INDENT}no rotor turns like that\n"),
-        false => format!("{INDENT}as a rotor: {}\n", words.join(" · ")),
+        true => format!("{INDENT}no rotor: none turns at such a speed\n"),
+        false => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
     }
 }
 

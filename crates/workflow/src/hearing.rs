@@ -93,12 +93,17 @@ pub fn hear(
             return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
         }
     };
-    let matters = |warning: &&Warning| task.wants_samples || !matches!(warning, Warning::HoverShorterThanSample { .. });
+    // a list of all families of tones follows none of them
+    let follows_a_tone = !task.discovery.is_some_and(|discovery| discovery.wants_all);
+    let matters = |warning: &&Warning| match warning {
+        Warning::HoverShorterThanSample { .. } => task.wants_samples,
+        other => follows_a_tone || !other.is_about_followed_tone(),
+    };
     let of_analysis = analysis.warnings.iter().filter(matters).map(Notice::from);
     let notices = notices_of(recording).into_iter().chain(of_analysis).collect();
     let record = record_of(task, &config, Answer::Heard(Box::new(analysis)), Some(facts));
     let mut record = SpeedRecord { found, notices, spoiled, ..record };
-    record.notices.extend(notice_of_reading(&record));
+    record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
     Ok(Heard { record, config, spin_up })
 }
 
@@ -213,9 +218,8 @@ fn written(settings: &impl Serialize) -> Value {
 /// The notice which reading of the tone was used, where the order was not given.
 fn notice_of_reading(record: &SpeedRecord) -> Option<Notice> {
     let reading = record.found_reading().filter(|_| record.speed().is_some())?;
-    let text =
-        format!("no tone was given; hovertone found order {}, {}: {}", reading.order, reading.meaning, reading.why);
-    Some(Notice::new(text, "check the blades and give --blades N; `hovertone tones` shows the other readings"))
+    let text = format!("the number of blades is not given; the sound shows {} ({})", reading.meaning, reading.why);
+    Some(Notice::new(text, "if that is wrong, give --blades N; `hovertone tones` shows all possible speeds"))
 }
 
 /// Results of the passes over a recording.

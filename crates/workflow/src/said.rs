@@ -116,6 +116,9 @@ impl Said<'_> {
     /// Values out of range, and facts that exclude each other.
     pub fn discovery(&self, wants_all: bool) -> Result<(ToneConfig, Discovery), NoSettings> {
         let known = self.known()?;
+        let known = KnownRotor { blade_count: self.blades.or(known.blade_count), ..known };
+        let said = SaidOfVehicle { blades: self.blades, ..SaidOfVehicle::default() };
+        self.vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
         let order = Order::new(1.0)?;
         Ok((ToneConfig::of_order(order), Discovery { config: DiscoveryConfig::default(), known, wants_all }))
     }

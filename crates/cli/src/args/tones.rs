@@ -1,6 +1,6 @@
 //! Arguments of `tones`.
 
-use super::groups::{HearingArguments, KnownArguments, time_s, typed_path};
+use super::groups::{HearingArguments, KnownArguments, time_s, typed_path, whole_number};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -10,13 +10,14 @@ gear does, and diameter, mass and rotors rule out what cannot fly.
 
 Examples:
   hovertone tones hover.mp4
+  hovertone tones --blades 2 hover.mp4
   hovertone tones --vehicle iris hover.mp4
   hovertone tones --diameter-m 0.254 --mass-kg 1.2 --rotors 4 hover.mp4
   hovertone tones --json *.wav | jq '.families[0].readings[0]'";
 
 /// Tone families in recordings, and the shaft speed that each possible order would mean
 ///
-/// Lists every series of lines: its fundamental, harmonics and level over the floor, and when it is heard. For the series that was taken for
+/// Lists every series of lines: its harmonics, their level over the noise, and when they are heard. For the series that was taken for
 /// the rotor's, it lists all readings: blades, gear, speed, and how plausible each is.
 #[derive(Args, Debug)]
 #[command(after_help = TONES_EXAMPLES)]
@@ -24,6 +25,9 @@ pub(crate) struct TonesArguments {
     /// Recordings: video or audio files; - is stdin
     #[arg(required = true, value_name = "FILE", value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
+    /// Blades of each propeller: it rules out all other numbers of blades
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20), help_heading = "Known facts about the vehicle")]
+    pub(crate) blades: Option<u32>,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
     /// A known vehicle: its numbers rule out readings (see `hovertone vehicles`)

@@ -77,6 +77,7 @@ class TonesFlags(KnownFlags, HearingFlags, total=False):
     """The flags of ``hovertone tones``."""
 
     vehicle: str | None
+    blades: int | None
     from_: Time | None
     to: Time | None
 

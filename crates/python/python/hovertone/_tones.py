@@ -149,7 +149,7 @@ def tones(
     recording, rate_hz, progress
         As for :func:`speed`.
     **flags
-        The flags of ``hovertone tones``: `vehicle`, `diameter_m`, `mass_kg`, `rotors`, `from_`, `to`, `audio_track`, `channel`,
+        The flags of ``hovertone tones``: `vehicle`, `blades`, `diameter_m`, `mass_kg`, `rotors`, `from_`, `to`, `audio_track`, `channel`,
         `clock_correction_ppm`.
 
     Returns

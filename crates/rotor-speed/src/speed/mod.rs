@@ -86,7 +86,7 @@ impl<'a> HarmonicWeights<'a> {
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
-                    format!("its tone is in {} of the frames", percent_in_words(ridge.point_share()))
+                    format!("it is heard in {} of the frames", percent_in_words(ridge.point_share()))
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     let (percent, how) =
@@ -97,7 +97,7 @@ impl<'a> HarmonicWeights<'a> {
                     used.push(ridge);
                     continue;
                 }
-                _ => "it holds no tone".to_owned(),
+                _ => "it is not heard".to_owned(),
             };
             warnings.push(Warning::HarmonicLeftOut { harmonic: ridge.band.harmonic, reason });
         }

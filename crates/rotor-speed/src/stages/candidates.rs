@@ -125,7 +125,16 @@ pub(crate) fn reading_of(hypothesis: &Hypothesis, order: Order, known: &KnownRot
         tip_mach: None,
         thrust_coefficient: known.hover_thrust_coefficient(hypothesis.hover_rev_s, AIR_KG_M3),
         plausibility: hypothesis.belief,
-        why: format!("{:.0} % by the levels of its lines", 100.0 * hypothesis.belief),
+        why: fit_in_words(hypothesis.belief).to_owned(),
+    }
+}
+
+/// How well the levels of the harmonics fit a speed.
+fn fit_in_words(belief: f64) -> &'static str {
+    match belief {
+        well if well >= 0.5 => "the levels of the harmonics fit well",
+        fair if fair >= 0.1 => "the levels of the harmonics fit",
+        _ => "the levels of the harmonics fit badly",
     }
 }
 

@@ -48,12 +48,12 @@ pub(crate) fn bands_worth_following(
                     warnings.push(Warning::BandCutByCodec { above_hz: limit_hz });
                     is_cut = true;
                 }
-                let reason = format!("near {:.0} Hz, where the recording holds nothing", middle_hz(&band));
+                let reason = format!("it lies near {:.0} Hz, and the recording holds nothing there", middle_hz(&band));
                 warnings.push(Warning::HarmonicLeftOut { harmonic: band.harmonic, reason });
                 reasons.push(NoTone::BandCutByCodec { tone_hz: middle_hz(&band), above_hz: limit_hz });
             }
             (None, Some((line_hz, mains_hz))) => {
-                let reason = format!("mains hum at {line_hz:.1} Hz is louder in its band");
+                let reason = format!("the mains hum at {line_hz:.1} Hz is louder");
                 warnings.push(Warning::HarmonicLeftOut { harmonic: band.harmonic, reason });
                 reasons.push(NoTone::MainsHum { mains_hz });
             }

@@ -56,7 +56,10 @@ pub(crate) fn hear_meshes(readings: &mut [Reading], levels: &LevelRows<'_>, seri
                 reading.order = order;
                 reading.motor_speed = RotorSpeed::from_rad_s(gear.ratio() * reading.speed.rad_s());
                 reading.plausibility *= MESH_GAIN;
-                reading.why = format!("the line of order {} is {over_db:.0} dB over the lines beside it", gear.wheel);
+                reading.why = format!(
+                    "the gear is heard: order {} is {over_db:.0} dB louder than the orders beside it",
+                    gear.wheel
+                );
             }
         }
     }

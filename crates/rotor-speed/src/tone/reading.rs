@@ -45,9 +45,13 @@ pub(crate) fn readings_of(
     if let Some((contrast, likelihood)) = pattern.contrast.zip(shaft_likelihood) {
         let meaning = Meaning::ShaftLines { blades: contrast.blades, contrast_db: contrast.over_db };
         let why = match contrast.line_count {
-            _ if likelihood < WEAK_LIKELIHOOD => "if its lines were the shaft's".to_owned(),
-            1 => format!("one line {:.0} dB over those between", contrast.over_db),
-            _ => format!("every {} line {:.0} dB over those between", ordinal(contrast.blades), contrast.over_db),
+            _ if likelihood < WEAK_LIKELIHOOD => "its harmonics do not show the shaft".to_owned(),
+            1 => format!("one harmonic is {:.0} dB louder than the ones beside it", contrast.over_db),
+            _ => format!(
+                "every {} harmonic is {:.0} dB louder than the ones between",
+                ordinal(contrast.blades),
+                contrast.over_db
+            ),
         };
         let tone_hz = f64::from(contrast.blades) * fundamental_hz;
         readings.extend(reading(tone_hz, f64::from(contrast.blades), meaning, likelihood, why));
@@ -55,11 +59,14 @@ pub(crate) fn readings_of(
     let left = 1.0 - shaft_likelihood.unwrap_or(0.0);
     for (blades, share) in BLADES.into_iter().zip(config.blade_shares) {
         let share = if known.blade_count == Some(blades) { 1.0 } else { share };
-        let why = "number of blades not heard".to_owned();
+        let why = match known.blade_count {
+            Some(_) => format!("{blades} blades are given"),
+            None => format!("{} propellers have {blades} blades", how_many(share)),
+        };
         readings.extend(reading(fundamental_hz, f64::from(blades), Meaning::BladePass { blades }, left * share, why));
     }
     for gear in known_gears() {
-        let why = "a known gear".to_owned();
+        let why = "a vehicle with this gear is known".to_owned();
         let order = f64::from(gear.wheel);
         readings.extend(reading(fundamental_hz, order, Meaning::Mesh { gear }, left * MESH_SHARE, why));
     }
@@ -140,29 +147,38 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
         .map_or(SHAFT_REV_S, |range| (range.rev_s_low / KNOWN_RANGE_MARGIN, range.rev_s_high * KNOWN_RANGE_MARGIN));
     let mut against = Vec::new();
     if let Some((known, _)) = known.blade_count.zip(reading.meaning.blades()).filter(|(known, read)| known != read) {
-        against.push(format!("it has {known} blades"));
+        against.push(format!("{known} blades are given"));
     }
     if !(low..=high).contains(&rev_s) {
         let how = if rev_s < low { "slow" } else { "fast" };
-        against.push(format!("too {how}: {low:.0} to {high:.0} rev/s"));
+        against.push(format!("too {how}: a rotor turns at {low:.0} to {high:.0} rev/s"));
     }
     if let Some(diameter_m) = known.diameter_m {
         let mach = PI * diameter_m * rev_s / config.sound_speed_m_s;
         reading.tip_mach = Some(mach);
         if mach > config.tip_mach_max {
-            against.push(format!("tips above Mach {}", config.tip_mach_max));
+            against.push(format!("too fast: the tips would pass Mach {}", config.tip_mach_max));
         }
         if let Some(thrust_coefficient) = known.hover_thrust_coefficient(rev_s, config.air_density_kg_m3) {
             reading.thrust_coefficient = Some(thrust_coefficient);
             let (low, high) = (config.thrust_coefficient_min, config.thrust_coefficient_max);
             if !(low..=high).contains(&thrust_coefficient) {
-                against.push(format!("C_T not {low} to {high}"));
+                against.push(format!("its thrust does not fit: C_T is not between {low} and {high}"));
             }
         }
     }
     if !against.is_empty() {
         reading.plausibility = 0.0;
         reading.why = against.join("; ");
+    }
+}
+
+/// "most", "some" or "few" of all propellers.
+fn how_many(share: f64) -> &'static str {
+    match share {
+        most if most >= 0.5 => "most",
+        some if some >= 0.1 => "some",
+        _ => "few",
     }
 }
 
