@@ -6,6 +6,7 @@ mod microphone;
 mod pace;
 mod screen;
 mod source;
+mod summary;
 mod view;
 
 use crate::args::{AnalysisArguments, ListenArguments};
@@ -65,6 +66,10 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
                 }
             }
         }
+    }
+    if let Output::Plain(lines) = &output {
+        terminal.data(&lines.closing_line().unwrap_or_default())?;
+        terminal.flush()?;
     }
     Ok(if has_told { Ending::Done } else { Ending::Incomplete })
 }
