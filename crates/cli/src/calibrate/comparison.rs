@@ -89,7 +89,20 @@ pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &Calibrat
     if comparison.check.relation != Relation::None {
         text += &clock_in_words(comparison, arguments);
     }
-    text + word(comparison.check.judgement(arguments.clock_ppm)) + "\n"
+    text + &result_in_words(comparison, arguments.clock_ppm)
+}
+
+/// The last line: the judgement, and which part of the check it comes from.
+fn result_in_words(comparison: &Comparison, clock_ppm: f64) -> String {
+    let judgement = comparison.check.judgement(clock_ppm);
+    let reason = match (judgement, comparison.check.relation) {
+        (Judgement::Passes, _) => "",
+        (Judgement::Undecided, _) => ": the clock is not decided",
+        (Judgement::Fails, Relation::Agrees) => ": the clock fails",
+        (Judgement::Fails, _) if comparison.heard.is_rotor => ": the order of the tone fails",
+        (Judgement::Fails, _) => ": the tone fails",
+    };
+    format!("result: {}{reason}\n", word(judgement))
 }
 
 fn word(judgement: Judgement) -> &'static str {
@@ -107,17 +120,25 @@ fn order_in_words(comparison: &Comparison) -> String {
         Relation::Agrees if !is_rotor => String::new(),
         Relation::Agrees => format!("order: pass, {order} fits\n"),
         Relation::OtherOrder(fitting) if *is_rotor => format!(
-            "order: fail, heard / known is {ratio}: order {fitting} fits, not {order}. Use --order {fitting} (--blades {fitting} for \
-             a blade pass), or [tone] order = {fitting} in an experiment file; if {order} is known to be right, --band {} holds its tone\n",
+            "order: fail. The heard speed is {ratio} times the known speed: order {fitting} fits, not {order}. Use --order {fitting} (for a \
+             blade pass --blades {fitting}), or in an experiment file [tone] order = {fitting}. If you know that {order} is right, its tone \
+             lies in --band {}\n",
             comparison.band()
         ),
         _ if !is_rotor => format!(
-            "tone: fail, heard / known is {ratio}, which no clock explains: they are off by {CLOCK_PERCENT_MAX} % at most. Is the known frequency right, or was the file resampled or slowed down?\n"
+            "tone: fail. The heard frequency is {ratio} times the known frequency, and no clock is off by more than {CLOCK_PERCENT_MAX} %. Is the \
+             known frequency right? Was the file resampled or slowed down?\n"
         ),
         _ => format!(
-            "order: fail, heard / known is {ratio}, which no order explains, nor a clock: they are off by {CLOCK_PERCENT_MAX} % at most. Was another rotor heard, or the file resampled or slowed down?\n"
+            "order: fail. The heard speed is {ratio} times the known speed. No other order of the tone gives this ratio, and no clock is off by \
+             more than {CLOCK_PERCENT_MAX} %. Was another rotor heard? Was the file resampled or slowed down?\n"
         ),
     }
+}
+
+/// Decimals of a correction in millionths: to the second digit of its ±, and one at most, which is a hundredth of what the warmth of a room does.
+fn correction_decimals(expanded_ppm: f64) -> usize {
+    usize::from(expanded_ppm < 10.0)
 }
 
 /// "0.129 ± 0.030 %", from millionths.
@@ -146,8 +167,10 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         _ => "",
     };
     let verdict = word(judgement);
-    let normal = arguments.clock_ppm / PPM_PER_PERCENT;
-    let mut text = format!("clock: {verdict}, {off} (k = 2); normal is up to {normal} %{advice}\n");
+    let limit_ppm = arguments.clock_ppm;
+    let limit = limit_ppm / PPM_PER_PERCENT;
+    let mut text =
+        format!("clock: {verdict}, {off} (k = 2); the limit is {limit} % (--clock-ppm {limit_ppm}){advice}\n");
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
         format!(
@@ -155,11 +178,12 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
              whether the recording was slowed down\n"
         )
     } else if check.is_significant() {
-        let ppm = signed(whole_ppm, 1).replace('−', "-").replace('+', "");
+        let decimals = correction_decimals(check.expanded_ppm());
+        let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         format!(
             "correction: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}\n",
-            fixed(check.expanded_ppm().max(WARMTH_PPM), 1)
+            fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {
         "correction: none, the difference is within its ±\n".to_owned()

@@ -25,7 +25,7 @@ const BAND_SHARE: f64 = 0.025;
 const TACHOMETER_RPM: RangeInclusive<f64> = 60.0..=90_000.0;
 /// Tones of recordings, Hz: up to half the largest sample rate of recorders.
 const TRUE_HZ: RangeInclusive<f64> = 1.0..=192_000.0;
-const SEE_HELP: &str = "see `hovertone calibrate --help`";
+const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 
 /// The meaning of the arguments.
 struct Plan {
@@ -154,7 +154,7 @@ fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
     let reference = reference_of(arguments)?;
     if let Some(several) = arguments.rotors.filter(|count| *count > 1) {
         let what = format!("{several} rotors turn, each at its own speed, and the known speed is that of one rotor");
-        return Err(Failure::usage(what, "let one rotor turn alone, and leave --rotors out"));
+        return Err(Failure::usage(what, "record one rotor that runs alone, and give --rotors 1"));
     }
     let known = KnownArguments { rotors: Some(1), ..KnownArguments::default() };
     let tone = &arguments.tone;
@@ -184,9 +184,10 @@ fn assumed_rotors(arguments: &CalibrateArguments) -> Result<Option<Notice>, Fail
     let count = vehicle.map_or(1, |vehicle| vehicle.rotor_count.value);
     let is_assumed = arguments.rotors.is_none() && count > 1;
     let text = format!(
-        "the vehicle has {count} rotors, and one is assumed to turn: several rotors have no single speed to compare"
+        "the vehicle has {count} rotors, and the known speed is that of one: it is assumed that only one rotor runs in this recording"
     );
-    Ok(is_assumed.then(|| Notice::new(text, "let one rotor turn alone, and confirm it with --rotors 1")))
+    Ok(is_assumed
+        .then(|| Notice::new(text, "if only one rotor runs, add --rotors 1; if not, record one rotor that runs alone")))
 }
 
 fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {

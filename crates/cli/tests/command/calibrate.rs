@@ -25,17 +25,27 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     let sound = folder.path().join("bench.wav");
     write_bench(&sound, 21_000.0, 400.0);
     let failed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(3);
-    for words in ["order: pass", "clock: fail, it runs fast by", "--clock-correction-ppm", "[recorder]"] {
+    for words in [
+        "order: pass",
+        "clock: fail, it runs fast by",
+        "\nresult: fail: the clock fails\n",
+        "--clock-correction-ppm",
+        "[recorder]",
+    ] {
         assert!(failed.stdout.contains(words), "{words}:\n{}", failed.stdout);
     }
+    // the printed correction has no more digits than its ±
+    let printed = failed.stdout.split("clock_correction_ppm = ").nth(1).unwrap().lines().next().unwrap();
     let json = calibrated(&sound, &["--vehicle", "crazyflie", "--json"]).ends_with(3).json_lines().remove(0);
+    let expanded_ppm = 2.0 * json["clock_correction_std_ppm"].as_f64().unwrap();
+    assert_eq!(printed.contains('.'), expanded_ppm < 10.0, "{}", failed.stdout);
     let ppm = json["clock_correction_ppm"].as_f64().unwrap();
     let std_ppm = json["clock_correction_std_ppm"].as_f64().unwrap();
     assert!((ppm - 400.0).abs() < 4.0 * std_ppm && std_ppm < 20.0, "{json}");
     assert_eq!((json["passes"].as_bool(), json["order_that_fits"].as_f64()), (Some(false), Some(2.0)));
     let flag = format!("{ppm:.1}");
     let passed = calibrated(&sound, &["--vehicle", "crazyflie", "--clock-correction-ppm", &flag]).ends_with(0);
-    assert!(passed.stdout.ends_with("\npass\n"), "{}", passed.stdout);
+    assert!(passed.stdout.ends_with("\nresult: pass\n"), "{}", passed.stdout);
     // the correction is a flag of every command that hears, and a setting of an experiment
     let rpm = |words: &[&str]| {
         let run =
@@ -63,12 +73,18 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     write_bench(&sound, 21_000.0, 0.0);
     assert!(calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0).stdout.contains("order: pass, 2 fits"));
     let wrong = calibrated(&sound, &["--order", "1", "--band", "650:750"]).ends_with(3);
-    for words in ["order: fail", "order 2 fits, not 1", "--order 2", "--band 341", "fail\n"] {
+    for words in [
+        "order: fail",
+        "order 2 fits, not 1",
+        "--order 2",
+        "--band 341",
+        "\nresult: fail: the order of the tone fails\n",
+    ] {
         assert!(wrong.stdout.contains(words), "{words}:\n{}", wrong.stdout);
     }
     let other =
         hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "15000"]).ends_with(3);
-    assert!(other.stdout.contains("no order explains"), "{}", other.stdout);
+    assert!(other.stdout.contains("No other order of the tone gives this ratio"), "{}", other.stdout);
 }
 
 /// A pure tone as a recorder takes it whose clock runs fast by `fast_ppm`: it counts more samples per second than the file says.
@@ -146,7 +162,12 @@ fn a_wide_uncertainty_decides_nothing() {
     };
     assert!(run("10", &[]).ends_with(0).stdout.contains("clock: pass"));
     let open = run("30", &[]).ends_with(3);
-    assert!(open.stdout.contains("clock: not decided") && open.stdout.ends_with("\nnot decided\n"), "{}", open.stdout);
+    assert!(
+        open.stdout.contains("clock: not decided")
+            && open.stdout.ends_with("\nresult: not decided: the clock is not decided\n"),
+        "{}",
+        open.stdout
+    );
     assert!(open.stdout.contains("the ± is too wide for this limit"), "{}", open.stdout);
     assert!(run("30", &["--json"]).ends_with(3).json_lines()[0]["passes"].is_null());
     run("30", &["--clock-ppm", "80"]).ends_with(0);
@@ -157,13 +178,17 @@ fn a_wide_uncertainty_decides_nothing() {
 fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
     refused_with(
         &["calibrate", "a.wav", "--vehicle", "ardrone", "--tachometer-rpm", "3600", "--rotors", "4"],
-        &["4 rotors turn", "let one rotor turn alone"],
+        &["4 rotors turn", "one rotor that runs alone, and give --rotors 1"],
     );
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
     write_bench(&sound, 21_000.0, 0.0);
     let assumed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0);
-    assert!(assumed.stderr.contains("the vehicle has 4 rotors, and one is assumed to turn"), "{}", assumed.stderr);
+    assert!(
+        assumed.stderr.contains("the vehicle has 4 rotors, and the known speed is that of one"),
+        "{}",
+        assumed.stderr
+    );
     let said = calibrated(&sound, &["--vehicle", "crazyflie", "--rotors", "1"]).ends_with(0);
     assert!(!said.stderr.contains("assumed"), "{}", said.stderr);
 }
