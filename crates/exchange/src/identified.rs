@@ -218,18 +218,21 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
             "hovertone {} from {file} (sha256 {}){}",
             text("/version").unwrap_or("?"),
             sha256.chars().take(12).collect::<String>(),
-            text("/method").map_or(String::new(), |method| format!(", method {method}{}", heard_as_a_group(&results)))
+            text("/method").map_or(String::new(), |method| format!(", method: {method}{}", heard_as_a_group(&results)))
         ),
     })
 }
+
+/// What happens to rotors that cannot be separated.
+const GROUP: &str = "the rotors were too close in speed to separate, so their mean was heard";
 
 /// The recordings in which the rotors were heard as a group, for the comment; empty without one.
 fn heard_as_a_group(results: &Value) -> String {
     let of = |way: &str| results.pointer(&format!("/rotors_heard/{way}")).and_then(Value::as_u64).unwrap_or(0);
     match (of("group"), of("separated") + of("one_tone")) {
         (0, _) => String::new(),
-        (_, 0) => " (rotors as a group)".to_owned(),
-        (group, others) => format!(" (rotors as a group in {group} of {} recordings)", group + others),
+        (_, 0) => format!("; {GROUP}"),
+        (group, others) => format!("; {GROUP} in {group} of {} recordings", group + others),
     }
 }
 

@@ -4,7 +4,7 @@ use super::draft::{DraftArguments, MASS_HELP};
 use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path, whole_number};
 use super::units::{length_m, mass_kg};
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
 use hovertone_exchange::SimulatorFormat;
 use std::path::PathBuf;
@@ -258,7 +258,7 @@ pub(crate) struct ExportArguments {
     /// results.json of `hovertone identify`, or the output of `hovertone fit --json`
     #[arg(value_name = "RESULTS.json", value_parser = typed_path())]
     pub(crate) results: PathBuf,
-    /// Program that shall read it
+    /// Program that reads the export
     #[arg(long, value_name = "FORMAT", value_parser = format_parser(), required_unless_present = "into", conflicts_with = "into")]
     pub(crate) to: Option<SimulatorFormat>,
     /// Change the constant in this model of a simulator, or in a copy of it with -o, and print the difference
@@ -315,6 +315,26 @@ fn format_parser() -> impl TypedValueParser<Value = SimulatorFormat> {
         "crazyflie" => Ok(SimulatorFormat::Crazyflow),
         _ => SimulatorFormat::ALL.into_iter().find(|format| format.name() == name).ok_or("no such format"),
     };
-    let names = SimulatorFormat::ALL.map(SimulatorFormat::name);
-    PossibleValuesParser::new(names.into_iter().chain(["px4", "crazyflie"])).try_map(named)
+    let formats = SimulatorFormat::ALL.map(|format| PossibleValue::new(format.name()).help(contents(format)));
+    let other_names = [("px4", "the same as gazebo"), ("crazyflie", "the same as crazyflow")];
+    let other_names = other_names.map(|(name, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(formats.into_iter().chain(other_names)).try_map(named)
+}
+
+/// The file of a format and its constant, for the help.
+fn contents(format: SimulatorFormat) -> String {
+    let file = match format {
+        SimulatorFormat::Gazebo => "SDF of Gazebo and PX4",
+        SimulatorFormat::Rotors => "xacro of RotorS",
+        SimulatorFormat::GymPybulletDrones => "URDF of gym-pybullet-drones",
+        SimulatorFormat::Rotorpy => "Python of RotorPy",
+        SimulatorFormat::Flightmare => "YAML of Flightmare",
+        SimulatorFormat::Airsim => "C++ of AirSim",
+        SimulatorFormat::Crazyflow => "TOML of crazyflow, for a Crazyflie",
+        SimulatorFormat::Json => "JSON with all units",
+        SimulatorFormat::Yaml => "YAML with all units",
+        _ => return format.constant().0.to_owned(),
+    };
+    let (name, unit) = format.constant();
+    format!("{file}: {name}, {unit}")
 }

@@ -229,6 +229,10 @@ fn results_are_exported_compared_and_weigh_a_payload() {
         "json",
         "yaml",
     ];
+    let help = hovertone(&["export", "--help"]).ends_with(0).stdout;
+    for words in ["px4:", "the same as gazebo", "crazyflie:", "the same as crazyflow"] {
+        assert!(help.contains(words), "{words}:\n{help}");
+    }
     let mut models = vec!["compare", "--json", text(&results)];
     let paths: Vec<PathBuf> = formats.iter().map(|format| folder.path().join(format)).collect();
     for (format, path) in formats.iter().zip(&paths) {

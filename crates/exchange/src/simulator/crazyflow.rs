@@ -12,10 +12,8 @@ const ROTOR_COUNT: u32 = 4;
 
 pub(super) fn write(rotor: &IdentifiedRotor) -> String {
     let constant = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);
-    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-    let name: String = rotor.vehicle_name.chars().map(letter).collect();
     let mut text = commented(rotor, "#");
-    text += &format!("[{name}]\n");
+    text += &format!("[{}]\n", table_name(&rotor.vehicle_name));
     if let Some(mass_kg) = rotor.mass_kg {
         text += &format!("mass = {} # kg\n", plain(mass_kg));
     }
@@ -32,6 +30,17 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
         text += &format!("prop_radius = {} # m\n", plain(diameter_m / 2.0));
     }
     text
+}
+
+/// A name that TOML takes without quotes: `parrot_ar_drone` of "Parrot AR.Drone (the paper's)".
+fn table_name(vehicle_name: &str) -> String {
+    let without_remark = vehicle_name.split('(').next().unwrap_or_default();
+    let words = |name: &str| {
+        let words = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+        words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("_")
+    };
+    let names = [words(without_remark), words(vehicle_name), "vehicle".to_owned()];
+    names.into_iter().find(|name| !name.is_empty()).unwrap_or_default()
 }
 
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
@@ -58,4 +67,21 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         moment_constant_m: polynomial("rpm2torque").map(|[_, _, torque]| torque / c),
         ..SimulatorModel::square(SimulatorFormat::Crazyflow, ConstantUnits::from_n_rpm2(c).n_s2())
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_name_of_a_table_is_words_with_one_underscore_between_them() {
+        for (vehicle_name, expected) in [
+            ("Parrot AR.Drone (the paper's)", "parrot_ar_drone"),
+            ("My drone", "my_drone"),
+            ("(first) drone", "first_drone"),
+            ("Дрон", "vehicle"),
+        ] {
+            assert_eq!(table_name(vehicle_name), expected);
+        }
+    }
 }

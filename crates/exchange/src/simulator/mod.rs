@@ -81,9 +81,9 @@ impl SimulatorFormat {
             Self::Rotors => ("motor_constant", "N/(rad/s)^2"),
             Self::GymPybulletDrones => ("kf", "N/rpm^2"),
             Self::Rotorpy => ("k_eta", "N/(rad/s)^2"),
-            Self::Flightmare => ("thrust_map", "N over rad/s"),
+            Self::Flightmare => ("thrust_map", "polynomial of rad/s in N"),
             Self::Airsim => ("C_T", "T/(rho n^2 D^4)"),
-            Self::Crazyflow => ("rpm2thrust", "N over rpm"),
+            Self::Crazyflow => ("rpm2thrust", "polynomial of rpm in N"),
             Self::Json | Self::Yaml => ("thrust_constant_per_rotor_n_s2", "N/(rad/s)^2"),
         }
     }
