@@ -22,8 +22,8 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         Column::numbers("recordings", ""),
         Column::numbers("change", "%"),
         Column::numbers("± (k = 2)", "%"),
-        Column::numbers("p, all tests", ""),
-        Column::words(""),
+        Column::numbers("p-value", ""),
+        Column::words("verdict"),
     ]);
     for row in &drift.rotors {
         let count = match row.earlier_count == row.later_count {
@@ -44,7 +44,14 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         counted(drift.earlier_unused, "recording"),
         drift.later_unused
     );
-    format!("compared: {how}\n{}{unused}{}", table_text(&table, width), recordings_text(drift, width))
+    format!("compared: {how}\n{}{}{unused}{}", table_text(&table, width), p_value_text(), recordings_text(drift, width))
+}
+
+fn p_value_text() -> String {
+    format!(
+        "p-value: chance of a change as large as this, or larger, if nothing has changed; corrected for the number of tests (Holm 1979). \
+         \"has changed\": the p-value is below {FALSE_ALARM_CHANCE}\n"
+    )
 }
 
 fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
@@ -61,8 +68,8 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         Column::words("rotor, by speed"),
         Column::numbers("change", "%"),
         Column::numbers("± (k = 2)", "%"),
-        Column::numbers("p, all tests", ""),
-        Column::words(""),
+        Column::numbers("p-value", ""),
+        Column::words("verdict"),
     ]);
     for row in changed.iter().take(RECORDINGS_MAX) {
         let mut cells = vec![printable(&row.file), rotor_name(row.rotor)];

@@ -43,12 +43,12 @@ impl Counts {
 
 impl fmt::Display for Counts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} done, {} no tone, {} failed", self.ok, self.no_rotor_tone, self.error)?;
+        write!(f, "{} with a speed, {} without a rotor tone, {} failed", self.ok, self.no_rotor_tone, self.error)?;
         if self.ambiguous > 0 {
-            write!(f, ", {} ambiguous", self.ambiguous)?;
+            write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            write!(f, ", {} cut short", self.cut_short)?;
+            write!(f, "; {} of them cut short", self.cut_short)?;
         }
         Ok(())
     }

@@ -370,7 +370,7 @@ fn the_progress_bar_has_the_counts_and_the_time_left() {
         return;
     };
     let shown = String::from_utf8_lossy(&output.stdout).into_owned();
-    for words in ["hearing 5 recordings", " of 5: ", " done, 0 no tone, ", " left"] {
+    for words in ["hearing 5 recordings", " of 5: ", " with a speed, 0 without a rotor tone, ", " left"] {
         assert!(shown.contains(words), "{words}: {shown}");
     }
 }
