@@ -75,7 +75,10 @@ pub(crate) fn is_no_text(what: &str, path: &Path) -> Failure {
 fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {
     let (found, hint) = match error.kind() {
         _ if path.is_dir() => (format!("this is a folder, and {what} must be a file"), "name the file in the folder"),
-        io::ErrorKind::NotFound => (format!("there is no such file for {what}"), "check its name and its folder"),
+        io::ErrorKind::NotFound => {
+            let hint = format!("check the name and the folder of {what}");
+            return Failure::failed("there is no such file", hint, path);
+        }
         io::ErrorKind::PermissionDenied => match closed_folder(path) {
             Some(folder) => return Failure::failed(CLOSED_FOLDER, GET_RIGHT, &folder),
             None => (format!("you have no right to read {what}"), GET_RIGHT),

@@ -3,7 +3,7 @@
 use crate::args::Arguments;
 use crate::failure::Failure;
 use crate::nearest::nearest;
-use crate::see_help::see_help;
+use crate::see_help::{example_and_help, see_help};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use std::error::Error as _;
@@ -34,7 +34,12 @@ pub(crate) fn failure_of(error: &clap::Error, words: &[OsString]) -> Option<Fail
         return None;
     }
     let Misuse { what, hint } = Misuse::of(error, words);
-    Some(Failure::usage(what, hint.unwrap_or_else(|| see_help(words))))
+    let name = error.get(ContextKind::InvalidArg).map(all_words).unwrap_or_default();
+    let advice = || match error.kind() {
+        ErrorKind::MissingRequiredArgument => see_help(words),
+        _ => example_and_help(words, &flag_of(&name)),
+    };
+    Some(Failure::usage(what, hint.unwrap_or_else(advice)))
 }
 
 struct Misuse {
@@ -53,8 +58,12 @@ impl Misuse {
                 let hint = if known.is_empty() { None } else { Some(format!("give one of: {known}")) };
                 Self { what: format!("{name} has no value"), hint }
             }
+            // of a value without a flag, the name is that of its place
             ErrorKind::InvalidValue => Self {
-                what: format!("{name} {value}: there is no such value"),
+                what: match name.starts_with('<') {
+                    true => format!("\"{value}\": there is no such value"),
+                    false => format!("{name} {value}: there is no such value"),
+                },
                 hint: Some(format!("give one of: {known}")),
             },
             ErrorKind::ValueValidation => Self { what: format!("{name} {value}: {}", reason_of(error)), hint: None },
@@ -87,7 +96,11 @@ impl Misuse {
     fn of_unknown_command(name: &str) -> Self {
         let commands = Arguments::command();
         let nearest = nearest(name, commands.get_subcommands().map(Command::get_name));
-        let hint = nearest.map(|nearest| format!("did you mean {nearest}?"));
+        let hint = nearest.map_or_else(
+            || "`hovertone --help` lists all commands".to_owned(),
+            |nearest| format!("did you mean {nearest}?"),
+        );
+        let hint = Some(hint);
         Self { what: format!("there is no command \"{name}\""), hint }
     }
 
@@ -104,12 +117,26 @@ impl Misuse {
             let what = if is_mass { "a mass cannot be negative" } else { "this value cannot be negative" };
             return Self { what: format!("{word}: {what}"), hint: Some(hint) };
         }
-        let what = if name.starts_with('-') {
-            format!("there is no flag {name}")
-        } else {
-            format!("\"{name}\" is one word too many")
-        };
-        Self { what, hint: suggestion(error, ContextKind::SuggestedArg) }
+        if name.starts_with('-') {
+            let hint = suggestion(error, ContextKind::SuggestedArg);
+            return Self { what: format!("there is no flag {name}"), hint };
+        }
+        if words.get(1).is_some_and(|command| command == "listen") {
+            return Self::of_recording_alone(name, words);
+        }
+        Self { what: format!("\"{name}\" is one word too many"), hint: None }
+    }
+
+    /// A word without a flag behind `listen`: most probably the name of a recording.
+    fn of_recording_alone(name: &str, words: &[OsString]) -> Self {
+        let flag = "--from-file";
+        let is_given = |word: &OsString| word.to_str().is_some_and(|word| word.split('=').next() == Some(flag));
+        if words.iter().any(is_given) {
+            let hint = Some(format!("leave \"{name}\" out"));
+            return Self { what: format!("\"{name}\": listen hears one recording at a time"), hint };
+        }
+        let what = format!("\"{name}\": listen takes a recording by its flag {flag}");
+        Self { what, hint: Some(format!("write {flag} {name}")) }
     }
 }
 
@@ -168,32 +195,47 @@ mod tests {
     fn each_misuse_is_one_line_with_the_reason_and_the_advice() {
         for (line, expected) in [
             ("hovertone speed a.wav --method guess", "--method guess: there is no such value (give one of: "),
-            ("hovertone speed a.wav --blades", "--blades has no value (see `hovertone speed --help`)"),
+            (
+                "hovertone speed a.wav --blades",
+                "--blades has no value (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+            ),
             (
                 "hovertone speed a.wav --blades -1",
-                "--blades -1: must be a whole number from 1 to 20 (see `hovertone speed --help`)",
+                "--blades -1: must be a whole number from 1 to 20 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --blades two",
-                "--blades two: must be a whole number from 1 to 20 (see `hovertone speed --help`)",
+                "--blades two: must be a whole number from 1 to 20 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --window-s long",
-                "--window-s long: a number is needed, such as 0.25 (see `hovertone speed --help`)",
+                "--window-s long: a number is needed, such as 0.25 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             (
                 "hovertone speed a.wav --mass-kg heavy",
-                "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (see `hovertone speed --help`)",
+                "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
+            ("hovertone completions tcsh", "\"tcsh\": there is no such value (give one of: bash, "),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
             ("hovertone speeed a.wav", "there is no command \"speeed\" (did you mean speed?)"),
             ("hovertone speed2", "there is no command \"speed2\" (did you mean speed?)"),
             ("hovertone identfy", "there is no command \"identfy\" (did you mean identify?)"),
             ("hovertone spectogram", "there is no command \"spectogram\" (did you mean spectrogram?)"),
-            ("hovertone quality", "there is no command \"quality\" (see `hovertone --help`)"),
+            ("hovertone quality", "there is no command \"quality\" (`hovertone --help` lists all commands)"),
             ("hovertone speed", "this is missing: <FILE>... (see `hovertone speed --help`)"),
-            ("hovertone demo extra", "\"extra\" is one word too many (see `hovertone demo --help`)"),
+            (
+                "hovertone demo extra",
+                "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",
+            ),
+            (
+                "hovertone listen hover.mp4",
+                "\"hover.mp4\": listen takes a recording by its flag --from-file (write --from-file",
+            ),
+            (
+                "hovertone listen --from-file a.wav b.wav",
+                "\"b.wav\": listen hears one recording at a time (leave \"b.wav\"",
+            ),
             ("hovertone identify a.toml --check --json", "--check cannot be used with --json (leave one of them out)"),
             ("hovertone speed a.wav --blades 2 --blades 3", "--blades is given more than once (give it once)"),
             ("hovertone identify --mass -0.4=a.mov", "-0.4=a.mov: a mass cannot be negative (write the value"),

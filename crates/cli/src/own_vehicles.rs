@@ -49,6 +49,7 @@ pub(crate) fn vehicles_in(file: &TomlFile<'_>) -> Result<Vec<Vehicle>, Failure> 
         vehicles.push(own.vehicle(id).map_err(|error| {
             let hint = match &error {
                 OwnVehicleError::Vehicle(contradiction) => contradiction.hint(),
+                OwnVehicleError::Quantity(_) => format!("correct this number; {SEE_EXAMPLE}"),
                 _ => SEE_EXAMPLE.to_owned(),
             };
             refused(format!("[{id}]: {error}"), &hint)

@@ -83,7 +83,7 @@ fn wanted(expected: &str) -> String {
         "a boolean" => "true or false".to_owned(),
         "a sequence" => "a list [...]".to_owned(),
         "f64" | "f32" => "a number".to_owned(),
-        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more,".to_owned(),
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a positive whole number".to_owned(),
         _ if expected.starts_with("struct ") => "a table { key = value, ... }".to_owned(),
         _ if expected.starts_with("an array of length") || expected.starts_with("a tuple of size") => {
             format!("a list of {} numbers", length(expected))
@@ -135,7 +135,7 @@ mod tests {
             ("missing field `vehicle`\n", "lacks \"vehicle\""),
             ("invalid type: integer `3`, expected a string", "has 3 where text in quotes is needed"),
             ("invalid type: string \"0.4\", expected f64", "has \"0.4\" where a number is needed"),
-            ("invalid type: floating point `4.5`, expected u32", "has 4.5 where a whole number, 0 or more, is needed"),
+            ("invalid type: floating point `4.5`, expected u32", "has 4.5 where a positive whole number is needed"),
             ("invalid type: integer `8`, expected struct Gear", "has 8 where a table { key = value, ... } is needed"),
             ("invalid length 2, expected an array of length 3", "has a list of 2 where a list of 3 numbers is needed"),
             ("invalid type: map, expected a sequence", "has one table where a list of tables is needed"),

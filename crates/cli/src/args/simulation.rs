@@ -4,12 +4,19 @@ use super::groups::{ReplaceArguments, typed_path};
 use clap::Args;
 use std::path::PathBuf;
 
+const DEMO_EXAMPLES: &str = "\
+The same seed gives the same files and the same numbers on the same machine.
+
+Examples:
+  hovertone demo
+  hovertone demo -o other-flights --seed 7";
+
 /// The paper's experiment in simulated flight: three loads with five trials each, heard and identified
 ///
 /// An AR.Drone hovers in the laboratory of the paper's figure 1. The demo writes the recordings, the experiment file, and the truth about every
 /// rotor. It identifies the recordings, prints the paper's two tables beside the paper's own numbers and the truth, and writes report.html.
 #[derive(Args, Debug)]
-#[command(after_help = "The same seed gives the same files and the same numbers on the same machine.")]
+#[command(after_help = DEMO_EXAMPLES)]
 pub(crate) struct DemoArguments {
     /// Where to write: a folder that is empty, new, or of an earlier demo
     #[arg(short, long, value_name = "DIR", default_value = "demo", value_parser = typed_path())]

@@ -7,7 +7,7 @@ use std::path::Path;
 
 const GRAMS: f64 = 1e3;
 const HINT: &str =
-    "write a mass in kg and its recordings, as in --mass '0.413=no_hull/*.mov'; or --mass 0.413 no_hull/*.mov";
+    "write the mass in kg before its recordings, as in --mass '0.413=no_hull/*.mov'; or --mass 0.413 no_hull/*.mov";
 
 /// One load: a mass as flown and its recordings.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,10 +38,10 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
             put_load(&mut loads, LoadDraft { mass_kg, recordings: Vec::new() });
         }
         let Some(mass_kg) = current_kg else {
-            return Err(Failure::usage(format!("--mass {word}: no mass stands before the recordings"), HINT));
+            return Err(Failure::usage(format!("--mass {word}: the mass of this recording is missing"), HINT));
         };
         if let Some(toml) = file.filter(|file| file.ends_with(".toml")) {
-            let what = format!("{toml} stands behind --mass, so it counts as a recording");
+            let what = format!("{toml} comes after --mass, so it counts as a recording");
             return Err(Failure::usage(what, "an experiment file has its own masses: leave --mass out"));
         }
         let recordings = file.filter(|file| !file.is_empty()).map(str::to_owned).into_iter().collect();
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn what_is_no_load_says_how_to_write_one() {
         for (words, said) in [
-            (&["a.mov"][..], "no mass stands before"),
+            (&["a.mov"][..], "the mass of this recording is missing"),
             (&["0.413"], "no recording"),
             (&["0.413="], "no recording"),
             (&["0.413", "0.444=b.mov"], "413 g: no recording"),

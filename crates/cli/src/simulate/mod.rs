@@ -10,7 +10,7 @@ use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::terminal::Terminal;
 use crate::wav::WavFile;
-use hovertone_report::{SimulatedFlight, SimulatedRotor, simulated_flight_table};
+use hovertone_report::{SimulatedFlight, SimulatedRotor, printable, simulated_flight_table};
 use hovertone_sim::scenario::{ScenarioRun, ScenarioTruth, TRUTH_COLUMNS, truth_cells};
 use hovertone_sim::{FlightState, scenario::ScenarioError};
 use hovertone_vehicle::RotorSpeed;
@@ -35,7 +35,8 @@ pub(crate) fn run(arguments: &SimulateArguments, terminal: &mut Terminal) -> Res
     truth_json::write(&folder, &source, &truth)?;
     terminal.text(&simulated_flight_table(&summary_of(&source, &truth), terminal.fold_width()))?;
     terminal.flush()?;
-    terminal.say(&format!("written: {SOUND}, {TABLE}, {}\n  {}", truth_json::NAME, folder.path().display()));
+    let place = printable(&folder.path().display().to_string());
+    terminal.say(&format!("written into the folder {place}: {SOUND}, {TABLE}, {}", truth_json::NAME));
     Ok(Ending::Done)
 }
 

@@ -43,9 +43,32 @@ fn lines_for_people_say_when_there_is_no_rotor() {
     write_noise(&noise, 5.0);
     let run = hovertone(&["listen", "--blades", "2", "--speed", "1000", "--from-file", text(&noise)]).ends_with(3);
     let lines: Vec<&str> = run.stdout.lines().collect();
-    assert_eq!(lines.len(), 5, "{}", run.stdout);
-    assert!(lines[0].contains("1.0 s") && lines[0].contains(" dB  no rotor tone so far"), "{}", run.stdout);
+    assert_eq!(lines.len(), 7, "{}", run.stdout);
+    assert!(lines[0].contains("time") && lines[0].contains("level") && lines[0].contains("speed"), "{}", run.stdout);
+    assert!(lines[1].contains("1.0 s") && lines[1].ends_with(" dB  no rotor tone"), "{}", run.stdout);
     assert!(lines.iter().any(|line| line.contains("no rotor tone: ")), "{}", run.stdout);
+    assert!(lines[1..6].iter().all(|line| line.contains("no rotor tone")), "{}", run.stdout);
+    assert_eq!(lines[6], "no speed was heard in 5.0 s");
+}
+
+#[test]
+fn the_last_line_has_the_mean_and_the_time_that_had_a_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_ardrone(&sound, 6.0);
+    let words = ["listen", "--vehicle", "ardrone", "--rotors", "1", "--speed", "1000", "--from-file", text(&sound)];
+    let run = hovertone(&words).ends_with(0);
+    let last = run.stdout.lines().last().unwrap();
+    let mean_rev_s: f64 = last.strip_prefix("mean: ").unwrap().split(' ').next().unwrap().parse().unwrap();
+    assert!((mean_rev_s - 60.0).abs() < 0.3, "{last}");
+    assert!(last.contains(" ± ") && last.contains(" of 6.0 s: "), "{last}");
+}
+
+#[test]
+fn a_recording_without_its_flag_is_refused_with_the_right_command() {
+    refused_with(&["listen", "hover.mp4"], &["--from-file hover.mp4"]);
+    refused_with(&["listen", "--blades", "2", "hover.mp4"], &["--from-file hover.mp4"]);
+    refused_with(&["listen", "--from-file", "a.mp4", "b.mp4"], &["one recording at a time"]);
 }
 
 #[test]

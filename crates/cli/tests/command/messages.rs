@@ -70,7 +70,11 @@ fn faults_of_a_file_are_told_in_plain_words() {
             ["has \"0.4\" where a number is needed", "write a number"],
         ),
         ("identify", format!("{vehicle}mass_kg = 0,4\n"), ["more than one key", "decimals have a point"]),
-        ("identify", format!("{vehicle}rotors = 4.5\n"), ["has 4.5 where a whole number", "or more"]),
+        (
+            "identify",
+            format!("{vehicle}rotors = 4.5\n"),
+            ["has 4.5 where a positive whole number", "write a positive whole number; "],
+        ),
         ("identify", format!("{vehicle}gear = 8\n"), ["has 8 where a table", "{ key = value"]),
         ("identify", format!("{vehicle}[load]\nname = \"a\"\n"), ["one table where a list", "[[load]]"]),
         ("identify", format!("{vehicle}mas_kg = 1\n"), ["unknown key \"mas_kg\"", "did you mean \"mass_kg\""]),

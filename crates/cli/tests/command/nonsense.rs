@@ -289,8 +289,8 @@ fn files_of_another_kind_are_named_for_what_they_are() {
         (vec!["export", wav, "--to", "gazebo"], ["413g.wav", "not text"]),
         (vec!["fit", place], ["this is a folder", "the table must be a file"]),
         (vec!["identify", place], ["this is a folder", "experiment file must be a file"]),
-        (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "check its name"]),
-        (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "check its name"]),
+        (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "folder of the experiment file"]),
+        (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "folder of the table"]),
     ] {
         let run = hovertone(&arguments).ends_with(1);
         assert!(run.stdout.is_empty() && !run.stderr.contains("os error"), "{}", run.stderr);

@@ -100,7 +100,7 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
     refuses(&["identify", "--mass", "0.4=a.wav"], &["--vehicle NAME, or --blades N", "hovertone init"]);
     refuses(&["identify", "--mass", "0.4=a.wav", "--blades", "2"], &["--rotors N"]);
     refuses(&["identify", "--mass", "0.4=a.wav", "--vehicle", "iris"], &["--blades N"]);
-    refuses(&["identify", "--mass", "a.wav", "--vehicle", "ardrone"], &["no mass stands before"]);
+    refuses(&["identify", "--mass", "a.wav", "--vehicle", "ardrone"], &["the mass of this recording is missing"]);
     refuses(&["identify", "--mass", "413=a.wav", "--vehicle", "ardrone"], &["413g"]);
     refuses(&["identify", "x.toml", "--mass", "0.4=a.wav"], &["cannot be used with"]);
     refuses(&["identify", "--mass", "5=a.wav", "--vehicle", "ardrone"], &["--mass 5: ", "0.413 kg"]);
