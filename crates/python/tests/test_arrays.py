@@ -1,10 +1,14 @@
 """Arrays beside files."""
 
+from pathlib import Path
+
 import hovertone
+import hovertone._archive
 import numpy as np
+import pandas
+import pyarrow
 import pytest
 from testkit import RATE_HZ, rotor, write_wave
-from pathlib import Path
 
 
 def numbers(found):
@@ -61,3 +65,41 @@ def test_what_is_no_sound_is_refused(samples, rate_hz, error, words):
 def test_an_array_has_no_labels_by_microphones():
     with pytest.raises(hovertone.HovertoneError):
         hovertone.speed(rotor(61.3), rate_hz=RATE_HZ, blades=2, rotors=4, microphones="stands.toml")
+
+
+def test_a_sound_is_an_array_by_the_rules_of_numpy():
+    sound = hovertone.load("hover.wav")
+    assert np.asarray(sound) is sound.samples or np.shares_memory(np.asarray(sound), sound.samples)
+    assert not np.shares_memory(np.array(sound), sound.samples)
+    assert np.asarray(sound, dtype=np.float64).dtype == np.float64
+    assert not np.shares_memory(np.array(sound, copy=True), sound.samples)
+    if np.lib.NumpyVersion(np.__version__) >= "2.0.0":
+        assert np.shares_memory(np.array(sound, copy=False), sound.samples)
+        with pytest.raises(ValueError, match="copy"):
+            np.array(sound, dtype=np.float64, copy=False)
+    # NumPy 1 gives the type alone, or nothing
+    assert sound.__array__(np.float64).dtype == np.float64 and len(sound.__array__()) == len(sound)
+
+
+PATHS = {
+    "generator": lambda: (path for path in ["hover.wav", "b.wav"]),
+    "glob": lambda: Path(".").glob("*.wav"),
+    "set": lambda: {"hover.wav", Path("b.wav")},
+    "array": lambda: np.array(["hover.wav", "b.wav"]),
+    "array of objects": lambda: np.array([Path("hover.wav"), "b.wav"], dtype=object),
+    "pandas": lambda: pandas.DataFrame({"file": ["hover.wav", "b.wav"]})["file"],
+    "arrow": lambda: pyarrow.table({"file": ["hover.wav", "b.wav"]})["file"],
+    "keys": lambda: {"hover.wav": 1, "b.wav": 2}.keys(),
+}
+
+
+@pytest.mark.parametrize("kind", PATHS)
+def test_any_iterable_of_paths_is_heard(kind):
+    write_wave(Path("b.wav"), rotor(61.35, 2.0))
+    expected = ["b.wav", "hover.wav"]
+    assert sorted(one.file for one in hovertone.speeds(PATHS[kind](), blades=2)) == expected
+    assert sorted(hovertone._archive.names(PATHS[kind](), {"blades": 2})) == expected
+    if kind == "generator":
+        assert hovertone.weigh(PATHS[kind](), constant_n_s2=2.83e-5, blades=2, rotors=1).recording_count == 2
+    if kind in ("set", "keys"):
+        assert [one.file for one in hovertone.speeds(PATHS[kind](), blades=2)] == expected

@@ -68,7 +68,7 @@ def test_a_killed_worker_of_ray_loses_nothing(archive, cluster):
     killed = []
     killer = threading.Thread(target=kill_one, args=(cluster, killed))
     killer.start()
-    found = hovertone.ray.speeds(Path("archive").absolute(), **FLAGS)
+    found = hovertone.ray.speeds({Path("archive").absolute()}, **FLAGS)
     tables = ray.get(found.to_arrow_refs())
     killer.join()
     assert len(killed) == 1
@@ -86,7 +86,7 @@ def same_rows(heard, expected):
 
 
 def test_dask(archive):
-    found = hovertone.dask.speeds("archive", **FLAGS).compute(scheduler="threads")
+    found = hovertone.dask.speeds((path for path in ["archive"]), **FLAGS).compute(scheduler="threads")
     expected = archive.to_pandas()
     assert list(found.columns) == list(expected.columns)
     assert found["file"].tolist() == expected["file"].tolist()

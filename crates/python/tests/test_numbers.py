@@ -6,6 +6,33 @@ from pathlib import Path
 import hovertone
 import numpy as np
 import pandas
+import pyarrow
+
+
+class OfPandas:
+    """A table that only becomes one of pandas."""
+
+    def __init__(self, frame):
+        self.to_pandas = lambda: frame
+
+
+class OfSeries:
+    """A table as that of Polars: columns by their names, of which one becomes a list."""
+
+    def __init__(self, columns):
+        self.by_name, self.columns = columns, list(columns)
+
+    def __len__(self):
+        return len(self.by_name[self.columns[0]])
+
+    def __getitem__(self, name):
+        return tuple(self.by_name[name])
+
+    def get_column(self, name):
+        return self[name]
+
+    def to_pandas(self):
+        raise ModuleNotFoundError("pandas is not needed")
 
 
 def test_ten_recordings(demo, program):
@@ -78,8 +105,11 @@ def test_fit_and_export(told_json, program):
     pandas.DataFrame(columns).to_csv("stand.csv", index=False)
     expected = told_json("fit", "stand.csv")
     assert hovertone.fit("stand.csv").json == expected
-    for table in (columns, pandas.DataFrame(columns), {name: np.array(column) for name, column in columns.items()}):
+    frame = pandas.DataFrame(columns)
+    arrays = {name: np.array(column) for name, column in columns.items()}
+    for table in (columns, frame, arrays, pyarrow.table(columns), pyarrow.RecordBatch.from_pydict(columns), OfPandas(frame), OfSeries(columns)):
         found = hovertone.fit(table)
+        assert found.file == found.json["file"] == "the table"
         assert found.thrust_constant_total_n_s2.value == expected["thrust_constant_total_n_s2"]["value"]
         assert found.json["fit"] == expected["fit"]
     Path("fit.json").write_text(json.dumps(expected))

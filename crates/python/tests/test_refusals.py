@@ -1,9 +1,16 @@
 """Refusals have the words of the command line."""
 
 import pickle
+from pathlib import Path
+from types import SimpleNamespace
 
 import hovertone
+import hovertone.dask
+import hovertone.ray
+import numpy as np
+import pandas
 import pytest
+from testkit import write_wave
 
 #: A call, and the command line that means the same.
 CASES = [
@@ -58,7 +65,7 @@ def test_an_error_knows_its_parts():
     with pytest.raises(hovertone.FileError) as raised:
         hovertone.identify("none.toml")
     error = raised.value
-    assert error.path == "none.toml" and error.hint == "check its name and its folder"
+    assert error.path == "none.toml" and error.hint == "check the name and the folder of the experiment file"
     assert str(error) == f"none.toml: {error.what} (hint: {error.hint})"
     assert isinstance(hovertone.WrongUseError("x"), ValueError)
     again = pickle.loads(pickle.dumps(error))
@@ -66,23 +73,20 @@ def test_an_error_knows_its_parts():
 
 
 def test_a_pattern_of_several_is_no_recording():
-    from pathlib import Path
-
     Path("again.wav").write_bytes(Path("hover.wav").read_bytes())
     with pytest.raises(hovertone.WrongUseError, match=r"\*\.wav means 2 recordings"):
         hovertone.speed("*.wav", blades=2)
 
 
 def test_no_rotor_tone_is_an_answer_and_no_mass():
-    import numpy as np
-    from testkit import write_wave
-    from pathlib import Path
-
     write_wave(Path("silence.wav"), np.zeros(80_000, np.float32))
     found = hovertone.speed("silence.wav", blades=2)
     assert (found.status, found.speed_rev_s, len(found.track)) == ("no_rotor_tone", None, 0) and found.reason
     with pytest.raises(hovertone.NoRotorToneError, match="no rotor tone"):
         hovertone.weigh("silence.wav", constant_n_s2=2.8e-5, blades=2, rotors=1)
+    with pytest.raises(hovertone.FileError, match="none.wav: .*no such file") as raised:
+        hovertone.weigh(["silence.wav", "none.wav"], constant_n_s2=2.8e-5, blades=2, rotors=1)
+    assert raised.value.path == "none.wav"
     listed = hovertone.speeds(["silence.wav", "none.wav"], blades=2)
     assert [one.status for one in listed] == ["no_rotor_tone", "error"] and listed[1].figure() is None
 
@@ -92,3 +96,62 @@ def test_interrupts_are_the_interpreters():
 
     hovertone.identify("experiment.toml", output="out")
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: hovertone.speed(["hover.wav"]), "hovertone.speeds()"),
+        (lambda: hovertone.tones(("a.wav", "b.wav")), "hovertone.speeds()"),
+        (lambda: hovertone.track(np.array(["hover.wav"])), "hovertone.speeds()"),
+        (lambda: hovertone.speed([hovertone.load("hover.wav")]), "hovertone.speeds()"),
+        (lambda: hovertone.speed(Path(".").glob("*.wav")), "hovertone.speeds()"),
+        (lambda: hovertone.load(["hover.wav"]), "give the name of one file"),
+        (lambda: hovertone.speeds(["hover.wav", float("nan")]), "number 2 of them is nan (float)"),
+        (lambda: hovertone.speeds(None), "this is None"),
+        (lambda: hovertone.speeds(np.array("hover.wav")), "of the type ndarray"),
+        (lambda: hovertone.speeds(hovertone.load("hover.wav")), "hovertone.speed() hears a Sound"),
+        (lambda: hovertone.speeds(pandas.DataFrame({"file": ["hover.wav"]})), 'table["file"]'),
+        (lambda: hovertone.weigh(np.zeros(9), constant_n_s2=2.8e-5), "weigh hears no arrays"),
+        (lambda: hovertone.fits([{"rpm": [1]}]), "number 1 of them is of the type dict"),
+    ],
+)
+def test_what_is_no_path_gets_a_sentence(call, words):
+    with pytest.raises(hovertone.WrongUseError) as raised:
+        call()
+    assert words in str(raised.value) and raised.value.hint
+
+
+GOOD = {"rpm": [3e3, 4e3, 5e3], "thrust_g": [70.0, 125.0, 194.0]}
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        (pandas.DataFrame(GOOD | {"thrust_g": [70.0, float("nan"), 194.0]}), 'the table: line 3, column "thrust_g": "nan" is no number'),
+        (GOOD | {"thrust_g": [70.0]}, "the table: the columns have different numbers of rows: rpm has 3, thrust_g has 1"),
+        (GOOD | {"thrust_g": 70.0}, 'the table: column "thrust_g" holds one value'),
+        (GOOD | {"motor": "abc"}, 'the table: column "motor" holds one value'),
+        ({"rpm": [3e3, 4e3, 5e3]}, "the table: no column holds a thrust"),
+        (pandas.DataFrame([[1, 2]], columns=["rpm", "rpm"]), "the table: several columns have the same name"),
+        ({}, "the table: "),
+        (SimpleNamespace(columns=["rpm"]), "the table is of the type SimpleNamespace"),
+    ],
+)
+def test_a_table_in_memory_is_named_as_the_table(table, words):
+    with pytest.raises(hovertone.HovertoneError) as raised:
+        hovertone.fit(table)
+    error = raised.value
+    assert str(error).startswith(words) and ".csv" not in str(error), str(error)
+    assert error.path is None and error.hint
+
+
+@pytest.mark.parametrize("engine", [hovertone.ray, hovertone.dask])
+def test_a_package_without_stores_says_how_to_get_them(engine, monkeypatch):
+    def absent(words):
+        raise hovertone.WrongUseError("x", "s3://flights: this hovertone was built without stores", "cargo build")
+
+    monkeypatch.setattr(hovertone._native, "archive_names", absent)
+    with pytest.raises(hovertone.WrongUseError, match="built without stores.*pip install ./crates/python --config-settings") as raised:
+        engine.speeds("s3://flights", blades=2)
+    assert "cargo" not in raised.value.hint

@@ -1,11 +1,15 @@
 """Results as tables and pictures of other packages."""
 
 import pickle
+from pathlib import Path
 import xml.etree.ElementTree as ElementTree
 
 import hovertone
 import matplotlib
+import numpy as np
+import pyarrow
 import pytest
+from testkit import RATE_HZ, rotor, write_wave
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -31,8 +35,7 @@ def test_tables_and_pictures(name):
     assert result.plot(ax) is ax and ax.has_data()
     figure.savefig("plot.png")
     plt.close(figure)
-    if name != "track":
-        assert "<table>" in result._repr_html_()
+    assert "<table>" in result._repr_html_()
 
 
 @pytest.mark.parametrize("name", ["speed", "tones", "identify"])
@@ -80,3 +83,55 @@ def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match=r"this needs pandas: pip install 'hovertone\[pandas\]'"):
         found.to_pandas()
+
+
+def test_a_plan_is_a_table_without_a_picture():
+    plan = hovertone.plan("413g")
+    assert plan.to_pandas()["load_count"].tolist() == plan.to_arrow()["load_count"].to_pylist() == [plan.load_count]
+    assert "<table>" in plan._repr_html_() and plan.figure() is None and not hasattr(plan, "plot")
+
+
+#: Results with values, and the same without those that may be missing.
+PAIRS = {
+    "speed": [lambda: hovertone.speed("hover.wav", blades=2), lambda: hovertone.speed("silence.wav", blades=2)],
+    "tones": [lambda: hovertone.tones("hover.wav", diameter_m=0.2, mass_kg=0.4), lambda: hovertone.tones("silence.wav")],
+    "track": [lambda: hovertone.track("hover.wav", blades=2), lambda: hovertone.track("silence.wav", blades=2)],
+    "weigh": [RESULTS["weigh"], lambda: hovertone.weigh("hover.wav", constant_n_s2=2.83e-5, constant_std_n_s2=1e-7, blades=2, rotors=1)],
+    "fit": [RESULTS["fit"], lambda: hovertone.fit({"rpm": [3000], "thrust_n": [0.7], "thrust_std_n": [0.01]})],
+    "plan": [lambda: hovertone.plan("413g"), lambda: hovertone.plan("413g", wanted_share=0.1)],
+    "identify": [RESULTS["identify"], lambda: hovertone.identify(mass={"413g": "hover.wav"}, blades=2, rotors=1)],
+}
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_types_of_columns_depend_on_no_value(name):
+    write_wave(Path("silence.wav"), np.zeros(5 * RATE_HZ, np.float32))
+    results = [make() for make in PAIRS[name]]
+    full, sparse = (result.to_arrow() for result in results)
+    assert full.schema == sparse.schema
+    assert all(not pyarrow.types.is_null(kind) for kind in full.schema.types)
+    assert len(pyarrow.concat_tables([full, sparse])) == len(full) + len(sparse)
+    kinds = [result.to_pandas().dtypes for result in results]
+    for column, field in zip(full.column_names, full.schema, strict=True):
+        if pyarrow.types.is_floating(field.type):
+            assert kinds[0][column] == kinds[1][column] == np.float64, column
+
+
+def test_a_load_named_by_a_number_stays_a_word():
+    found = hovertone.identify(mass={"0.4": "hover.wav"}, blades=2, rotors=1)
+    assert found.to_arrow().schema.field("load").type == pyarrow.string()
+    assert found.samples.to_arrow().schema.field("from_s").type == pyarrow.float64()
+
+
+def test_weigh_tells_its_warnings():
+    write_wave(Path("silence.wav"), np.zeros(5 * RATE_HZ, np.float32))
+    write_wave(Path("loud.wav"), np.clip(6 * rotor(61.3), -1, 1))
+    known = {"constant_n_s2": 2.83e-5, "blades": 2, "rotors": 1}
+    assert hovertone.weigh("hover.wav", **known).warnings == ()
+    weighed = hovertone.weigh(["loud.wav", "silence.wav", "none.wav"], **known)
+    assert weighed.recording_count == 1 and len(weighed.warnings) == 3, weighed.warnings
+    loud, none, silence = sorted(weighed.warnings)
+    assert loud.startswith("loud.wav: the recording is overdriven") and hovertone.speed("loud.wav", blades=2).warnings[0] in loud
+    assert silence.startswith("silence.wav: no rotor tone: ") and none.startswith("none.wav: ")
+    assert "overdriven" in weighed._repr_html_() and weighed.json["mass_kg"]["value"] == weighed.mass_kg.value
+    assert {hash(weighed)} == {hash(pickle.loads(pickle.dumps(weighed)))}

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _native
-from ._errors import WrongUseError
+from ._errors import HovertoneError
 from ._estimate import Estimate
 from ._extras import axes_of
-from ._rows import Json, Shown, column_wise, filled, numbered
-from ._words import Path, words
+from ._rows import Json, Kinds, Shown, column_wise, filled, numbered
+from ._words import Path, is_table, paths_of, refused, words
 
 if TYPE_CHECKING:
+    import pandas
+    import pyarrow
     from matplotlib.axes import Axes
     from typing_extensions import Unpack
 
@@ -27,8 +27,15 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit", "fit", "fits"]
 
-#: A CSV file, or columns of numbers with the headers of one: a mapping, or a table of pandas.
-Columns = Union[Path, Mapping[str, Sequence[Any]], "pandas.DataFrame"]  # type: ignore[name-defined]  # noqa: F821
+#: A CSV file, or columns of numbers with the headers of one: a mapping, or a table of pandas, Polars or Arrow.
+Columns = Union[Path, Mapping[str, Sequence[Any]], "pandas.DataFrame", "pyarrow.Table"]
+#: How messages name a table that is no file.
+_TABLE = "the table"
+_TABLES_HINT = "give names of CSV files, or one table: columns with their headers"
+_POINT_KINDS: Kinds = {
+    "name": "string", "deviation_share": "float64", "thrust_constant_of_others_n_s2": "float64", "p_value": "float64", "fits": "bool",
+    "is_gross": "bool", "force_that_fits_n": "float64", "force_that_fits_std_n": "float64",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +45,7 @@ class Fit(Shown):
     Attributes
     ----------
     file : str
-        The table.
+        The table; ``"the table"`` for one that is no file.
     group : str
         Its group; empty without groups.
     thrust_constant_total_n_s2, thrust_constant_per_rotor_n_s2 : Estimate
@@ -81,8 +88,11 @@ class Fit(Shown):
             json=data,
         )
 
+    def _kinds(self) -> Kinds:
+        return _POINT_KINDS
+
     def _columns(self) -> dict[str, Any]:
-        return column_wise(self.fit["points"])
+        return column_wise(self.fit["points"], _POINT_KINDS)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the deviation of each point from F = C_f ω² by matplotlib.
@@ -93,7 +103,7 @@ class Fit(Shown):
             Where to draw.
         """
         ax = axes_of(ax)
-        points = self.fit["points"]
+        points = [point for point in self.fit["points"] if point["deviation_share"] is not None]
         ax.stem([point["name"] for point in points], [100 * point["deviation_share"] for point in points])
         ax.set(ylabel="deviation of the force from C_f ω², %", title=f"{self.file} {self.group}".strip())
         return ax
@@ -110,9 +120,10 @@ def fit(table: Columns | None = None, *, group: str | None = None, **flags: Unpa
 
     Parameters
     ----------
-    table : path, mapping or pandas.DataFrame
+    table : path, mapping, or table of pandas, Polars or Arrow
         A CSV file, or columns with the headers of one: a speed (``"rpm"``, ``"speed_rad_s"``), and a thrust (``"thrust_n"``,
-        ``"thrust_g"``) or a mass (``"mass_g"``); also standard uncertainties, power and torque.
+        ``"thrust_g"``) or a mass (``"mass_g"``); also standard uncertainties, power and torque. A cell with ``None`` is an empty cell, and NaN is refused. Messages count lines as in
+        a CSV file: line 1 has the headers.
     group : str, optional
         The group to use, where columns of words make several.
     **flags
@@ -135,16 +146,15 @@ def fit(table: Columns | None = None, *, group: str | None = None, **flags: Unpa
     if len(chosen) == 1:
         return chosen[0]
     what = f"the table has {len(found)} groups: " + ", ".join(one.group for one in found)
-    hint = "give group=NAME, or call hovertone.fits()"
-    raise WrongUseError(f"{what} (hint: {hint})", what, hint)
+    raise refused(what, "give group=NAME, or call hovertone.fits()")
 
 
-def fits(tables: Columns | Sequence[Path], **flags: Unpack[FitFlags]) -> list[Fit]:
+def fits(tables: Columns | Iterable[Path], **flags: Unpack[FitFlags]) -> list[Fit]:
     """Thrust constants of several tables, or of all groups of one.
 
     Parameters
     ----------
-    tables : path, sequence of paths, mapping or pandas.DataFrame
+    tables : path, iterable of paths, mapping, or table of pandas, Polars or Arrow
         As for :func:`fit`.
     **flags
         As for :func:`fit`.
@@ -159,25 +169,59 @@ def fits(tables: Columns | Sequence[Path], **flags: Unpack[FitFlags]) -> list[Fi
     >>> [one.group for one in fits({"motor": ["a"] * 3 + ["b"] * 3, "rpm": [3e3, 4e3, 5e3] * 2, "thrust_g": [70, 125, 194, 80, 142, 223]})]
     ['a', 'b']
     """
-    with _as_files(tables) as paths:
-        data = json.loads(_native.printed(words("fit", paths, flags | {"json": True}))[0])
+    flags_of_fit = flags | {"json": True}
+    if is_table(tables):
+        data = _of_columns(_columns_of(tables), flags_of_fit)
+    else:
+        data = json.loads(_native.printed(words("fit", paths_of(tables, _TABLES_HINT), flags_of_fit))[0])
     return [Fit._of(one) for one in data.get("groups", [data])]
 
 
-@contextmanager
-def _as_files(tables: Columns | Sequence[Path]) -> Iterator[list[Path]]:
-    """The files of tables; columns in memory are written into one for the time of a call."""
-    if isinstance(tables, str | os.PathLike):
-        yield [tables]
-        return
-    if isinstance(tables, Sequence):
-        yield list(tables)
-        return
-    columns = {str(name): list(tables[name]) for name in tables}
+def _columns_of(table: Any) -> dict[str, list[Any]]:
+    """The columns of a table in memory, all of one length."""
+    if not isinstance(table, Mapping):
+        table = _mapping_of(table)
+    columns: dict[str, list[Any]] = {}
+    for name, cells in table.items():
+        if isinstance(cells, str | bytes) or not isinstance(cells, Iterable) or getattr(cells, "shape", None) == ():
+            raise refused(f"{_TABLE}: column \"{name}\" holds one value, and a column is a list", "give a value for each row")
+        columns[str(name)] = list(cells)
+    lengths = {len(cells) for cells in columns.values()}
+    if len(lengths) > 1:
+        rows = ", ".join(f"{name} has {len(cells)}" for name, cells in columns.items())
+        raise refused(f"{_TABLE}: the columns have different numbers of rows: {rows}", "give a value for each row, and None where there is none")
+    return columns
+
+
+def _mapping_of(table: Any) -> Mapping[str, Any]:
+    """The columns of a table of Arrow, pandas or Polars, and of others that become one of these."""
+    if hasattr(table, "to_pydict"):
+        columns: Mapping[str, Any] = table.to_pydict()
+        return columns
+    if hasattr(table, "to_pandas") and not hasattr(table, "get_column"):
+        table = table.to_pandas()
+    if hasattr(table, "columns") and hasattr(table, "__len__"):
+        names = list(table.columns)
+        if len(set(names)) == len(names):
+            return {name: table[name] for name in names}
+        raise refused(f"{_TABLE}: several columns have the same name: {', '.join(map(str, names))}", "give each column a name of its own")
+    raise refused(f"{_TABLE} is of the type {type(table).__name__}, whose columns cannot be read",
+                  "give a mapping of lists, or a table of pandas, Polars or Arrow")
+
+
+def _of_columns(columns: Mapping[str, list[Any]], flags: Mapping[str, object]) -> Json:
+    """The fit of columns. They are a file for the time of the call; what is told about it names the table."""
     with tempfile.TemporaryDirectory(prefix="hovertone-") as folder:
         path = FilePath(folder) / "table.csv"
         with path.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(columns)
             writer.writerows(zip(*columns.values(), strict=True))
-        yield [path]
+        try:
+            data: Json = json.loads(_native.printed(words("fit", [path], flags))[0])
+        except HovertoneError as error:
+            said = [part.replace(str(path), _TABLE) for part in (error.words, error.what, error.hint)]
+            raise type(error)(*said) from None
+    for one in data.get("groups", [data]):
+        one["file"] = _TABLE
+    return data

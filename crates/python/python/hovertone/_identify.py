@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path as FilePath
@@ -13,7 +13,7 @@ from . import _native
 from ._estimate import Estimate, estimate
 from ._extras import axes_of
 from ._progress import Progress, listening
-from ._rows import Json, Shown, Table, csv_columns, filled, numbered
+from ._rows import Json, Kinds, Shown, Table, csv_columns, csv_kinds, filled, numbered
 from ._words import Path, words
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Identification", "identify"]
 
-Mass = Mapping[float | str, Path | Sequence[Path]]
+Mass = Mapping[float | str, Path | Iterable[Path]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +83,11 @@ class Identification(Shown):
             _figures=tuple(identified.figures()),
         )
 
+    def _kinds(self) -> Kinds:
+        return csv_kinds(self._loads, words=("method", "load"), whole=("rotors_running", "trial_count"))
+
     def _columns(self) -> dict[str, Any]:
-        return csv_columns(self._loads)
+        return csv_columns(self._loads, self._kinds())
 
     @property
     def samples(self) -> _Samples:
@@ -127,8 +130,11 @@ class _Samples(Table):
 
     _csv: str = field(repr=False)
 
+    def _kinds(self) -> Kinds:
+        return csv_kinds(self._csv, words=("load", "recording", "method"), whole=("trial", "sample", "frame_count"))
+
     def _columns(self) -> dict[str, Any]:
-        return csv_columns(self._csv)
+        return csv_columns(self._csv, self._kinds())
 
 
 def identify(

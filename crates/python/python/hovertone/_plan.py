@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._rows import filled
+from ._rows import Json, Kinds, Shown, filled, kinds_of
 from ._words import words
 
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ __all__ = ["FlightPlan", "plan"]
 
 
 @dataclass(frozen=True)
-class FlightPlan:
-    """A campaign that reaches a wanted uncertainty.
+class FlightPlan(Shown):
+    """A campaign that reaches a wanted uncertainty. As a table: one row.
 
     Attributes
     ----------
@@ -43,6 +43,15 @@ class FlightPlan:
     expanded_share: float
     largest: str
     force_ratio_for_intercept: float | None
+
+    def _kinds(self) -> Kinds:
+        return kinds_of(FlightPlan, *vars(self))
+
+    def _columns(self) -> dict[str, Any]:
+        return {name: [value] for name, value in vars(self).items()}
+
+    def _facts(self) -> Json:
+        return vars(self)
 
 
 def plan(mass_kg: float | str | None = None, **flags: Unpack[PlanFlags]) -> FlightPlan:

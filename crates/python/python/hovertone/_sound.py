@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Union
 
@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._errors import WrongUseError
-from ._words import Path, words
+from ._words import Path, is_table, refused, words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -22,6 +21,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Recording", "Sound", "load"]
 
+#: What to do with samples where paths are needed.
+SAMPLES_HINT = "give names of files, without empty cells; hovertone.speed() hears a Sound, or an array with its rate_hz"
 #: Channels that a recording may have. A second axis that is longer is time.
 _CHANNELS_MAX = 256
 
@@ -54,7 +55,8 @@ class Sound:
     warnings: tuple[str, ...]
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.samples, dtype=dtype, copy=bool(copy))
+        # None copies where it must; so it does in NumPy 1, which takes it for False and has no refusal of a copy
+        return np.array(self.samples, dtype=dtype, copy=copy)
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -96,6 +98,8 @@ def load(recording: Path | None = None, **flags: Unpack[HearingFlags]) -> Sound:
     >>> sound.samples.dtype, sound.rate_hz
     (dtype('float32'), 16000.0)
     """
+    if recording is not None and not isinstance(recording, str | os.PathLike):
+        raise refused("load decodes one file, and this is no path", "give the name of one file")
     paths = [] if recording is None else [recording]
     samples, rate_hz, start_s, facts, warnings = _native.loaded(words("tones", paths, flags))
     name = "" if recording is None else os.fspath(recording)
@@ -120,22 +124,31 @@ def to_hear(recording: Recording | None, rate_hz: float | None) -> Heard:
             return Heard([recording.name or "sound"], recording.samples, rate_hz or recording.rate_hz)
         case str() | os.PathLike():
             if rate_hz is not None:
-                raise _refused("rate_hz belongs to an array: a file has a rate of its own", "leave rate_hz out")
+                raise refused("rate_hz belongs to an array: a file has a rate of its own", "leave rate_hz out")
             return Heard([recording], None, 0.0)
         case _:
+            if _is_several(recording):
+                raise refused("this call hears one recording, and several are given",
+                              "call hovertone.speeds() for several files, or give one recording")
             return _array(np.asarray(recording), rate_hz)
+
+
+def _is_several(recording: Any) -> bool:
+    """Whether these are recordings, not samples: names of files, or sounds."""
+    if is_table(recording) or isinstance(recording, Set | Iterator):
+        return True
+    if isinstance(recording, list | tuple) and any(isinstance(one, Sound) for one in recording):
+        return True
+    array = np.asarray(recording)
+    return array.dtype.kind == "U" or (array.dtype.kind == "O" and any(isinstance(one, str | os.PathLike) for one in array.flat))
 
 
 def _array(samples: NDArray[Any], rate_hz: float | None) -> Heard:
     if rate_hz is None:
-        raise _refused("an array has no rate of its own", "give rate_hz, the samples per second")
+        raise refused("an array has no rate of its own", "give rate_hz, the samples per second")
     if samples.ndim not in (1, 2):
-        raise _refused(f"samples have one or two axes, frames and channels, and this array has {samples.ndim}",
+        raise refused(f"samples have one or two axes, frames and channels, and this array has {samples.ndim}",
                        "give one array for each recording")
     if samples.ndim == 2 and samples.shape[1] > _CHANNELS_MAX:
-        raise _refused(f"the array has {samples.shape[0]} frames of {samples.shape[1]} channels", "frames come first: give samples.T")
+        raise refused(f"the array has {samples.shape[0]} frames of {samples.shape[1]} channels", "frames come first: give samples.T")
     return Heard(["array"], np.ascontiguousarray(samples), float(rate_hz))
-
-
-def _refused(what: str, hint: str) -> WrongUseError:
-    return WrongUseError(f"{what} (hint: {hint})", what, hint)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._errors import FileError, WrongUseError
+from ._errors import FileError
 from ._extras import axes_of
 from ._heard import OfSound
 from ._progress import Progress, listening
-from ._rows import Json, Table, filled, numbered
-from ._sound import Recording, to_hear
-from ._words import Path, words
+from ._rows import Json, Kinds, Shown, filled, kinds_of, numbered
+from ._sound import SAMPLES_HINT, Recording, to_hear
+from ._words import Path, paths_of, refused, words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +36,7 @@ _SCALARS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Track(Table):
+class Track(Shown):
     """The shaft speed over time, as ``hovertone speed --track`` writes it.
 
     Attributes
@@ -90,6 +90,14 @@ class Track(Table):
         if len(np.unique(self.rotor)) > 1:
             ax.legend()
         return ax
+
+    def _facts(self) -> Json:
+        rotors = ", ".join("all together" if rotor == 0 else str(rotor) for rotor in np.unique(self.rotor))
+        rows: Json = {"points": len(self), "rotors": rotors or None}
+        if len(self):
+            rows |= {"from_s": float(self.time_s.min()), "to_s": float(self.time_s.max())}
+            rows |= {"lowest speed_rev_s": float(self.speed_rev_s.min()), "highest speed_rev_s": float(self.speed_rev_s.max())}
+        return rows
 
 
 @dataclass(frozen=True)
@@ -262,6 +270,9 @@ class Speed(OfSound):
     def _columns(self) -> dict[str, Any]:
         return {name: [getattr(self, name)] for name in _SCALARS}
 
+    def _kinds(self) -> Kinds:
+        return kinds_of(Speed, *_SCALARS)
+
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the speed over time by matplotlib.
 
@@ -333,13 +344,13 @@ def speed(
     return Speed._of(one(found, heard.paths))
 
 
-def speeds(recordings: Path | Sequence[Path], *, progress: Progress = None, **flags: Unpack[SpeedFlags]) -> list[Speed]:
+def speeds(recordings: Path | Iterable[Path], *, progress: Progress = None, **flags: Unpack[SpeedFlags]) -> list[Speed]:
     """Rotor speeds of several recordings, heard on all cores.
 
     Parameters
     ----------
-    recordings : path or sequence of paths
-        Files and patterns, such as ``"archive/*.wav"``.
+    recordings : path or iterable of paths
+        Files and patterns, such as ``"archive/*.wav"``: a list, ``Path("archive").glob("**/*.wav")``, a column of a table. A set is sorted.
     progress : callable or bool, optional
         Told the finished share, from 0 to 1; ``True`` shows a bar by tqdm.
     **flags
@@ -355,7 +366,7 @@ def speeds(recordings: Path | Sequence[Path], *, progress: Progress = None, **fl
     >>> [found.status for found in speeds("*.wav", blades=2)]
     ['ok']
     """
-    paths = list(recordings) if isinstance(recordings, Sequence) and not isinstance(recordings, str) else [recordings]
+    paths = paths_of(recordings, SAMPLES_HINT)
     with listening(progress) as listener:
         found = _native.heard(words("speed", paths, flags | {"json": True}), on_progress=listener)
     return [Speed._of(heard) for heard in found]
@@ -393,8 +404,7 @@ def one(found: Sequence[_native.Heard], paths: Sequence[Path]) -> _native.Heard:
     """The one recording that was heard, where it could be read."""
     if len(found) != 1:
         what = f"{paths[0]} means {len(found)} recordings, and this call hears one"
-        hint = "name one of them, or call hovertone.speeds()"
-        raise WrongUseError(f"{what} (hint: {hint})", what, hint)
+        raise refused(what, "name one of them, or call hovertone.speeds()")
     data = json.loads(found[0].speed_json())
     if data["status"] == "error":
         # the reason has the advice

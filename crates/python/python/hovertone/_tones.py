@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._extras import axes_of
 from ._heard import OfSound
 from ._progress import Progress, listening
-from ._rows import Json, column_wise, filled
+from ._rows import Json, Kinds, column_wise, filled, kinds_of
 from ._sound import Recording, to_hear
 from ._speed import Reading, Status, one
 from ._words import words
@@ -100,14 +100,17 @@ class Tones(OfSound):
         families = tuple(ToneFamily._of(family) for family in data["families"])
         return filled(cls, data, families=families, warnings=tuple(data["warnings"]), json=data, _heard=heard)
 
+    def _kinds(self) -> Kinds:
+        of_readings = [field.name for field in fields(Reading) if field.name != "gear"]
+        return {"family": "int64", **kinds_of(ToneFamily, "is_rotor", "fundamental_hz"), **kinds_of(Reading, *of_readings)}
+
     def _columns(self) -> dict[str, Any]:
         rows = []
         for number, family in enumerate(self.families, 1):
             for reading in family.readings:
                 of_family = {"family": number, "is_rotor": family.is_rotor, "fundamental_hz": family.fundamental_hz}
-                of_reading = {name: value for name, value in vars(reading).items() if name != "gear"}
-                rows.append(of_family | of_reading)
-        return column_wise(rows)
+                rows.append(of_family | vars(reading))
+        return column_wise(rows, self._kinds())
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the levels of the harmonics of all families by matplotlib.

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import json
-import os
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._errors import NoRotorToneError
+from ._errors import FileError, NoRotorToneError
 from ._estimate import Estimate, estimate
 from ._export import Results, as_file
 from ._extras import axes_of
 from ._progress import Progress, listening
-from ._rows import Json, Shown, filled
-from ._words import Path, words
+from ._rows import Json, Kinds, Shown, filled, numbered
+from ._words import Path, paths_of, words
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,6 +41,10 @@ class Weighed(Shown):
         Number of recordings with a rotor tone.
     has_flight_scatter : bool
         Whether the uncertainty contains how much the speed differs from flight to flight.
+    warnings : tuple of str
+        What weakens the answer, each with its recording; recordings without a speed and files that cannot be read, with the reason.
+    json : dict
+        All of it, as ``hovertone weigh --json`` prints it.
     """
 
     mass_kg: Estimate
@@ -49,6 +52,12 @@ class Weighed(Shown):
     speed_rad_s: float
     recording_count: int
     has_flight_scatter: bool
+    warnings: tuple[str, ...]
+    json: Json = field(repr=False, compare=False)
+
+    def _kinds(self) -> Kinds:
+        masses: Kinds = {name: "float64" for name in ("mass_kg", "payload_kg", "mass_std_kg", "payload_std_kg", "speed_rad_s")}
+        return {**masses, "recording_count": "int64"}
 
     def _columns(self) -> dict[str, Any]:
         masses = {"mass_kg": self.mass_kg, "payload_kg": self.payload_kg}
@@ -73,18 +82,18 @@ class Weighed(Shown):
         return ax
 
     def _facts(self) -> Json:
-        return {name: values[0] for name, values in self._columns().items()}
+        return {name: values[0] for name, values in self._columns().items()} | numbered(self.warnings)
 
 
 def weigh(
-    recordings: Path | Sequence[Path] = (), *, constant: Results | None = None, progress: Progress = None, **flags: Unpack[WeighFlags]
+    recordings: Path | Iterable[Path] = (), *, constant: Results | None = None, progress: Progress = None, **flags: Unpack[WeighFlags]
 ) -> Weighed:
     """Mass of an unknown payload, from the sound of a hover and a known thrust constant.
 
     Parameters
     ----------
-    recordings : path or sequence of paths
-        Hovers with the same payload.
+    recordings : path or iterable of paths
+        Files of hovers with the same payload; no arrays.
     constant : path, Identification or Fit, optional
         The constant, with mass, gravity and tone: an identification, or its results.json.
     progress : callable or bool, optional
@@ -101,6 +110,8 @@ def weigh(
 
     Raises
     ------
+    FileError
+        No recording has a rotor tone, and a file cannot be read.
     NoRotorToneError
         No recording has a rotor tone.
 
@@ -110,10 +121,49 @@ def weigh(
     >>> f"{weighed.mass_kg.value:.3f} kg"
     '0.428 kg'
     """
-    paths = [recordings] if isinstance(recordings, str | os.PathLike) else list(recordings)
+    paths = paths_of(recordings, "give names of files, without empty cells; weigh hears no arrays")
     with as_file(constant) as results, listening(progress) as listener:
         data, messages, _ = _native.printed(words("weigh", paths, flags | {"constant": results, "json": True}), listener)
-    if not data:
-        raise NoRotorToneError(messages.strip())
-    weighed = json.loads(data)
-    return filled(Weighed, weighed, mass_kg=filled(Estimate, weighed["mass_kg"]), payload_kg=estimate(weighed["payload_kg"]))
+    told = list(_messages(messages))
+    if data:
+        weighed: Json = json.loads(data)
+        return filled(
+            Weighed,
+            weighed,
+            mass_kg=filled(Estimate, weighed["mass_kg"]),
+            payload_kg=estimate(weighed["payload_kg"]),
+            warnings=tuple(text for _, text in told),
+            json=weighed,
+        )
+    all_texts = "; ".join(text for _, text in told)
+    for label, text in told:
+        if label == "error":
+            file, _, reason = text.partition(": ")
+            raise FileError(all_texts, reason, "", file)
+    raise NoRotorToneError(all_texts)
+
+
+def _messages(text: str) -> Iterator[tuple[str, str]]:
+    """The messages that the command prints beside its answer, each with its label and with the recording that it is about.
+
+    Examples
+    --------
+    >>> list(_messages("1 warning\\na.wav\\n  no rotor tone: it is silent\\n  warning: too loud (hint: x)\\nerror: b.wav: there is no such file\\n"))
+    [('no rotor tone', 'a.wav: no rotor tone: it is silent'), ('warning', 'a.wav: too loud (hint: x)'), ('error', 'b.wav: there is no such file')]
+    """
+    heading = ""
+    for line in text.splitlines():
+        label, colon, words_of = line.strip().partition(": ")
+        if line.startswith("  ") and not colon or line.startswith("  cut ") or label == "cut":
+            # times that are cut weaken nothing
+            continue
+        if not colon or label not in _LABELS:
+            # a number of warnings, or the recording of the next lines
+            heading = line
+            continue
+        said = words_of if label in ("warning", "error") else f"{label}: {words_of}"
+        yield label, f"{heading}: {said}" if line.startswith("  ") else said
+
+
+#: What stands before a message.
+_LABELS = ("warning", "error", "no rotor tone", "ambiguous")

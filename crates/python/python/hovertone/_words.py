@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import numbers
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Set
+
+from ._errors import WrongUseError
 
 Path = str | os.PathLike[str]
+_PATHS_HINT = "give names of files; leave out empty cells"
 
 
 def words(command: str, paths: Iterable[Path], flags: Mapping[str, object]) -> list[str]:
@@ -30,7 +33,7 @@ def _flag(name: str, value: object) -> list[str]:
     if value is True:
         return [flag]
     if isinstance(value, Mapping):
-        return [f"{flag}={_text(load)}={file}" for load, files in value.items() for file in _each(files)]
+        return [f"{flag}={_text(load)}={os.fspath(file)}" for load, files in value.items() for file in paths_of(files)]
     return [f"{flag}={_text(value)}"]
 
 
@@ -50,8 +53,40 @@ def _text(value: object) -> str:
             return str(value)
 
 
-def _each(files: Path | Sequence[Path]) -> list[str]:
-    return [os.fspath(files)] if isinstance(files, str | os.PathLike) else [os.fspath(file) for file in files]
+def paths_of(given: Path | Iterable[Path], hint: str = _PATHS_HINT) -> list[Path]:
+    """The paths of one path or of any iterable of paths; a set is sorted, so that its sequence is the same in every run.
+
+    Examples
+    --------
+    >>> paths_of("a.wav"), paths_of(name for name in ["b.wav", "a.wav"]), paths_of({"b.wav", "a.wav"})
+    (['a.wav'], ['b.wav', 'a.wav'], ['a.wav', 'b.wav'])
+    """
+    if isinstance(given, str | os.PathLike):
+        return [given]
+    if is_table(given):
+        raise refused("paths are needed, and this is a table", 'give the column with the names, such as table["file"]')
+    if not isinstance(given, Iterable) or isinstance(given, bytes) or getattr(given, "shape", None) == ():
+        raise refused(f"paths are needed, and this is {_named(given)}", hint)
+    # a scalar of Arrow is the word in it
+    paths = [path.as_py() if hasattr(path, "as_py") else path for path in given]
+    for number, path in enumerate(paths, 1):
+        if not isinstance(path, str | os.PathLike):
+            raise refused(f"paths are needed, and number {number} of them is {_named(path)}", hint)
+    return sorted(paths, key=os.fspath) if isinstance(given, Set) else paths
+
+
+def is_table(given: object) -> bool:
+    """Whether this has columns: a mapping, or a table of pandas, Polars or Arrow."""
+    return isinstance(given, Mapping) or any(hasattr(given, name) for name in ("columns", "to_pydict", "__dataframe__"))
+
+
+def refused(what: str, hint: str) -> WrongUseError:
+    """The refusal in the form of the command line."""
+    return WrongUseError(f"{what} (hint: {hint})", what, hint)
+
+
+def _named(value: object) -> str:
+    return f"{value!r:.40} ({type(value).__name__})" if isinstance(value, numbers.Number | bytes | None) else f"of the type {type(value).__name__}"
 
 
 def _file(path: Path) -> str:

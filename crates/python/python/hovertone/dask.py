@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ._archive import names, rows
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["speeds"]
 
 
-def speeds(paths: Path | Sequence[Path], **flags: Unpack[BatchFlags]) -> dask.dataframe.DataFrame:
+def speeds(paths: Path | Iterable[Path], **flags: Unpack[BatchFlags]) -> dask.dataframe.DataFrame:
     """Rotor speeds of an archive: the rows that ``hovertone batch`` writes into recordings.parquet.
 
     Parameters

@@ -5,7 +5,7 @@ A recording is heard by one task. Ray starts a task again whose worker was kille
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ._archive import names, rows
@@ -24,12 +24,12 @@ __all__ = ["speeds"]
 _BATCH = 4
 
 
-def speeds(paths: Path | Sequence[Path], **flags: Unpack[BatchFlags]) -> ray.data.Dataset:
+def speeds(paths: Path | Iterable[Path], **flags: Unpack[BatchFlags]) -> ray.data.Dataset:
     """Rotor speeds of an archive: the rows that ``hovertone batch`` writes into recordings.parquet.
 
     Parameters
     ----------
-    paths : path or sequence of paths
+    paths : path or iterable of paths
         Folders, patterns, recordings, or lists (.txt), that all machines of the cluster see under the same names; addresses such as
         ``s3://bucket/folder`` where the package was built with stores.
     **flags
