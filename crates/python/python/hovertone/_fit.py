@@ -122,8 +122,8 @@ def fit(table: Columns | None = None, *, group: str | None = None, **flags: Unpa
     ----------
     table : path, mapping, or table of pandas, Polars or Arrow
         A CSV file, or columns with the headers of one: a speed (``"rpm"``, ``"speed_rad_s"``), and a thrust (``"thrust_n"``,
-        ``"thrust_g"``) or a mass (``"mass_g"``); also standard uncertainties, power and torque. A cell with ``None`` is an empty cell, and NaN is refused. Messages count lines as in
-        a CSV file: line 1 has the headers.
+        ``"thrust_g"``) or a mass (``"mass_g"``); also standard uncertainties, power and torque. A cell with ``None`` is an empty cell, and NaN is refused.
+        Messages count lines as in a CSV file: line 1 has the headers.
     group : str, optional
         The group to use, where columns of words make several.
     **flags
@@ -170,7 +170,7 @@ def fits(tables: Columns | Iterable[Path], **flags: Unpack[FitFlags]) -> list[Fi
     ['a', 'b']
     """
     flags_of_fit = flags | {"json": True}
-    if is_table(tables):
+    if is_table(tables) or (hasattr(tables, "to_pandas") and not isinstance(tables, Iterable)):
         data = _of_columns(_columns_of(tables), flags_of_fit)
     else:
         data = json.loads(_native.printed(words("fit", paths_of(tables, _TABLES_HINT), flags_of_fit))[0])

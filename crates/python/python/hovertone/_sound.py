@@ -55,7 +55,9 @@ class Sound:
     warnings: tuple[str, ...]
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        # None copies where it must; so it does in NumPy 1, which takes it for False and has no refusal of a copy
+        if copy is None:
+            # NumPy 1 knows no such argument of array()
+            return np.asarray(self.samples, dtype=dtype)
         return np.array(self.samples, dtype=dtype, copy=copy)
 
     def __len__(self) -> int:
@@ -140,7 +142,7 @@ def _is_several(recording: Any) -> bool:
     if isinstance(recording, list | tuple) and any(isinstance(one, Sound) for one in recording):
         return True
     array = np.asarray(recording)
-    return array.dtype.kind == "U" or (array.dtype.kind == "O" and any(isinstance(one, str | os.PathLike) for one in array.flat))
+    return array.dtype.kind in "UT" or (array.dtype.kind == "O" and any(isinstance(one, str | os.PathLike) for one in array.flat))
 
 
 def _array(samples: NDArray[Any], rate_hz: float | None) -> Heard:

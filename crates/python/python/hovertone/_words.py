@@ -86,7 +86,10 @@ def refused(what: str, hint: str) -> WrongUseError:
 
 
 def _named(value: object) -> str:
-    return f"{value!r:.40} ({type(value).__name__})" if isinstance(value, numbers.Number | bytes | None) else f"of the type {type(value).__name__}"
+    if value is None:
+        return "None"
+    kind = type(value).__name__
+    return f"{value!r:.40} ({kind})" if isinstance(value, numbers.Number | bytes) else f"of the type {kind}"
 
 
 def _file(path: Path) -> str:
