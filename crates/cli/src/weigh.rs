@@ -105,7 +105,7 @@ impl Plan {
     fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
         let rotor_count = self.config.rotors.count;
         let speeds: Vec<&SpeedEstimate> =
-            records.iter().filter_map(|record| record.tone()?.speed(Method::Separated)).collect();
+            records.iter().filter_map(|record| record.speed_by(Method::Separated)).collect();
         let is_apart = rotor_count == 1 || speeds.iter().all(|speed| speed.method == Method::Separated);
         let is_alike = match self.method_of_constant {
             Some(Method::Separated) => is_apart,

@@ -96,6 +96,11 @@ impl SpeedRecord {
         }
     }
 
+    /// The analysis, where one speed is told: neither "no rotor tone" nor "ambiguous".
+    pub fn told_analysis(&self) -> Option<&SpeedAnalysis> {
+        self.analysis().filter(|_| self.speed().is_some())
+    }
+
     /// The tone of the rotor, if there is one.
     pub fn tone(&self) -> Option<&RotorTone> {
         match &self.analysis()?.outcome {
@@ -106,7 +111,12 @@ impl SpeedRecord {
 
     /// The speed by the configured method; `None` where several speeds explain the sound.
     pub fn speed(&self) -> Option<&SpeedEstimate> {
-        self.tone()?.speed(self.method).filter(|_| !self.is_ambiguous())
+        self.speed_by(self.method)
+    }
+
+    /// The speed by a method; `None` where several speeds explain the sound.
+    pub fn speed_by(&self, method: Method) -> Option<&SpeedEstimate> {
+        self.tone()?.speed(method).filter(|_| !self.is_ambiguous())
     }
 
     /// The separated rotors, fastest first.

@@ -55,8 +55,7 @@ impl Identified {
         method: Method,
     ) -> Result<Self, TipsTooFast> {
         check_tips_of(&experiment, &inputs)?;
-        let has_rotors =
-            inputs.iter().filter_map(|input| input.record.tone()?.speed(Method::Separated)).any(is_separated);
+        let has_rotors = inputs.iter().filter_map(|input| input.record.speed_by(Method::Separated)).any(is_separated);
         let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
         let unresolved_std_share = unresolved_std_share(&experiment, &inputs);
         let tables = Method::ALL
@@ -129,7 +128,7 @@ impl Identified {
         let experiment = &self.experiment;
         let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
         format!(
-            "{}: {}, tone of order {}; {}, {}, {heard} of them with a rotor tone; {}\n",
+            "{}: {}, tone of order {}; {}, {}, {heard} of them with a speed; {}\n",
             printable(&experiment.vehicle_name),
             counted(experiment.rotor_count as usize, "rotor"),
             experiment.config.tone.order,
@@ -168,7 +167,7 @@ impl Identified {
                 };
                 format!("{constants}\nverdict: {}{heard}{failed}\n", printable(Verdict::of(table).words()))
             }
-            None => "C_f: none, since no recording has a rotor tone\nverdict: nothing is identified\n".to_owned(),
+            None => "C_f: none, since no recording has a speed\nverdict: nothing is identified\n".to_owned(),
         }
     }
 
@@ -200,10 +199,8 @@ fn unresolved_std_share(experiment: &Experiment, inputs: &[InputRecord]) -> f64 
         let load = experiment.loads.iter().find(|load| load.name == input.load);
         load.map_or(1, |load| load.rotors_running)
     };
-    let speeds = inputs
-        .iter()
-        .filter(|input| running(input) > 1)
-        .filter_map(|input| input.record.tone()?.speed(Method::Separated));
+    let speeds =
+        inputs.iter().filter(|input| running(input) > 1).filter_map(|input| input.record.speed_by(Method::Separated));
     let shares: Vec<f64> = speeds.map(SpeedEstimate::rotors_std_share).collect();
     shares.iter().sum::<f64>() / shares.len().max(1) as f64
 }
@@ -212,7 +209,7 @@ fn is_separated(speed: &SpeedEstimate) -> bool {
     speed.method == Method::Separated
 }
 
-/// The speeds of all loads by one method. A recording without a rotor tone is no trial.
+/// The speeds of all loads by one method. A recording without a rotor tone, or with several possible speeds, is no trial.
 fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> Vec<LoadSpeeds> {
     experiment
         .loads
@@ -225,7 +222,9 @@ fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> 
             trials: inputs
                 .iter()
                 .filter(|input| input.load == load.name)
-                .filter_map(|input| TrialSpeeds::from_analysis(&input.record.file, input.record.analysis()?, method))
+                .filter_map(|input| {
+                    TrialSpeeds::from_analysis(&input.record.file, input.record.told_analysis()?, method)
+                })
                 .collect(),
         })
         .collect()

@@ -60,7 +60,8 @@ fn a_warning_of_most_recordings_is_one_line_with_the_exceptions() {
     assert_eq!(run.stderr.matches(SHORT).count(), 1, "{}", run.stderr);
     let marks = |meaning: &str| page.matches(&format!("data-sort=\"{meaning}\"")).count();
     assert_eq!((marks("has warnings"), marks("without warnings"), marks("no speed")), (6, 1, 2));
-    let lines = run.stderr.matches("warning: ").count();
+    // two recordings without a speed are one line, and weaken the constant too
+    let lines = run.stderr.matches("warning: ").count() + run.stderr.matches("no rotor tone: ").count();
     assert_counted(&run, &page, lines);
 }
 

@@ -1,5 +1,6 @@
 //! `hovertone identify` on sound whose thrust constant is known.
 
+use crate::report_fixture::write_rotor;
 use crate::testkit::{Run, files_in, hovertone, recordings, repository, steady_hover, text, write_hover};
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
@@ -209,4 +210,29 @@ fn the_shipped_bench_experiment_gives_a_constant_per_rotor() {
     assert!((rotor / weighed - 1.0).abs() < 2.0 * 0.5 / 325.6, "{rotor} {weighed}");
     let stranger = hovertone(&["identify", text(&path)]).ends_with(1);
     assert!(stranger.stderr.contains("40000.wav") && stranger.stderr.contains("--data-root"), "{}", stranger.stderr);
+}
+
+/// Where the diameter is such that the thrust contradicts the sound, no single speed is told, and the recording is no trial.
+#[test]
+fn a_recording_with_several_possible_speeds_is_no_trial() {
+    let folder = tempfile::tempdir().unwrap();
+    let recording = folder.path().join("hover.wav");
+    write_rotor(&recording, 100.0, 0.0, 6.0, 1);
+    let vehicle = |diameter: &str| ["--blades", "2", "--rotors", "4", "--diameter-m", diameter].map(str::to_owned);
+    let is_ambiguous = |diameter: &String| {
+        let known = vehicle(diameter);
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        let flags = ["speed", "--json", "--mean-only", "--mass-kg", "0.5", text(&recording)];
+        hovertone(&[&flags, &known[..]].concat()).json_lines()[0]["status"] == "ambiguous"
+    };
+    let diameters = (12u32..40).map(|step| format!("{:.2}", 0.01 * f64::from(step)));
+    let diameter = diameters.into_iter().find(is_ambiguous).expect("no diameter leaves two speeds");
+    let known = vehicle(&diameter);
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    let mass = format!("0.5={}", text(&recording));
+    let out = folder.path().join("out");
+    let flags = ["identify", "--mass", &mass, "--method", "harmonic", "-o", text(&out)];
+    let run = hovertone(&[&flags, &known[..]].concat()).ends_with(3);
+    assert!(run.stderr.contains("ambiguous: several rotor speeds explain this sound"), "{}", run.stderr);
+    assert!(run.stdout.contains("0 of them with a speed") && run.stdout.contains("C_f: none"), "{}", run.stdout);
 }
