@@ -8,6 +8,8 @@ use hovertone_signal::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed};
 use std::f64::consts::TAU;
 
+/// Two speeds differ where their distance is larger than so many standard uncertainties of it. *Decision.*
+const COVERAGE_FACTOR: f64 = 2.0;
 /// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
 const RESOLVED_SHARE_MIN: f64 = 0.5;
 /// Largest share of the time in which a track may follow noise to count as a rotor, even where it is never separated from other rotors.
@@ -53,6 +55,12 @@ impl RotorTracks {
         if is_far || self.are_one_group && !self.would_hear_faint() { Self::default() } else { self }
     }
 
+    /// The standard uncertainty of the mean speed of a rotor, rev/s.
+    fn rotor_std_rev_s(&self, speed: &SpeedEstimate, rotor: &RotorTrack, unknown_rotor_rev_s: f64) -> Option<f64> {
+        let doubt_rev_s = self.doubt_share(rotor, None) * unknown_rotor_rev_s;
+        speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()))
+    }
+
     /// Longest time between points of a track.
     pub(crate) fn step_s(&self) -> f64 {
         self.rotors.iter().map(|rotor| rotor.track.step_s).fold(0.0, f64::max)
@@ -63,7 +71,8 @@ impl RotorTracks {
         self.faint_s >= FAINT_SHARE_MIN * self.length_s
     }
 
-    /// The resolved rotors, fastest first. Empty for one group.
+    /// The resolved rotors, fastest first. Empty for one group. Two whose speeds differ by less than the expanded uncertainty of the difference may be
+    /// one rotor, and are left out.
     pub(crate) fn rotors(&self, order: Order, budget: &BudgetConfig) -> Vec<RotorEstimate> {
         if self.are_one_group {
             return Vec::new();
@@ -75,9 +84,7 @@ impl RotorTracks {
             .resolved(None)
             .filter_map(|rotor| {
                 let mut speed = rotor.track.speed_in(None, order)?;
-                let doubt_rev_s = self.doubt_share(rotor, None) * unknown_rotor_rev_s;
-                speed.std_uncertainty_rev_s =
-                    speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()));
+                speed.std_uncertainty_rev_s = self.rotor_std_rev_s(&speed, rotor, unknown_rotor_rev_s);
                 let mut track = rotor.track.points_in(None, order);
                 for point in &mut track {
                     if rotor.lost.iter().any(|span| span.contains(point.time_s)) {
@@ -99,6 +106,14 @@ impl RotorTracks {
             })
             .collect();
         rotors.sort_by(|a, b| b.speed.speed.rev_s().total_cmp(&a.speed.speed.rev_s()));
+        let may_be_one: Vec<bool> = rotors
+            .iter()
+            .map(|rotor| {
+                rotors.iter().any(|other| !std::ptr::eq(rotor, other) && may_be_one(&rotor.speed, &other.speed))
+            })
+            .collect();
+        let mut may_be_one = may_be_one.into_iter();
+        rotors.retain(|_| may_be_one.next() != Some(true));
         rotors
     }
 
@@ -189,6 +204,12 @@ impl RotorTracks {
         let length_s = of.map_or(self.length_s, Span::length_s).min(self.length_s);
         spans.into_iter().map(within_s).sum::<f64>() / length_s.max(f64::MIN_POSITIVE)
     }
+}
+
+/// Whether two speeds differ by less than the expanded uncertainty of their difference.
+fn may_be_one(a: &SpeedEstimate, b: &SpeedEstimate) -> bool {
+    let std_rev_s = a.std_uncertainty_rev_s.zip(b.std_uncertainty_rev_s).map_or(0.0, |(a, b)| a.hypot(b));
+    (a.speed.rev_s() - b.speed.rev_s()).abs() < COVERAGE_FACTOR * std_rev_s
 }
 
 /// The mean speed of all rotors over time, where each rotor has a speed. The points of their tracks are up to `step_s` apart.
