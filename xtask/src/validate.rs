@@ -50,15 +50,15 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
 
 /// All names that `hovertone export --to` takes.
 fn formats(hovertone: &Path) -> Result<Vec<String>, String> {
-    let output = Command::new(hovertone).args(["export", "--help"]).output();
+    let output = Command::new(hovertone).args(["export", "-h"]).output();
     let output = output.map_err(|error| format!("{}: {error}", hovertone.display()))?;
     formats_in(&String::from_utf8_lossy(&output.stdout))
 }
 
-/// The names in a help text: "[possible values: gazebo, rotors]".
+/// The names in a short help text: "[possible values: gazebo, rotors]".
 fn formats_in(help: &str) -> Result<Vec<String>, String> {
     let names = help.split_once("[possible values:").and_then(|(_, rest)| rest.split_once(']'));
-    let (names, _) = names.ok_or("hovertone export --help lists no formats")?;
+    let (names, _) = names.ok_or("hovertone export -h lists no formats")?;
     Ok(names.split(',').map(|name| name.trim().to_owned()).collect())
 }
 
