@@ -31,6 +31,7 @@ mod labels;
 mod listen;
 mod log;
 mod microphones;
+mod missing;
 mod misuse;
 mod motor;
 mod nearest;

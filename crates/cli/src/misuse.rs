@@ -2,8 +2,9 @@
 
 use crate::args::Arguments;
 use crate::failure::Failure;
+use crate::missing::missing_in_words;
 use crate::nearest::nearest;
-use crate::see_help::{example_and_help, see_help};
+use crate::see_help::example_and_help;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use std::error::Error as _;
@@ -35,11 +36,7 @@ pub(crate) fn failure_of(error: &clap::Error, words: &[OsString]) -> Option<Fail
     }
     let Misuse { what, hint } = Misuse::of(error, words);
     let name = error.get(ContextKind::InvalidArg).map(all_words).unwrap_or_default();
-    let advice = || match error.kind() {
-        ErrorKind::MissingRequiredArgument => see_help(words),
-        _ => example_and_help(words, &flag_of(&name)),
-    };
-    Some(Failure::usage(what, hint.unwrap_or_else(advice)))
+    Some(Failure::usage(what, hint.unwrap_or_else(|| example_and_help(words, &flag_of(&name)))))
 }
 
 struct Misuse {
@@ -79,7 +76,11 @@ impl Misuse {
                 Self { what: format!("{name} cannot be used with {other}"), hint }
             }
             ErrorKind::MissingRequiredArgument => {
-                Self { what: format!("this is missing: {}", text(ContextKind::InvalidArg)), hint: None }
+                let arguments = match error.get(ContextKind::InvalidArg) {
+                    Some(ContextValue::Strings(all)) => all.clone(),
+                    _ => Vec::new(),
+                };
+                Self { what: missing_in_words(words, &arguments), hint: None }
             }
             ErrorKind::TooFewValues | ErrorKind::TooManyValues | ErrorKind::WrongNumberOfValues => {
                 Self { what: format!("{name} has too many or too few values"), hint: None }
@@ -223,7 +224,12 @@ mod tests {
             ("hovertone identfy", "there is no command \"identfy\" (did you mean identify?)"),
             ("hovertone spectogram", "there is no command \"spectogram\" (did you mean spectrogram?)"),
             ("hovertone quality", "there is no command \"quality\" (`hovertone --help` lists all commands)"),
-            ("hovertone speed", "this is missing: <FILE>... (see `hovertone speed --help`)"),
+            (
+                "hovertone speed",
+                "speed needs at least one recording (as in `hovertone speed --blades 2 hover.mp4`; see",
+            ),
+            ("hovertone weigh a.wav", "weigh needs a thrust constant: --constant RESULTS.json (as in `hovertone weigh"),
+            ("hovertone batch", "batch needs a folder for the results: -o OUT, and a folder with recordings (as in"),
             (
                 "hovertone demo extra",
                 "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",

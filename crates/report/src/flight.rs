@@ -74,7 +74,9 @@ pub fn simulated_flight_table(flight: &SimulatedFlight, width: Option<usize>) ->
     }
     text += &table_text(&table, width);
     if let Some(total) = flight.thrust_constant_total_n_s2 {
-        text += &format!("C_f by hover balance, whole vehicle: {total:.4e} N s² (m g / mean Σω², times the rotors)\n");
+        text += &format!(
+            "C_f of the whole vehicle, in hover: {total:.4e} N s² (the weight m g over the mean ω² of a rotor)\n"
+        );
     }
     text
 }
@@ -102,9 +104,16 @@ mod tests {
             thrust_constant_total_n_s2: Some(2.831e-5),
         };
         let text = simulated_flight_table(&flight, None);
-        for words in
-            ["413.0 g", "1 microphone,", "seed 3", "8.0 s of hover", "3610.00", "0.73", "7.0775e-6", "2.8310e-5"]
-        {
+        for words in [
+            "413.0 g",
+            "1 microphone,",
+            "seed 3",
+            "8.0 s of hover",
+            "3610.00",
+            "0.73",
+            "7.0775e-6",
+            "2.8310e-5 N s² (the weight m g",
+        ] {
             assert!(text.contains(words), "{words}:\n{text}");
         }
         (flight.hover_s, flight.thrust_constant_total_n_s2) = (None, None);

@@ -83,7 +83,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         text +=
             "too slow for a time constant: a motor reaches its speed within 300 ms, and 3 log rows must lie in that\n";
     } else if !has_steps {
-        text += "no step: the speed never changes once between two levels that are held\n";
+        text += "no step: the speed never goes from one steady speed to another\n";
     }
     if has_steps {
         text += &format!("\n{}", table_text(&steps_table(record), width));
@@ -101,7 +101,7 @@ fn nothing_in_words(source: &MotorSource) -> String {
     match source {
         MotorSource::Log => "no rotor speed in this log\n".to_owned(),
         MotorSource::Sound(sound) => {
-            format!("no rotor tone: {}\n", sound.no_tone.as_deref().unwrap_or("no level is held for a second"))
+            format!("no rotor tone: {}\n", sound.no_tone.as_deref().unwrap_or("no speed is held for a second"))
         }
     }
 }
@@ -208,26 +208,36 @@ fn verdict_in_words(verdict: StepVerdict) -> &'static str {
     }
 }
 
-/// The square term of the load, or why it is not told.
+/// How the load changes the time constant, or why this is not known.
 fn load_text(constants: &MotorConstants) -> String {
     let Some(LoadTerm { unloaded_rate_per_s, square_per_rev, .. }) = constants.load_term else {
-        return "square term of the load: not told, the range of speeds is too small\n".to_owned();
+        return "whether the time constant changes with the speed is not known: the steps cover too small a range of speeds\n"
+            .to_owned();
     };
     let rate = with_uncertainty(unloaded_rate_per_s.value, unloaded_rate_per_s.std_uncertainty);
     let square = with_uncertainty(square_per_rev.value, square_per_rev.std_uncertainty);
-    format!("square term of the load: 1/τ = 1/τ₀ + 2 k ω with 1/τ₀ = {rate} 1/s, k = {square} 1/rev\n")
+    format!(
+        "the time constant τ changes with the speed ω: 1/τ = 1/τ₀ + 2 k ω with 1/τ₀ = {rate} 1/s, k = {square} 1/rev\n"
+    )
 }
 
-/// The static maps: the gain of each motor, and the plateaus behind it.
+/// The static maps, in words the speed of each command: the gain of each motor, and the plateaus behind it.
 fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
     if record.motors.iter().all(|motor| motor.command.is_none()) {
         return match record.source {
-            MotorSource::Log => "\nno static map: this log has no command that changes\n".to_owned(),
-            MotorSource::Sound(_) => "\nno static map: no commands (give --commands LOG)\n".to_owned(),
+            MotorSource::Log => {
+                "\nspeed of each command: not known, because no command in this log changes\n".to_owned()
+            }
+            MotorSource::Sound(_) => {
+                "\nspeed of each command: not known without the commands (give --commands LOG)\n".to_owned()
+            }
         };
     }
-    let mut text = format!("\nstatic map\n{}", table_text(&gains_table(record), width));
+    let mut text = format!("\nspeed of each command\n{}", table_text(&gains_table(record), width));
     let maps = || record.motors.iter().filter_map(|motor| motor.model.static_map.as_ref());
+    if maps().any(|map| map.origin == MapOrigin::Plateaus && map.gain_rev_s.is_some()) {
+        text += "gain: slope of the straight line through the settled speeds; the line holds only between the smallest and the largest of these commands\n";
+    }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
         text += "from all log rows, since no command is held: the lag of the motor makes the gain too small\n";
     }
@@ -235,7 +245,7 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));
     }
     if maps().any(|map| map.points.iter().any(|point| point.is_saturated)) {
-        text += "saturated: the speed follows the command no longer; left out of the gain\n";
+        text += "saturated: the speed no longer follows the command; this command is left out of the gain\n";
     }
     text
 }
@@ -245,7 +255,7 @@ fn gains_table(record: &MotorRecord) -> TextTable {
         Column::words("motor"),
         Column::words("command"),
         Column::numbers("gain", "rev/s per unit"),
-        Column::numbers("at command 0", "rev/s"),
+        Column::numbers("line at command 0", "rev/s"),
     ]);
     for motor in &record.motors {
         let told = motor.model.static_map.as_ref().and_then(|map| Some((map.gain_rev_s?, map.offset_rev_s?)));
@@ -258,7 +268,7 @@ fn gains_table(record: &MotorRecord) -> TextTable {
                 motor.name.clone(),
                 command.clone(),
                 with_uncertainty(gain.value, gain.std_uncertainty),
-                significant(offset_rev_s, DIGITS),
+                if offset_rev_s < 0.0 { DASH.to_owned() } else { significant(offset_rev_s, DIGITS) },
             ]),
         }
     }
@@ -301,6 +311,6 @@ fn simulator_lines(constants: &MotorConstants) -> String {
     }
     let speed_rad_s = significant(constants.speed_rev_s_max * TAU, DIGITS);
     format!(
-        "\nfor Gazebo and PX4 (the largest speed is that of this file)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
+        "\nlines for a model of Gazebo or PX4, in s and rad/s (maxRotVelocity is the largest speed in this file; the motor may reach more)\n{up}{down}<maxRotVelocity>{speed_rad_s}</maxRotVelocity>\n"
     )
 }

@@ -195,7 +195,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
         ("sped a.wav", "error: there is no command \"sped\" (hint: did you mean speed?)"),
-        ("export a.json", "error: this is missing: --to <FORMAT> (hint: "),
+        ("export a.json", "error: export needs a format or a model: --to FORMAT or --into MODEL (hint: "),
     ] {
         let run = hovertone(&arguments.split(' ').collect::<Vec<_>>()).ends_with(2);
         let all = lines(&run);

@@ -59,7 +59,7 @@ fn steps_of_a_log_tell_the_constants_of_its_motor() {
         for words in ["time constant", "<timeConstantUp>0.060", "<timeConstantDown>0.110", "<maxRotVelocity>1131<"] {
             assert!(shown.contains(words), "{words}\n{shown}");
         }
-        assert_eq!(shown.contains("no static map"), !has_command, "{shown}");
+        assert_eq!(shown.contains("speed of each command: not known"), !has_command, "{shown}");
     }
 }
 
@@ -133,7 +133,11 @@ fn a_log_without_a_time_constant_says_why() {
     let slow: Vec<String> = steps_csv(true).lines().step_by(30).map(str::to_owned).collect();
     let slow = written(folder.path(), "slow.csv", slow.join("\n"));
     let run = hovertone(&["motor", &slow]).ends_with(3);
-    assert!(run.stdout.contains("too slow for a time constant") && run.stdout.contains("static map"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("too slow for a time constant") && run.stdout.contains("speed of each command\n"),
+        "{}",
+        run.stdout
+    );
     let commands = written(folder.path(), "commands.csv", "time_s,motor1_pwm\n0,1000\n1,1200\n");
     assert!(hovertone(&["motor", &commands]).ends_with(3).stdout.contains("no rotor speed in this log"));
     let still = written(folder.path(), "still.csv", "time_s,rotor1_rpm\n0,0\n1,0\n2,0\n");
@@ -176,13 +180,19 @@ fn a_thrust_stand_tells_time_constants_and_its_saturated_step() {
     let points = line["motors"][0]["static_map"]["points"].as_array().unwrap();
     let saturated: Vec<bool> = points.iter().map(|point| point["is_saturated"].as_bool().unwrap()).collect();
     assert_eq!(saturated, [false, false, false, false, true]);
+    // the line through the speeds is below 0 at command 0: no motor has such a speed, so none is printed
+    assert!(line["motors"][0]["static_map"]["offset_rev_s"].as_f64().unwrap() < 0.0);
+    let shown = hovertone(&["motor", text(&log)]).ends_with(0).stdout;
+    assert!(shown.contains("line at command 0") && !shown.contains('−'), "{shown}");
 }
 
 #[test]
 fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
     let Some(logs) = recordings("logs") else { return };
     let run = hovertone(&["motor", text(&logs.join("px4_esc_status.ulg"))]).ends_with(3);
-    for words in ["4 motors", "too slow for a time constant", "static map", "output 4", "no command is held"] {
+    for words in
+        ["4 motors", "too slow for a time constant", "speed of each command\n", "output 4", "no command is held"]
+    {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
     assert!(!run.stdout.contains("timeConstant"));
