@@ -9,16 +9,21 @@
 //! tracks      the audio tracks, a plan for each       choose: the first that is not silent
 //! plan        how one track is decoded                native, opus, wave, quicktime, ffmpeg: packets or samples → frames
 //! recording   trims, mixes, counts errors             frames, mix, warning
+//! coded_file  needs another decoder                   coded, packets: packets for it; decoded: its samples
 //! ```
 //!
 //! [`PipedSound`] is the same for sound that arrives through a pipe, once; [`Samples`] are sound that is in memory already.
 //!
-//! Files that Symphonia and opus-pure cannot read go through an `ffmpeg`, if one is available ([`FfmpegUse`]).
+//! Files that Symphonia and opus-pure cannot read go through an `ffmpeg`, if one is available ([`FfmpegUse`]). Where there is another decoder,
+//! as in a browser, it gets the packets of [`CodedSound`], and its samples take the place of a decoder as [`DecodedSound`].
 
 mod choose;
 mod clipped;
 mod codec;
+mod coded;
+mod coded_file;
 mod container;
+mod decoded;
 mod error;
 mod ffmpeg;
 mod file_access;
@@ -31,6 +36,7 @@ mod mpeg_audio;
 mod native;
 mod ogg;
 mod opus;
+mod packets;
 mod pcm_layout;
 mod piped;
 mod plan;
@@ -42,7 +48,9 @@ mod tracks;
 mod warning;
 mod wave;
 
+pub use coded::{CodedFormat, CodedPacket, CodedSound};
 pub use container::Container;
+pub use decoded::DecodedSound;
 pub use error::MediaError;
 pub use ffmpeg::FfmpegUse;
 pub use file_access::{FileAccess, OpenFile, ReadSeek};

@@ -35,6 +35,7 @@ pub(crate) struct MatroskaTrack {
     pub(crate) codec_private: Vec<u8>,
     /// Rate of the decoded sound; 0 where the header has none.
     pub(crate) output_rate_hz: f64,
+    pub(crate) channel_count: usize,
 }
 
 impl MatroskaTrack {
@@ -153,6 +154,8 @@ fn audio_track(entry: &[u8]) -> Option<MatroskaTrack> {
                 let rates =
                     children(body).filter(|(id, _)| matches!(id, 0xb5 | 0x78b5)).filter_map(|(_, rate)| float(rate));
                 track.output_rate_hz = rates.fold(0.0, f64::max);
+                let channels = children(body).find(|(id, _)| *id == 0x9f).map_or(1, |(_, count)| unsigned(count));
+                track.channel_count = usize::try_from(channels).unwrap_or_default();
             }
             0x63a2 => track.codec_private = body.to_vec(),
             _ => {}

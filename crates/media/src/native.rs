@@ -18,15 +18,13 @@ use crate::codec::{Decoder, PACKET_FRAMES_MAX, decoder_for};
 use crate::container::Container;
 use crate::file_access::FileAccess;
 use crate::frames::{Frames, Incidents};
-use crate::guard::{PANICKED, guarded};
+use crate::guard::guarded;
 use crate::iso::{self, TablePackets};
 use crate::opus::{OPUS_RATE_HZ, packet_frames};
+use crate::packets::PacketSource;
 use crate::quicktime::AudioTrack;
 use crate::source::{FileView, Patch};
 use crate::wave::{WaveBlocks, WaveLayout};
-
-/// Largest number of consecutive errors. A demuxer resynchronises after an error; after this many it has no more data.
-const DEMUXER_ERRORS_IN_A_ROW_MAX: u32 = 64;
 
 /// A longer jump in time is a damaged time stamp, not lost sound.
 const GAP_S_MAX: f64 = 10.0;
@@ -64,12 +62,11 @@ pub(crate) fn audio_parameters(track: &Track) -> Option<&AudioCodecParameters> {
 
 /// One track, decoded packet by packet.
 pub(crate) struct NativeFrames {
-    packets: Packets,
+    packets: PacketSource,
     decoder: Decoder,
     time_base: Option<TimeBase>,
     sample_rate_hz: u32,
     channel_count: usize,
-    demuxer_errors: u32,
     decoded: Vec<f32>,
     /// Jumps of the packet times from this length on are lost sound; `None` where the times are unreliable.
     gap_s_min: Option<f64>,
@@ -77,12 +74,6 @@ pub(crate) struct NativeFrames {
     last_end_s: Option<f64>,
     /// A packet that waits until the gap before it is filled.
     held: Option<Packet>,
-}
-
-enum Packets {
-    Demuxer { reader: Box<dyn FormatReader>, track_id: u32 },
-    Wave(WaveBlocks),
-    IsoTable(TablePackets),
 }
 
 impl NativeFrames {
@@ -102,8 +93,7 @@ impl NativeFrames {
             time_base,
             sample_rate_hz,
             channel_count,
-            packets: Packets::Demuxer { track_id, reader },
-            demuxer_errors: 0,
+            packets: PacketSource::of_demuxer(reader, track_id),
             decoded: Vec::new(),
             gap_s_min: None,
             last_end_s: None,
@@ -129,8 +119,7 @@ impl NativeFrames {
             time_base: TimeBase::try_from_recip(sample_rate_hz),
             sample_rate_hz,
             channel_count,
-            packets: Packets::Wave(WaveBlocks::open(file, layout.clone())?),
-            demuxer_errors: 0,
+            packets: PacketSource::Wave(WaveBlocks::open(file, layout.clone())?),
             decoded: Vec::new(),
             gap_s_min: None,
             last_end_s: None,
@@ -147,49 +136,12 @@ impl NativeFrames {
             time_base: TimeBase::try_from_recip(track.timescale_hz),
             sample_rate_hz,
             channel_count,
-            packets: Packets::IsoTable(TablePackets::open(file, track)?),
-            demuxer_errors: 0,
+            packets: PacketSource::IsoTable(TablePackets::open(file, track)?),
             decoded: Vec::new(),
             gap_s_min: None,
             last_end_s: None,
             held: None,
         })
-    }
-
-    fn next_packet(&mut self, incidents: &mut Incidents) -> io::Result<Option<Packet>> {
-        let (reader, track_id) = match &mut self.packets {
-            Packets::Wave(packets) => return packets.next_packet(),
-            Packets::IsoTable(packets) => return packets.next_packet(),
-            Packets::Demuxer { reader, track_id } => (reader, *track_id),
-        };
-        loop {
-            match guarded(|| reader.next_packet()) {
-                Ok(Some(packet)) => {
-                    self.demuxer_errors = 0;
-                    if packet.track_id == track_id {
-                        return Ok(Some(packet));
-                    }
-                }
-                Ok(None) => return Ok(None),
-                Err(SymphoniaError::IoError(error)) if error.kind() == io::ErrorKind::UnexpectedEof => {
-                    incidents.is_cut_off = true;
-                    return Ok(None);
-                }
-                Err(SymphoniaError::IoError(error)) if !is_about_content(&error) => return Err(error),
-                Err(SymphoniaError::ResetRequired) => {
-                    incidents.format_changed = true;
-                    return Ok(None);
-                }
-                Err(error) => {
-                    self.demuxer_errors += 1;
-                    let has_panicked = matches!(error, SymphoniaError::DecodeError(PANICKED));
-                    if has_panicked || self.demuxer_errors > DEMUXER_ERRORS_IN_A_ROW_MAX {
-                        incidents.is_cut_off = true;
-                        return Ok(None);
-                    }
-                }
-            }
-        }
     }
 
     /// Decodes into `self.decoded`; `false` for a damaged packet or a packet of another format.
@@ -252,7 +204,7 @@ impl NativeFrames {
         let mut incidents = Incidents::default();
         let mut first_s = None;
         for _ in 0..packets_max {
-            let Some(packet) = self.next_packet(&mut incidents)? else { return Ok(None) };
+            let Some(packet) = self.packets.next_packet(&mut incidents)? else { return Ok(None) };
             let packet_s = *first_s.get_or_insert_with(|| seconds_from_ticks(packet.pts.get(), self.time_base));
             let is_settled = match &mut self.decoder {
                 Decoder::Opus(_) => self.decode(&packet, &mut incidents),
@@ -298,7 +250,7 @@ impl Frames for NativeFrames {
         out.clear();
         let held = self.held.take();
         let is_held = held.is_some();
-        let Some(packet) = held.map_or_else(|| self.next_packet(incidents), |packet| Ok(Some(packet)))? else {
+        let Some(packet) = held.map_or_else(|| self.packets.next_packet(incidents), |packet| Ok(Some(packet)))? else {
             return Ok(false);
         };
         let at_s = seconds_from_ticks(packet.pts.get(), self.time_base);
@@ -325,13 +277,7 @@ impl Frames for NativeFrames {
     }
 }
 
-/// Kinds of I/O errors that Symphonia uses for some damage; other kinds come from the disk.
-fn is_about_content(error: &io::Error) -> bool {
-    matches!(error.kind(), io::ErrorKind::Other | io::ErrorKind::InvalidData | io::ErrorKind::InvalidInput)
-        && error.raw_os_error().is_none()
-}
-
-fn seconds_from_ticks(ticks: i64, time_base: Option<TimeBase>) -> f64 {
+pub(crate) fn seconds_from_ticks(ticks: i64, time_base: Option<TimeBase>) -> f64 {
     time_base.map_or(0.0, |base| ticks as f64 * f64::from(base.numer.get()) / f64::from(base.denom.get()))
 }
 

@@ -6,6 +6,7 @@ use symphonia::core::codecs::audio::AudioCodecId;
 use symphonia::core::errors::Error as SymphoniaError;
 
 use crate::container::Container;
+use crate::decoded::{DecodedFrames, DecodedSound};
 use crate::error::MediaError;
 use crate::ffmpeg::{FfmpegError, FfmpegFrames};
 use crate::file_access::FileAccess;
@@ -56,6 +57,7 @@ pub(crate) enum Route {
     Demuxer { base: u64, patches: Vec<Patch>, track_id: u32, has_gapless_packets: bool },
     Ffmpeg { program: PathBuf, path: PathBuf, audio_index: usize },
     Memory(Samples),
+    Decoded(DecodedSound),
 }
 
 impl Plan {
@@ -88,6 +90,7 @@ impl Plan {
                 Box::new(FfmpegFrames::spawn(program, path, *audio_index).map_err(|error| self.ffmpeg_error(error))?)
             }
             Route::Memory(samples) => Box::new(SampleFrames::of(samples)),
+            Route::Decoded(sound) => Box::new(DecodedFrames::open(sound).map_err(MediaError::Read)?),
             route => {
                 let frames = native_frames(file, self.container, route);
                 let frames = frames.map_err(|error| native_error(error, self.container))?;
@@ -119,7 +122,7 @@ fn native_frames(file: &dyn FileAccess, container: Container, route: &Route) -> 
             let frames = NativeFrames::from_demuxer(reader, *track_id, *has_gapless_packets)?;
             Ok(frames.with_gap_s_min(gap_s_min(container)))
         }
-        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } | Route::Memory(_) => {
+        Route::WavePcm { .. } | Route::IsoPcm(_) | Route::Ffmpeg { .. } | Route::Memory(_) | Route::Decoded(_) => {
             Err(SymphoniaError::Unsupported("not a route of packets"))
         }
     }
@@ -144,6 +147,9 @@ pub(crate) struct Settled {
 
 /// Decodes the first packets of a track, so that the format in the plan is correct.
 pub(crate) fn settle(file: &dyn FileAccess, plan: Plan) -> Result<Settled, NotNative> {
+    if let Route::Decoded(DecodedSound { sample_rate_hz, first_packet_s, .. }) = plan.route {
+        return Ok(Settled { plan, sample_rate_hz, first_packet_s });
+    }
     let container = plan.container;
     let mut frames =
         native_frames(file, container, &plan.route).map_err(|error| NotNative::from_symphonia(error, container))?;

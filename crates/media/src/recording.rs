@@ -11,6 +11,7 @@ use hovertone_signal::{SignalSource, SourceError};
 use crate::choose;
 use crate::codec::CHANNEL_COUNT_MAX;
 use crate::container::{self, Container, Sniffed};
+use crate::decoded::DecodedSound;
 use crate::error::MediaError;
 use crate::ffmpeg::FfmpegUse;
 use crate::file_access::{FileAccess, OpenFile};
@@ -38,6 +39,8 @@ pub struct OpenOptions {
     pub clock_correction_ppm: f64,
     /// The ffmpeg for formats that this crate cannot decode.
     pub ffmpeg: FfmpegUse,
+    /// The sound of the file, where another decoder has decoded the packets of [`crate::CodedSound`].
+    pub decoded: Option<DecodedSound>,
 }
 
 /// The decoder.
@@ -48,6 +51,8 @@ pub enum Decoder {
     Native,
     /// An ffmpeg in another process.
     Ffmpeg,
+    /// The program around this crate, such as a browser.
+    Caller,
 }
 
 /// Facts about a recording from its headers and first frames.
@@ -132,7 +137,7 @@ impl Recording {
 
     fn open_any(file: &Arc<dyn FileAccess>, options: &OpenOptions) -> Result<Self, MediaError> {
         let sniffed = sniffed_from_file(&**file, &options.ffmpeg)?;
-        let tracks = Tracks::of(&**file, &sniffed, &options.ffmpeg)?;
+        let tracks = Tracks::of(&**file, &sniffed, &options.ffmpeg, options.decoded.as_ref())?;
         let audio_track_count = tracks.count();
         let mut warnings = Warnings::default();
         if let Some(extension) = file.name().extension().and_then(|extension| extension.to_str())
@@ -208,7 +213,11 @@ impl Recording {
             audio_track_count,
             declared_duration_s: plan.declared_s.or(plan.approximate_s),
             start_s: plan.start_s,
-            decoder: if matches!(plan.route, Route::Ffmpeg { .. }) { Decoder::Ffmpeg } else { Decoder::Native },
+            decoder: match plan.route {
+                Route::Ffmpeg { .. } => Decoder::Ffmpeg,
+                Route::Decoded(_) => Decoder::Caller,
+                _ => Decoder::Native,
+            },
         };
         let mut recording = Self { file, plan, info, warnings, mix, pass, block: Vec::new(), is_prefix: false };
         recording.fill_block().map_err(MediaError::Read)?;
@@ -263,7 +272,11 @@ impl Recording {
             pass.non_finite_samples += self.mix.append(&mut pass.interleaved, &mut self.block);
             pass.has_ended = !(has_more && wants_more);
         }
-        if let Some(error) = self.file.failure() {
+        let decoded_failure = match &self.plan.route {
+            Route::Decoded(sound) => sound.samples.failure(),
+            _ => None,
+        };
+        if let Some(error) = self.file.failure().or(decoded_failure) {
             return Err(error);
         }
         pass.heard_frames += self.block.len() as u64;
@@ -363,7 +376,7 @@ fn check_file(path: &Path) -> Result<(), MediaError> {
     Ok(())
 }
 
-fn sniffed_from_file(access: &dyn FileAccess, ffmpeg: &FfmpegUse) -> Result<Sniffed, MediaError> {
+pub(crate) fn sniffed_from_file(access: &dyn FileAccess, ffmpeg: &FfmpegUse) -> Result<Sniffed, MediaError> {
     let mut file = BufReader::new(access.open().map_err(MediaError::CannotOpen)?);
     if file.seek(SeekFrom::End(0)).map_err(MediaError::Read)? == 0 {
         return Err(MediaError::Empty);

@@ -4,7 +4,9 @@ use std::io::Read;
 
 use crate::clipped::{Clipped, clipped_from_sizes};
 use crate::codec;
+use crate::coded::CodedSound;
 use crate::container::{Container, Sniffed};
+use crate::decoded::DecodedSound;
 use crate::error::MediaError;
 use crate::ffmpeg::{self, FfmpegUse};
 use crate::file_access::FileAccess;
@@ -35,6 +37,8 @@ const LIKELY_CORE_RATE_HZ: u32 = 24_000;
 pub(crate) struct Tracks<'a> {
     file: &'a dyn FileAccess,
     ffmpeg: &'a FfmpegUse,
+    /// The sound, where another decoder has decoded it.
+    decoded: Option<&'a DecodedSound>,
     container: Container,
     clipped: Clipped,
     list: List,
@@ -55,7 +59,12 @@ enum List {
 
 impl<'a> Tracks<'a> {
     /// Reads the list of tracks in the container.
-    pub(crate) fn of(access: &'a dyn FileAccess, sniffed: &Sniffed, ffmpeg: &'a FfmpegUse) -> Result<Self, MediaError> {
+    pub(crate) fn of(
+        access: &'a dyn FileAccess,
+        sniffed: &Sniffed,
+        ffmpeg: &'a FfmpegUse,
+        decoded: Option<&'a DecodedSound>,
+    ) -> Result<Self, MediaError> {
         let container = sniffed.container;
         let mut file = access.open().map_err(MediaError::CannotOpen)?;
         let clipped = clipped_from_sizes(&mut file, container).map_err(MediaError::Read)?;
@@ -89,7 +98,7 @@ impl<'a> Tracks<'a> {
             }
             _ => List::Foreign(inspection(access, container, ffmpeg)?),
         };
-        let tracks = Self { file: access, ffmpeg, container, clipped, list };
+        let tracks = Self { file: access, ffmpeg, decoded, container, clipped, list };
         if tracks.count() == 0 {
             return Err(MediaError::NoAudioTrack { container });
         }
@@ -160,10 +169,11 @@ impl<'a> Tracks<'a> {
     }
 
     fn iso_plan(&self, track: &AudioTrack, is_fragmented: bool) -> Result<Plan, NotNative> {
-        let route = match (track.pcm.is_some(), is_fragmented) {
-            (true, _) => Route::IsoPcm(Box::new(track.clone())),
-            (false, false) => Route::IsoTable(Box::new(track.clone())),
-            (false, true) => {
+        let route = match (track.pcm.is_some(), self.decoded, is_fragmented) {
+            (true, _, _) => Route::IsoPcm(Box::new(track.clone())),
+            (false, Some(decoded), _) => Route::Decoded(decoded.clone()),
+            (false, None, false) => Route::IsoTable(Box::new(track.clone())),
+            (false, None, true) => {
                 Route::Demuxer { base: 0, patches: Vec::new(), track_id: track.track_id, has_gapless_packets: false }
             }
         };
@@ -183,7 +193,8 @@ impl<'a> Tracks<'a> {
         // The edit list counts at the rate of the header; the core of HE-AAC has half of it.
         let scaled = |frames: u64| (frames as f64 * sample_rate_hz / track.sample_rate_hz).round() as u64;
         plan.trim = Trim { skip_frames: scaled(trim.skip_frames), kept_frames: trim.kept_frames.map(scaled) };
-        if track.half_rate_aac.is_some() {
+        // a decoder of HE-AAC as a whole has the rate of the header
+        if track.half_rate_aac.is_some() && self.decoded.is_none() {
             plan.warnings.push(MediaWarning::HalfRateAac { core_rate_hz: sample_rate_hz, is_certain: true });
         }
         Ok(plan)
@@ -191,7 +202,10 @@ impl<'a> Tracks<'a> {
 
     fn matroska_plan(&self, matroska: &matroska::Matroska, track: &MatroskaTrack) -> Result<Plan, NotNative> {
         let track_id = u32::try_from(track.number).map_err(|_| NotNative::Unsupported)?;
-        let route = Route::Demuxer { base: 0, patches: matroska.patches.clone(), track_id, has_gapless_packets: true };
+        let route = match self.decoded {
+            Some(decoded) => Route::Decoded(decoded.clone()),
+            None => Route::Demuxer { base: 0, patches: matroska.patches.clone(), track_id, has_gapless_packets: true },
+        };
         let settled = settle(self.file, Plan::new(self.container, track.codec_name(), route))?;
         let Settled { mut plan, sample_rate_hz, first_packet_s } = settled;
         let pre_skip = OpusHead::from_extra_data(&track.codec_private).map(|head| head.pre_skip_frames as f64);
@@ -206,6 +220,7 @@ impl<'a> Tracks<'a> {
         plan.is_cut_off = self.is_cut_off();
         plan.has_open_end = matroska.has_open_end;
         if track.codec_id.starts_with("A_AAC")
+            && self.decoded.is_none()
             && quicktime::half_rate_from_config(&track.codec_private, track.output_rate_hz).is_some()
         {
             plan.warnings.push(MediaWarning::HalfRateAac { core_rate_hz: sample_rate_hz, is_certain: true });
@@ -269,6 +284,15 @@ impl<'a> Tracks<'a> {
                 self.file.open().and_then(|mut file| ogg::last_page_is_cut(&mut file)).unwrap_or(false)
             }
             _ => self.clipped.is_cut_off,
+        }
+    }
+
+    /// The packets of the first track, for another decoder; `None` where hovertone knows no such packets.
+    pub(crate) fn coded_sound(&self) -> Option<CodedSound> {
+        match &self.list {
+            List::Iso(movie) => CodedSound::of_iso(self.file, self.container, movie),
+            List::Matroska(matroska) => CodedSound::of_matroska(self.file, self.container, matroska),
+            _ => None,
         }
     }
 

@@ -2,12 +2,15 @@
 
 use crate::answer::Answer;
 use crate::campaign::{self, LastIdentified};
+use crate::coded::Coded;
 use crate::heard_files::HeardFiles;
 use crate::picture::{Levels, levels_of, sound_wav};
 use crate::said::SaidOnPage;
 use crate::slices::SlicedFile;
+use hovertone_media::DecodedSound;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// All that a worker of the page holds.
@@ -34,6 +37,26 @@ impl Desk {
     /// Forgets a file.
     pub fn remove(&mut self, number: u32) {
         self.heard.remove(number);
+    }
+
+    /// The packets of a file that needs the decoder of the browser; nothing where hovertone decodes it, or knows no packets of it.
+    pub fn coded(&self, number: u32) -> Option<Coded> {
+        self.heard.coded(number).map(Coded::from)
+    }
+
+    /// Takes what the browser decoded of a file: interleaved 32-bit floats, in another file.
+    pub fn add_decoded(
+        &mut self,
+        number: u32,
+        decoded: u32,
+        bytes: f64,
+        channel_count: u32,
+        sample_rate_hz: f64,
+        first_packet_s: f64,
+    ) {
+        let samples = Arc::new(SlicedFile { number: decoded, name: PathBuf::new(), len: bytes as u64 });
+        let channel_count = channel_count as usize;
+        self.heard.add_decoded(number, DecodedSound { samples, channel_count, sample_rate_hz, first_packet_s });
     }
 
     /// Hears a file as `hovertone speed` does. `said` is JSON; so is the answer.

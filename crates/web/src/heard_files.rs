@@ -5,7 +5,7 @@ use crate::experiment::in_hexadecimal;
 use crate::slices::SlicedFile;
 use hovertone::speed::Config;
 use hovertone::tones::Discovery;
-use hovertone_media::{FfmpegUse, FileAccess, MediaError, OpenOptions, Recording};
+use hovertone_media::{CodedSound, DecodedSound, FfmpegUse, FileAccess, MediaError, OpenOptions, Recording};
 use hovertone_report::SpeedRecord;
 use hovertone_workflow::{NotHeard, Requests, Task, failed_record, hear};
 use sha2::{Digest, Sha256};
@@ -31,6 +31,8 @@ struct Kept {
 pub(crate) struct HeardFiles {
     files: BTreeMap<u32, Arc<SlicedFile>>,
     hashes: BTreeMap<u32, String>,
+    /// The sound of files that the browser decoded.
+    decoded: BTreeMap<u32, DecodedSound>,
     kept: Vec<Kept>,
 }
 
@@ -44,6 +46,7 @@ impl HeardFiles {
     pub(crate) fn remove(&mut self, number: u32) {
         self.files.remove(&number);
         self.hashes.remove(&number);
+        self.decoded.remove(&number);
         self.kept.retain(|kept| kept.file != number);
     }
 
@@ -67,6 +70,16 @@ impl HeardFiles {
         self.files.get(&number).map_or(String::new(), |file| file.name.display().to_string())
     }
 
+    /// The packets of a file that needs the decoder of the browser; `None` where hovertone decodes it, or knows no packets of it.
+    pub(crate) fn coded(&self, number: u32) -> Option<CodedSound> {
+        CodedSound::open(&**self.files.get(&number)?)
+    }
+
+    /// Takes what the browser decoded of a file.
+    pub(crate) fn add_decoded(&mut self, number: u32, sound: DecodedSound) {
+        self.decoded.insert(number, sound);
+    }
+
     /// Opens a file for a pass.
     pub(crate) fn opened(&self, number: u32, clock_correction_ppm: f64) -> Result<Recording, String> {
         self.open(number, clock_correction_ppm).map_err(|failure| failure.reason)
@@ -75,7 +88,8 @@ impl HeardFiles {
     fn open(&self, number: u32, clock_correction_ppm: f64) -> Result<Recording, NotHeard> {
         let file =
             self.files.get(&number).ok_or_else(|| NotHeard::because("not_found", "the file is gone; add it again"))?;
-        let options = OpenOptions { ffmpeg: FfmpegUse::Never, clock_correction_ppm, ..OpenOptions::default() };
+        let decoded = self.decoded.get(&number).cloned();
+        let options = OpenOptions { ffmpeg: FfmpegUse::Never, clock_correction_ppm, decoded, ..OpenOptions::default() };
         Recording::open_file(file.clone(), &options).map_err(|error| NotHeard::because(error.class(), in_words(&error)))
     }
 

@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! slices       a file of the page, read slice by slice      answer      a record as JSON for the page
+//! coded        packets for the decoder of the browser
 //! heard_files  the files and their records                 campaign    an experiment and its results as JSON
 //! desk         all that the page can ask
 //! picture      a spectrogram as levels                     experiment  experiment files ⇄ JSON, vehicles
@@ -12,6 +13,7 @@
 
 mod answer;
 mod campaign;
+mod coded;
 mod desk;
 mod ear;
 mod example;
@@ -21,6 +23,7 @@ mod picture;
 mod said;
 mod slices;
 
+pub use coded::{Coded, Packet};
 pub use desk::Desk;
 pub use ear::Ear;
 pub use example::{example_plan, example_recording};

@@ -128,6 +128,7 @@ pub fn facts_of(recording: &Recording, sha256: Option<String>) -> RecordingFacts
         decoder: match info.decoder {
             Decoder::Native => "hovertone",
             Decoder::Ffmpeg => "ffmpeg",
+            Decoder::Caller => "browser",
             _ => "other",
         }
         .to_owned(),

@@ -6,6 +6,7 @@
 mod broken_files;
 mod every_container;
 mod ffmpeg_route;
+mod other_decoder;
 mod recordings;
 mod robustness;
 mod wav_values;

@@ -14,7 +14,7 @@ import { Vehicle } from "./vehicle";
 export function App({ store }: { store: Store }) {
   useObserved(store);
   const isListening = store.listening.state === "on";
-  const isEmpty = store.recordings.length === 0 && !store.busy && store.loads().length === 0 && !isListening;
+  const isEmpty = store.recordings.length === 0 && !store.busy && store.loads.all().length === 0 && !isListening;
   return (
     <>
       <header class="top">
@@ -88,7 +88,7 @@ function Drop({ store, isEmpty, isListening }: { store: Store; isEmpty: boolean;
       if (!isOfFiles(event) || event.defaultPrevented) return setOver(false);
       event.preventDefault();
       setOver(false);
-      void filesOf(event.dataTransfer!).then((files) => store.take(files));
+      void filesOf(event.dataTransfer!).then((files) => store.files.take(files));
     };
     window.addEventListener("dragover", over);
     window.addEventListener("dragleave", leave);
@@ -102,14 +102,14 @@ function Drop({ store, isEmpty, isListening }: { store: Store; isEmpty: boolean;
   const choose = () => {
     const chosen = [...(input.current!.files ?? [])];
     input.current!.value = "";
-    void store.take(chosen);
+    void store.files.take(chosen);
   };
   return (
     <section class={`drop ${isEmpty ? "large" : ""} ${isOver ? "over" : ""}`} aria-label="Add recordings">
       <p>
         <button type="button" class="main" onClick={() => input.current!.click()}>Choose recordings</button>
-        {!isListening && <button type="button" onClick={() => store.startListening()}>Listen with the microphone</button>}
-        {isEmpty && <button type="button" disabled={store.busy !== undefined} onClick={() => void store.example()}>Try an example</button>}
+        {!isListening && <button type="button" onClick={() => store.trials.listen()}>Listen with the microphone</button>}
+        {isEmpty && <button type="button" disabled={store.busy !== undefined} onClick={() => void store.files.example()}>Try an example</button>}
       </p>
       <p class="quiet">
         {isEmpty ? "or drop them anywhere on this page: MOV, MP4, MKV, WebM, WAV, FLAC, MP3, M4A, Ogg …" : "or drop more anywhere; experiment.toml and results.json too"}

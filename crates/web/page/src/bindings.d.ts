@@ -12,6 +12,10 @@ declare module "hovertone-bindings" {
   export class Desk {
     add(number: number, name: string, bytes: number): void;
     remove(number: number): void;
+    coded(number: number): Coded | undefined;
+    add_decoded(
+      number: number, decoded: number, bytes: number, channelCount: number, sampleRateHz: number, firstPacketS: number,
+    ): void;
     hear(number: number, said: string, onShare: (share: number) => void): string;
     levels(
       number: number, fromS: number, toS: number, hzLow: number, hzHigh: number, columns: number, rows: number,
@@ -19,6 +23,20 @@ declare module "hovertone-bindings" {
     sound(number: number, fromS: number, toS: number): Uint8Array;
     identify(text: string, files: string, onShare: (share: number) => void): string;
     report(onShare: (share: number) => void): string;
+  }
+  /** Packets for the decoder of the browser. */
+  export class Coded {
+    codec(): string;
+    description(): Uint8Array<ArrayBuffer>;
+    sample_rate_hz(): number;
+    channel_count(): number;
+    next_packet(): Packet | undefined;
+    free(): void;
+  }
+  export interface Packet {
+    readonly at_s: number;
+    take(): Uint8Array<ArrayBuffer>;
+    free(): void;
   }
   /** A picture whose cells are still in the module. */
   export type Levels = Omit<import("./answers").Picture, "cells"> & { take(): Uint8Array; free(): void };

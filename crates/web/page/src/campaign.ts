@@ -3,7 +3,8 @@
 import type { Answer, Told } from "./answers";
 import type { Listening } from "./listening";
 import { Observed } from "./observed";
-import type { Recording, Store } from "./store";
+import type { Recording } from "./recording";
+import type { Store } from "./store";
 
 /** Length of a trial. */
 export const TRIAL_S = 10;
@@ -43,17 +44,17 @@ export class Campaign extends Observed {
 
   /** Whether no load has been flown yet. */
   get isFirst(): boolean {
-    return this.store.loads().every((load) => load.recordings.length === 0);
+    return this.store.loads.all().every((load) => load.recordings.length === 0);
   }
 
   weigh(addedKg: number) {
     this.change(() => (this.addedKg = addedKg));
-    this.store.hearLive();
+    this.store.trials.hearLive();
   }
 
   /** A person is about to take off. */
   ready() {
-    this.load = this.store.loadOfMass(this.addedKg);
+    this.load = this.store.loads.loadOfMass(this.addedKg);
     this.isByHand = false;
     this.trial = undefined;
     this.go("hover");
@@ -78,7 +79,7 @@ export class Campaign extends Observed {
 
   /** Takes a trial away that is not good, and flies it again. */
   flyAgain() {
-    if (this.trial) this.store.remove(this.trial.number);
+    if (this.trial) this.store.files.remove(this.trial.number);
     this.ready();
   }
 
@@ -109,7 +110,7 @@ export class Campaign extends Observed {
   private async finish() {
     this.go("judging");
     const wav = await this.listening.end();
-    this.trial = this.store.takeTrial(wav, this.load);
+    this.trial = this.store.trials.take(wav, this.load);
   }
 }
 

@@ -16,7 +16,7 @@ export function Guide({ store }: { store: Store }) {
   useEffect(() => {
     if (document.activeElement === document.body) step.current?.querySelector<HTMLElement>(".order")?.focus({ preventScroll: true });
   }, [campaign.phase]);
-  const lacks = store.lacks().filter((each) => !each.startsWith("a recording"));
+  const lacks = store.fitting.lacks().filter((each) => !each.startsWith("a recording"));
   return (
     <section class="campaign" aria-label="Guided campaign">
       <h3>Step by step to the constant</h3>
@@ -89,7 +89,7 @@ function Weigh({ store, campaign }: { store: Store; campaign: Campaign }) {
       <div class="fields">
         {isFirst && (
           <NumberField label="Vehicle ready to fly" unit="g" value={thousand(vehicle.mass_kg)} placeholder={known === undefined ? "" : String(thousand(known))}
-            set={(grams) => store.setVehicle({ ...vehicle, mass_kg: thousandth(grams) })} />
+            set={(grams) => store.loads.setVehicle({ ...vehicle, mass_kg: thousandth(grams) })} />
         )}
         <NumberField label="Added mass" unit="g" value={thousand(campaign.addedKg)} set={(grams) => campaign.weigh(thousandth(grams) ?? 0)} />
       </div>
@@ -123,13 +123,13 @@ function Judged({ campaign }: { campaign: Campaign }) {
 
 /** The trials so far, load by load. */
 function Trials({ store }: { store: Store }) {
-  const loads = store.loads().filter((load) => load.recordings.length > 0);
+  const loads = store.loads.all().filter((load) => load.recordings.length > 0);
   if (loads.length === 0) return null;
-  const forget = () => confirm("Take all trials of the microphone away?") && store.newCampaign();
+  const forget = () => confirm("Take all trials of the microphone away?") && store.trials.newCampaign();
   return (
     <>
       <ul class="chips" aria-label="Trials so far">
-      {loads.flatMap((load) => store.recordingsOf(load).map(({ name, recording }) => (
+      {loads.flatMap((load) => store.loads.recordingsOf(load).map(({ name, recording }) => (
         <li key={name} class={recording?.answer?.status ?? ""}>
           <span>{load.name}, {thousand(load.added_mass_kg ?? 0)} g</span>
           <span class="quiet">

@@ -108,7 +108,7 @@ function Choices({ store }: { store: Store }) {
     <div role="group" aria-label="Possible speeds">
       <p>The tone can mean several speeds. Which one is it?</p>
       <ul class="readings">
-        {choices.map((choice, index) => <li key={choice.words}><button type="button" onClick={() => store.chooseLive(index)}>{choice.words}</button></li>)}
+        {choices.map((choice, index) => <li key={choice.words}><button type="button" onClick={() => store.trials.choose(index)}>{choice.words}</button></li>)}
       </ul>
     </div>
   );

@@ -1,7 +1,8 @@
 // Plays a recording: the file itself, or, where the browser cannot, its sound as hovertone decodes it.
 
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { Recording, Store } from "./store";
+import type { Recording } from "./recording";
+import type { Store } from "./store";
 
 /** Most seconds of sound that are decoded for a player. */
 const DECODED_S_MAX = 600;
@@ -20,7 +21,7 @@ export function Player(props: {
   const decode = async () => {
     if (source !== recording.url) return setFailed(true);
     try {
-      const wav = await store.sound(recording, [0, Math.min(props.lengthS, DECODED_S_MAX)]);
+      const wav = await store.hearing.sound(recording, [0, Math.min(props.lengthS, DECODED_S_MAX)]);
       setSource(URL.createObjectURL(new Blob([wav], { type: "audio/wav" })));
     } catch {
       setFailed(true);

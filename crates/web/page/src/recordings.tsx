@@ -2,7 +2,8 @@
 
 import type { Answer, Reading } from "./answers";
 import { save } from "./save";
-import type { Recording, Store } from "./store";
+import type { Recording } from "./recording";
+import type { Store } from "./store";
 import { Viewer } from "./viewer";
 
 export const DRAGGED = "application/x-hovertone-recording";
@@ -28,11 +29,11 @@ function Card({ store, recording }: { store: Store; recording: Recording }) {
         <span class="grip" aria-hidden="true">⠿</span>
         <h3>{recording.name}</h3>
         <LoadChoice store={store} recording={recording} />
-        <button type="button" class="plain" aria-label={`Remove ${recording.name}`} onClick={() => store.remove(recording.number)}>✕</button>
+        <button type="button" class="plain" aria-label={`Remove ${recording.name}`} onClick={() => store.files.remove(recording.number)}>✕</button>
       </div>
       <Status store={store} recording={recording} />
       <p class="actions">
-        {recording.answer?.status !== "error" && <button type="button" aria-expanded={recording.isOpen} onClick={() => store.toggle(recording)}>
+        {recording.answer?.status !== "error" && <button type="button" aria-expanded={recording.isOpen} onClick={() => store.files.toggle(recording)}>
           {recording.isOpen ? "Hide the picture" : "Picture and sound"}
         </button>}
         {recording.answer && <button type="button" onClick={() => save(`${recording.name}.json`, recording.answer!.json + "\n", "application/json")}>All numbers</button>}
@@ -47,13 +48,13 @@ function Card({ store, recording }: { store: Store; recording: Recording }) {
 function LoadChoice({ store, recording }: { store: Store; recording: Recording }) {
   const choose = (event: { currentTarget: HTMLSelectElement }) => {
     const { value } = event.currentTarget;
-    const load = value === "new" ? store.addLoad() : value === "" ? undefined : Number(value);
-    store.put(recording.number, load);
+    const load = value === "new" ? store.loads.addLoad() : value === "" ? undefined : Number(value);
+    store.loads.put(recording.number, load);
   };
   return (
-    <select aria-label={`Load of ${recording.name}`} value={store.loadOf(recording) ?? ""} onChange={choose}>
+    <select aria-label={`Load of ${recording.name}`} value={store.loads.loadOf(recording) ?? ""} onChange={choose}>
       <option value="">no load</option>
-      {store.loads().map((load, index) => <option value={index} key={index}>{load.name}</option>)}
+      {store.loads.all().map((load, index) => <option value={index} key={index}>{load.name}</option>)}
       <option value="new">a new load …</option>
     </select>
   );
@@ -61,7 +62,7 @@ function LoadChoice({ store, recording }: { store: Store; recording: Recording }
 
 function Status({ store, recording }: { store: Store; recording: Recording }) {
   const { state, answer, fault, share } = recording;
-  if (state === "waiting" && store.fit.state === "running" && store.isFitted(recording)) {
+  if (state === "waiting" && store.fit.state === "running" && store.fitting.isFitted(recording)) {
     return <p class="working" role="status">is heard with its load …</p>;
   }
   if (state === "waiting" || state === "hearing") {
@@ -69,12 +70,12 @@ function Status({ store, recording }: { store: Store; recording: Recording }) {
       <p class="working" role="status">
         {state === "waiting" ? "waits …" : "listening …"}
         <progress value={state === "waiting" ? undefined : share} aria-label={`Progress of ${recording.name}`} />
-        <button type="button" onClick={() => store.cancel(recording)}>Cancel</button>
+        <button type="button" onClick={() => store.hearing.cancel(recording)}>Cancel</button>
       </p>
     );
   }
   if (state === "cancelled") {
-    return <p class="working">cancelled <button type="button" onClick={() => store.hear(recording)}>Hear it again</button></p>;
+    return <p class="working">cancelled <button type="button" onClick={() => store.hearing.hear(recording)}>Hear it again</button></p>;
   }
   if (fault) return <p class="fault" role="alert">{fault}</p>;
   if (!answer) return null;
@@ -131,8 +132,8 @@ function NoSpeed({ store, recording, answer }: { store: Store; recording: Record
 function say(store: Store, recording: Recording, reading: Reading) {
   const { vehicle } = store.entries;
   const gear = reading.gear_wheel ? { pinion: vehicle.gear?.pinion ?? 1, wheel: reading.gear_wheel } : vehicle.gear;
-  store.setVehicle({ ...vehicle, blades: reading.blades ?? vehicle.blades, gear });
-  if (store.loadOf(recording) === undefined) store.hear(recording);
+  store.loads.setVehicle({ ...vehicle, blades: reading.blades ?? vehicle.blades, gear });
+  if (store.loads.loadOf(recording) === undefined) store.hearing.hear(recording);
 }
 
 /** Advice for the command line is about its flags; here there are fields. */

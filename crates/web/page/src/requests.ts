@@ -46,6 +46,10 @@ interface Waiting {
 /** A request that was cancelled: nobody waits for its answer. */
 export class Cancelled extends Error {}
 
+export function wordsOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
 const BROKEN = "this broke the analysis: that is a fault of hovertone; please report it";
 
 export class Requests {

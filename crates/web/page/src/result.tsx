@@ -17,7 +17,7 @@ export function Result({ store }: { store: Store }) {
       {fit.state === "running" && (
         <p class="working" role="status">
           the loads are heard and fitted … <progress value={fit.share} aria-label="Progress of the fit" />
-          <button type="button" onClick={() => store.cancelFit()}>Cancel</button>
+          <button type="button" onClick={() => store.fitting.cancel()}>Cancel</button>
         </p>
       )}
       {fit.fault && <p class="fault" role="alert">{fit.fault}</p>}
@@ -83,7 +83,7 @@ function Files({ store, result }: { store: Store; result: Identified }) {
   const lines = result.simulators[chosen];
   const report = async () => {
     try {
-      save("report.html", await store.report(), "text/html");
+      save("report.html", await store.fitting.report(), "text/html");
     } catch (error) {
       if (!(error instanceof Cancelled)) store.fail(error);
     }
@@ -94,7 +94,7 @@ function Files({ store, result }: { store: Store; result: Identified }) {
       <p class="group">
         <button type="button" class="main" disabled={store.busy !== undefined} onClick={() => void report()}>report.html</button>
         <button type="button" onClick={() => save("results.json", result.results, "application/json")}>results.json</button>
-        <button type="button" onClick={() => void store.experimentText().then((text) => save("experiment.toml", text), (error) => store.fail(error))}>experiment.toml</button>
+        <button type="button" onClick={() => void store.fitting.experimentText().then((text) => save("experiment.toml", text), (error) => store.fail(error))}>experiment.toml</button>
       </p>
       {lines && (
         <details>

@@ -9,7 +9,7 @@ export function Vehicle({ store }: { store: Store }) {
   const id = useId();
   const { vehicle } = store.entries;
   const known = store.vehicles.find((each) => each.id === vehicle.preset);
-  const set = (entries: Partial<VehicleEntries>) => store.setVehicle({ ...vehicle, ...entries });
+  const set = (entries: Partial<VehicleEntries>) => store.loads.setVehicle({ ...vehicle, ...entries });
   const shown = (value: number | undefined) => (value === undefined ? "" : String(value));
   return (
     <section class="card" aria-labelledby={`${id}-title`}>

@@ -5,7 +5,8 @@ import type { Answer, Picture, Point } from "./answers";
 import { useDraft } from "./field";
 import { Player } from "./player";
 import { Axes, bitmapOf, drawSpectrogram, MARGIN, timeInWords, type Overlay, type View } from "./spectrogram";
-import type { Recording, Store } from "./store";
+import type { Recording } from "./recording";
+import type { Store } from "./store";
 
 /** Colours of rotors that stand out from those of the levels; style.css has the same. */
 const COLOURS = ["#ffffff", "#ff9d4d", "#f7a8d8", "#ff6b6b", "#c9b6ff", "#ffd9b3"];
@@ -55,7 +56,7 @@ function Picturesque({ store, recording, picture }: { store: Store; recording: R
       const width = Math.round((canvas.current?.clientWidth ?? 800) * Math.min(window.devicePixelRatio, 2));
       const [edgeS, edgeHz] = [EDGE * (view.toS - view.fromS), EDGE * (view.hzHigh - view.hzLow)];
       const spanS: Point = [Math.max(0, view.fromS - edgeS), view.toS + edgeS];
-      store.levels(recording, spanS, [Math.max(0, view.hzLow - edgeHz), view.hzHigh + edgeHz], Math.min(width, 2048), 512).then(
+      store.hearing.levels(recording, spanS, [Math.max(0, view.hzLow - edgeHz), view.hzHigh + edgeHz], Math.min(width, 2048), 512).then(
         (picture) => isWanted && setDetail(picture),
         () => {},
       );
@@ -102,8 +103,8 @@ function Picturesque({ store, recording, picture }: { store: Store; recording: R
     onSelected: (selected) => {
       setSelection(undefined);
       setTool("move");
-      if (selected.spanS) store.setSpan(recording, selected.spanS);
-      if (selected.bandHz) store.setBand(recording, selected.bandHz);
+      if (selected.spanS) store.loads.setSpan(recording, selected.spanS);
+      if (selected.bandHz) store.loads.setBand(recording, selected.bandHz);
     },
   });
   const zoom = (factor: number) => setView(zoomed(view, whole, factor, 0.5, 0.5));
@@ -148,13 +149,13 @@ function Choice(props: { value: string; set: (value: string) => void; options: [
 
 /** The chosen hover and band as numbers, for the keyboard and for exact values. */
 function Limits({ store, recording }: { store: Store; recording: Recording }) {
-  const isInLoad = store.loadOf(recording) !== undefined;
+  const isInLoad = store.loads.loadOf(recording) !== undefined;
   return (
     <div class="limits">
-      <Pair words="Hover" unit="s" isFound={!store.spanOf(recording)} value={store.spanOf(recording) ?? hoverOf(recording.answer)}
-        set={(pair) => store.setSpan(recording, pair)} note={isInLoad ? "of all recordings of this load" : ""} />
-      <Pair words="Band" unit="Hz" isFound={!store.bandOf(recording)} value={store.bandOf(recording) ?? recording.answer?.bands_hz[0]}
-        set={(pair) => store.setBand(recording, pair)} note={isInLoad ? "of the experiment" : ""} />
+      <Pair words="Hover" unit="s" isFound={!store.loads.spanOf(recording)} value={store.loads.spanOf(recording) ?? hoverOf(recording.answer)}
+        set={(pair) => store.loads.setSpan(recording, pair)} note={isInLoad ? "of all recordings of this load" : ""} />
+      <Pair words="Band" unit="Hz" isFound={!store.loads.bandOf(recording)} value={store.loads.bandOf(recording) ?? recording.answer?.bands_hz[0]}
+        set={(pair) => store.loads.setBand(recording, pair)} note={isInLoad ? "of the experiment" : ""} />
     </div>
   );
 }

@@ -1,15 +1,19 @@
 // The worker: all reading of files and all arithmetic. One request at a time; the page never waits for it.
 
 import init, * as hovertone from "hovertone-bindings";
+import { DecodedFiles } from "./decoded";
 import type { Request } from "./requests";
 
 const files = new Map<number, File>();
+const decoded = new DecodedFiles();
 const reader = new FileReaderSync();
 let desk: hovertone.Desk | undefined;
 
 // hovertone reads its files through this: a slice at a time, at any place.
 (globalThis as Record<string, unknown>).hovertoneFiles = {
   read(number: number, at: number, into: Uint8Array): number {
+    const count = decoded.read(number, at, into);
+    if (count !== undefined) return count;
     const file = files.get(number);
     if (!file) throw "the file is gone; add it again";
     let bytes: ArrayBuffer;
@@ -37,6 +41,7 @@ self.onmessage = async ({ data }: MessageEvent<{ id: number; request: Request }>
   try {
     await started;
     desk ??= new hovertone.Desk();
+    for (const number of heardBy(request)) await decoded.prepare(desk, number);
     const value = answerTo(desk, request, onShare);
     const moved = value && (value as { cells?: Uint8Array }).cells ? [(value as { cells: Uint8Array }).cells.buffer] : [];
     self.postMessage({ id, value }, { transfer: moved as Transferable[] });
@@ -46,6 +51,20 @@ self.onmessage = async ({ data }: MessageEvent<{ id: number; request: Request }>
     self.postMessage({ id, error: isBroken ? "" : String(error), isBroken });
   }
 };
+
+/** The files whose sound a request needs. */
+function heardBy(request: Request): number[] {
+  switch (request.kind) {
+    case "hear":
+    case "levels":
+    case "sound":
+      return [request.number];
+    case "identify":
+      return Object.values(request.files);
+    default:
+      return [];
+  }
+}
 
 function answerTo(desk: hovertone.Desk, request: Request, onShare: (share: number) => void): unknown {
   switch (request.kind) {
@@ -60,6 +79,7 @@ function answerTo(desk: hovertone.Desk, request: Request, onShare: (share: numbe
       return desk.add(request.number, request.name, request.file.size);
     case "remove":
       files.delete(request.number);
+      decoded.remove(request.number);
       return desk.remove(request.number);
     case "hear":
       return JSON.parse(desk.hear(request.number, JSON.stringify(request.said), onShare));
