@@ -42,6 +42,8 @@ def test_channels_and_strides():
         np.asfortranarray(quiet)[:, 1], rate_hz=RATE_HZ, blades=2
     ).speed_rev_s
     assert hovertone.speed(quiet, rate_hz=RATE_HZ, channel=1, blades=2).status == "no_rotor_tone"
+    frame = pandas.DataFrame(quiet, columns=["left", "right"])
+    assert hovertone.speed(frame, rate_hz=RATE_HZ, channel=2, blades=2).status == "ok"
 
 
 @pytest.mark.parametrize(

@@ -106,6 +106,7 @@ def test_interrupts_are_the_interpreters():
         (lambda: hovertone.track(np.array(["hover.wav"])), "hovertone.speeds()"),
         (lambda: hovertone.speed([hovertone.load("hover.wav")]), "hovertone.speeds()"),
         (lambda: hovertone.speed(Path(".").glob("*.wav")), "hovertone.speeds()"),
+        (lambda: hovertone.speed(pandas.DataFrame({"file": ["hover.wav"]})), "hovertone.speeds()"),
         (lambda: hovertone.load(["hover.wav"]), "give the name of one file"),
         (lambda: hovertone.speeds(["hover.wav", float("nan")]), "number 2 of them is nan (float)"),
         (lambda: hovertone.speeds(None), "this is None"),

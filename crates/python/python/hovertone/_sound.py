@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
-from ._words import Path, is_table, refused, words
+from ._words import Path, refused, words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -137,7 +137,7 @@ def to_hear(recording: Recording | None, rate_hz: float | None) -> Heard:
 
 def _is_several(recording: Any) -> bool:
     """Whether these are recordings, not samples: names of files, or sounds."""
-    if is_table(recording) or isinstance(recording, Set | Iterator):
+    if isinstance(recording, Mapping | Set | Iterator):
         return True
     if isinstance(recording, list | tuple) and any(isinstance(one, Sound) for one in recording):
         return True
