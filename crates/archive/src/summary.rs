@@ -3,8 +3,8 @@
 use crate::error::ArchiveError;
 use crate::part::Part;
 use arrow_array::cast::AsArray;
-use arrow_array::types::Float64Type;
-use arrow_array::{Array, Float64Array, ListArray, RecordBatch, StringArray, StructArray};
+use arrow_array::types::{Float64Type, Int64Type};
+use arrow_array::{Array, Float64Array, Int64Array, ListArray, RecordBatch, StringArray, StructArray};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::reader::ChunkReader;
 
@@ -17,6 +17,8 @@ pub struct RotorSummary {
     pub std_rev_s: Option<f64>,
     /// Standard deviation over the frames, where it is known.
     pub spread_rev_s: Option<f64>,
+    /// Number of its label, from 1, where it is known which rotor it is. A batch has no labels.
+    pub label_number: Option<usize>,
 }
 
 /// A recording in short.
@@ -115,6 +117,7 @@ impl Speeds<'_> {
             speed_rev_s: value(self.speed_rev_s, row)?,
             std_rev_s: value(self.std_rev_s, row),
             spread_rev_s: value(self.spread_rev_s, row),
+            label_number: None,
         })
     }
 }
@@ -128,7 +131,19 @@ fn rotors_of(rotors: &ListArray, row: usize) -> Result<Vec<RotorSummary>, Archiv
         std_rev_s: number("combined_std_uncertainty_rev_s")?,
         spread_rev_s: number("spread_rev_s")?,
     };
-    Ok((0..rotors.len()).filter_map(|rotor| speeds.at(rotor)).collect())
+    let labels = label_numbers(rotors);
+    let rotor = |rotor| Some(RotorSummary { label_number: label_number(labels, rotor), ..speeds.at(rotor)? });
+    Ok((0..rotors.len()).filter_map(rotor).collect())
+}
+
+/// The column `label.number` of a table that has labels.
+fn label_numbers(rotors: &StructArray) -> Option<&Int64Array> {
+    rotors.column_by_name("label")?.as_struct_opt()?.column_by_name("number")?.as_primitive_opt::<Int64Type>()
+}
+
+fn label_number(numbers: Option<&Int64Array>, rotor: usize) -> Option<usize> {
+    let number = numbers.filter(|numbers| numbers.is_valid(rotor))?.value(rotor);
+    usize::try_from(number).ok().filter(|number| *number > 0)
 }
 
 fn clock_std_rev_s(budget: &ListArray, row: usize) -> Result<f64, ArchiveError> {

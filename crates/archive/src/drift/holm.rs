@@ -10,7 +10,7 @@ pub(super) fn adjust(mut changes: Vec<&mut Change>) {
     for (rank, change) in changes.iter_mut().enumerate() {
         least = least.max((change.p_value * (count - rank) as f64).min(1.0));
         change.p_value_holm = least;
-        change.has_changed = least < FALSE_ALARM_CHANCE;
+        change.has_changed = change.is_rotor_known && least < FALSE_ALARM_CHANCE;
     }
 }
 
@@ -26,6 +26,7 @@ mod tests {
             degrees_of_freedom: None,
             p_value,
             p_value_holm: 1.0,
+            is_rotor_known: true,
             has_changed: false,
         };
         let mut changes = [0.04, 0.01, 0.03, 0.9].map(change);

@@ -1,6 +1,8 @@
 //! Two archives of the same rotors → which speeds have changed, with tests and their uncertainties.
 
 mod holm;
+mod numbering;
+mod pairing;
 mod pairs;
 mod pooled;
 mod tail;
@@ -9,8 +11,10 @@ mod text;
 pub use text::{drift_json, drift_text};
 
 use crate::summary::Summary;
-use pairs::{changes_of_pairs, pairs_of};
-use pooled::{change_of_groups, change_of_pairs};
+use numbering::Numbering;
+use pairing::{Crossed, are_different};
+use pairs::{Pair, changes_of_pairs, pairs_of};
+use pooled::{change_of_groups, change_of_pairs, change_of_rivals};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -31,7 +35,7 @@ pub struct Archives<'a> {
 pub struct RecordingChange {
     /// Name of the recording in both archives.
     pub file: String,
-    /// Number of the rotor, fastest first; 0 for the mean of all.
+    /// Number of the rotor, fastest first or of its label; 0 for the mean of all.
     pub rotor: usize,
     /// Shaft speed in the earlier archive.
     pub earlier_rev_s: f64,
@@ -45,7 +49,7 @@ pub struct RecordingChange {
 /// A change over all recordings.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RotorChange {
-    /// Number of the rotor, fastest first; 0 for the mean of all.
+    /// Number of the rotor, fastest first or of its label; 0 for the mean of all.
     pub rotor: usize,
     /// Recordings of the earlier archive with this rotor.
     pub earlier_count: usize,
@@ -69,7 +73,10 @@ pub struct Change {
     pub p_value: f64,
     /// The same where all tests of this kind together may be wrong once: Holm (1979).
     pub p_value_holm: f64,
-    /// Whether it has changed.
+    /// Whether it is known that the rotors of this number are the same one. Where not, another pairing of the rotors leaves at least as many of them
+    /// unchanged, and the change is the one of the pairing by rank.
+    pub is_rotor_known: bool,
+    /// Whether it has changed; false where the rotor is not known.
     pub has_changed: bool,
 }
 
@@ -78,6 +85,8 @@ pub struct Change {
 pub struct Drift {
     /// Whether recordings of the same name were compared; else the archives as wholes.
     pub is_paired: bool,
+    /// Whether rotors have the numbers of their labels; else they are numbered by speed, fastest first.
+    pub is_labelled: bool,
     /// Each rotor over all recordings.
     pub rotors: Vec<RotorChange>,
     /// Each recording of the same name.
@@ -92,19 +101,34 @@ pub struct Drift {
 ///
 /// Recordings of the same name are compared one by one, and each rotor by the weighted mean of its changes (DerSimonian & Laird 1986, with the
 /// correction of Knapp & Hartung 2003). Where no name is in both, the means of all recordings are compared by the test of Welch (1947).
+///
+/// Rotors are paired by the numbers of their labels where all have one, else by their rank in speed. Ranks may cross: where another pairing leaves at
+/// least as many rotors unchanged, no change of the rotors in question is claimed, and only the mean of all is tested.
 pub fn drift_of(archives: Archives<'_>) -> Drift {
-    let pairs = pairs_of(archives);
+    let numbering = Numbering::of(archives);
+    let pairs = pairs_of(archives, numbering);
     let is_paired = !pairs.is_empty();
     let mut recordings = changes_of_pairs(&pairs);
-    let rotors: BTreeSet<usize> = match is_paired {
-        true => recordings.iter().map(|change| change.rotor).collect(),
-        false => (0..=most_rotors(archives)).collect(),
+    let numbers: BTreeSet<usize> = match is_paired {
+        true => recordings.iter().flatten().map(|change| change.rotor).collect(),
+        false => (0..=numbering.most_rotors(archives)).collect(),
     };
-    let of_rotor = |rotor| match is_paired {
-        true => change_of_pairs(&pairs, rotor),
-        false => change_of_groups(archives, rotor),
+    let of_rotors = |earlier, later| match is_paired {
+        true => change_of_pairs(&pairs, earlier, later),
+        false => change_of_groups(archives, numbering, earlier, later),
     };
-    let mut rotors: Vec<RotorChange> = rotors.into_iter().filter_map(of_rotor).collect();
+    let mut rotors: Vec<RotorChange> = numbers.into_iter().filter_map(|rotor| of_rotors(rotor, rotor)).collect();
+    if numbering == Numbering::BySpeed {
+        let rivals = mark_recordings(&pairs, &mut recordings);
+        mark_rotors(&mut rotors, &pairs, &rivals, of_rotors);
+        // flights scatter by more than their reported uncertainties, which all of them together show and a single one does not
+        let not_known: BTreeSet<usize> =
+            rotors.iter().filter(|row| !row.change.is_rotor_known).map(|row| row.rotor).collect();
+        for row in recordings.iter_mut().flatten().filter(|row| not_known.contains(&row.rotor)) {
+            row.change.is_rotor_known = false;
+        }
+    }
+    let mut recordings: Vec<RecordingChange> = recordings.into_iter().flatten().collect();
     holm::adjust(recordings.iter_mut().map(|row| &mut row.change).collect());
     holm::adjust(rotors.iter_mut().map(|row| &mut row.change).collect());
     let used = |all: &[Summary]| match is_paired {
@@ -113,6 +137,7 @@ pub fn drift_of(archives: Archives<'_>) -> Drift {
     };
     Drift {
         is_paired,
+        is_labelled: numbering == Numbering::ByLabel,
         earlier_unused: archives.earlier.len() - used(archives.earlier),
         later_unused: archives.later.len() - used(archives.later),
         rotors,
@@ -120,8 +145,40 @@ pub fn drift_of(archives: Archives<'_>) -> Drift {
     }
 }
 
-/// The largest number of rotors that are separated in both archives.
-fn most_rotors(archives: Archives<'_>) -> usize {
-    let most = |all: &[Summary]| all.iter().map(|summary| summary.rotors.len()).max().unwrap_or(0);
-    most(archives.earlier).min(most(archives.later))
+/// Marks the rotors of single recordings that are not known, and returns the rivals of each recording.
+fn mark_recordings(pairs: &[Pair<'_>], recordings: &mut [Vec<RecordingChange>]) -> Vec<Vec<Option<usize>>> {
+    let chance = FALSE_ALARM_CHANCE / recordings.iter().map(Vec::len).sum::<usize>().max(1) as f64;
+    let rivals_of = |pair: &Pair<'_>| {
+        let change = |earlier, later| Some(pair.speeds(earlier, later)?.change());
+        Crossed::of(pair.rotor_count(), chance, change).rivals()
+    };
+    let rivals: Vec<Vec<Option<usize>>> = pairs.iter().map(rivals_of).collect();
+    for (rows, rivals) in recordings.iter_mut().zip(&rivals) {
+        for row in rows.iter_mut().filter(|row| row.rotor > 0) {
+            row.change.is_rotor_known = rivals.get(row.rotor - 1).is_none_or(Option::is_none);
+        }
+    }
+    rivals
+}
+
+/// Marks the rotors that are not known over all recordings: by their changes over all of them, or by those of single recordings.
+fn mark_rotors(
+    rotors: &mut [RotorChange],
+    pairs: &[Pair<'_>],
+    rivals: &[Vec<Option<usize>>],
+    of_rotors: impl Fn(usize, usize) -> Option<RotorChange>,
+) {
+    let count = rotors.iter().map(|row| row.rotor).max().unwrap_or(0);
+    let chance = FALSE_ALARM_CHANCE / rotors.len().max(1) as f64;
+    let rivals_of_all = Crossed::of(count, chance, |earlier, later| Some(of_rotors(earlier, later)?.change)).rivals();
+    for row in rotors.iter_mut().filter(|row| row.rotor > 0) {
+        let with_rivals = change_of_rivals(pairs, row.rotor, rivals);
+        let is_other = with_rivals.is_some_and(|other| is_other(&row.change, &other, chance));
+        row.change.is_rotor_known = rivals_of_all[row.rotor - 1].is_none() && !is_other;
+    }
+}
+
+/// Whether the rivals of single recordings lead to another verdict, or to another change, over all recordings.
+fn is_other(by_rank: &Change, with_rivals: &Change, chance: f64) -> bool {
+    (by_rank.p_value < chance) != (with_rivals.p_value < chance) || are_different(by_rank, with_rivals, chance)
 }

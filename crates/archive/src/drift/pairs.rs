@@ -1,8 +1,9 @@
 //! Recordings of the same name in both archives, and the change of each.
 
-use super::tail::two_sided;
+use super::numbering::Numbering;
+use super::pooled::tested;
 use super::{Archives, Change, RecordingChange};
-use crate::summary::{RotorSummary, Summary};
+use crate::summary::Summary;
 use std::collections::BTreeMap;
 
 /// A recording in both archives, with a speed in each.
@@ -10,6 +11,7 @@ use std::collections::BTreeMap;
 pub(super) struct Pair<'a> {
     pub(super) earlier: &'a Summary,
     pub(super) later: &'a Summary,
+    pub(super) numbering: Numbering,
 }
 
 /// A speed in both archives, whose uncertainties are known.
@@ -27,28 +29,30 @@ impl PairOfSpeeds {
     pub(super) fn change_share(self) -> f64 {
         self.later_rev_s / self.earlier_rev_s - 1.0
     }
-}
 
-/// The speed of a rotor, or of all with 0.
-pub(super) fn speed_of(summary: &Summary, rotor: usize) -> Option<RotorSummary> {
-    match rotor.checked_sub(1) {
-        None => summary.speed,
-        Some(index) => summary.rotors.get(index).copied(),
+    /// The change, tested by the reported uncertainties.
+    pub(super) fn change(self) -> Change {
+        tested(self.change_share(), self.std_share, None)
     }
 }
 
 impl Pair<'_> {
-    /// Rotors are compared where both recordings separate as many.
-    fn rotors(&self) -> std::ops::RangeInclusive<usize> {
-        let count = self.earlier.rotors.len();
-        0..=if count == self.later.rotors.len() { count } else { 0 }
+    /// The largest number of a rotor. Without labels, rotors are compared where both recordings separate as many.
+    pub(super) fn rotor_count(&self) -> usize {
+        let (earlier, later) = (self.numbering.last_of(self.earlier), self.numbering.last_of(self.later));
+        match self.numbering {
+            Numbering::BySpeed if earlier != later => 0,
+            _ => earlier.min(later),
+        }
     }
 
-    pub(super) fn speeds(&self, rotor: usize) -> Option<PairOfSpeeds> {
-        if !self.rotors().contains(&rotor) {
+    /// The speeds of an earlier and a later rotor, or of all with 0.
+    pub(super) fn speeds(&self, earlier: usize, later: usize) -> Option<PairOfSpeeds> {
+        if earlier.max(later) > self.rotor_count() {
             return None;
         }
-        let (earlier, later) = (speed_of(self.earlier, rotor)?, speed_of(self.later, rotor)?);
+        let earlier = self.numbering.speed_of(self.earlier, earlier)?;
+        let later = self.numbering.speed_of(self.later, later)?;
         let shares = |std_of_earlier: f64, std_of_later: f64| {
             (std_of_earlier / earlier.speed_rev_s).hypot(std_of_later / later.speed_rev_s)
         };
@@ -67,35 +71,28 @@ pub(super) fn clock_std_share(summary: &Summary) -> f64 {
 }
 
 /// The pairs in the order of their names.
-pub(super) fn pairs_of(archives: Archives<'_>) -> Vec<Pair<'_>> {
+pub(super) fn pairs_of(archives: Archives<'_>, numbering: Numbering) -> Vec<Pair<'_>> {
     let later: BTreeMap<&str, &Summary> =
         archives.later.iter().map(|summary| (summary.file.as_str(), summary)).collect();
     let pair = |earlier: &'_ Summary| later.get(earlier.file.as_str()).copied();
-    let pairs = archives.earlier.iter().filter_map(|earlier| Some(Pair { earlier, later: pair(earlier)? }));
+    let pairs = archives.earlier.iter().filter_map(|earlier| Some(Pair { earlier, later: pair(earlier)?, numbering }));
     pairs.filter(|pair| pair.earlier.speed.is_some() && pair.later.speed.is_some()).collect()
 }
 
-/// The change of every speed of every pair, tested by the reported uncertainties.
-pub(super) fn changes_of_pairs(pairs: &[Pair<'_>]) -> Vec<RecordingChange> {
+/// For each pair, the change of every speed, tested by the reported uncertainties.
+pub(super) fn changes_of_pairs(pairs: &[Pair<'_>]) -> Vec<Vec<RecordingChange>> {
     let changes_of = |pair: &Pair<'_>| {
         let of_rotor = |rotor: usize| {
-            let speeds = pair.speeds(rotor)?;
+            let speeds = pair.speeds(rotor, rotor)?;
             Some(RecordingChange {
                 file: pair.earlier.file.clone(),
                 rotor,
                 earlier_rev_s: speeds.earlier_rev_s,
                 later_rev_s: speeds.later_rev_s,
-                change: Change {
-                    change_share: speeds.change_share(),
-                    std_uncertainty_share: speeds.std_share,
-                    degrees_of_freedom: None,
-                    p_value: two_sided(speeds.change_share() / speeds.std_share, None),
-                    p_value_holm: 1.0,
-                    has_changed: false,
-                },
+                change: speeds.change(),
             })
         };
-        pair.rotors().filter_map(of_rotor).collect::<Vec<_>>()
+        (0..=pair.rotor_count()).filter_map(of_rotor).collect::<Vec<_>>()
     };
-    pairs.iter().flat_map(changes_of).collect()
+    pairs.iter().map(changes_of).collect()
 }

@@ -1,25 +1,36 @@
 //! The change of a rotor over all recordings.
 
-use super::pairs::{Pair, PairOfSpeeds, clock_std_share, speed_of};
+use super::numbering::Numbering;
+use super::pairs::{Pair, PairOfSpeeds, clock_std_share};
 use super::tail::two_sided;
 use super::{Archives, Change, RotorChange};
-use crate::summary::Summary;
+use crate::summary::{RotorSummary, Summary};
 
-/// The weighted mean of the changes of all pairs; `None` without one.
-pub(super) fn change_of_pairs(pairs: &[Pair<'_>], rotor: usize) -> Option<RotorChange> {
-    let speeds: Vec<PairOfSpeeds> = pairs.iter().filter_map(|pair| pair.speeds(rotor)).collect();
+/// The weighted mean of the changes of all pairs from one rotor to the same or another one; `None` without a pair.
+pub(super) fn change_of_pairs(pairs: &[Pair<'_>], earlier: usize, later: usize) -> Option<RotorChange> {
+    let speeds: Vec<PairOfSpeeds> = pairs.iter().filter_map(|pair| pair.speeds(earlier, later)).collect();
+    let change = change_of_speeds(&speeds)?;
+    Some(RotorChange { rotor: earlier, earlier_count: speeds.len(), later_count: speeds.len(), change })
+}
+
+/// The same, where a rotor that has a rival in a recording is taken for it there; `None` where no recording has one.
+pub(super) fn change_of_rivals(pairs: &[Pair<'_>], rotor: usize, rivals: &[Vec<Option<usize>>]) -> Option<Change> {
+    let rivals: Vec<Option<usize>> = rivals.iter().map(|of| of.get(rotor - 1).copied().flatten()).collect();
+    rivals.iter().any(Option::is_some).then_some(())?;
+    let pairs = pairs.iter().zip(&rivals);
+    let speeds: Vec<PairOfSpeeds> =
+        pairs.filter_map(|(pair, rival)| pair.speeds(rotor, rival.unwrap_or(rotor))).collect();
+    change_of_speeds(&speeds)
+}
+
+fn change_of_speeds(speeds: &[PairOfSpeeds]) -> Option<Change> {
     let clock = speeds.iter().map(|speeds| speeds.clock_std_share).reduce(f64::max)?;
     let observed: Vec<Observed> = speeds.iter().map(|speeds| Observed::of(*speeds)).collect();
     let pooled = pooled(&observed);
     let std_share = pooled.std.hypot(clock);
     // the part of the clock is known, the other has the freedom of a scatter (Welch–Satterthwaite)
     let freedom = pooled.degrees_of_freedom.map(|freedom| freedom * (std_share / pooled.std).powi(4));
-    Some(RotorChange {
-        rotor,
-        earlier_count: speeds.len(),
-        later_count: speeds.len(),
-        change: tested(pooled.mean, std_share, freedom),
-    })
+    Some(tested(pooled.mean, std_share, freedom))
 }
 
 /// A change with the variance that is its own.
@@ -74,8 +85,15 @@ fn scatter(observed: &[Observed], weights: &[f64], mean: f64) -> f64 {
 }
 
 /// The change of the mean of all recordings; `None` where one archive has fewer than two with this rotor.
-pub(super) fn change_of_groups(archives: Archives<'_>, rotor: usize) -> Option<RotorChange> {
-    let (earlier, later) = (Group::of(archives.earlier, rotor)?, Group::of(archives.later, rotor)?);
+pub(super) fn change_of_groups(
+    archives: Archives<'_>,
+    numbering: Numbering,
+    earlier: usize,
+    later: usize,
+) -> Option<RotorChange> {
+    let rotor = earlier;
+    let earlier = Group::of(archives.earlier, numbering, earlier)?;
+    let later = Group::of(archives.later, numbering, later)?;
     let (of_earlier, of_later) = (earlier.own_std_share().powi(2), later.own_std_share().powi(2));
     let own = of_earlier + of_later;
     let std_share = own.sqrt().hypot(earlier.clock_std_share).hypot(later.clock_std_share);
@@ -99,15 +117,16 @@ struct Group {
 }
 
 impl Group {
-    fn of(all: &[Summary], rotor: usize) -> Option<Self> {
-        let speeds: Vec<_> = all.iter().filter_map(|summary| Some((summary, speed_of(summary, rotor)?))).collect();
+    fn of(all: &[Summary], numbering: Numbering, rotor: usize) -> Option<Self> {
+        let speed = |summary| Some((summary, numbering.speed_of(summary, rotor)?));
+        let speeds: Vec<(&Summary, RotorSummary)> = all.iter().filter_map(speed).collect();
         let count = speeds.len();
         if count < 2 {
             return None;
         }
         let mean_rev_s = speeds.iter().map(|(_, speed)| speed.speed_rev_s).sum::<f64>() / count as f64;
         let squares: f64 = speeds.iter().map(|(_, speed)| (speed.speed_rev_s - mean_rev_s).powi(2)).sum();
-        let reported = |(summary, speed): &(&Summary, crate::summary::RotorSummary)| {
+        let reported = |(summary, speed): &(&Summary, RotorSummary)| {
             speed.std_rev_s.unwrap_or(0.0).powi(2) - (clock_std_share(summary) * speed.speed_rev_s).powi(2)
         };
         let reported = speeds.iter().map(reported).sum::<f64>() / count as f64;
@@ -124,13 +143,15 @@ impl Group {
     }
 }
 
-fn tested(change_share: f64, std_share: f64, degrees_of_freedom: Option<f64>) -> Change {
+/// A change with its test by this uncertainty.
+pub(super) fn tested(change_share: f64, std_share: f64, degrees_of_freedom: Option<f64>) -> Change {
     Change {
         change_share,
         std_uncertainty_share: std_share,
         degrees_of_freedom,
         p_value: two_sided(change_share / std_share, degrees_of_freedom),
         p_value_holm: 1.0,
+        is_rotor_known: true,
         has_changed: false,
     }
 }

@@ -3,9 +3,13 @@
 use super::{Change, Drift, FALSE_ALARM_CHANCE};
 use hovertone_report::{Column, TextTable, VERSION, counted, printable, table_text};
 use serde_json::json;
+use std::collections::BTreeSet;
 
 /// Most recordings that the text names; the JSON has all.
 const RECORDINGS_MAX: usize = 20;
+
+/// What stands in place of a number that is not told.
+const NOT_TOLD: &str = "–";
 
 /// All changes as one JSON object, without a line feed.
 pub fn drift_json(drift: &Drift) -> String {
@@ -18,7 +22,7 @@ pub fn drift_json(drift: &Drift) -> String {
 /// The changes of the rotors, and the recordings that have changed.
 pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
     let mut table = TextTable::new(vec![
-        Column::words("rotor, by speed"),
+        Column::words(title_of_rotors(drift)),
         Column::numbers("recordings", ""),
         Column::numbers("change", "%"),
         Column::numbers("± (k = 2)", "%"),
@@ -44,7 +48,28 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         counted(drift.earlier_unused, "recording"),
         drift.later_unused
     );
-    format!("compared: {how}\n{}{}{unused}{}", table_text(&table, width), p_value_text(), recordings_text(drift, width))
+    format!(
+        "compared: {how}\n{}{}{}{unused}{}",
+        table_text(&table, width),
+        p_value_text(),
+        not_known_text(drift),
+        recordings_text(drift, width)
+    )
+}
+
+fn title_of_rotors(drift: &Drift) -> &'static str {
+    if drift.is_labelled { "rotor, by label" } else { "rotor, by speed" }
+}
+
+/// What the verdict about a rotor that is not known means.
+fn not_known_text(drift: &Drift) -> &'static str {
+    match drift.rotors.iter().all(|row| row.change.is_rotor_known) {
+        true => "",
+        false => {
+            "\"cannot tell which rotor\": the order of the speeds may have changed. Another pairing of the rotors leaves at least as many of them \
+             unchanged, and the sound does not say which pairing is right. The mean of all rotors is tested\n"
+        }
+    }
 }
 
 fn p_value_text() -> String {
@@ -59,13 +84,15 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
     if !drift.is_paired {
         return String::new();
     }
+    let not_known = not_known_recordings_text(drift);
     if changed.is_empty() {
-        return "no single recording has changed by more than its uncertainty\n".to_owned();
+        let of_known = if not_known.is_empty() { "" } else { ", as far as its rotors are known" };
+        return format!("no single recording has changed by more than its uncertainty{of_known}\n{not_known}");
     }
     changed.sort_by(|one, other| other.change.change_share.abs().total_cmp(&one.change.change_share.abs()));
     let mut table = TextTable::new(vec![
         Column::words("recording"),
-        Column::words("rotor, by speed"),
+        Column::words(title_of_rotors(drift)),
         Column::numbers("change", "%"),
         Column::numbers("± (k = 2)", "%"),
         Column::numbers("p-value", ""),
@@ -81,9 +108,18 @@ fn recordings_text(drift: &Drift, width: Option<usize>) -> String {
         more => format!("and {more} more; --json has all\n"),
     };
     format!(
-        "\nspeeds of single recordings that have changed, largest change first\n{}{more}",
+        "\nspeeds of single recordings that have changed, largest change first\n{}{more}{not_known}",
         table_text(&table, width)
     )
+}
+
+fn not_known_recordings_text(drift: &Drift) -> String {
+    let rows = drift.recordings.iter().filter(|row| !row.change.is_rotor_known);
+    let files: BTreeSet<&str> = rows.map(|row| row.file.as_str()).collect();
+    match files.len() {
+        0 => String::new(),
+        count => format!("in {}, it cannot be told which rotor is which\n", counted(count, "recording")),
+    }
 }
 
 fn rotor_name(rotor: usize) -> String {
@@ -91,6 +127,9 @@ fn rotor_name(rotor: usize) -> String {
 }
 
 fn cells_of(change: &Change) -> Vec<String> {
+    if !change.is_rotor_known {
+        return [NOT_TOLD, NOT_TOLD, NOT_TOLD, "cannot tell which rotor"].map(str::to_owned).to_vec();
+    }
     let in_percent = |share: f64| share * 100.0;
     let chance = match change.p_value_holm {
         small if small < 1e-4 => "< 0.0001".to_owned(),
