@@ -16,6 +16,9 @@ pub struct BatchIdentity {
     pub version: String,
     /// What is heard, as typed.
     pub inputs: Vec<String>,
+    /// Number and hash of the names that came from stdin, where a list did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub list_from_stdin: Option<String>,
     /// How it is heard.
     pub settings: Value,
 }
@@ -84,7 +87,13 @@ mod tests {
     use serde_json::json;
 
     fn identity(settings: Value) -> BatchIdentity {
-        BatchIdentity { format: FORMAT, version: "1".to_owned(), inputs: vec!["DIR".to_owned()], settings }
+        BatchIdentity {
+            format: FORMAT,
+            version: "1".to_owned(),
+            inputs: vec!["DIR".to_owned()],
+            list_from_stdin: None,
+            settings,
+        }
     }
 
     #[test]

@@ -15,6 +15,11 @@ pub struct Planned {
     pub part: String,
 }
 
+impl Planned {
+    /// Hexadecimal letters in the name of a part, without its folder.
+    pub const HASH_LETTERS: usize = 2 * NAME_BYTES;
+}
+
 /// All recordings, sorted by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {

@@ -13,7 +13,7 @@ use hovertone_archive::{ArchiveRow, Part};
 /// The names of the recordings, in the order of the tables. Flags without a meaning are refused here, before a cluster works.
 pub(crate) fn names(arguments: &BatchArguments) -> Result<Vec<String>, Failure> {
     config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
-    let plan = Names::of(&recordings_of(&arguments.inputs)?)?.plan();
+    let plan = Names::of(&recordings_of(&arguments.inputs)?.found)?.plan();
     Ok(plan.recordings().iter().map(|recording| recording.name.clone()).collect())
 }
 

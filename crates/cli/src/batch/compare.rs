@@ -66,7 +66,11 @@ impl Results {
 
     /// The warning that the recordings were heard in another way.
     fn other_settings(&self, later: &Self) -> Option<Notice> {
-        let there = BatchIdentity { inputs: later.identity.inputs.clone(), ..self.identity.clone() };
+        let there = BatchIdentity {
+            inputs: later.identity.inputs.clone(),
+            list_from_stdin: later.identity.list_from_stdin.clone(),
+            ..self.identity.clone()
+        };
         let differences = there.differences(&later.identity);
         if differences.is_empty() {
             return None;

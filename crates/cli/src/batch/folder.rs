@@ -5,7 +5,9 @@ use crate::files::sha256_of_bytes;
 use crate::output_file::{LOCK, OutputFile, open_lock, remove_written};
 use crate::output_folder::{FolderContent, OutputFolder};
 use crate::outputs::{Outputs, refused, write_whole};
-use hovertone_archive::{BatchIdentity, Part, Planned, Shard};
+use hovertone_archive::{BatchIdentity, Part, Plan, Planned, Shard};
+use std::collections::HashSet;
+use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -61,10 +63,21 @@ impl BatchFolder {
             remove_written(&self.place(name))?;
         }
         let tracks = entries_of(&self.place(super::tables::TRACKS));
-        let parts = entries_of(&self.place(PARTS)).into_iter().flat_map(|folder| entries_of(&folder));
-        let parts = parts.filter(|path| path.extension().is_some_and(|ending| ending == PART_ENDING));
         let tracks = tracks.into_iter().filter(|path| super::tables::is_of_tracks(path));
-        tracks.chain(parts).try_for_each(|path| remove_written(&path).map(drop))
+        tracks.chain(self.parts()).try_for_each(|path| remove_written(&path).map(drop))
+    }
+
+    /// The parts that batches wrote.
+    fn parts(&self) -> impl Iterator<Item = PathBuf> {
+        let files = entries_of(&self.place(PARTS)).into_iter().flat_map(|folder| entries_of(&folder));
+        files.filter(|path| is_part(path))
+    }
+
+    /// Removes the parts of recordings that are gone or have changed. Only a run without other jobs may do this.
+    pub(crate) fn remove_other_parts(&self, plan: &Plan) -> Result<(), Failure> {
+        let of_plan: HashSet<PathBuf> = plan.recordings().iter().map(|one| self.place_of_part(one)).collect();
+        let mut others = self.parts().filter(|path| !of_plan.contains(path));
+        others.try_for_each(|path| remove_written(&path).map(drop))
     }
 
     /// Keeps other runs from writing tables until the lock is dropped; waits for them.
@@ -123,6 +136,22 @@ impl BatchFolder {
             Failure::failed(what, "run the same command again: it hears this recording again", &place)
         })
     }
+}
+
+/// What the results in a folder are of, where an earlier run has said it.
+pub(crate) fn identity_in(path: &Path) -> Option<BatchIdentity> {
+    serde_json::from_str(&fs::read_to_string(path.join(IDENTITY)).ok()?).ok()
+}
+
+/// Whether a file has the name of a part, `0f/0f….part`: other files in the folder are not ours.
+fn is_part(path: &Path) -> bool {
+    let text = |name: Option<&OsStr>| name.and_then(OsStr::to_str).unwrap_or_default().to_owned();
+    let (name, folder) = (text(path.file_stem()), text(path.parent().and_then(Path::file_name)));
+    let is_hash = name.len() == Planned::HASH_LETTERS && name.bytes().all(|letter| letter.is_ascii_hexdigit());
+    path.extension().is_some_and(|ending| ending == PART_ENDING)
+        && is_hash
+        && folder.len() == 2
+        && name.starts_with(&folder)
 }
 
 /// Refuses a folder of other recordings or settings, with what differs.

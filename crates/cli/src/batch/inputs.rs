@@ -1,19 +1,32 @@
 //! The recordings of an archive, from what was typed.
 
 use crate::failure::Failure;
-use crate::files::{files_of, home_expanded, is_pattern};
+use crate::files::{files_of, home_expanded, is_pattern, sha256_of_bytes};
 use crate::inputs::{is_stdin, read_text};
 use crate::recording_files::recordings_below;
 use crate::stored::{self, StoredRecording, is_address};
-use hovertone_archive::Plan;
+use hovertone_archive::{BatchIdentity, Plan};
+use hovertone_report::counted;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::{self, Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 /// Ending of a list of recordings.
 const LIST: &str = "txt";
+/// The mark that some editors write before the first letter of a text.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+/// Letters of a hash that tell two lists from each other in a message.
+const HASH_LETTERS: usize = 16;
+
+/// All recordings of a run.
+pub(crate) struct Recordings {
+    /// In the order in which they were found, each once.
+    pub(crate) found: Vec<Found>,
+    /// Number and hash of the names that came from stdin, in any order.
+    pub(crate) list_from_stdin: Option<String>,
+}
 
 /// The names of recordings in the tables, and how to find them.
 pub(crate) struct Names {
@@ -81,8 +94,9 @@ impl Names {
 }
 
 /// The recordings in the order in which they were found. A name of a list that leads nowhere stays, so that it has a row with its error.
-pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<Found>, Failure> {
+pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Recordings, Failure> {
     let mut found = Vec::new();
+    let mut list_from_stdin = None;
     for input in typed {
         let of_input = recordings_of_one(input)?;
         if of_input.is_empty() {
@@ -100,9 +114,49 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Vec<Found>, Failure> {
             };
             return Err(Failure::failed(what, hint, input));
         }
+        if is_stdin(input) {
+            list_from_stdin = Some(list_in_short(&of_input));
+        }
         found.extend(of_input);
     }
-    Ok(found)
+    let mut places = BTreeSet::new();
+    found.retain(|one| places.insert(place_of(&one.path)));
+    Ok(Recordings { found, list_from_stdin })
+}
+
+/// The inputs in the spelling of an earlier run, where they are the same files and folders: then its recordings keep their names.
+pub(crate) fn spelled_as_before(typed: &[PathBuf], before: &BatchIdentity) -> Vec<PathBuf> {
+    let is_same = |(one, other): (&PathBuf, &String)| {
+        one.to_string_lossy() == *other || (!is_stdin(one) && place_of(one) == place_of(Path::new(other)))
+    };
+    if typed.len() != before.inputs.len() || !typed.iter().zip(&before.inputs).all(is_same) {
+        return typed.to_vec();
+    }
+    let spelled = |(one, other): (&PathBuf, &String)| {
+        // a name that is no text is in the earlier run only what it looks like
+        if one.to_string_lossy() == *other { one.clone() } else { PathBuf::from(other) }
+    };
+    typed.iter().zip(&before.inputs).map(spelled).collect()
+}
+
+/// A file or folder whatever its spelling, behind symbolic links; where it is not there, its name in its folder. An address stays as it is.
+fn place_of(path: &Path) -> PathBuf {
+    if is_address(path) || is_stdin(path) {
+        return path.to_owned();
+    }
+    let path = home_expanded(path);
+    let in_folder = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Some(fs::canonicalize(folder).ok()?.join(path.file_name()?))
+    };
+    let there = fs::canonicalize(&path).ok().or_else(|| in_folder(&path));
+    there.or_else(|| path::absolute(&path).ok()).unwrap_or(path)
+}
+
+fn list_in_short(found: &[Found]) -> String {
+    let names: BTreeSet<String> = found.iter().map(|one| one.path.to_string_lossy().into_owned()).collect();
+    let hash = sha256_of_bytes(names.iter().map(|name| format!("{name}\n")).collect::<String>().as_bytes());
+    format!("{} (SHA-256 {})", counted(names.len(), "name"), hash.get(..HASH_LETTERS).unwrap_or(&hash))
 }
 
 fn recordings_of_one(input: &Path) -> Result<Vec<Found>, Failure> {
@@ -117,7 +171,7 @@ fn recordings_of_one(input: &Path) -> Result<Vec<Found>, Failure> {
 
 fn files_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
     if input.is_dir() {
-        return Ok(recordings_below(input));
+        return Ok(sorted_below(input));
     }
     let files = files_of(input);
     let is_missing = |path: &PathBuf| !path.exists();
@@ -128,9 +182,16 @@ fn files_of_one(input: &Path) -> Result<Vec<PathBuf>, Failure> {
         }
         _ => Ok(files
             .into_iter()
-            .flat_map(|path| if path.is_dir() { recordings_below(&path) } else { vec![path] })
+            .flat_map(|path| if path.is_dir() { sorted_below(&path) } else { vec![path] })
             .collect()),
     }
+}
+
+/// In the order of the names: of two names of one file, the first is the same one on every disk.
+fn sorted_below(folder: &Path) -> Vec<PathBuf> {
+    let mut found = recordings_below(folder);
+    found.sort();
+    found
 }
 
 fn is_list(input: &Path) -> bool {
@@ -141,6 +202,7 @@ fn is_list(input: &Path) -> bool {
 fn names_in(list: &Path) -> Result<Vec<Found>, Failure> {
     let text = if is_address(list) { stored::text_of(list)? } else { read_text(list, "a list of recordings")? };
     let folder = if is_stdin(list) { Path::new("") } else { list.parent().unwrap_or(Path::new("")) };
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(&text);
     let names = text.lines().map(str::trim_end).filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let path = |name: &str| match Path::new(name) {
         name if is_address(name) => name.to_owned(),

@@ -16,11 +16,11 @@ use crate::recording::{Hearing, Requests};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
 use counts::Counts;
-use folder::BatchFolder;
+use folder::{BatchFolder, identity_in};
 use hearing::{Manner, hear_missing};
 use hovertone_archive::{BatchIdentity, FORMAT, Plan, Shard};
 use hovertone_report::{VERSION, counted, printable};
-use inputs::Names;
+use inputs::{Names, Recordings, recordings_of, spelled_as_before};
 use serde_json::json;
 use tables::write_tables;
 
@@ -33,11 +33,14 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     let requests = requests_of(arguments);
     let hearing = Hearing { wants_thumbnail: true, ..hearing_of(arguments) };
-    let recordings = inputs::recordings_of(&arguments.inputs)?;
+    let before = identity_in(&arguments.output).filter(|_| !arguments.replace.force);
+    let typed = before.map_or_else(|| arguments.inputs.clone(), |before| spelled_as_before(&arguments.inputs, &before));
+    let Recordings { found: recordings, list_from_stdin } = recordings_of(&typed)?;
     let identity = BatchIdentity {
         format: FORMAT,
         version: VERSION.to_owned(),
-        inputs: arguments.inputs.iter().map(|input| input.to_string_lossy().into_owned()).collect(),
+        inputs: typed.iter().map(|input| input.to_string_lossy().into_owned()).collect(),
+        list_from_stdin,
         settings: json!({
             "analysis": config,
             "search": discovery,
@@ -65,6 +68,9 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
     };
     let of_run = hear_missing(&plan, &folder, &manner)?;
     let counts = write_tables(&plan, &folder, &identity)?;
+    if counts.is_some() && shard.is_whole() {
+        folder.remove_other_parts(&plan)?;
+    }
     say(&Said { heard: of_run, all: counts.as_ref(), plan: &plan, shard, folder: &folder }, arguments.json, terminal)?;
     Ok(if counts.unwrap_or(of_run).is_complete() { Ending::Done } else { Ending::Incomplete })
 }

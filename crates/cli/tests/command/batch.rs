@@ -1,7 +1,9 @@
 //! `hovertone batch`: one row for each recording, the same bytes however it is run, and nothing lost when it is killed.
 
+mod inputs;
+
 use crate::report_fixture::write_rotor;
-use crate::testkit::{Run, hovertone, hovertone_with, refused_with, text, write_noise};
+use crate::testkit::{Run, hovertone, refused_with, text, write_noise};
 use arrow_array::cast::AsArray;
 use arrow_array::types::Float64Type;
 use arrow_array::{Array, RecordBatch};
@@ -245,30 +247,26 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
 }
 
 #[test]
-fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
+fn parts_of_recordings_that_are_gone_or_changed_are_removed_and_nothing_else() {
     let folder = tempfile::tempdir().unwrap();
-    let archive = folder.path().join("archive");
+    let (archive, out) = (folder.path().join("archive"), folder.path().join("out"));
     write_archive(&archive, 4);
-    let list = folder.path().join("list.txt");
-    fs::write(&list, "# my flights\narchive/flight 1/1.wav\n\narchive/gone.wav\narchive/flight 0\n").unwrap();
-    let out = folder.path().join("listed");
-    batch(&list, &out, &[]).ends_with(3);
-    let rows = table(&out.join("recordings.parquet"));
-    assert_eq!(texts(&rows, "error_class"), ["not_a_file", "", "not_found"]);
-    let pattern = folder.path().join("archive/*/*.wav");
-    batch(&pattern, &folder.path().join("matched"), &[]).ends_with(0);
-    assert_eq!(table(&folder.path().join("matched/recordings.parquet")).num_rows(), 4);
-    for (input, words) in
-        [("archive/*.flac", "no file matches"), ("nowhere", "no such file"), ("empty", "no recording is in")]
-    {
-        fs::create_dir_all(folder.path().join("empty")).unwrap();
-        let run = hovertone_with(&["batch", input, "-o", "none"], |command| command.current_dir(folder.path()));
-        assert!(run.code == 1 && run.stderr.contains(words), "{input}: {} {}", run.code, run.stderr);
-        assert!(!folder.path().join("none").exists());
-    }
-    let words = ["batch", text(&archive), "-o", "none", "--shard"];
-    refused_with(&[&words[..], &["3/2"]].concat(), &["--shard", "1/8"]);
-    refused_with(&[&words[..], &["1/2", "--force"]].concat(), &["other jobs"]);
+    batch(&archive, &out, &[]).ends_with(0);
+    let parts = || walk(&out.join("parts"));
+    let before = parts();
+    let not_ours = ["mine.part", "mine.txt"].map(|name| before[0].with_file_name(name));
+    not_ours.iter().for_each(|place| fs::write(place, "mine").unwrap());
+    write_rotor(&archive.join("flight 0/0.wav"), 95.0, 0.0, 1.5, 7);
+    fs::remove_file(archive.join("flight 1/1.wav")).unwrap();
+    // one of several jobs does not know what the others need
+    batch(&archive, &out, &["--shard", "1/1000"]);
+    batch(&archive, &out, &["--shard", "2/1000"]);
+    assert!(before.iter().all(|part| part.exists()));
+    batch(&archive, &out, &[]).ends_with(0);
+    let after = parts();
+    assert_eq!(after.len(), 3 + not_ours.len(), "{after:?}");
+    assert_eq!(before.iter().filter(|part| after.contains(part)).count(), 2);
+    assert!(not_ours.iter().all(|place| place.exists()));
 }
 
 #[cfg(not(feature = "stores"))]
@@ -337,6 +335,7 @@ fn a_comparison_names_what_has_changed() {
     assert!(told.contains("mean of all") && told.contains("3.wav") && !told.contains("4.wav"), "{told}");
     let itself = &hovertone(&["batch-compare", words[1], words[1], "--json"]).ends_with(0).json_lines()[0];
     assert_eq!(itself["rotors"][0]["has_changed"], false);
+    assert!(itself["is_labelled"] == false && itself["rotors"][0]["is_rotor_known"] == true, "{itself}");
     let none = hovertone(&["batch-compare", text(&at("old")), words[2]]).ends_with(1);
     assert!(none.stderr.contains("not a folder that `hovertone batch -o` wrote"), "{}", none.stderr);
 }
