@@ -71,8 +71,7 @@ impl RotorTracks {
         self.faint_s >= FAINT_SHARE_MIN * self.length_s
     }
 
-    /// The resolved rotors, fastest first. Empty for one group. Two whose speeds differ by less than the expanded uncertainty of the difference may be
-    /// one rotor, and are left out.
+    /// The resolved rotors, fastest first. Rotors that may be one are left out. Empty where at most half remain: they are one group.
     pub(crate) fn rotors(&self, order: Order, budget: &BudgetConfig) -> Vec<RotorEstimate> {
         if self.are_one_group {
             return Vec::new();
@@ -106,15 +105,8 @@ impl RotorTracks {
             })
             .collect();
         rotors.sort_by(|a, b| b.speed.speed.rev_s().total_cmp(&a.speed.speed.rev_s()));
-        let may_be_one: Vec<bool> = rotors
-            .iter()
-            .map(|rotor| {
-                rotors.iter().any(|other| !std::ptr::eq(rotor, other) && may_be_one(&rotor.speed, &other.speed))
-            })
-            .collect();
-        let mut may_be_one = may_be_one.into_iter();
-        rotors.retain(|_| may_be_one.next() != Some(true));
-        rotors
+        let rotors = without_doubles(rotors);
+        if 2 * rotors.len() <= self.rotors.len() { Vec::new() } else { rotors }
     }
 
     /// Mean and mean square of the speeds of all rotors over a span of time, or over the whole track; and the standard uncertainty, as a share,
@@ -204,6 +196,15 @@ impl RotorTracks {
         let length_s = of.map_or(self.length_s, Span::length_s).min(self.length_s);
         spans.into_iter().map(within_s).sum::<f64>() / length_s.max(f64::MIN_POSITIVE)
     }
+}
+
+/// The rotors without any that may be one with another.
+fn without_doubles(rotors: Vec<RotorEstimate>) -> Vec<RotorEstimate> {
+    let is_double = |(index, rotor): (usize, &RotorEstimate)| {
+        rotors.iter().enumerate().any(|(other, of)| other != index && may_be_one(&rotor.speed, &of.speed))
+    };
+    let are_double: Vec<bool> = rotors.iter().enumerate().map(is_double).collect();
+    rotors.into_iter().zip(are_double).filter_map(|(rotor, is_double)| (!is_double).then_some(rotor)).collect()
 }
 
 /// Whether two speeds differ by less than the expanded uncertainty of their difference.
