@@ -96,13 +96,13 @@ impl fmt::Display for NoTone {
             }
             Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
                 f,
-                "a tone near {tone_hz:.0} Hz may be a rotor (it is heard in {:.0} % of the frames), but the hover is too short to be certain; \
+                "a tone near {tone_hz:.0} Hz may be a rotor (it is heard for {:.0} % of the time), but the hover is too short to be certain; \
                  record a longer one",
                 100.0 * line_share
             ),
             Self::NotALine { tone_hz, line_share, line_share_min } => write!(
                 f,
-                "the clearest tone, near {tone_hz:.0} Hz, is heard in {} of the frames, and a rotor would be heard in more than {:.0} %; \
+                "the clearest tone, near {tone_hz:.0} Hz, is heard for {} of the time, and a rotor would be heard for more than {:.0} %; \
                  place the microphone nearer, or record a longer hover",
                 percent_in_words(*line_share),
                 100.0 * line_share_min
@@ -134,7 +134,7 @@ impl fmt::Display for NoTone {
             ),
             Self::LonelyLine { tone_hz, line_share } => write!(
                 f,
-                "the clearest tone, near {tone_hz:.0} Hz, is heard in {} of the frames, and none of its harmonics is heard; \
+                "the clearest tone, near {tone_hz:.0} Hz, is heard for {} of the time, and none of its harmonics is heard; \
                  place the microphone nearer, or record a longer hover",
                 percent_in_words(*line_share)
             ),

@@ -120,7 +120,7 @@ impl Warning {
             Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
             Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "nothing can separate rotors at equal speeds; for others, place the microphone nearer and record without compression"
+                "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
             }
             Self::RotorsNotApart { .. } => "the mean speed is still right; its ± is larger",
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
@@ -160,7 +160,7 @@ impl fmt::Display for Warning {
                 )
             }
             Self::ManyGaps { gap_share } => {
-                write!(f, "the tone is not heard in {:.0} % of the frames", 100.0 * gap_share)
+                write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)
             }
             Self::FewFrames { frame_count } => write!(f, "a sample has only {frame_count} frames"),
             Self::RotorsNotApart { resolved: 0, of, has_mean: true } => {
@@ -174,7 +174,7 @@ impl fmt::Display for Warning {
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not known: the ± allows for other rotors, with speeds that differ by {:.1} % (standard deviation)",
+                "the number of rotors is not known: there may be others, whose speeds differ by {:.1} % (standard deviation), and the ± allows for them",
                 100.0 * spread_share
             ),
             Self::SeveralLines { spread_share } => {

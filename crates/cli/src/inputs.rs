@@ -69,7 +69,11 @@ pub(crate) fn read_text(path: &Path, what: &str) -> Result<String, Failure> {
 /// The failure of a file that should be text and is something else, such as a recording.
 pub(crate) fn is_no_text(what: &str, path: &Path) -> Failure {
     let found = format!("this file is not text, so it cannot be {what}");
-    Failure::failed(found, "check the name and the order of the files in the command", path)
+    Failure::failed(
+        found,
+        "check the name of the file; a recording is heard by `hovertone speed` or `hovertone identify`",
+        path,
+    )
 }
 
 fn cannot_open(error: &io::Error, what: &str, path: &Path) -> Failure {

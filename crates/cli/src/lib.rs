@@ -129,8 +129,8 @@ fn run_command(command: &Command, terminal: &mut Terminal<'_>) -> Result<Ending,
         Command::Serve(arguments) => serve::run(arguments, terminal),
         #[cfg(not(feature = "page"))]
         Command::Serve(_) => Err(Failure::Failed {
-            what: "this hovertone was built without the page".to_owned(),
-            hint: "build it with the page: cargo xtask page, then cargo build --release --features page".to_owned(),
+            what: "this build of hovertone has no page for the browser".to_owned(),
+            hint: "speed and identify do the same in the terminal; to build the page: cargo xtask page, then cargo build --release --features page".to_owned(),
             path: None,
         }),
         Command::Completions(arguments) => shell::run_completions(arguments, terminal),

@@ -41,7 +41,7 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
         with_uncertainty(unit.scale(constant.value), std)
     };
     let mut text = TextTable::new(vec![
-        Column::words("law; ± is k = 2, of the fit alone"),
+        Column::words("law (± is k = 2, of the fit alone)"),
         Column::numbers("C_f", &unit.unit(CONSTANT_UNIT)),
         Column::numbers("F₀", "N"),
         Column::numbers("exponent", ""),
@@ -116,7 +116,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "χ² = {} with {} degree{} of freedom, {}; residuals {:.2} % of full scale\n",
+            "χ² = {} with {} degree{} of freedom, {}; residuals {:.2} % of the largest force\n",
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
@@ -124,7 +124,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             100.0 * fit.residual_rms_share
         ),
         None if fit.points.len() > 1 => {
-            format!("residuals {:.2} % of full scale\n", 100.0 * fit.residual_rms_share)
+            format!("residuals {:.2} % of the largest force\n", 100.0 * fit.residual_rms_share)
         }
         None => String::new(),
     }

@@ -18,7 +18,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
         Some(ratio) => {
             let [ratio, range] = compared([ratio, range]);
             format!(
-                "To test F = C_f ω², the heaviest load must weigh {ratio} times the lightest. Yours weighs {range} times."
+                "To test F = C_f ω², the vehicle with its heaviest load must weigh {ratio} times the vehicle with its lightest. Yours weighs {range} times."
             )
         }
         None => "With these few trials, no range of loads tests F = C_f ω² to 2 % of the force.".to_owned(),

@@ -49,7 +49,10 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
     let offset = if found.is_offset_told {
         format!("offset of the log {} s: time to be added to its clock\n", signed(found.offset_s, 3))
     } else {
-        format!("offset of the log {} s, or another: the speeds are too steady to tell it\n", signed(found.offset_s, 1))
+        format!(
+            "offset of the log: not found, because the speeds change too little ({} s is used)\n",
+            signed(found.offset_s, 1)
+        )
     };
     let rate = found
         .clock_rate_share
@@ -79,7 +82,7 @@ pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
             format!("heard speeds are {} times the logged ones", significant(ratio, 3)),
-            "check the blades or the order, or the pole pairs of the log",
+            "check the blades or the order, and the pole pairs of the log; or the log is of another flight",
         )),
         None => Some(Notice::new(
             format!("heard speeds differ by {} %", percent_of(found)),

@@ -93,8 +93,9 @@ pub fn hear(
             return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
         }
     };
-    // a list of all families of tones follows none of them
-    let follows_a_tone = !task.discovery.is_some_and(|discovery| discovery.wants_all);
+    // a list of all families of tones follows none of them, and nor does a recording without a rotor
+    let is_list = task.discovery.is_some_and(|discovery| discovery.wants_all);
+    let follows_a_tone = !is_list && matches!(analysis.outcome, Outcome::Ok(_));
     let matters = |warning: &&Warning| match warning {
         Warning::HoverShorterThanSample { .. } => task.wants_samples,
         other => follows_a_tone || !other.is_about_followed_tone(),

@@ -44,7 +44,7 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         "all recordings of one archive with all of the other, since no name is in both"
     };
     let unused = format!(
-        "not compared: {} of the earlier archive, {} of the later\n",
+        "not compared: {} of the earlier archive, {} of the later (without a speed, or without a partner of the same name)\n",
         counted(drift.earlier_unused, "recording"),
         drift.later_unused
     );

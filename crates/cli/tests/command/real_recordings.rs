@@ -46,17 +46,6 @@ fn one_motor_is_not_four() {
     assert!((line["speed_rev_s"].as_f64().unwrap() - 91.8).abs() < 0.25, "{}", line["speed_rev_s"]);
 }
 
-/// One motor of four turns. Beats of its wandering lines may look like several rotors, less than their ± apart: these are not listed.
-#[test]
-fn one_motor_of_a_vehicle_has_no_list_of_rotors() {
-    let Some(folder) = recordings("real") else { return };
-    let file = folder.join("cf_m3.wav");
-    let line = &hovertone(&["speed", "--vehicle", "crazyflie", "--json", text(&file)]).ends_with(0).json_lines()[0];
-    assert!(line["rotors"].is_null(), "{}", line["rotors"]);
-    let off_rev_s = line["speed_rev_s"].as_f64().unwrap() - 316.985;
-    assert!(off_rev_s.abs() < 2.0 * line["combined_std_uncertainty_rev_s"].as_f64().unwrap(), "{off_rev_s}");
-}
-
 #[test]
 fn where_no_tone_is_there_is_no_number() {
     let Some(folder) = recordings("small-multirotors") else { return };

@@ -273,8 +273,7 @@ fn leave_out_resting(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
         let share = 100.0 * AT_REST_SHARE;
         let count = before - rows.len();
         let rpm = AT_REST_SHARE * fastest * 60.0 / TAU;
-        notes
-            .push(format!("rows left out, below {share:.0} % of the fastest speed ({rpm:.0} rpm) or at rest: {count}"));
+        notes.push(format!("rows left out, slower than {rpm:.0} rpm ({share:.0} % of the fastest speed): {count}"));
     }
 }
 

@@ -86,7 +86,7 @@ impl<'a> HarmonicWeights<'a> {
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
-                    format!("it is heard in {} of the frames", percent_in_words(ridge.point_share()))
+                    format!("it is heard for {} of the time", percent_in_words(ridge.point_share()))
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     let (percent, how) =

@@ -8,8 +8,6 @@ use hovertone_signal::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed};
 use std::f64::consts::TAU;
 
-/// Two speeds differ where their distance is larger than so many standard uncertainties of it. *Decision.*
-const COVERAGE_FACTOR: f64 = 2.0;
 /// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
 const RESOLVED_SHARE_MIN: f64 = 0.5;
 /// Largest share of the time in which a track may follow noise to count as a rotor, even where it is never separated from other rotors.
@@ -55,12 +53,6 @@ impl RotorTracks {
         if is_far || self.are_one_group && !self.would_hear_faint() { Self::default() } else { self }
     }
 
-    /// The standard uncertainty of the mean speed of a rotor, rev/s.
-    fn rotor_std_rev_s(&self, speed: &SpeedEstimate, rotor: &RotorTrack, unknown_rotor_rev_s: f64) -> Option<f64> {
-        let doubt_rev_s = self.doubt_share(rotor, None) * unknown_rotor_rev_s;
-        speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()))
-    }
-
     /// Longest time between points of a track.
     pub(crate) fn step_s(&self) -> f64 {
         self.rotors.iter().map(|rotor| rotor.track.step_s).fold(0.0, f64::max)
@@ -71,7 +63,7 @@ impl RotorTracks {
         self.faint_s >= FAINT_SHARE_MIN * self.length_s
     }
 
-    /// The resolved rotors, fastest first. Rotors that may be one are left out. Empty where at most half remain: they are one group.
+    /// The resolved rotors, fastest first. Empty for one group.
     pub(crate) fn rotors(&self, order: Order, budget: &BudgetConfig) -> Vec<RotorEstimate> {
         if self.are_one_group {
             return Vec::new();
@@ -83,7 +75,9 @@ impl RotorTracks {
             .resolved(None)
             .filter_map(|rotor| {
                 let mut speed = rotor.track.speed_in(None, order)?;
-                speed.std_uncertainty_rev_s = self.rotor_std_rev_s(&speed, rotor, unknown_rotor_rev_s);
+                let doubt_rev_s = self.doubt_share(rotor, None) * unknown_rotor_rev_s;
+                speed.std_uncertainty_rev_s =
+                    speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()));
                 let mut track = rotor.track.points_in(None, order);
                 for point in &mut track {
                     if rotor.lost.iter().any(|span| span.contains(point.time_s)) {
@@ -105,8 +99,7 @@ impl RotorTracks {
             })
             .collect();
         rotors.sort_by(|a, b| b.speed.speed.rev_s().total_cmp(&a.speed.speed.rev_s()));
-        let rotors = without_doubles(rotors);
-        if 2 * rotors.len() <= self.rotors.len() { Vec::new() } else { rotors }
+        rotors
     }
 
     /// Mean and mean square of the speeds of all rotors over a span of time, or over the whole track; and the standard uncertainty, as a share,
@@ -196,21 +189,6 @@ impl RotorTracks {
         let length_s = of.map_or(self.length_s, Span::length_s).min(self.length_s);
         spans.into_iter().map(within_s).sum::<f64>() / length_s.max(f64::MIN_POSITIVE)
     }
-}
-
-/// The rotors without any that may be one with another.
-fn without_doubles(rotors: Vec<RotorEstimate>) -> Vec<RotorEstimate> {
-    let is_double = |(index, rotor): (usize, &RotorEstimate)| {
-        rotors.iter().enumerate().any(|(other, of)| other != index && may_be_one(&rotor.speed, &of.speed))
-    };
-    let are_double: Vec<bool> = rotors.iter().enumerate().map(is_double).collect();
-    rotors.into_iter().zip(are_double).filter_map(|(rotor, is_double)| (!is_double).then_some(rotor)).collect()
-}
-
-/// Whether two speeds differ by less than the expanded uncertainty of their difference.
-fn may_be_one(a: &SpeedEstimate, b: &SpeedEstimate) -> bool {
-    let std_rev_s = a.std_uncertainty_rev_s.zip(b.std_uncertainty_rev_s).map_or(0.0, |(a, b)| a.hypot(b));
-    (a.speed.rev_s() - b.speed.rev_s()).abs() < COVERAGE_FACTOR * std_rev_s
 }
 
 /// The mean speed of all rotors over time, where each rotor has a speed. The points of their tracks are up to `step_s` apart.
