@@ -224,7 +224,7 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
 }
 
 /// What happens to rotors that cannot be separated.
-const GROUP: &str = "the rotors were too close in speed to separate, so their mean was heard";
+const GROUP: &str = "the rotors were too close in speed to separate and were heard as a group";
 
 /// The recordings in which the rotors were heard as a group, for the comment; empty without one.
 fn heard_as_a_group(results: &Value) -> String {
