@@ -67,6 +67,6 @@ fn wrong_use_is_answered() {
     refused(&["spectrogram", text(&wav), "-o", text(&jpg)], 2, ".png");
     refused(&["spectrogram", "--blades", "2", text(&wav), "-o", text(&png)], 1, "too short");
     refused(&["spectrogram", "--blades", "2", "nowhere.wav", "-o", text(&png)], 1, "nowhere.wav");
-    refused(&["spectrogram", "--blades", "2", text(&wav)], 2, "--output");
+    refused(&["spectrogram", "--blades", "2", text(&wav)], 2, "-o PICTURE.png");
     assert!(!png.exists());
 }

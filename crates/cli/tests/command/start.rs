@@ -96,7 +96,7 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
         assert!(run.stdout.is_empty(), "{}", run.stdout);
         said.iter().for_each(|said| assert!(run.stderr.contains(said), "{words:?} without {said}:\n{}", run.stderr));
     };
-    refuses(&["identify"], &["EXPERIMENT.toml"]);
+    refuses(&["identify"], &["identify needs an experiment file"]);
     refuses(&["identify", "--mass", "0.4=a.wav"], &["--vehicle NAME, or --blades N", "hovertone init"]);
     refuses(&["identify", "--mass", "0.4=a.wav", "--blades", "2"], &["--rotors N"]);
     refuses(&["identify", "--mass", "0.4=a.wav", "--vehicle", "iris"], &["--blades N"]);
