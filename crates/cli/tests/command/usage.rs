@@ -96,7 +96,7 @@ fn an_unknown_key_is_underlined_and_has_a_nearest_name() {
 
 #[test]
 fn forces_and_places_must_be_possible() {
-    refuses(&["fit"], &["TABLE.csv"]);
+    refuses(&["fit"], &["fit needs at least one table of speeds and thrusts"]);
     refuses(&["fit", "--plan"], &["--mass-kg"]);
     refuses(&["fit", "--plan", "--mass-kg", "-1"], &["mass_kg = -1", "above 0"]);
     refuses(&["fit", "--plan", "--mass-kg", "NaN"], &["mass_kg = NaN"]);

@@ -77,5 +77,5 @@ fn nothing_to_compare_ends_with_a_sentence() {
     fs::write(&log, "time_s,motor1_pwm\n0,1000\n1,1100\n").unwrap();
     let run = hovertone(&["verify", text(&noise), text(&log), "--blades", "2"]).ends_with(1);
     assert!(run.stderr.contains("no rotor speed in this log"), "{}", run.stderr);
-    refused_with(&["verify", text(&noise)], &["LOG"]);
+    refused_with(&["verify", text(&noise)], &["verify needs the log of the same flight"]);
 }
