@@ -96,9 +96,9 @@ impl SpeedRecord {
         }
     }
 
-    /// The analysis, where one speed is told: neither "no rotor tone" nor "ambiguous".
-    pub fn told_analysis(&self) -> Option<&SpeedAnalysis> {
-        self.analysis().filter(|_| self.speed().is_some())
+    /// The analysis, unless several speeds explain the sound.
+    pub fn unambiguous_analysis(&self) -> Option<&SpeedAnalysis> {
+        self.analysis().filter(|_| !self.is_ambiguous())
     }
 
     /// The tone of the rotor, if there is one.

@@ -223,7 +223,7 @@ fn loads_of(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> 
                 .iter()
                 .filter(|input| input.load == load.name)
                 .filter_map(|input| {
-                    TrialSpeeds::from_analysis(&input.record.file, input.record.told_analysis()?, method)
+                    TrialSpeeds::from_analysis(&input.record.file, input.record.unambiguous_analysis()?, method)
                 })
                 .collect(),
         })
