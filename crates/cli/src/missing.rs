@@ -1,5 +1,6 @@
 //! What a command needs and was not given, in words.
 
+use crate::see_help::typed_command;
 use std::ffi::OsString;
 
 /// An argument of a command, and what to call it.
@@ -47,15 +48,14 @@ const ALL: [Needed; 27] = [
 
 /// "speed needs at least one recording", of the missing arguments as the parser names them.
 pub(crate) fn missing_in_words(words: &[OsString], arguments: &[String]) -> String {
-    let is_typed =
-        |command: &str| words.iter().skip(1).find_map(|word| word.to_str()).is_some_and(|word| word == command);
-    let known = |argument: &String| ALL.iter().find(|needed| is_typed(needed.command) && needed.argument == argument);
-    let Some(command) = ALL.iter().find(|needed| is_typed(needed.command)).map(|needed| needed.command) else {
+    let Some(command) = typed_command(words) else {
         return format!("this is missing: {}", arguments.join(", "));
     };
+    let name = command.get_name();
+    let known = |argument: &String| ALL.iter().find(|needed| needed.command == name && needed.argument == argument);
     let named: Vec<&str> =
         arguments.iter().map(|argument| known(argument).map_or(argument.as_str(), |one| one.words)).collect();
-    format!("{command} needs {}", named.join(", and "))
+    format!("{name} needs {}", named.join(", and "))
 }
 
 #[cfg(test)]

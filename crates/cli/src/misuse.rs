@@ -101,8 +101,7 @@ impl Misuse {
             || "`hovertone --help` lists all commands".to_owned(),
             |nearest| format!("did you mean {nearest}?"),
         );
-        let hint = Some(hint);
-        Self { what: format!("there is no command \"{name}\""), hint }
+        Self { what: format!("there is no command \"{name}\""), hint: Some(hint) }
     }
 
     /// A word that is neither a flag nor a value.

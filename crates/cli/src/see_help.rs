@@ -24,7 +24,8 @@ pub(crate) fn example_and_help(words: &[OsString], flag: &str) -> String {
     }
 }
 
-fn typed_command(words: &[OsString]) -> Option<Command> {
+/// The command that is typed, if there is one of that name.
+pub(crate) fn typed_command(words: &[OsString]) -> Option<Command> {
     let commands = Arguments::command();
     words.iter().skip(1).filter_map(|word| word.to_str()).find_map(|word| commands.find_subcommand(word)).cloned()
 }

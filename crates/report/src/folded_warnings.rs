@@ -72,19 +72,21 @@ pub fn own_reason(record: &SpeedRecord, folded: &[FoldedWarning]) -> Option<Stri
 /// error, and is none.
 pub fn warning_count(records: &[&SpeedRecord]) -> usize {
     let folded = folded_warnings(records);
-    let of_one = |record: &&SpeedRecord| {
-        let has_reason = own_reason(record, &folded).is_some() && !record.has_failed();
-        own_notices(record, &folded).len() + usize::from(has_reason)
-    };
-    folded.len() + records.iter().map(of_one).sum::<usize>()
+    let folded_reasons = folded.iter().filter(|kind| kind.is_missing_speed).count();
+    let own_reasons = records.iter().filter(|record| own_reason(record, &folded).is_some() && !record.has_failed());
+    lines_of_warnings(records, &folded) + folded_reasons + own_reasons.count()
+}
+
+/// Number of lines of warnings, without the reasons for missing speeds.
+fn lines_of_warnings(records: &[&SpeedRecord], folded: &[FoldedWarning]) -> usize {
+    let of_several = folded.iter().filter(|kind| !kind.is_missing_speed).count();
+    of_several + records.iter().map(|record| own_notices(record, folded).len()).sum::<usize>()
 }
 
 /// "1 recording without a speed, 2 warnings": what stands above the speeds of recordings. `None` where there is nothing to tell.
 pub fn weaknesses_in_words(records: &[&SpeedRecord]) -> Option<String> {
     let missing = records.iter().filter(|record| record.reason().is_some() && !record.has_failed()).count();
-    let folded = folded_warnings(records);
-    let of_several = folded.iter().filter(|kind| !kind.is_missing_speed).count();
-    let warnings = of_several + records.iter().map(|record| own_notices(record, &folded).len()).sum::<usize>();
+    let warnings = lines_of_warnings(records, &folded_warnings(records));
     let mut words = Vec::new();
     if missing > 0 {
         words.push(format!("{} without a speed", counted(missing, "recording")));
