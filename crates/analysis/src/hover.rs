@@ -57,7 +57,7 @@ impl fmt::Display for CutReason {
             Self::Manoeuvre => f.write_str("manoeuvre"),
             Self::NoTone => f.write_str("no rotor heard"),
             Self::Edge => f.write_str("edge of the hover"),
-            Self::TooShort => f.write_str("too short to use"),
+            Self::TooShort => f.write_str("steady, but too short"),
         }
     }
 }

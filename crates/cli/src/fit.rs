@@ -58,12 +58,14 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     }
     let mut is_first = true;
     for path in &arguments.tables {
-        for table in fitted_tables(path, &plan)? {
+        let tables = fitted_tables(path, &plan)?;
+        let is_alone = tables.len() == 1 && arguments.tables.len() == 1;
+        for table in tables {
             if !std::mem::take(&mut is_first) {
                 terminal.data("\n")?;
             }
             terminal.flush()?;
-            terminal.warning_count(table.notices.len());
+            terminal.warning_count_of(table.notices.len(), (!is_alone).then(|| table.name()).as_deref());
             for notice in &table.notices {
                 terminal.warning(notice, "");
             }

@@ -117,6 +117,9 @@ impl Misuse {
             let what = if is_mass { "a mass cannot be negative" } else { "this value cannot be negative" };
             return Self { what: format!("{word}: {what}"), hint: Some(hint) };
         }
+        if let Some(place) = place_of_log(name, words) {
+            return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
+        }
         if name.starts_with('-') {
             let hint = suggestion(error, ContextKind::SuggestedArg);
             return Self { what: format!("there is no flag {name}"), hint };
@@ -137,6 +140,16 @@ impl Misuse {
         }
         let what = format!("\"{name}\": listen takes a recording by its flag {flag}");
         Self { what, hint: Some(format!("write {flag} {name}")) }
+    }
+}
+
+/// Where the log stands in commands that take it without a flag; others have `--log`.
+fn place_of_log(name: &str, words: &[OsString]) -> Option<&'static str> {
+    let command = words.get(1).and_then(|word| word.to_str()).filter(|_| name == "--log")?;
+    match command {
+        "verify" | "greybox" => Some("write the log after the recording, without a flag"),
+        "motor" | "log" => Some("write the log without a flag"),
+        _ => None,
     }
 }
 

@@ -145,8 +145,14 @@ impl<'a> Terminal<'a> {
 
     /// The number of warnings, where there is one. They stand above the answer that they weaken.
     pub(crate) fn warning_count(&mut self, count: usize) {
+        self.warning_count_of(count, None);
+    }
+
+    /// The same for one of several answers, by its name.
+    pub(crate) fn warning_count_of(&mut self, count: usize, of: Option<&str>) {
         if count > 0 {
-            self.heading(&counted(count, "warning"));
+            let about = of.map_or(String::new(), |of| format!(" about {}", printable(of)));
+            self.heading(&(counted(count, "warning") + &about));
         }
     }
 

@@ -90,7 +90,7 @@ fn in_words(reason: CutReason) -> &'static str {
         CutReason::Manoeuvre => "manoeuvre",
         CutReason::NoTone => "no rotor heard",
         CutReason::Edge => EDGE,
-        CutReason::TooShort => "too short to use",
+        CutReason::TooShort => "steady, but too short",
         _ => "not hover",
     }
 }
@@ -145,7 +145,10 @@ mod tests {
     #[test]
     fn cuts_do_not_overlap() {
         let cuts = [cut(0.0, 0.6, CutReason::TooShort), cut(0.5, 2.1, CutReason::NoTone)];
-        assert_eq!(cuts_in_words(&cuts).as_deref(), Some("0.0–0.6 s (too short to use), 0.6–2.1 s (no rotor heard)"));
+        assert_eq!(
+            cuts_in_words(&cuts).as_deref(),
+            Some("0.0–0.6 s (steady, but too short), 0.6–2.1 s (no rotor heard)")
+        );
     }
 
     #[test]

@@ -45,6 +45,13 @@ pub struct FittedTable {
     pub notices: Vec<Notice>,
 }
 
+impl FittedTable {
+    /// "stand.csv: motor, propeller": the file, and the group where it has several.
+    pub fn name(&self) -> String {
+        if self.group.is_empty() { self.file.clone() } else { format!("{}: {}", self.file, self.group) }
+    }
+}
+
 #[derive(Serialize)]
 struct Versioned<'a> {
     #[serde(flatten)]
@@ -76,15 +83,14 @@ pub fn fitted_tables_json(tables: &[FittedTable]) -> Result<String, serde_json::
 /// The result and the laws beside it.
 pub fn fitted_table_text(table: &FittedTable, width: Option<usize>) -> String {
     let constant = table.thrust_constant_per_rotor_n_s2;
-    let group = if table.group.is_empty() { String::new() } else { format!(": {}", printable(&table.group)) };
     let meaning = constant.std_uncertainty.map_or("± is not known", |_| "k = 2");
     let left_out = match table.fit.points.iter().filter(|point| point.is_gross).count() {
         0 => String::new(),
         count => format!(", {count} of them left out of the fit"),
     };
     let mut text = format!(
-        "{}{group}\n{}{left_out}, {} against {}\n\n{}\nC_f, one rotor = {} ({meaning})\n",
-        printable(&table.file),
+        "{}\n{}{left_out}, {} against {}\n\n{}\nC_f, one rotor = {} ({meaning})\n",
+        printable(&table.name()),
         counted(table.row_count, "table row"),
         printable(&table.force_column),
         printable(&table.speed_column),

@@ -75,10 +75,10 @@ fn rotors_table(logged: &[Logged<'_>]) -> TextTable {
         Column::words("rotor"),
         Column::words("motor of the log"),
         Column::numbers("probability", ""),
-        Column::numbers("speed", "rev/s"),
-        Column::numbers("bias", "rev/s"),
+        Column::numbers("heard", "rev/s"),
+        Column::numbers("less logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
-        Column::numbers("within ±", ""),
+        Column::numbers("log within ±", ""),
         Column::numbers("points", ""),
     ]);
     for Logged { name, log, .. } in logged {

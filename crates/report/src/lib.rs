@@ -87,7 +87,7 @@ pub use notice::Notice;
 pub use number::{ScaledNumber, fixed, scaled_number, signed, with_uncertainty};
 pub use planned_experiment::{PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, planned_experiment_text};
 pub use printable::{folded, printable, shared_folder, wrapped};
-pub use quote::{Verdict, counted, quoted_constants, rotors_heard_text};
+pub use quote::{Verdict, counted, quoted_constants, rotors_heard_text, tone_of_order};
 pub use recording::{Answer, Found, RecordingFacts, SpeedRecord};
 pub use results::{ExperimentFacts, Identification, InputRecord, RESULTS_SCHEMA, results_json};
 pub use samples::{loads_data, samples_data};

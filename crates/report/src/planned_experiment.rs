@@ -2,7 +2,7 @@
 
 use crate::number::fixed;
 use crate::printable::printable;
-use crate::quote::counted;
+use crate::quote::{counted, tone_of_order};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use hovertone_thrust::Force;
@@ -73,10 +73,10 @@ pub fn planned_experiment_text(plan: &PlannedExperiment<'_>, width: Option<usize
     };
     let heard = plan.loads.iter().map(|load| load.recordings.len()).sum();
     let mut text = format!(
-        "{}: {}, tone of order {}, {diameter}; {}, {}, method {}\n\n",
+        "{}: {}, {}, {diameter}; {}, {}, method {}\n\n",
         printable(plan.vehicle_name),
         counted(plan.rotor_count as usize, "rotor"),
-        plan.order,
+        tone_of_order(plan.order),
         counted(plan.loads.len(), "load"),
         counted(heard, "recording"),
         plan.method.replace('_', " "),
@@ -161,7 +161,7 @@ mod tests {
         };
         let text = planned_experiment_text(&plan, None);
         for words in [
-            "4 rotors, tone of order 2, diameter of the propellers not known; 2 loads, 2 recordings, method maximum trace",
+            "4 rotors, tone at 2 times the rotor speed, diameter of the propellers not known; 2 loads, 2 recordings, method maximum trace",
             "0.444",
             "1:02",
             "44.1 kHz, 1 channel",

@@ -4,7 +4,7 @@ use crate::number::{PowerOfTen, with_uncertainty};
 use crate::thrust::{CONSTANT_UNIT, WITHOUT_FLIGHTS};
 use hovertone_analysis::RotorsHeardCounts;
 use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, p_value_text};
-use hovertone_vehicle::Estimate;
+use hovertone_vehicle::{Estimate, Order};
 
 /// Whether the loads agree with each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -92,6 +92,14 @@ pub fn rotors_heard_text(counts: RotorsHeardCounts) -> Option<String> {
         .map(|(count, how)| format!("{how} in {}", counted(count, "recording")))
         .collect();
     Some(format!("rotors {}", parts.join(", ")))
+}
+
+/// "tone at 2 times the rotor speed".
+pub fn tone_of_order(order: Order) -> String {
+    match order.lines_per_turn() {
+        1.0 => "tone at the rotor speed".to_owned(),
+        times => format!("tone at {times} times the rotor speed"),
+    }
 }
 
 /// "1 load", "3 loads".

@@ -63,7 +63,8 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
 pub(crate) fn name_of_rotor(record: &SpeedRecord, index: usize) -> String {
     match record.label(index) {
         Some(label) => format!("  {}", label.name),
-        None => format!("  rotor {}, by speed", index + 1),
+        None if index == 0 => "  rotor 1, the fastest".to_owned(),
+        None => format!("  rotor {}", index + 1),
     }
 }
 

@@ -29,10 +29,10 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
     let mut shown = TextTable::new(vec![
         Column::words("rotor"),
         Column::words("motor of the log"),
-        Column::numbers("speed", "rev/s"),
-        Column::numbers("bias", "rev/s"),
+        Column::numbers("heard", "rev/s"),
+        Column::numbers("less logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
-        Column::numbers("within ±", ""),
+        Column::numbers("log within ±", ""),
         Column::numbers("points", ""),
     ]);
     for (number, rotor) in (1..).zip(&found.rotors) {

@@ -195,7 +195,7 @@ impl ThrustWarning {
                 "check the masses, and which recording belongs to which load"
             }
             Self::NarrowLoadRange(_) => {
-                "C_f is still valid near these loads; `hovertone fit --plan` plans loads and trials"
+                "C_f is still valid near these forces; `hovertone fit --plan` plans loads and trials"
             }
             Self::OtherLawPreferred { .. } => {
                 "C_f belongs to the square law, which simulators use: use it near the measured speeds"
@@ -274,7 +274,7 @@ fn range_text(range: &LoadRange) -> String {
     };
     let [ratio, needed] = compared([range.force_ratio, needed]);
     format!(
-        "the loads are too alike to test F = C_f ω²: the heaviest is {ratio} times the lightest, and {needed} times is needed"
+        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, and {needed} times is needed"
     )
 }
 
@@ -368,7 +368,7 @@ impl fmt::Display for ThrustWarning {
             Self::EqualLoads { count } => write!(f, "all {count} loads are equal, or nearly so"),
             Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
             Self::OtherLawPreferred { law, probability } => {
-                write!(f, "{} describes the loads better (probability {:.0} %)", law.formula(), 100.0 * probability)
+                write!(f, "{} describes the forces better than F = C_f ω² (probability {:.0} %)", law.formula(), 100.0 * probability)
             }
             Self::ConstantDrifts(drift) => f.write_str(&drift_text(drift)),
             Self::ImplausibleThrustCoefficient { propeller } => {

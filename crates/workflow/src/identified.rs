@@ -7,7 +7,7 @@ use hovertone_page::names_of;
 use hovertone_report::{
     ExperimentFacts, Identification, InputRecord, LOADS_FOOTNOTE, SpeedRecord, Verdict, adequacy_text, counted,
     flight_log_tables, printable, quoted_constants, rotors_heard_text, table_text, thrust_summary, thrust_table,
-    vehicle_model_text, warning_count,
+    tone_of_order, vehicle_model_text, warning_count,
 };
 use hovertone_vehicle::{Contradiction, check_tips};
 use serde_json::Value;
@@ -128,10 +128,10 @@ impl Identified {
         let experiment = &self.experiment;
         let heard = self.inputs.iter().filter(|input| input.record.speed().is_some()).count();
         format!(
-            "{}: {}, tone of order {}; {}, {}, {heard} of them with a speed; {}\n",
+            "{}: {}, {}; {}, {}, {heard} of them with a speed; {}\n",
             printable(&experiment.vehicle_name),
             counted(experiment.rotor_count as usize, "rotor"),
-            experiment.config.tone.order,
+            tone_of_order(experiment.config.tone.order),
             counted(experiment.loads.len(), "load"),
             counted(self.inputs.len(), "recording"),
             self.warnings_counted(),

@@ -58,7 +58,7 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
 }
 
 fn title_of_rotors(drift: &Drift) -> &'static str {
-    if drift.is_labelled { "rotor, by label" } else { "rotor, by speed" }
+    if drift.is_labelled { "rotor, by label" } else { "rotor, 1 is the fastest" }
 }
 
 /// What the verdict about a rotor that is not known means.

@@ -80,7 +80,9 @@ Exit codes:
   3  done, but something is missing: no rotor tone, a tone whose order is not known, a file that
      ends early, a calibration that does not pass
 
-Results go to stdout and to files, all messages to stderr.";
+Results go to stdout and to files, all messages to stderr.
+
+± is the expanded uncertainty with the coverage factor k = 2: about 95 of 100 true values lie within it.";
 
 /// hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant
 #[derive(Debug, Parser)]

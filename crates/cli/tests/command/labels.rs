@@ -87,7 +87,7 @@ fn rotors_are_named_by_rates_and_by_speeds_and_by_neither() {
     );
     assert!(without["rotors"][0]["label"].is_null() && without["rotors"][2]["condition"]["lines"].is_array());
     let table = hovertone(&["speed", "--vehicle", "ardrone", "--condition", text(&sound)]).ends_with(0).stdout;
-    assert!(table.contains("rotor 1, by speed") && table.contains("once per turn"), "{table}");
+    assert!(table.contains("rotor 1, the fastest") && table.contains("once per turn"), "{table}");
 }
 
 #[test]

@@ -194,6 +194,10 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
+        (
+            "verify a.wav --log b.csv",
+            "error: there is no flag --log (hint: write the log after the recording, without a flag)",
+        ),
         ("sped a.wav", "error: there is no command \"sped\" (hint: did you mean speed?)"),
         ("export a.json", "error: export needs a format or a model: --to FORMAT or --into MODEL (hint: "),
     ] {

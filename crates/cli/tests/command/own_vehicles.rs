@@ -37,7 +37,11 @@ fn an_own_vehicle_is_kept_listed_and_used() {
     let load = "[[load]]\nname = \"a\"\nrecordings = [\"hover.wav\"]\n";
     fs::write(&experiment, format!("[vehicle]\npreset = \"my-drone\"\nmass_kg = 0.42\n{load}")).unwrap();
     let identified = run(&settings, &["identify", text(&experiment)]).ends_with(0);
-    assert!(identified.stdout.starts_with("My drone: 4 rotors, tone of order 69"), "{}", identified.stdout);
+    assert!(
+        identified.stdout.starts_with("My drone: 4 rotors, tone at 69 times the rotor speed"),
+        "{}",
+        identified.stdout
+    );
     let slip = run(&settings, &["speed", "--vehicle", "my-drne", text(&sound)]).ends_with(2);
     assert!(slip.stderr.contains("did you mean \"my-drone\""), "{}", slip.stderr);
 }

@@ -129,7 +129,7 @@ fn a_check_says_what_it_would_do_and_what_is_missing() {
     fs::write(at.join("broken.wav"), "no sound").unwrap();
     let words = ["identify", "--check", "--blades", "2", "--rotors", "4", "--mass", "0.413=a/*.WAV"];
     let ready = run_in(at, &words).ends_with(0);
-    for said in ["4 rotors, tone of order 2", "a/1.WAV", "0:01", "48.0 kHz", "0.413", "ready"] {
+    for said in ["4 rotors, tone at 2 times the rotor speed", "a/1.WAV", "0:01", "48.0 kHz", "0.413", "ready"] {
         assert!(ready.stdout.contains(said), "{said}:\n{}", ready.stdout);
     }
     for said in ["half and double the speed", "gravity", "only one load", "--latitude-deg"] {
