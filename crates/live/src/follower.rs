@@ -123,6 +123,16 @@ impl Follower {
     }
 }
 
+/// Raises each belief to what is left of the one it comes from.
+fn raise(to: &mut [f64], from: &[f64], cost: f64) {
+    for (to, from) in to.iter_mut().zip(from) {
+        let left = from - cost;
+        if left > *to {
+            *to = left;
+        }
+    }
+}
+
 /// The pattern of the lines and its most probable shift.
 struct Pattern {
     comb: Comb,
@@ -200,10 +210,11 @@ impl Pattern {
     /// The shift of the pattern in the next frame.
     fn follow(&mut self, power: &[f64]) -> SeenPattern {
         self.score_all(power);
-        let width = self.weights.len();
-        for (shift, likeness) in self.likeness.iter_mut().enumerate() {
-            let scores = &self.scores[shift..shift + width];
-            *likeness = scores.iter().zip(&self.weights).map(|(score, weight)| score * weight).sum();
+        self.likeness.fill(0.0);
+        // half of the pattern, its median and what is below, has no weight
+        for (offset, &weight) in self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+            let scores = &self.scores[offset..];
+            self.likeness.iter_mut().zip(scores).for_each(|(likeness, score)| *likeness += score * weight);
         }
         self.believe();
         let best = highest(&self.belief);
@@ -216,15 +227,12 @@ impl Pattern {
 
     /// Belief in each shift: that of the most probable path to it (Viterbi, IEEE Trans. Inf. Theory 13, 1967).
     fn believe(&mut self) {
-        for (shift, next) in self.next_belief.iter_mut().enumerate() {
-            let reached = self
-                .belief
-                .iter()
-                .enumerate()
-                .map(|(from, belief)| belief - self.change_nats[from.abs_diff(shift)])
-                .fold(f64::MIN, f64::max);
-            *next = reached + self.likeness[shift];
+        self.next_belief.fill(f64::MIN);
+        for (steps, &cost) in self.change_nats.iter().enumerate() {
+            raise(&mut self.next_belief[steps..], &self.belief, cost);
+            raise(&mut self.next_belief, &self.belief[steps..], cost);
         }
+        self.next_belief.iter_mut().zip(&self.likeness).for_each(|(next, likeness)| *next += likeness);
         let most = self.next_belief.iter().copied().fold(f64::MIN, f64::max);
         self.next_belief.iter_mut().for_each(|belief| *belief = (*belief - most).max(-BELIEF_RANGE));
         std::mem::swap(&mut self.belief, &mut self.next_belief);

@@ -59,15 +59,18 @@ pub fn std_uncertainty_of_mean(values: &[f64]) -> Option<f64> {
     Some(spread * (correlation_time.max(1.0) / count as f64).sqrt())
 }
 
+/// A term that is smaller than the largest by a factor of e to this power does not change a sum of `f64`: 3·10⁻²⁰. *Numeric.*
+const NEGLIGIBLE_NATS: f64 = 45.0;
+
 /// ln Σ exp(x) without overflow: the largest x is factored out. Each x is the logarithm of a likelihood or probability.
-/// −∞ for no values.
+/// −∞ for no values. Terms that are too small to change the sum are left out.
 pub fn log_sum_exp(logarithms: impl Iterator<Item = f64>) -> f64 {
     let (mut largest, mut sum) = (f64::NEG_INFINITY, 0.0);
     for value in logarithms {
         if value > largest {
-            sum = sum * (largest - value).exp() + 1.0;
+            sum = if value - largest > NEGLIGIBLE_NATS { 1.0 } else { sum * (largest - value).exp() + 1.0 };
             largest = value;
-        } else if value > f64::NEG_INFINITY {
+        } else if largest - value <= NEGLIGIBLE_NATS {
             sum += (value - largest).exp();
         }
     }

@@ -97,12 +97,12 @@ pub(crate) struct Hypothesis {
     pub(crate) votes_nats: f64,
     /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that two tell no more than one.
     levels_nats: f64,
-    /// The evidence of the lines over the local floor, in the look that has the least: what the floor hides is no evidence that a rotor sounds.
-    least_nats: f64,
     /// The same, with what is known of the vehicle.
     nats: f64,
-    /// Levels of its lines.
+    /// Levels of its lines in short frames.
     levels: Vec<OrderLevel>,
+    /// The same in long frames, where they were looked at.
+    long_levels: Option<Vec<OrderLevel>>,
     /// Probability among the hypotheses.
     pub(crate) belief: f64,
 }
@@ -137,10 +137,11 @@ pub(crate) struct WantedPropeller {
 /// Compares the hypotheses in two looks at the same sound. `None` where no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     let Look { noise, mut of_propellers } = look_at(&looks.short, wanted, config)?;
-    look_again(looks, &mut of_propellers, config);
+    let long_noise = look_again(looks, &mut of_propellers, config);
+    let mut presence = Presence::new(noise, long_noise, &config.levels);
     // where the blades are not known, a slow comb of other blades would hide all readings
     let is_possible = |look: &OfPropeller| wanted.propellers.len() == 1 || is_resolved(&look.hypotheses);
-    let heard = of_propellers.into_iter().filter(|look| is_possible(look) && is_heard(&look.hypotheses, config));
+    let heard = of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(look, config));
     let hypotheses: Vec<Hypothesis> = heard
         .filter(|look| !is_tune(look, &looks.short, config))
         .flat_map(|look| {
@@ -162,8 +163,9 @@ fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool 
     jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
 }
 
-/// Adds to each hypothesis what the long frames show along its path, and sorts them again.
-fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &EvidenceConfig) {
+/// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames; `None` where they
+/// show none.
+fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &EvidenceConfig) -> Option<NoiseLevel> {
     let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
     for look in &*of_propellers {
         let table = VoteTable::for_blades(look.blades);
@@ -186,18 +188,19 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
         seen.push(look.hypotheses.iter().map(along).collect());
     }
     let noises: Vec<NoiseLevel> = seen.iter().flatten().flatten().map(|seen| seen.noise).collect();
-    let Some(noise) = NoiseLevel::of_emptiest(noises, config.levels.foreign) else { return };
+    let noise = NoiseLevel::of_emptiest(noises, config.levels.foreign)?;
+    let mut model = LevelModel::of_speeds(noise, &config.levels);
     for (look, seen) in of_propellers.iter_mut().zip(seen) {
-        let mut models = LevelModels::new(noise, look.blades, &config.levels);
         let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
-        for (it, seen) in look.hypotheses.iter_mut().zip(&seen) {
-            let levels_nats = 0.5 * (it.levels_nats + models.of_speeds.evidence_nats(&seen.levels));
+        for (it, seen) in look.hypotheses.iter_mut().zip(seen) {
+            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels, look.blades));
             it.nats += levels_nats - it.levels_nats;
             it.levels_nats = levels_nats;
-            it.least_nats = it.least_nats.min(models.of_presence.flat_nats(&seen.levels));
+            it.long_levels = Some(seen.levels);
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
+    Some(noise)
 }
 
 /// What frames of one length show.
@@ -247,10 +250,10 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     }
     // lines that no wanted rotor explains are foreign, whatever another one would explain
     let noise = NoiseLevel { lines_share, ..NoiseLevel::of_emptiest(noises, config.levels.foreign)? };
+    let mut model = LevelModel::of_speeds(noise, &config.levels);
     let of_propeller = |(propeller, multiples): (&WantedPropeller, Vec<Multiple>)| {
-        let mut models = LevelModels::new(noise, propeller.blades, &config.levels);
         let all = multiples.iter().filter_map(|multiple| {
-            let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut models)?;
+            let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
             let nats = hypothesis.levels_nats + nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
             Some(Hypothesis { nats, ..hypothesis })
         });
@@ -269,45 +272,47 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     Some(Look { noise, of_propellers })
 }
 
-/// Whether a rotor is heard: the first, most probable hypothesis has the levels in each look, and the one with the best levels has the
-/// votes. What is known of the vehicle tells octaves apart, and no rotor from none.
-fn is_heard(hypotheses: &[Hypothesis], config: &EvidenceConfig) -> bool {
-    let best = hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
-    hypotheses.first().zip(best).is_some_and(|(first, best)| {
-        first.least_nats >= config.levels_nats_min && best.votes_nats >= config.votes_nats_min
-    })
-}
-
 /// Whether the lines of the most probable hypothesis stand apart.
 fn is_resolved(hypotheses: &[Hypothesis]) -> bool {
     hypotheses.first().is_some_and(|first| first.speed_rev_s >= RESOLVED_REV_S)
 }
 
-/// The models of the levels of one propeller in the noise of one look.
-struct LevelModels<'a> {
-    of_speeds: LevelModel<'a>,
-    of_presence: LevelModel<'a>,
+/// The models that tell a rotor from none, in the noise of each look.
+struct Presence<'a> {
+    short: LevelModel<'a>,
+    long: Option<LevelModel<'a>>,
 }
 
-impl<'a> LevelModels<'a> {
-    fn new(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
-        Self {
-            of_speeds: LevelModel::of_speeds(noise, blades, prior),
-            of_presence: LevelModel::of_presence(noise, blades, prior),
+impl<'a> Presence<'a> {
+    fn new(short: NoiseLevel, long: Option<NoiseLevel>, prior: &'a LineLevels) -> Self {
+        let model = |noise: NoiseLevel| LevelModel::of_presence(noise, prior);
+        Self { short: model(short), long: long.map(model) }
+    }
+
+    /// Whether a rotor is heard: the first, most probable hypothesis has the levels in each look, and the one with the best levels has the
+    /// votes. What is known of the vehicle tells octaves apart, and no rotor from none.
+    fn is_heard(&mut self, look: &OfPropeller, config: &EvidenceConfig) -> bool {
+        let best = look.hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
+        look.hypotheses.first().zip(best).is_some_and(|(first, best)| {
+            best.votes_nats >= config.votes_nats_min && self.least_nats(first) >= config.levels_nats_min
+        })
+    }
+
+    /// The evidence of the lines over the local floor, in the look that has the least: what the floor hides is no evidence that a rotor sounds.
+    fn least_nats(&mut self, hypothesis: &Hypothesis) -> f64 {
+        let short_nats = self.short.flat_nats(&hypothesis.levels, hypothesis.blades);
+        match self.long.as_mut().zip(hypothesis.long_levels.as_ref()) {
+            Some((long, levels)) => short_nats.min(long.flat_nats(levels, hypothesis.blades)),
+            None => short_nats,
         }
     }
 }
 
 /// The hypothesis that a rotor turns at this multiple of a path, with the evidence of its lines. `None` without speeds.
-fn hypothesis_of(
-    multiple: &Multiple,
-    blades: u32,
-    excess: &Excess,
-    models: &mut LevelModels<'_>,
-) -> Option<Hypothesis> {
+fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut LevelModel<'_>) -> Option<Hypothesis> {
     let &Multiple { path, factor, votes_nats, speed_rev_s, ref speeds_rev_s } = multiple;
     let levels = levels_of_orders(excess, speeds_rev_s, blades);
-    let levels_nats = models.of_speeds.evidence_nats(&levels);
+    let levels_nats = model.evidence_nats(&levels, blades);
     Some(Hypothesis {
         blades,
         speeds_rev_s: speeds_rev_s.clone(),
@@ -317,9 +322,9 @@ fn hypothesis_of(
         factor,
         votes_nats,
         levels_nats,
-        least_nats: models.of_presence.flat_nats(&levels),
         nats: 0.0,
         levels,
+        long_levels: None,
         belief: 0.0,
     })
 }

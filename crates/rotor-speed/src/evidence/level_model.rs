@@ -61,10 +61,9 @@ pub struct OrderLevel {
 /// Sums of log-likelihood ratios of the lines up to each of the last harmonics, in nats.
 type UpTo = [f64; LAST_HARMONICS.len()];
 
-/// The model for the noise of one recording.
+/// The model for the noise of one recording. Its tables are filled as levels are asked for, and serve propellers of all numbers of blades.
 pub(super) struct LevelModel<'a> {
     prior: &'a LineLevels,
-    blades: u32,
     below: RatioTable,
     scatters: Vec<Scatter>,
     /// Logarithms of the weights of the integrals.
@@ -83,22 +82,21 @@ struct Scatter {
 
 impl<'a> LevelModel<'a> {
     /// The model that tells speeds apart. Motors and other rotors have lines at the orders of a rotor: at least as many as there are in general.
-    pub(super) fn of_speeds(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
-        Self::new(noise, blades, prior, prior.foreign.max(noise.lines_share))
+    pub(super) fn of_speeds(noise: NoiseLevel, prior: &'a LineLevels) -> Self {
+        Self::new(noise, prior, prior.foreign.max(noise.lines_share))
     }
 
     /// The model that tells a rotor from none: lines of something else are as frequent as this recording shows.
-    pub(super) fn of_presence(noise: NoiseLevel, blades: u32, prior: &'a LineLevels) -> Self {
-        Self::new(noise, blades, prior, noise.foreign_share(prior))
+    pub(super) fn of_presence(noise: NoiseLevel, prior: &'a LineLevels) -> Self {
+        Self::new(noise, prior, noise.foreign_share(prior))
     }
 
-    fn new(noise: NoiseLevel, blades: u32, prior: &'a LineLevels, foreign: f64) -> Self {
+    fn new(noise: NoiseLevel, prior: &'a LineLevels, foreign: f64) -> Self {
         let table = |std_db: f64, missing: f64, notched: f64| {
             RatioTable::new(noise, &LineScatter { std_db, missing, notched, prior }, foreign)
         };
         Self {
             prior,
-            blades,
             below: table(prior.below_std_db, prior.below_missing, 0.0),
             scatters: LineLevels::SCATTERS
                 .iter()
@@ -114,28 +112,27 @@ impl<'a> LevelModel<'a> {
         }
     }
 
-    /// The evidence of levels for a rotor, in nats: log-likelihood ratio against noise with lines of something else.
-    pub(super) fn evidence_nats(&mut self, levels: &[OrderLevel]) -> f64 {
-        let blades = self.blades;
+    /// The evidence of levels for a rotor with so many blades, in nats: log-likelihood ratio against noise with lines of something else.
+    pub(super) fn evidence_nats(&mut self, levels: &[OrderLevel], blades: u32) -> f64 {
         let below = lines_of(&mut self.below, levels, |order| order < blades);
         let lines: Vec<LinesOfClasses> =
             self.scatters.iter_mut().map(|scatter| LinesOfClasses::of(scatter, levels, blades)).collect();
         let of_scatter = self.scatters.iter().zip(&lines);
         log_sum_exp(
-            of_scatter.map(|(scatter, lines)| scatter.share_nats + self.nats_of_scatter(scatter, lines, &below)),
+            of_scatter
+                .map(|(scatter, lines)| scatter.share_nats + self.nats_of_scatter(scatter, lines, &below, blades)),
         )
     }
 
     /// The evidence as if the floor were flat. Where lines lie close, as those of a slow comb, they are a part of the floor: then it hides lines that
     /// are not there. So the floor tells octaves apart, and no rotor from none.
-    pub(super) fn flat_nats(&mut self, levels: &[OrderLevel]) -> f64 {
+    pub(super) fn flat_nats(&mut self, levels: &[OrderLevel], blades: u32) -> f64 {
         let flat: Vec<OrderLevel> = levels.iter().map(|level| OrderLevel { floor_db: 0.0, ..*level }).collect();
-        self.evidence_nats(&flat)
+        self.evidence_nats(&flat, blades)
     }
 
     /// The evidence where the lines scatter as much.
-    fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line]) -> f64 {
-        let blades = self.blades;
+    fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line], blades: u32) -> f64 {
         let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
         let at_fall = self.falls.iter().map(|(fall, weight)| {
             let even = scatter.blade_pass.sums(&lines.even, blades, fall);
@@ -310,32 +307,41 @@ impl RatioTable {
     }
 
     fn ratio(&self, line: &Line, mean_db: f64) -> f64 {
-        self.nats[line.row]
-            [((mean_db.round() as i32).clamp(*LINE_DB.start(), *LINE_DB.end()) - LINE_DB.start()) as usize]
+        self.nats[line.row][inside(place_of(mean_db))]
     }
 
     /// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of
     /// the order. The orders rise.
     fn sums(&self, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpTo> {
-        let falls_db: Vec<f64> =
-            lines.iter().map(|line| line.floor_db + fall.db(f64::from(line.order) / f64::from(blades))).collect();
-        (0..SUMS)
-            .map(|index| {
-                let sum_db = f64::from(SUM_DB_MIN + STEP_DB * index as i32);
-                let mut up_to = [0.0; LAST_HARMONICS.len()];
-                let (mut sum, mut next) = (0.0, 0);
-                for (line, fall_db) in lines.iter().zip(&falls_db) {
-                    while line.order > LAST_HARMONICS[next] * blades {
-                        up_to[next] = sum;
-                        next += 1;
-                    }
-                    sum += self.ratio(line, sum_db - fall_db);
-                }
-                up_to[next..].fill(sum);
-                up_to
-            })
-            .collect()
+        let mut up_to = vec![[0.0; LAST_HARMONICS.len()]; SUMS];
+        let (mut sums, mut next) = ([0.0; SUMS], 0);
+        let mut keep = |sums: &[f64; SUMS], last: usize| {
+            up_to.iter_mut().zip(sums).for_each(|(up_to, &sum)| up_to[last] = sum);
+        };
+        for line in lines {
+            while line.order > LAST_HARMONICS[next] * blades {
+                keep(&sums, next);
+                next += 1;
+            }
+            let fall_db = line.floor_db + fall.db(f64::from(line.order) / f64::from(blades));
+            let (nats, lowest) = (&self.nats[line.row], place_of(f64::from(SUM_DB_MIN) - fall_db));
+            for (sum, step) in sums.iter_mut().zip(0..) {
+                *sum += nats[inside(lowest + STEP_DB * step)];
+            }
+        }
+        (next..LAST_HARMONICS.len()).for_each(|last| keep(&sums, last));
+        up_to
     }
+}
+
+/// The place of a mean level in the tables, which may lie outside.
+fn place_of(mean_db: f64) -> i32 {
+    mean_db.round() as i32 - LINE_DB.start()
+}
+
+/// The nearest place inside the tables.
+fn inside(place: i32) -> usize {
+    place.clamp(0, LINE_DB.end() - LINE_DB.start()) as usize
 }
 
 /// Normal density but for its factor.
@@ -378,7 +384,7 @@ mod tests {
     fn evidence(levels_db: &[f64], blades: u32) -> f64 {
         let levels: Vec<OrderLevel> =
             (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db, floor_db: 0.0 }).collect();
-        LevelModel::of_speeds(NOISE, blades, &LineLevels::default()).evidence_nats(&levels)
+        LevelModel::of_speeds(NOISE, &LineLevels::default()).evidence_nats(&levels, blades)
     }
 
     #[test]

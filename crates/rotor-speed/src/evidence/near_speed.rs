@@ -65,7 +65,7 @@ impl PathNear {
         let speeds_rev_s = path_near(look, &vec![speed_rev_s; look.frames.len()], NEAR, table)?;
         let noise = noise_level(look, &speeds_rev_s)?;
         let levels = levels_of_orders(look, &speeds_rev_s, propeller.blades);
-        let levels_nats = LevelModel::of_speeds(noise, propeller.blades, propeller.prior).flat_nats(&levels);
+        let levels_nats = LevelModel::of_speeds(noise, propeller.prior).flat_nats(&levels, propeller.blades);
         Some(Self { speeds_rev_s, levels, noise, levels_nats })
     }
 }

@@ -63,7 +63,7 @@ pub(crate) fn own_lines_nats(
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
     let noise = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty())?;
     let prior = LineLevels { blade_pass_db: loudest_db, blade_pass_std_db: prior.rotors_std_db, ..*prior };
-    Some(LevelModel::of_speeds(noise, blades, &prior).evidence_nats(&levels))
+    Some(LevelModel::of_speeds(noise, &prior).evidence_nats(&levels, blades))
 }
 
 /// The propeller of the rotors, with the levels of real ones.
