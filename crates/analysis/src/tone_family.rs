@@ -136,7 +136,7 @@ impl fmt::Display for Meaning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::BladePass { blades } => write!(f, "{blades} blades"),
-            Self::ShaftLines { blades, .. } => write!(f, "{blades} blades, and its lowest line is the shaft"),
+            Self::ShaftLines { blades, .. } => write!(f, "{blades} blades, and the lowest tone sounds once per turn"),
             Self::BladePassAndMesh { blades, gear, .. } => {
                 write!(f, "{blades} blades, gear {}:{}", gear.pinion, gear.wheel)
             }

@@ -174,7 +174,7 @@ impl fmt::Display for Warning {
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not known: there may be others, whose speeds differ by {:.1} % (standard deviation), and the ± allows for them",
+                "the number of rotors is not known: there may be more of them, and the ± assumes that their speeds differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::SeveralLines { spread_share } => {

@@ -71,7 +71,7 @@ pub(crate) fn is_no_text(what: &str, path: &Path) -> Failure {
     let found = format!("this file is not text, so it cannot be {what}");
     Failure::failed(
         found,
-        "check the name of the file; a recording is heard by `hovertone speed` or `hovertone identify`",
+        "check the names of the files and their sequence; `hovertone speed` hears recordings, `hovertone log` reads logs of flights",
         path,
     )
 }

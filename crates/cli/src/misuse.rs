@@ -4,7 +4,7 @@ use crate::args::Arguments;
 use crate::failure::Failure;
 use crate::missing::missing_in_words;
 use crate::nearest::nearest;
-use crate::see_help::example_and_help;
+use crate::see_help::{example_and_help, typed_command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use std::error::Error as _;
@@ -64,7 +64,7 @@ impl Misuse {
                 hint: Some(format!("give one of: {known}")),
             },
             ErrorKind::ValueValidation => Self { what: format!("{name} {value}: {}", reason_of(error)), hint: None },
-            ErrorKind::UnknownArgument => Self::of_unknown(&name, error, words),
+            ErrorKind::UnknownArgument => Self::of_unknown(&name, words),
             ErrorKind::InvalidSubcommand => Self::of_unknown_command(&text(ContextKind::InvalidSubcommand)),
             ErrorKind::ArgumentConflict => {
                 let other = flag_of(&text(ContextKind::PriorArg));
@@ -105,7 +105,7 @@ impl Misuse {
     }
 
     /// A word that is neither a flag nor a value.
-    fn of_unknown(name: &str, error: &clap::Error, words: &[OsString]) -> Self {
+    fn of_unknown(name: &str, words: &[OsString]) -> Self {
         let is_negative = |word: &str| {
             word.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
         };
@@ -121,8 +121,7 @@ impl Misuse {
             return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
         }
         if name.starts_with('-') {
-            let hint = suggestion(error, ContextKind::SuggestedArg);
-            return Self { what: format!("there is no flag {name}"), hint };
+            return Self { what: format!("there is no flag {name}"), hint: nearest_flag(name, words) };
         }
         if words.get(1).is_some_and(|command| command == "listen") {
             return Self::of_recording_alone(name, words);
@@ -153,13 +152,13 @@ fn place_of_log(name: &str, words: &[OsString]) -> Option<&'static str> {
     }
 }
 
-/// "did you mean --force?"
-fn suggestion(error: &clap::Error, kind: ContextKind) -> Option<String> {
-    let first = match error.get(kind)? {
-        ContextValue::Strings(all) => all.first()?.clone(),
-        one => all_words(one),
-    };
-    Some(format!("did you mean {first}?"))
+/// "did you mean --force?", of the flags of the typed command.
+fn nearest_flag(name: &str, words: &[OsString]) -> Option<String> {
+    let command = typed_command(words)?;
+    let flags: Vec<String> =
+        command.get_arguments().filter_map(|flag| Some(format!("--{}", flag.get_long()?))).collect();
+    let nearest = nearest(name, flags.iter().map(String::as_str))?;
+    Some(format!("did you mean {nearest}?"))
 }
 
 /// Why a value is refused.

@@ -63,7 +63,7 @@ impl From<NoSettings> for Failure {
             NoSettings::Contradiction(error) => error.into(),
             error => Self::usage(
                 error.to_string(),
-                "give the diameter in metres, the mass in kilograms, and the number of rotors",
+                "a diameter is in metres, or has its unit: 254mm, 10in; a mass is in kilograms, or has its unit: 413g",
             ),
         }
     }

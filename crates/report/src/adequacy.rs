@@ -116,7 +116,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
 pub fn agreement_text(fit: &SquareLawFit) -> String {
     match fit.agreement {
         Some(agreement) => format!(
-            "χ² = {} with {} degree{} of freedom, {}; residuals {:.2} % of the largest force\n",
+            "χ² = {} with {} degree{} of freedom, {}; rows differ from the law by {:.2} % of the largest force (rms)\n",
             significant(agreement.chi_square, 3),
             agreement.degrees_of_freedom,
             if agreement.degrees_of_freedom == 1 { "" } else { "s" },
@@ -124,7 +124,7 @@ pub fn agreement_text(fit: &SquareLawFit) -> String {
             100.0 * fit.residual_rms_share
         ),
         None if fit.points.len() > 1 => {
-            format!("residuals {:.2} % of the largest force\n", 100.0 * fit.residual_rms_share)
+            format!("rows differ from the law by {:.2} % of the largest force (rms)\n", 100.0 * fit.residual_rms_share)
         }
         None => String::new(),
     }
@@ -140,7 +140,7 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
         Column::numbers("value", ""),
         Column::numbers("u (k = 1)", ""),
         Column::words("unit"),
-        Column::numbers("c u / C_f", "%"),
+        Column::numbers("effect on C_f", "%"),
         Column::numbers("share", "%"),
     ]);
     for line in lines {
@@ -168,7 +168,7 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "bootstrap over trials, {} resamples (seed {}): u = {} %; compare it with \"{}\" and \"{}\" together\n",
+            "check: trials drawn anew {} times (bootstrap, seed {}) give u = {} %; the rows \"{}\" and \"{}\" together should give about as much\n",
             drawn.draws,
             drawn.seed,
             significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2),

@@ -76,7 +76,7 @@ pub fn models_text(models: &[ComparedModel], heard: &IdentifiedRotor, width: Opt
         Column::words("model"),
         Column::words("constant"),
         Column::numbers("C_f, one rotor", &unit.unit(CONSTANT_UNIT)),
-        Column::numbers("over heard", ""),
+        Column::numbers("model / heard", ""),
         Column::numbers("its mass", "g"),
         Column::numbers("hovers at", "rpm"),
     ]);

@@ -60,6 +60,13 @@ pub struct Found {
     pub alternatives: Vec<Reading>,
 }
 
+impl Found {
+    /// Whether the number of blades was given to the search.
+    fn are_blades_given(&self) -> bool {
+        self.settings.pointer("/known/blade_count").is_some_and(|count| !count.is_null())
+    }
+}
+
 /// One recording with its settings and its result.
 #[derive(Clone, Debug)]
 pub struct SpeedRecord {
@@ -176,7 +183,7 @@ impl SpeedRecord {
             Answer::Heard(analysis) => match &analysis.outcome {
                 Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
-                Outcome::Ok(_) if self.found.is_some() => Some(
+                Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
                     "several rotor speeds explain this sound; count the blades and give --blades N, or give --diameter-m, \
                      --mass-kg and --rotors"
                         .to_owned(),

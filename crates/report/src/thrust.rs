@@ -15,7 +15,7 @@ pub(crate) const CONSTANT_UNIT: &str = "N s²";
 pub(crate) const WITHOUT_FLIGHTS: &str = ", without the differences from flight to flight";
 
 /// The meaning of ± in a table of loads.
-pub const LOADS_FOOTNOTE: &str = "The ± of a load covers its mass and speed (k = 2). The ± of C_f adds what all loads share: air, floor, scale, unseparated rotors.";
+pub const LOADS_FOOTNOTE: &str = "In the row of a load, ± covers its mass and speed (k = 2). The ± of the final C_f also covers what all loads share: air, ground effect, scale, rotors that were not separated.";
 
 /// The table of one method: a row for each load, like tables 1 and 2 of the paper.
 pub fn thrust_table(table: &ThrustTable) -> TextTable {
@@ -131,7 +131,7 @@ pub fn methods_table(tables: &[ThrustTable], reported: Method) -> TextTable {
         Column::words("C_f = F/ω², ± is k = 2"),
         Column::numbers("whole vehicle", &total_unit.unit(CONSTANT_UNIT)),
         Column::numbers("one rotor", &rotor_unit.unit(CONSTANT_UNIT)),
-        Column::numbers("plain mean", &total_unit.unit(CONSTANT_UNIT)),
+        Column::numbers("mean of loads", &total_unit.unit(CONSTANT_UNIT)),
     ]);
     for table in tables {
         let mark = if table.method == reported { " (reported)" } else { "" };

@@ -195,7 +195,7 @@ impl ThrustWarning {
                 "check the masses, and which recording belongs to which load"
             }
             Self::NarrowLoadRange(_) => {
-                "C_f is still valid near these forces; `hovertone fit --plan` plans loads and trials"
+                "C_f is still valid near these forces; a wider range of forces tests the law, and for hovers `hovertone fit --plan` plans it"
             }
             Self::OtherLawPreferred { .. } => {
                 "C_f belongs to the square law, which simulators use: use it near the measured speeds"

@@ -49,16 +49,34 @@ pub fn drift_text(drift: &Drift, width: Option<usize>) -> String {
         drift.later_unused
     );
     format!(
-        "compared: {how}\n{}{}{}{unused}{}",
+        "compared: {how}\n{}{}{}{}{unused}{}",
         table_text(&table, width),
+        not_single_text(drift),
         p_value_text(),
         not_known_text(drift),
         recordings_text(drift, width)
     )
 }
 
+/// Whether rotors are compared one by one, and not their mean alone.
+fn has_single_rotors(drift: &Drift) -> bool {
+    drift.rotors.iter().any(|row| row.rotor > 0)
+}
+
+/// Why the mean of all rotors stands alone.
+fn not_single_text(drift: &Drift) -> &'static str {
+    match has_single_rotors(drift) {
+        true => "",
+        false => "single rotors are not compared: they were not separated in the recordings of both archives\n",
+    }
+}
+
 fn title_of_rotors(drift: &Drift) -> &'static str {
-    if drift.is_labelled { "rotor, by label" } else { "rotor, 1 is the fastest" }
+    match (has_single_rotors(drift), drift.is_labelled) {
+        (false, _) => "rotor",
+        (true, true) => "rotor, by label",
+        (true, false) => "rotor, 1 is the fastest",
+    }
 }
 
 /// What the verdict about a rotor that is not known means.

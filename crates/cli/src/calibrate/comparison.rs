@@ -68,6 +68,19 @@ impl Comparison {
         }
     }
 
+    /// A question whether the known frequency is that of the shaft; empty where a speed is known.
+    fn shaft_in_words(&self) -> String {
+        match self.reference {
+            Reference::Speed { .. } => String::new(),
+            Reference::Tone { hz, .. } => {
+                format!(
+                    "If {hz} Hz is the speed of the shaft, give --tachometer-rpm {}. ",
+                    RotorSpeed::from_rev_s(hz).rpm()
+                )
+            }
+        }
+    }
+
     /// The band around the tone that the known speed and the given order mean.
     fn band(&self) -> String {
         let tone_hz = self.heard.speed.tone_hz(self.heard.order) / self.check.heard_over_known;
@@ -118,11 +131,12 @@ fn order_in_words(comparison: &Comparison) -> String {
     let ratio = fixed(check.heard_over_known, 4);
     match check.relation {
         Relation::Agrees if !is_rotor => String::new(),
-        Relation::Agrees => format!("order: pass, {order} fits\n"),
+        Relation::Agrees => format!("order: pass, it is {order}\n"),
         Relation::OtherOrder(fitting) if *is_rotor => format!(
-            "order: fail. The heard speed is {ratio} times the known speed: order {fitting} fits, not {order}. Use --order {fitting} (for a \
-             blade pass --blades {fitting}), or in an experiment file [tone] order = {fitting}. If you know that {order} is right, its tone \
-             lies in --band {}\n",
+            "order: fail. The heard speed is {ratio} times the known speed, as if the order were {fitting} and not {order}. {}If {fitting} is \
+             right, leave --vehicle out and give --order {fitting} (for a blade pass --blades {fitting}), or in an experiment file [tone] \
+             order = {fitting}. If {order} is right, its tone lies in --band {}\n",
+            comparison.shaft_in_words(),
             comparison.band()
         ),
         _ if !is_rotor => format!(
@@ -169,24 +183,29 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     let verdict = word(judgement);
     let limit_ppm = arguments.clock_ppm;
     let limit = limit_ppm / PPM_PER_PERCENT;
-    let mut text =
-        format!("clock: {verdict}, {off} (k = 2); the limit is {limit} % (--clock-ppm {limit_ppm}){advice}\n");
+    let condition = match check.relation {
+        Relation::OtherOrder(fitting) if comparison.heard.is_rotor => format!(", if the order is {fitting}"),
+        _ => String::new(),
+    };
+    let mut text = format!(
+        "clock{condition}: {verdict}, {off} (k = 2); the limit is {limit} % (--clock-ppm {limit_ppm}){advice}\n"
+    );
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
         format!(
-            "correction: none, because no clock is off by more than {CLOCK_PERCENT_MAX} %: check the known speed, and \
+            "correction of the clock: none, because no clock is off by more than {CLOCK_PERCENT_MAX} %: check the known speed, and \
              whether the recording was slowed down\n"
         )
     } else if check.is_significant() {
         let decimals = correction_decimals(check.expanded_ppm());
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         format!(
-            "correction: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
+            "correction of the clock: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
              clock_ppm = {}\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {
-        "correction: none, the difference is within its ±\n".to_owned()
+        "correction of the clock: none, the difference is within its ±\n".to_owned()
     };
     text
 }

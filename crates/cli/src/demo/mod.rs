@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     let against_truth = comparison_with_truth(identified.tables(), &render::truth_of_loads(&truths));
     let width = terminal.fold_width();
     let mut text = format!(
-        "The paper's experiment in simulated flight: {}, {}, seed {}; {}\n",
+        "The experiment of the paper (Pizetta et al., AR.Drone) in simulated flight: {}, {}, seed {}; {}\n",
         counted(LOADS.len(), "load"),
         counted(truths.len(), "recording"),
         arguments.seed,
@@ -70,8 +70,8 @@ const TRUTH_TITLE: &str = "Compared with the simulated truth";
 
 const FOOTNOTE: &str = "
 The paper's columns are printed with the units that their numbers have: rpm, rad/s, and
-1e-5 N s² for the whole vehicle. Its big hull was computed with 472 g; with the 462 g of its
-text, which are flown here, its speeds give 2.8291 (table 1) and 2.8260 (table 2).
+1e-5 N s² for the whole vehicle. The paper gives 462 g for the big hull, but it calculated with
+472 g. Here 462 g are flown. With 462 g the paper's speeds give 2.8291 (table 1) and 2.8260 (table 2).
 ";
 
 fn title_beside_paper(table: &ThrustTable) -> String {

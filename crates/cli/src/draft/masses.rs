@@ -74,7 +74,7 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
     })?;
     if !has_unit && mass_kg > MASS_ALONE_KG_MAX {
         return Err(format!(
-            "{text} without a unit is {mass_kg} kg: did you mean {mass_kg}g? ({mass_kg}kg is that heavy)"
+            "{text} without a unit is {mass_kg} kg: did you mean {mass_kg}g? If it is that heavy, write {mass_kg}kg"
         ));
     }
     let of_mass = KnownRotor { mass_kg: Some(mass_kg), ..KnownRotor::default() };

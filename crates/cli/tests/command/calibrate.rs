@@ -71,11 +71,11 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
     write_bench(&sound, 21_000.0, 0.0);
-    assert!(calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0).stdout.contains("order: pass, 2 fits"));
+    assert!(calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0).stdout.contains("order: pass, it is 2"));
     let wrong = calibrated(&sound, &["--order", "1", "--band", "650:750"]).ends_with(3);
     for words in [
         "order: fail",
-        "order 2 fits, not 1",
+        "as if the order were 2 and not 1",
         "--order 2",
         "--band 341",
         "\nresult: fail: the order of the tone fails\n",
@@ -136,7 +136,7 @@ fn every_pure_tone_calibrates_a_good_clock() {
         let passed = hovertone(&["calibrate", "--true-hz", hz, text(&path)]).ends_with(0);
         // what is within its ± has no direction and no correction
         assert!(
-            passed.stdout.contains("it is off by") && passed.stdout.contains("correction: none"),
+            passed.stdout.contains("it is off by") && passed.stdout.contains("correction of the clock: none"),
             "{}",
             passed.stdout
         );

@@ -75,7 +75,7 @@ impl Believed {
         discovery: &Discovery,
     ) -> Result<Option<FoundSpeed>, Error> {
         let family = match families.of_rotor() {
-            Some(family) => self.with_readings(family),
+            Some(family) => self.with_readings(family, discovery),
             None => self.family_of_lines(surveyed),
         };
         let Some(first) = family.readings.first().cloned() else { return Ok(None) };
@@ -104,8 +104,11 @@ impl Believed {
         if first.plausibility < answered.plausibility { vec![answered, first] } else { vec![first, answered] }
     }
 
-    /// A family of the survey with these readings beside its own; the evidence knows the speed better.
-    fn with_readings(&self, family: &ToneFamily) -> ToneFamily {
+    /// A family of the survey with these readings, beside its own where the blades are not given; the evidence knows the speed better.
+    fn with_readings(&self, family: &ToneFamily, discovery: &Discovery) -> ToneFamily {
+        if discovery.known.blade_count.is_some() {
+            return ToneFamily { readings: self.readings.clone(), ..family.clone() };
+        }
         let first = &self.readings[0];
         let same = reading_like(&family.readings, first);
         let ratio = same.map_or(1.0, |same| first.speed.rad_s() / same.speed.rad_s());

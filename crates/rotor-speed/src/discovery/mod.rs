@@ -60,7 +60,7 @@ impl FoundSpeed {
 ///
 /// The strongest family that a rotor can make (not a brief one, where there is another) is read in its most plausible way, and then analysed as
 /// if its order had been given: [`crate::speed_from_source`] says how, and whether it is a rotor. Where the lines do not settle the reading and the
-/// evidence of all orders hears a rotor, each reading has half of its belief from the evidence, and the evidence says that it is a rotor. Where
+/// evidence of all orders hears a rotor, each reading has half of its belief from the evidence, and the evidence says that it is a rotor; with the blades given, all of it. Where
 /// several readings stay plausible they are the `alternatives`, and the speed of the analysis is only that of the first.
 ///
 /// `config` gives all settings but the tone's order, blades and range of speeds; a band in it is where the fundamental is
@@ -111,7 +111,9 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
         !discovery.wants_all && doubt(family) == Some(0) && (family.is_settled || is_believed(family))
     });
     let by_lines = rotor_among(&families);
-    let is_settled = by_lines.is_some_and(|rotor| families[rotor].is_settled);
+    // with the blades given, a family has one reading, and the evidence compares its octaves
+    let is_compared = believed.is_some() && discovery.known.blade_count.is_some();
+    let is_settled = !is_compared && by_lines.is_some_and(|rotor| families[rotor].is_settled);
     let by_beliefs = families.iter().position(|family| believed.is_some() && !is_settled && is_believed(family));
     let rotor = by_beliefs.or(by_lines);
     let families = Families { all: families, rotor };
