@@ -12,6 +12,7 @@
 //!
 //! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian`
 //! (9), `fit`, `budget`, `rotors`, `motor_steps`, `verification`, `spectrogram` of one recording, and `distributions` of several sets of cases.
+//! `readings` are the lines of an ambiguous tone over a spectrogram.
 
 mod axis;
 mod bitmap;
@@ -32,6 +33,7 @@ mod maximum_trace;
 mod motor_steps;
 mod picture;
 mod raster;
+mod readings;
 mod rotors;
 mod spectrogram;
 mod spectrum;

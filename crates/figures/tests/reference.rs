@@ -3,13 +3,13 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // what tests share has no attribute by which the lints know it
 
-use hovertone_analysis::{Method, Outcome, Span, SpeedAnalysis};
+use hovertone_analysis::{Meaning, Method, Outcome, Reading, RotorEstimate, Span, SpeedAnalysis};
 use hovertone_figures::{ExperimentFigures, Figure, Trial, figure_png, figures_of_experiment, recording_figure};
 use hovertone_figures::{PictureConfig, Pictures, pictures_from_source, views_of_recording};
 use hovertone_rotor_speed::{Config, ToneConfig, speed_from_source};
 use hovertone_signal::Signal;
 use hovertone_thrust::{Force, LoadSpeeds, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
-use hovertone_vehicle::Order;
+use hovertone_vehicle::{Order, RotorSpeed};
 use roxmltree::{Document, Node};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -66,6 +66,7 @@ fn trials(heard: &[Heard]) -> Vec<Trial<'_>> {
             recording: name,
             analysis: Some(analysis),
             reason: None,
+            readings: &[],
             method: Method::Harmonic,
             pictures: Some(pictures),
         })
@@ -247,6 +248,89 @@ fn the_track_lies_where_the_tone_is() {
         // a twentieth of the band, and half a unit of the drawing
         assert!((hz - truth_hz).abs() < 3.0, "{hz} Hz for {truth_hz} Hz at {time_s} s");
     }
+}
+
+/// Class and colour of everything that is drawn in the layers of a class, with the words beside it.
+fn strokes(svg: &str, class: &str) -> Vec<(String, Vec<String>, Vec<String>)> {
+    let drawn = Document::parse(svg).unwrap();
+    let layers = drawn.descendants().filter(|node| node.attribute("class").is_some_and(|all| all.starts_with(class)));
+    layers
+        .map(|layer| {
+            let lines =
+                layer.descendants().filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "polyline")));
+            let colours = lines.map(|line| line.attribute("stroke").unwrap().to_owned()).collect();
+            let texts = layer.descendants().filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "text")));
+            let words = texts.filter_map(|node| Some(node.text()?.trim().to_owned()));
+            let words = words.filter(|word| !word.is_empty()).collect();
+            (layer.attribute("class").unwrap().to_owned(), colours, words)
+        })
+        .collect()
+}
+
+#[test]
+fn the_track_of_each_rotor_has_a_key_above_the_spectrogram() {
+    let mut heard = vec![heard("light", 1, 300.0)];
+    let Outcome::Ok(tone) = &mut heard[0].analysis.outcome else { panic!("no tone") };
+    tone.rotors = [1.01, 1.0, 0.99]
+        .map(|ratio| {
+            let mut track = tone.track.clone();
+            track.iter_mut().for_each(|point| point.speed_rev_s *= ratio);
+            RotorEstimate { speed: tone.speeds[0].clone(), merged: Vec::new(), track, condition: None }
+        })
+        .to_vec();
+    let svg = recording_figure(&trials(&heard)[0], "recording").unwrap().unwrap().svg;
+    let tracks = strokes(&svg, "tracks rotor-");
+    assert_eq!(tracks.len(), 3);
+    let keys = strokes(&svg, "key rotors");
+    // one key for each of the two pictures
+    assert_eq!(keys.len(), 2, "{keys:?}");
+    for (_, colours, words) in keys {
+        assert_eq!(words, ["rotor 1", "rotor 2", "rotor 3"]);
+        for ((class, of_track, _), of_key) in tracks.iter().zip(&colours) {
+            assert!(!of_track.is_empty() && of_track.iter().all(|colour| colour == of_key), "{class}: {of_track:?}");
+        }
+        assert!(colours[0] != colours[1] && colours[1] != colours[2], "{colours:?}");
+    }
+}
+
+#[test]
+fn an_ambiguous_tone_shows_its_track_and_its_other_readings() {
+    let heard = vec![heard("light", 1, 300.0)];
+    let order = Order::from_blades(2).unwrap();
+    let reading = |speed_rev_s: f64, plausibility: f64| {
+        let speed = RotorSpeed::from_rev_s(speed_rev_s);
+        Reading {
+            order,
+            tone_hz: speed.tone_hz(order),
+            meaning: Meaning::BladePass { blades: 2 },
+            speed,
+            motor_speed: speed,
+            tip_mach: None,
+            thrust_coefficient: None,
+            plausibility,
+            why: String::new(),
+        }
+    };
+    let readings = [reading(300.0, 0.6), reading(600.0, 0.3), reading(150.0, 0.1)];
+    let reason = Some("several rotor speeds explain this sound; count the blades");
+    let trial = Trial { reason, readings: &readings, ..trials(&heard)[0] };
+    let figure = recording_figure(&trial, "recording").unwrap().unwrap();
+    let drawn = structure(&figure.svg);
+    let (_, track) = drawn.layers.iter().find(|(class, _)| class == "tracks reading-1").unwrap();
+    assert!(track.len() > 50, "{} points", track.len());
+    let axes = &drawn.panels[0];
+    let hz = |y: f64| axes[6] + (axes[3] - y) / (axes[3] - axes[1]) * (axes[7] - axes[6]);
+    for (class, tone_hz) in [("reading reading-2", 1200.0), ("reading reading-3", 300.0)] {
+        let (_, line) = drawn.layers.iter().find(|(other, _)| other == class).unwrap();
+        // one unit of the drawing is about 4 Hz
+        assert!(line.len() == 4 && line.iter().all(|(_, y)| (hz(*y) - tone_hz).abs() < 5.0), "{class}: {line:?}");
+    }
+    let keys = strokes(&figure.svg, "key readings");
+    assert_eq!(keys[0].2, ["300.0 rev/s (60 %)", "600.0 rev/s (30 %)", "150.0 rev/s (10 %)"]);
+    assert!(figure.description.contains("300.0 rev/s (60 %); dashed"), "{}", figure.description);
+    // below: the harmonic with the same track
+    assert!(drawn.layers.iter().any(|(class, points)| class == "track" && points.len() > 50));
+    assert!(drawn.words.iter().any(|words| words.contains("most plausible speed")), "{:?}", drawn.words);
 }
 
 #[test]
