@@ -45,7 +45,7 @@ pub use bitmap::{DOTS_PER_INCH, figure_png};
 pub use colour::{LEVEL_COUNT, level_colours, method_colour};
 pub use distributions::{Distribution, distributions_figure};
 pub use experiment::{ExperimentFigures, figures_of_experiment};
-pub use figure::{Figure, FigureError};
+pub use figure::{Figure, FigureError, beginning, shortened, without_advice};
 pub use grey_box::{DrawnSpeeds, grey_box_figure};
 pub use motor_steps::{DrawnStep, motor_steps_figure};
 pub use picture::{

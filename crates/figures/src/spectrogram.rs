@@ -29,8 +29,9 @@ const OVER_TITLE: i32 = 66;
 const TOUCHING_S: f64 = 1e-6;
 
 /// The spectrogram of a recording: all frequencies in Hz and as shaft speeds with the tracks of the rotors and the reasons of the cuts, and
-/// below it a narrow band with the same tracks: the highest one where rotors are separated, else that of the tone. Where several speeds remain possible, the track of the
-/// most plausible one, and lines where the tones of the others would be. `None` where the recording is too short for a picture.
+/// below it a narrow band with the same tracks: the highest one where rotors are separated, else that of the tone. Where several speeds remain
+/// possible, the track of the most plausible one, and lines where the tones of the others would be. `None` where the recording is too
+/// short for a picture.
 ///
 /// # Errors
 /// Errors of the plotting library.
