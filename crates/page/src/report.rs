@@ -35,6 +35,7 @@ pub(crate) const SCRIPT: &str = concat!(
     include_str!("../templates/script/sound.js"),
     include_str!("../templates/script/tables.js"),
     include_str!("../templates/script/page.js"),
+    include_str!("../templates/script/print.js"),
     "})();\n",
 );
 /// Most bytes of all sound as text in the page. With the pictures of 15 trials the page stays below 4 MB.

@@ -1,7 +1,7 @@
 //! The page as a person uses it: what stands where, what fits on a phone, a screen and paper, what can be copied, saved and sorted.
 
 use crate::chromium::Browser;
-use crate::report_fixture::{MANY, many_identified};
+use crate::report_fixture::{MANY, contradictory_identified, many_identified};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -32,6 +32,38 @@ fn sixty_recordings_and_one_without_a_rotor_can_be_read_on_phone_screen_and_pape
     recordings_are_a_short_table_on_a_phone(&mut browser);
     figures_scroll_by_keyboard_on_a_phone(&mut browser);
     assert_eq!(browser.complaints(), [""; 0]);
+}
+
+/// Loads and recordings with names of 80 letters, whose masses and speeds contradict each other in every way.
+#[test]
+fn the_longest_warnings_take_one_line_each_on_a_screen() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    contradictory_identified(folder.path());
+    browser.open(&folder.path().join("out/report.html"));
+    browser.screen(SCREEN);
+    browser.draw();
+    let lines = browser.value(
+        "[...document.querySelectorAll('#answer .warnings li')].map(line => [line.offsetHeight / parseFloat(getComputedStyle(line).lineHeight),
+          line.scrollWidth - line.clientWidth, line.textContent, document.querySelector(line.firstElementChild.getAttribute('href')).textContent])",
+    );
+    let lines = lines.as_array().unwrap();
+    let is_cut = |line: &&Value| line[2].as_str().is_some_and(|head| head.contains('…'));
+    assert!(lines.len() >= 4 && lines.iter().filter(is_cut).count() >= 4, "{lines:?}");
+    for line in lines {
+        assert!(line[0].as_f64().unwrap() < 1.5, "{} lines: {}", line[0], line[2]);
+        assert_eq!(line[1], 0, "px are cut of {}", line[2]);
+        // the whole warning stands where its line leads to
+        let (head, place) = (line[2].as_str().unwrap(), line[3].as_str().unwrap());
+        let said = head.split(['…', ':', '"']).map(str::trim).filter(|part| part.len() > 12).last().unwrap();
+        assert!(place.contains(said), "{said} in {place}");
+    }
+    // letters are as wide as a name can make them
+    let wide = browser.value(
+        "(() => { const line = document.querySelector('#answer .warnings li'); line.firstElementChild.textContent = 'W'.repeat(100);
+          return line.offsetHeight / parseFloat(getComputedStyle(line).lineHeight); })()",
+    );
+    assert!(wide.as_f64().unwrap() < 1.5, "{wide} lines");
 }
 
 /// Asserts that nothing is cut, too small or too pale, with these folds open.
