@@ -118,7 +118,11 @@ fn describe(program: &Path, folder: &Path) -> Result<(), String> {
     let completions = folder.join("completions");
     make_folder(&completions)?;
     for (shell, name) in COMPLETIONS {
-        write(&completions.join(name), &output_of(Command::new(program).args(["completions", shell]))?)?;
+        // without the vehicles of the person who builds
+        write(
+            &completions.join(name),
+            &output_of(Command::new(program).args(["completions", shell]).env("XDG_CONFIG_HOME", folder))?,
+        )?;
     }
     let pages = folder.join("man");
     output_of(Command::new(program).args(["man", "-o"]).arg(&pages))?;
