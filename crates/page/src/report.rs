@@ -113,6 +113,11 @@ impl Page<'_> {
         self.methods.iter().filter(|method| !method.is_papers && !method.is_reported)
     }
 
+    /// The year of the run, where its day is known.
+    fn year(&self) -> Option<&str> {
+        self.report.date.split_once('-').map(|(year, _)| year)
+    }
+
     fn has_other_methods(&self) -> bool {
         self.other_methods().next().is_some()
     }

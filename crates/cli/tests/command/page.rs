@@ -55,7 +55,7 @@ fn the_longest_warnings_take_one_line_each_on_a_screen() {
         assert_eq!(line[1], 0, "px are cut of {}", line[2]);
         // the whole warning stands where its line leads to
         let (head, place) = (line[2].as_str().unwrap(), line[3].as_str().unwrap());
-        let said = head.split(['…', ':', '"']).map(str::trim).filter(|part| part.len() > 12).last().unwrap();
+        let said = head.split(['…', ':', '"']).map(str::trim).rfind(|part| part.len() > 12).unwrap();
         assert!(place.contains(said), "{said} in {place}");
     }
     // letters are as wide as a name can make them
@@ -246,7 +246,23 @@ fn constants_can_be_copied(browser: &mut Browser, results: &Value) {
     assert!(gazebo.contains("motorConstant"), "{gazebo}");
     assert!(copied("button[data-copy-from=lines-rotorpy]").contains("k_eta"));
     let bibtex = copied("button[data-copy-from=bibtex]");
-    assert!(bibtex.starts_with("@article{") && bibtex.contains("@software{hovertone"), "{bibtex}");
+    // both entries have what BibTeX asks for; the program's year is that of the run
+    let entries: Vec<&str> = bibtex.split('@').skip(1).collect();
+    assert!(
+        entries.len() == 2 && entries[0].starts_with("article{pizetta2021") && entries[1].starts_with("software{"),
+        "{bibtex}"
+    );
+    for field in ["author  = ", "title   = ", "year    = "] {
+        assert!(entries.iter().all(|entry| entry.contains(field)), "{field} in {bibtex}");
+    }
+    let year = entries[1].split_once("year    = \"").unwrap().1.split('"').next().unwrap();
+    assert!(entries[1].contains(&format!("run on {year}-")) && year.parse::<u32>().unwrap() >= 2026, "{bibtex}");
+    assert!(
+        entries[1].contains("author  = \"{The hovertone authors}\"") && entries[1].contains("version = \"0."),
+        "{bibtex}"
+    );
+    let braces = |sign: char| bibtex.matches(sign).count();
+    assert_eq!(braces('{'), braces('}'), "{bibtex}");
 }
 
 fn tables_are_sorted_and_saved(browser: &mut Browser, out: &Path) {
