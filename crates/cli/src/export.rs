@@ -99,9 +99,9 @@ fn are_alike(one_kg: f64, other_kg: f64) -> bool {
 fn difference(before: &Path, after: &Path, changes: &[ChangedLine]) -> String {
     let mut text =
         format!("--- {}\n+++ {}\n", printable(&before.display().to_string()), printable(&after.display().to_string()));
-    for ChangedLine { line_number, before, after } in changes {
-        let plain = |line: &str| line.trim_end_matches('\r').to_owned();
-        text += &format!("@@ -{line_number} +{line_number} @@\n-{}\n+{}\n", plain(before), plain(after));
+    for ChangedLine { line_number, before, after, is_unended } in changes {
+        let end = if *is_unended { "\n\\ No newline at end of file\n" } else { "\n" };
+        text += &format!("@@ -{line_number} +{line_number} @@\n-{before}{end}+{after}{end}");
     }
     text
 }

@@ -58,6 +58,7 @@ mod stored;
 mod temporary_file;
 mod terminal;
 mod thumbnail;
+mod today;
 mod toml_file;
 mod toml_words;
 mod tones;

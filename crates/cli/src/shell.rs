@@ -6,8 +6,11 @@ use crate::nearest::nearest;
 use crate::output_folder::{FolderContent, OutputFolder};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
+use crate::vehicles::known_vehicles;
+use clap::builder::PossibleValuesParser;
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
+use hovertone_vehicle::presets;
 use std::io;
 use std::path::Path;
 
@@ -16,9 +19,22 @@ const NAME: &str = "hovertone";
 /// Prints the completions of a shell.
 pub(crate) fn run_completions(arguments: &CompletionsArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(arguments.shell, &mut Arguments::command(), NAME, &mut script);
+    clap_complete::generate(arguments.shell, &mut with_vehicles(Arguments::command()), NAME, &mut script);
     terminal.data(&String::from_utf8(script).map_err(Failure::internal)?)?;
     Ok(Ending::Done)
+}
+
+/// The command line whose `--vehicle` has the names of the known vehicles. A run takes other names as well: files, and vehicles added later.
+fn with_vehicles(program: Command) -> Command {
+    // a broken file of own vehicles is told when a vehicle is used
+    let known = known_vehicles().unwrap_or_else(|_| presets().to_vec());
+    let names: Vec<&str> = known.iter().map(|vehicle| vehicle.id).collect();
+    program.mut_subcommands(|command| {
+        command.mut_args(|argument| match argument.get_id().as_str() {
+            "vehicle" => argument.value_parser(PossibleValuesParser::new(names.iter().copied())),
+            _ => argument,
+        })
+    })
 }
 
 /// Prints the page of a command, or writes all pages into a folder.

@@ -15,6 +15,7 @@ const BOLD: &str = "\x1b[1m";
 const PLAIN: &str = "";
 const RESET: &str = "\x1b[0m";
 const ERROR: Label = Label { words: "error:", colour: RED };
+const TIP: Label = Label { words: "tip:", colour: CYAN };
 const WARNING: Label = Label { words: "warning:", colour: YELLOW };
 
 /// Words before a message, and their colour.
@@ -141,6 +142,11 @@ impl<'a> Terminal<'a> {
     /// A warning with its hint.
     pub(crate) fn warning(&mut self, notice: &Notice, indent: &str) {
         self.with_hint(indent, WARNING, &printable(&notice.text), &notice.hint);
+    }
+
+    /// What would make an answer better, with its hint.
+    pub(crate) fn tip(&mut self, notice: &Notice) {
+        self.with_hint("", TIP, &printable(&notice.text), &notice.hint);
     }
 
     /// The number of warnings, where there is one. They stand above the answer that they weaken.

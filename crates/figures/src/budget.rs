@@ -1,7 +1,7 @@
 //! The uncertainty budget as bars.
 
 use crate::axis::Axis;
-use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH};
+use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, WIDTH};
 use crate::colour::{INK, MUTED, SERIES};
 use crate::figure::{Figure, FigureError};
 use crate::geometry::{Extent, Point};
@@ -9,10 +9,47 @@ use hovertone_thrust::{BudgetLine, ThrustTable};
 
 const ROW: i32 = 52;
 const LEFT: i32 = 500;
-/// Length of the axis over the longest bar: its words stand beside it.
-const AXIS_OVER_LONGEST: f64 = 1.55;
+const RIGHT: i32 = WIDTH - 60;
+/// Gap between a bar and its words.
+const GAP: i32 = 14;
+/// Significant digits of a percentage.
+const DIGITS: i32 = 3;
+/// Most decimals of a percentage.
+const DECIMALS_MAX: i32 = 3;
 /// Contributions below this share of the largest have no visible bar and are left out.
 const SHARE_MIN: f64 = 0.002;
+
+/// A row of the figure.
+struct Bar {
+    title: &'static str,
+    percent: f64,
+    words: String,
+    /// Whether it is all inputs together.
+    is_sum: bool,
+}
+
+impl Bar {
+    fn new(title: &'static str, percent: f64, share: Option<f64>) -> Self {
+        let words = match share {
+            Some(share) => format!("{} % ({:.1} % of the variance)", rounded(percent), 100.0 * share),
+            None => format!("{} %", rounded(percent)),
+        };
+        Self { title, percent, words, is_sum: share.is_none() }
+    }
+
+    /// Length of the axis over which the bar leaves room for its words.
+    fn axis_percent(&self) -> f64 {
+        let room = RIGHT - LEFT;
+        let words = GAP + self.words.chars().count() as i32 * LETTER * 11 / 20;
+        self.percent * f64::from(room) / f64::from(room - words)
+    }
+}
+
+/// A percentage with [`DIGITS`]: "310", "0.502".
+fn rounded(percent: f64) -> String {
+    let decimals = (DIGITS - 1 - percent.abs().log10().floor() as i32).clamp(0, DECIMALS_MAX);
+    format!("{percent:.*}", decimals as usize)
+}
 
 /// `None` without a budget.
 pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError> {
@@ -26,38 +63,34 @@ pub(crate) fn figure(table: &ThrustTable) -> Result<Option<Figure>, FigureError>
     if lines.is_empty() || !combined.is_finite() || combined <= 0.0 {
         return Ok(None);
     }
+    let rows: Vec<Bar> = lines
+        .iter()
+        .map(|line| Bar::new(line.input.title(), percent(line.contribution_n_s2), Some(line.share)))
+        .chain([Bar::new("combined", combined, None)])
+        .collect();
+    // each bar leaves room for its words
+    let axis_percent = rows.iter().map(Bar::axis_percent).fold(combined, f64::max);
     let bottom = 40 + (lines.len() as i32 + 1) * ROW + 20;
     let panel = Panel {
-        place: Place { left: LEFT, top: 30, right: WIDTH - 60, bottom },
-        x: Axis::new(
-            "contribution to the standard uncertainty of C_f (%)",
-            Extent::new(0.0, AXIS_OVER_LONGEST * combined),
-        )
-        .with_ticks(8),
+        place: Place { left: LEFT, top: 30, right: RIGHT, bottom },
+        x: Axis::new("contribution to the standard uncertainty of C_f (%)", Extent::new(0.0, axis_percent))
+            .with_ticks(8),
         y: Axis::new("", Extent::new(0.0, 1.0)).with_ticks(0),
         right: None,
         title: String::new(),
     };
     let mut canvas = Canvas::new("budget", bottom + 110);
     canvas.panel(&panel)?;
-    let rows = lines
-        .iter()
-        .map(|line| (line.input.title(), percent(line.contribution_n_s2), Some(line.share)))
-        .chain([("combined", combined, None)]);
     canvas.layer("bars", |sheet| {
-        for (index, (title, percent, share)) in rows.enumerate() {
+        for (index, Bar { title, percent, words, is_sum }) in rows.iter().enumerate() {
             let top = 40 + index as i32 * ROW;
-            let length = percent / (AXIS_OVER_LONGEST * combined) * f64::from(panel.place.right - LEFT);
-            let colour = if share.is_some() { SERIES[0] } else { INK };
+            let length = percent / axis_percent * f64::from(RIGHT - LEFT);
+            let colour = if *is_sum { INK } else { SERIES[0] };
             let place =
                 Place { left: LEFT, top: top + 8, right: LEFT + length.round().max(1.0) as i32, bottom: top + ROW - 8 };
             sheet.text(title, Point::new(LEFT - 20, top + ROW / 2), Anchor::Right, INK)?;
             sheet.filled(place, colour, 1.0)?;
-            let words = match share {
-                Some(share) => format!("{percent:.3} % ({:.1} % of the variance)", 100.0 * share),
-                None => format!("{percent:.3} %"),
-            };
-            sheet.text(&words, Point::new(place.right + 14, top + ROW / 2), Anchor::Left, MUTED)?;
+            sheet.text(words, Point::new(place.right + GAP, top + ROW / 2), Anchor::Left, MUTED)?;
         }
         Ok(())
     })?;

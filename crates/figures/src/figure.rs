@@ -49,7 +49,7 @@ pub(crate) fn escaped(text: &str) -> String {
 }
 
 /// The name, or its beginning and end where it is longer than `letters`.
-pub(crate) fn shortened(name: &str, letters: usize) -> String {
+pub fn shortened(name: &str, letters: usize) -> String {
     let count = name.chars().count();
     if count <= letters {
         return name.chars().map(|letter| if letter.is_control() { '\u{fffd}' } else { letter }).collect();
@@ -61,12 +61,12 @@ pub(crate) fn shortened(name: &str, letters: usize) -> String {
 }
 
 /// A reason without the advice behind it, where there is room for a line alone.
-pub(crate) fn without_advice(reason: &str) -> &str {
+pub fn without_advice(reason: &str) -> &str {
     reason.split_once("; ").map_or(reason, |(found, _)| found)
 }
 
 /// The beginning of a sentence, up to the last whole word of at most `letters`.
-pub(crate) fn beginning(sentence: &str, letters: usize) -> String {
+pub fn beginning(sentence: &str, letters: usize) -> String {
     if sentence.chars().count() <= letters {
         return shortened(sentence, letters);
     }

@@ -1,7 +1,7 @@
 //! Weight against squared speed with the fitted square law, its interval, and the residuals.
 
 use crate::axis::{Axis, range_with_margin};
-use crate::canvas::{Anchor, Canvas, Datum, LETTER, Label, Panel, Place, WIDTH};
+use crate::canvas::{Anchor, Canvas, Datum, LETTER, Label, Panel, PanelPart, Place, WIDTH};
 use crate::colour::{INK, MUTED, colour_of_method};
 use crate::figure::{Figure, FigureError, shortened};
 use crate::geometry::{Extent, Point};
@@ -63,6 +63,95 @@ fn points(table: &ThrustTable) -> Vec<LoadPoint<'_>> {
         .collect()
 }
 
+/// The reported law F = C ω² with its expanded uncertainty.
+#[derive(Clone, Copy)]
+struct ReportedLaw {
+    /// C per [`SQUARE_UNIT`].
+    constant: f64,
+    /// Expanded uncertainty of C as a share of it.
+    expanded_share: f64,
+}
+
+impl ReportedLaw {
+    /// Outline of the expanded uncertainty of the law over a range of squared speeds, as forces.
+    fn interval(self, x: Extent) -> [Point; 4] {
+        let at = |x: f64, sign: f64| Point::new(x, law(self.constant, sign * self.expanded_share, x));
+        [at(x.low, -1.0), at(x.high, -1.0), at(x.high, 1.0), at(x.low, 1.0)]
+    }
+
+    /// A force less that of the law, in millinewtons.
+    fn residual(self, Point { x, y }: Point) -> Point {
+        Point::new(x, MILLI * (y - law(self.constant, 0.0, x)))
+    }
+
+    /// The residual of a load.
+    fn residual_of(self, point: &LoadPoint<'_>) -> f64 {
+        self.residual(Point::new(point.square, point.force_n)).y
+    }
+
+    /// Both ends of the bar of a load.
+    fn ends_of(self, point: &LoadPoint<'_>) -> [f64; 2] {
+        let half = MILLI * point.expanded_n.unwrap_or(0.0);
+        [self.residual_of(point) - half, self.residual_of(point) + half]
+    }
+}
+
+/// The ranges in which the loads of some methods are seen, with the reported law.
+struct Ranges {
+    x: Extent,
+    force_n: Extent,
+    residual_mn: Extent,
+}
+
+impl Ranges {
+    fn of(tables: &[&ThrustTable], reported: ReportedLaw) -> Option<Self> {
+        let all = || tables.iter().copied().flat_map(points);
+        let shown = range_with_margin(all().map(|point| point.square), 0.25)?;
+        let widest = all().filter_map(|point| point.square_expanded).fold(0.004 * shown.high, f64::max);
+        let x = Extent::new((shown.low - widest).max(0.0), shown.high + widest);
+        let interval = reported.interval(x);
+        let residuals = all().flat_map(|point| reported.ends_of(&point));
+        Some(Self {
+            x,
+            force_n: range_with_margin(all().map(|point| point.force_n).chain(interval.map(|point| point.y)), 0.1)?,
+            residual_mn: range_with_margin(residuals.chain(interval.map(|point| reported.residual(point).y)), 0.1)?,
+        })
+    }
+
+    /// Place of a load in the plot of the law.
+    fn on_sheet(&self, point: &LoadPoint<'_>) -> Point<i32> {
+        Point::new(
+            on_sheet(self.x.share_of(point.square), LAW.left, LAW.right),
+            on_sheet(self.force_n.share_of(point.force_n), LAW.bottom, LAW.top),
+        )
+    }
+}
+
+/// Side of a point at which the name of its load stands.
+#[derive(Clone, Copy)]
+enum Side {
+    AboveLeft,
+    BelowRight,
+}
+
+impl Side {
+    /// Where the words end that stand at this side of a point, and which end of them it is.
+    fn end(self, at: Point<i32>) -> (Anchor, Point<i32>) {
+        match self {
+            Self::AboveLeft => (Anchor::Right, Point::new(at.x - 24, at.y - 26)),
+            Self::BelowRight => (Anchor::Left, Point::new(at.x + 24, at.y + 30)),
+        }
+    }
+
+    /// The room that words take at this side of a point.
+    fn room(self, at: Point<i32>, words: &str) -> Place {
+        let width = words.chars().count() as i32 * NAME_ROOM.0;
+        let (anchor, end) = self.end(at);
+        let left = if anchor == Anchor::Right { end.x - width } else { end.x };
+        Place { left, right: left + width, top: end.y - NAME_ROOM.1 / 2, bottom: end.y + NAME_ROOM.1 / 2 }
+    }
+}
+
 /// The fit of the reported method with the ranges of both plots.
 struct Drawing<'a> {
     tables: &'a [ThrustTable],
@@ -70,11 +159,11 @@ struct Drawing<'a> {
     /// Table of the reported method.
     table: &'a ThrustTable,
     fit: &'a SquareLawFit,
-    /// Constant of the reported law per [`SQUARE_UNIT`].
-    constant: f64,
-    expanded_share: f64,
-    range_x: Extent,
-    range_y: Extent,
+    law: ReportedLaw,
+    /// The ranges that are drawn: those of all methods.
+    drawn: Ranges,
+    /// The ranges of the reported method alone, which a viewer shows first.
+    own: Ranges,
 }
 
 /// `None` where no load has a speed.
@@ -95,43 +184,31 @@ impl<'a> Drawing<'a> {
     fn of(tables: &'a [ThrustTable], reported: Method) -> Option<Self> {
         let table = tables.iter().find(|table| table.method == reported)?;
         let fit = table.fit.as_ref()?;
-        let all = || tables.iter().flat_map(points);
-        let shown = range_with_margin(all().map(|point| point.square), 0.25)?;
-        let widest = all().filter_map(|point| point.square_expanded).fold(0.004 * shown.high, f64::max);
-        let range_x = Extent::new((shown.low - widest).max(0.0), shown.high + widest);
-        let constant = fit.thrust_constant_n_s2.value * SQUARE_UNIT;
-        let ends = [law(constant, 0.0, range_x.low), law(constant, 0.0, range_x.high)];
-        let range_y = range_with_margin(all().map(|point| point.force_n).chain(ends), 0.1)?;
-        let expanded_share = table.budget.as_ref().map_or(0.0, |budget| budget.expanded_share);
-        Some(Self { tables, reported, table, fit, constant, expanded_share, range_x, range_y })
-    }
-
-    /// Outline of the expanded uncertainty of the law, as forces or as differences to the law.
-    fn interval(&self, is_over_law: bool) -> Vec<Point> {
-        let at = |x: f64, share: f64| {
-            let zero_n = if is_over_law { law(self.constant, 0.0, x) } else { 0.0 };
-            Point::new(x, law(self.constant, share, x) - zero_n)
+        let law = ReportedLaw {
+            constant: fit.thrust_constant_n_s2.value * SQUARE_UNIT,
+            expanded_share: table.budget.as_ref().map_or(0.0, |budget| budget.expanded_share),
         };
-        let (Extent { low, high }, share) = (self.range_x, self.expanded_share);
-        vec![at(low, -share), at(high, -share), at(high, share), at(low, share)]
+        let all: Vec<&ThrustTable> = tables.iter().collect();
+        let (drawn, own) = (Ranges::of(&all, law)?, Ranges::of(&[table], law)?);
+        Some(Self { tables, reported, table, fit, law, drawn, own })
     }
 
     /// The plot of forces: interval, laws and loads of all methods, the reported one on top.
     fn laws(&self, canvas: &mut Canvas) -> Result<(), FigureError> {
         let panel = Panel {
             place: LAW,
-            x: Axis::new("", self.range_x).with_ticks(9),
-            y: Axis::new("force of all rotors (N)", self.range_y).with_ticks(7),
+            x: Axis::new("", self.drawn.x).with_ticks(9),
+            y: Axis::new("force of all rotors (N)", self.drawn.force_n).with_ticks(7),
             right: None,
             title: String::new(),
         };
         canvas.panel(&panel)?;
         let colour = colour_of_method(self.reported);
-        canvas.plot(&panel, "interval", |plot| plot.area(&self.interval(false), colour, 0.18))?;
+        canvas.plot(&panel, "interval", |plot| plot.area(&self.law.interval(self.drawn.x), colour, 0.18))?;
         reported_last(self.tables, self.reported).try_for_each(|table| self.method(canvas, &panel, table))?;
         self.with_intercept(canvas, &panel, Point::new)?;
         for table in self.tables {
-            self.data(canvas, &panel, table, |point| Point::new(point.square, point.force_n));
+            self.data(canvas, &panel, table, |ranges| ranges.force_n, |point| Point::new(point.square, point.force_n));
         }
         Ok(())
     }
@@ -147,16 +224,24 @@ impl<'a> Drawing<'a> {
         let constant = other.thrust_constant_n_s2.value * SQUARE_UNIT;
         let at = |x: f64| place(x, other.intercept_n.value + constant * x);
         canvas.plot(panel, "with-intercept", |plot| {
-            plot.dashed(at(self.range_x.low), at(self.range_x.high), INK, INTERCEPT_WIDTH)
+            plot.dashed(at(self.drawn.x.low), at(self.drawn.x.high), INK, INTERCEPT_WIDTH)
         })
     }
 
     /// The points of one method for a pointer: their keys name method and load.
-    fn data(&self, canvas: &mut Canvas, panel: &Panel, table: &ThrustTable, place: impl Fn(&LoadPoint<'_>) -> Point) {
+    fn data(
+        &self,
+        canvas: &mut Canvas,
+        panel: &Panel,
+        table: &ThrustTable,
+        range_y: impl Fn(&Ranges) -> Extent,
+        place: impl Fn(&LoadPoint<'_>) -> Point,
+    ) {
+        let Some(ranges) = Ranges::of(&[table], self.law) else { return };
         let name = table.method.name();
         let datum = |point: LoadPoint<'_>| Datum { at: place(&point), key: format!("{name}-{}", point.index) };
         let data: Vec<Datum> = points(table).into_iter().map(datum).collect();
-        canvas.data(panel, &format!("method-{name}"), &data);
+        canvas.data(panel, &format!("method-{name}"), &data, &PanelPart { x: ranges.x, y: range_y(&ranges) });
     }
 
     /// The law and the loads of one method.
@@ -166,7 +251,7 @@ impl<'a> Drawing<'a> {
         canvas.plot(panel, &format!("law method-{name}"), |plot| {
             let at = |x: f64| Point::new(x, fit.thrust_constant_n_s2.value * SQUARE_UNIT * x);
             let width = if table.method == self.reported { 4 } else { 2 };
-            plot.line(&[at(self.range_x.low), at(self.range_x.high)], colour.stroke_width(width))
+            plot.line(&[at(self.drawn.x.low), at(self.drawn.x.high)], colour.stroke_width(width))
         })?;
         canvas.plot(panel, &format!("points method-{name}"), |plot| {
             for point in points(table) {
@@ -182,41 +267,24 @@ impl<'a> Drawing<'a> {
         })
     }
 
-    /// The names of the loads beside their points.
+    /// The names of the loads beside their points: on a side that is free in what is drawn, and in what a viewer shows first.
     fn names(&self, canvas: &mut Canvas) -> Result<(), FigureError> {
-        let mut taken: Vec<Place> = Vec::new();
+        let ranges = [&self.drawn, &self.own];
+        let mut taken: [Vec<Place>; 2] = Default::default();
         for point in points(self.table) {
-            let x = on_sheet(self.range_x.share_of(point.square), LAW.left, LAW.right);
-            let y = on_sheet(self.range_y.share_of(point.force_n), LAW.bottom, LAW.top);
             let mark = if point.load.fits == Some(false) { " (does not fit)" } else { "" };
             let words = format!("{}{mark}", shortened(&point.load.name, 30));
-            let width = words.chars().count() as i32 * NAME_ROOM.0;
-            // above its point at the left; below it at the right where the axis is near or another name is there
-            let left = Place {
-                left: x - 24 - width,
-                right: x - 24,
-                top: y - 26 - NAME_ROOM.1 / 2,
-                bottom: y - 26 + NAME_ROOM.1 / 2,
+            let is_free = |side: &Side| {
+                ranges.iter().zip(&taken).all(|(ranges, taken)| {
+                    let place = side.room(ranges.on_sheet(&point), &words);
+                    place.is_within(&LAW) && !taken.iter().any(|other| other.meets(&place))
+                })
             };
-            let right = Place {
-                left: x + 24,
-                right: x + 24 + width,
-                top: y + 30 - NAME_ROOM.1 / 2,
-                bottom: y + 30 + NAME_ROOM.1 / 2,
-            };
-            let is_free = |place: &Place| {
-                let is_inside = place.left > LAW.left
-                    && place.right < LAW.right
-                    && place.top > LAW.top
-                    && place.bottom < LAW.bottom;
-                is_inside && !taken.iter().any(|other| other.meets(place))
-            };
-            let sides =
-                [(left, Anchor::Right, Point::new(x - 24, y - 26)), (right, Anchor::Left, Point::new(x + 24, y + 30))];
-            let Some((place, anchor, on_sheet)) = sides.into_iter().find(|(place, ..)| is_free(place)) else {
-                continue;
-            };
-            taken.push(place);
+            let Some(side) = [Side::AboveLeft, Side::BelowRight].into_iter().find(is_free) else { continue };
+            for (ranges, taken) in ranges.iter().zip(&mut taken) {
+                taken.push(side.room(ranges.on_sheet(&point), &words));
+            }
+            let (anchor, on_sheet) = side.end(self.drawn.on_sheet(&point));
             let (x, y) = (point.square, Some(point.force_n));
             canvas.label("name", &Label { text: &words, x, y, on_sheet, anchor, colour: INK })?;
         }
@@ -225,32 +293,23 @@ impl<'a> Drawing<'a> {
 
     /// The plot of the differences between the loads and the reported law.
     fn residuals(&self, canvas: &mut Canvas) -> Result<(), FigureError> {
-        let residual = |point: &LoadPoint<'_>| MILLI * (point.force_n - self.constant * point.square);
-        let ends = |point: &LoadPoint<'_>| {
-            let half = MILLI * point.expanded_n.unwrap_or(0.0);
-            [residual(point) - half, residual(point) + half]
-        };
-        let interval: Vec<Point> =
-            self.interval(true).into_iter().map(|point| Point { y: MILLI * point.y, ..point }).collect();
-        let of_points = self.tables.iter().flat_map(points).flat_map(|point| ends(&point));
-        let of_interval = interval.iter().map(|point| point.y);
-        let Some(range_y) = range_with_margin(of_points.chain(of_interval), 0.1) else { return Ok(()) };
+        let (reported, x) = (self.law, self.drawn.x);
+        let interval = reported.interval(x).map(|point| reported.residual(point));
         let panel = Panel {
             place: RESIDUALS,
-            x: Axis::new("squared shaft speed ω² (1000 rad²/s²)", self.range_x).with_ticks(9),
-            y: Axis::new("residual (mN)", range_y).with_ticks(6),
+            x: Axis::new("squared shaft speed ω² (1000 rad²/s²)", x).with_ticks(9),
+            y: Axis::new("residual (mN)", self.drawn.residual_mn).with_ticks(6),
             right: None,
             title: String::new(),
         };
         canvas.panel(&panel)?;
         canvas.plot(&panel, "interval", |plot| plot.area(&interval, colour_of_method(self.reported), 0.18))?;
         canvas.plot(&panel, "zero", |plot| {
-            plot.line(&[Point::new(self.range_x.low, 0.0), Point::new(self.range_x.high, 0.0)], INK.stroke_width(1))
+            plot.line(&[Point::new(x.low, 0.0), Point::new(x.high, 0.0)], INK.stroke_width(1))
         })?;
-        let law_n = |x: f64| self.constant * x;
-        self.with_intercept(canvas, &panel, |x, force_n| Point::new(x, MILLI * (force_n - law_n(x))))?;
+        self.with_intercept(canvas, &panel, |x, force_n| reported.residual(Point::new(x, force_n)))?;
         // the reported method stands at its speed; the others beside it, so that their bars do not cover each other
-        let step = 0.006 * self.range_x.width();
+        let step = 0.006 * x.width();
         for (index, table) in reported_first(self.tables, self.reported).enumerate() {
             let colour = colour_of_method(table.method);
             let side = if index % 2 == 0 { -1.0 } else { 1.0 };
@@ -258,12 +317,13 @@ impl<'a> Drawing<'a> {
             canvas.plot(&panel, &format!("residuals method-{}", table.method.name()), |plot| {
                 for point in points(table) {
                     let x = point.square + aside;
-                    plot.line(&ends(&point).map(|y| Point::new(x, y)), colour.stroke_width(3))?;
-                    plot.dot(Point::new(x, residual(&point)), DOT, colour.filled())?;
+                    plot.line(&reported.ends_of(&point).map(|y| Point::new(x, y)), colour.stroke_width(3))?;
+                    plot.dot(Point::new(x, reported.residual_of(&point)), DOT, colour.filled())?;
                 }
                 Ok(())
             })?;
-            self.data(canvas, &panel, table, |point| Point::new(point.square + aside, residual(point)));
+            let at = |point: &LoadPoint<'_>| Point::new(point.square + aside, reported.residual_of(point));
+            self.data(canvas, &panel, table, |ranges| ranges.residual_mn, at);
         }
         Ok(())
     }

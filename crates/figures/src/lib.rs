@@ -12,6 +12,7 @@
 //!
 //! One file for each figure: `database` (figure 5 of the paper), `load_spectrograms` (6), `spectrum` (7), `maximum_trace` (8), `gaussian`
 //! (9), `fit`, `budget`, `rotors`, `motor_steps`, `verification`, `spectrogram` of one recording, and `distributions` of several sets of cases.
+//! `readings` are the lines of an ambiguous tone over a spectrogram.
 
 mod axis;
 mod bitmap;
@@ -32,6 +33,7 @@ mod maximum_trace;
 mod motor_steps;
 mod picture;
 mod raster;
+mod readings;
 mod rotors;
 mod spectrogram;
 mod spectrum;
@@ -43,7 +45,7 @@ pub use bitmap::{DOTS_PER_INCH, figure_png};
 pub use colour::{LEVEL_COUNT, level_colours, method_colour};
 pub use distributions::{Distribution, distributions_figure};
 pub use experiment::{ExperimentFigures, figures_of_experiment};
-pub use figure::{Figure, FigureError};
+pub use figure::{Figure, FigureError, beginning, shortened, without_advice};
 pub use grey_box::{DrawnSpeeds, grey_box_figure};
 pub use motor_steps::{DrawnStep, motor_steps_figure};
 pub use picture::{

@@ -61,21 +61,25 @@ pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, place: Place) -> Resu
             Ok(())
         })?;
     }
-    canvas.layer("key", |sheet| {
-        let count = tone.rotors.len();
-        let (width, word) = if count > LONG_KEYS_MAX { (SHORT_KEY, "") } else { (KEY, "rotor ") };
-        let mut at = Point::new(place.right - count as i32 * width, place.top - LETTER + 4);
-        for index in 0..count {
-            at.x = sheet.key(at, colour_of_rotor(index), &format!("{word}{}", index + 1))?;
-        }
-        Ok(())
-    })?;
+    draw_key(canvas, tone.rotors.len(), Point::new(place.right, place.top - LETTER + 4))?;
     Ok(Some(format!(
         "The {} separated rotors of {}: the track of each, times the order {order} of the {}, over the spectrogram.",
         tone.rotors.len(),
         trial.recording,
         harmonic_name(band.harmonic)
     )))
+}
+
+/// The colour of each rotor, up to the right end of the line.
+pub(crate) fn draw_key(canvas: &mut Canvas, count: usize, right_end: Point<i32>) -> Result<(), FigureError> {
+    canvas.layer("key rotors", |sheet| {
+        let (width, word) = if count > LONG_KEYS_MAX { (SHORT_KEY, "") } else { (KEY, "rotor ") };
+        let mut at = Point { x: right_end.x - count as i32 * width, ..right_end };
+        for index in 0..count {
+            at.x = sheet.key(at, colour_of_rotor(index), &format!("{word}{}", index + 1))?;
+        }
+        Ok(())
+    })
 }
 
 pub(crate) fn colour_of_rotor(index: usize) -> RGBColor {

@@ -7,11 +7,12 @@ use crate::figure::{Figure, FigureError, beginning, shortened, without_advice};
 use crate::geometry::{Extent, Point};
 use crate::picture::Picture;
 use crate::raster::{Raster, level_range_db};
+use crate::readings;
 use crate::rotors;
 use crate::rotors::colour_of_rotor;
 use crate::spectrum::harmonic_name;
-use crate::trial::{Trial, coarser, hull, ridge_lines, track_lines};
-use hovertone_analysis::{Band, CutReason, Method, RotorTone, RotorsHeard, Span};
+use crate::trial::{Trial, coarser, common_lines, hull, in_hz, track_lines};
+use hovertone_analysis::{Band, CutReason, RotorTone, RotorsHeard, Span};
 use plotters::style::{Color, RGBColor};
 
 const ROWS_MAX: usize = 280;
@@ -22,18 +23,21 @@ const PITCH: i32 = 190;
 const HEIGHTS: [i32; 2] = [560, 460];
 /// How much of the picture a cut hides: its reason is read over it.
 const CUT_OPACITY: f64 = 0.78;
+/// Height of the line over the panel's title: the key, or the reason why there is no speed.
+const OVER_TITLE: i32 = 66;
 /// Cuts with a smaller gap touch.
 const TOUCHING_S: f64 = 1e-6;
 
 /// The spectrogram of a recording: all frequencies in Hz and as shaft speeds with the tracks of the rotors and the reasons of the cuts, and
-/// below it a narrow band with the same tracks: the highest one where rotors are separated, else that of the tone. `None` where the
-/// recording is too short for a picture.
+/// below it a narrow band with the same tracks: the highest one where rotors are separated, else that of the tone. Where several speeds remain
+/// possible, the track of the most plausible one, and lines where the tones of the others would be. `None` where the recording is too
+/// short for a picture.
 ///
 /// # Errors
 /// Errors of the plotting library.
 pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>, FigureError> {
     let Some(whole) = trial.whole() else { return Ok(None) };
-    let first = trial.bands().first();
+    let first = trial.heard_bands().first();
     let zoom = first.and_then(|band| Some((band, trial.around(band.harmonic)?)));
     let has_rotors = trial.tone().is_some_and(|tone| !tone.rotors.is_empty());
     let heights = &HEIGHTS[..if zoom.is_some() { 2 } else { 1 }];
@@ -50,6 +54,9 @@ pub fn recording_figure(trial: &Trial<'_>, name: &str) -> Result<Option<Figure>,
         }
     }
     let words = match (trial.tone(), trial.reason) {
+        (None, Some(reason)) if !trial.readings.is_empty() => {
+            format!("{} Ambiguous: {reason}.", readings::description(trial.readings).unwrap_or_default())
+        }
         (Some(_), _) => "Marked at both sides: the bands of the fundamental and its harmonics; pale: parts that are not used, with the reason. \
                          Below: a narrow band around one harmonic, with the tracks over it."
             .to_owned(),
@@ -76,7 +83,7 @@ fn draw_whole(
         x: Axis::new("time (s)", range_s).with_ticks(11),
         y: Axis::new("frequency (Hz)", all_hz).with_ticks(8),
         // shaft speeds of the fundamental; harmonic k lies at k times its shaft speed
-        right: trial.tone_order().map(|order| (format!("frequency / {order} (rev/s)"), order)),
+        right: trial.heard_tone_order().map(|order| (format!("frequency / {order} (rev/s)"), order)),
         title: shortened(trial.recording, 60),
     };
     canvas.panel(&panel)?;
@@ -98,11 +105,13 @@ fn draw_whole(
     })?;
     if let Some(tone) = trial.tone() {
         draw_tracks(canvas, trial, tone, &panel)?;
+    } else if !trial.readings.is_empty() {
+        readings::draw(canvas, trial, &panel, range_s)?;
     } else if let Some(reason) = trial.reason {
         canvas.layer("reason", |sheet| {
             sheet.text(
                 &beginning(without_advice(reason), 88),
-                Point::new(place.left, place.top - 66),
+                Point::new(place.left, place.top - OVER_TITLE),
                 Anchor::Left,
                 MUTED,
             )
@@ -150,26 +159,10 @@ fn draw_tracks(canvas: &mut Canvas, trial: &Trial<'_>, tone: &RotorTone, panel: 
         at_all_bands(&class, &|band| in_hz(track_lines(&rotor.track), band), colour_of_rotor(index))?;
     }
     if tone.rotors.is_empty() {
-        at_all_bands("tracks", &|band| common_lines(trial, tone, band), OVER_PICTURE)?;
+        return at_all_bands("tracks", &|band| common_lines(trial, tone, band), OVER_PICTURE);
     }
-    Ok(())
-}
-
-/// The line that stands for all rotors: the ridge, if a method of the paper was requested, else the track of the speed.
-fn common_lines(trial: &Trial<'_>, tone: &RotorTone, band: &Band) -> Vec<Vec<Point>> {
-    if !trial.method.reads_ridges() && !tone.track.is_empty() {
-        return in_hz(track_lines(&tone.track), band);
-    }
-    let method = if trial.method == Method::Gaussian { Method::Gaussian } else { Method::MaximumTrace };
-    let ridge = tone.ridges.iter().find(|ridge| ridge.band.harmonic == band.harmonic);
-    ridge.map_or(Vec::new(), |ridge| ridge_lines(&ridge.frames, ridge.hop_s, method))
-}
-
-/// Shaft speeds as frequencies of a band.
-fn in_hz(lines: Vec<Vec<Point>>, band: &Band) -> Vec<Vec<Point>> {
-    let order = band.order.lines_per_turn();
-    let line = |line: Vec<Point>| line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
-    lines.into_iter().map(line).collect()
+    let place = panel.place;
+    rotors::draw_key(canvas, tone.rotors.len(), Point::new(place.right, place.top - OVER_TITLE))
 }
 
 fn draw_zoom(
@@ -180,7 +173,8 @@ fn draw_zoom(
     place: Place,
 ) -> Result<(), FigureError> {
     let order = band.order.lines_per_turn();
-    let meaning = match trial.tone().and_then(|tone| tone.rotors_heard(trial.method)) {
+    let meaning = match trial.heard_tone().and_then(|tone| tone.rotors_heard(trial.method)) {
+        _ if !trial.readings.is_empty() => "track of the most plausible speed",
         _ if trial.method.reads_ridges() => "ridge",
         Some(RotorsHeard::Group) => "common track of the rotors",
         _ => "track",
@@ -192,12 +186,14 @@ fn draw_zoom(
         x: Axis::new("time (s)", Extent::of_span(range_s)).with_ticks(11),
         y: Axis::new("frequency (Hz)", range_hz).with_ticks(6),
         right: Some(("shaft speed (rev/s)".to_owned(), order)),
-        title: trial.tone().map_or(String::new(), |_| format!("{}, with the {meaning}", harmonic_name(band.harmonic))),
+        title: trial
+            .heard_tone()
+            .map_or(String::new(), |_| format!("{}, with the {meaning}", harmonic_name(band.harmonic))),
     };
     canvas.panel(&panel)?;
     let raster = Raster::from_picture(picture, range_hz, level_range_db([picture]), ColourMap::Viridis);
     canvas.picture(&panel, Extent::of_span(picture.span), &raster.at_most(COLUMNS_MAX, ROWS_MAX))?;
-    let Some(tone) = trial.tone() else { return Ok(()) };
+    let Some(tone) = trial.heard_tone() else { return Ok(()) };
     let lines = common_lines(trial, tone, band);
     canvas.plot(&panel, "bands", |plot| {
         [band.band_hz_low, band.band_hz_high]

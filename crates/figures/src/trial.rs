@@ -2,7 +2,9 @@
 
 use crate::geometry::Point;
 use crate::picture::{Picture, Pictures};
-use hovertone_analysis::{Band, Hover, Method, Outcome, RidgeFrame, RotorTone, Span, SpeedAnalysis, TrackPoint};
+use hovertone_analysis::{
+    Band, Hover, Method, Outcome, Reading, RidgeFrame, RotorTone, Span, SpeedAnalysis, TrackPoint,
+};
 
 /// Most points of a curve: five per millimetre of a panel. More are invisible in print, and make pages large.
 const POINTS_MAX: usize = 720;
@@ -22,6 +24,8 @@ pub struct Trial<'a> {
     pub analysis: Option<&'a SpeedAnalysis>,
     /// Reason for a missing speed; absent where there is a speed.
     pub reason: Option<&'a str>,
+    /// The readings of an ambiguous tone, most plausible first; empty where a speed is decided.
+    pub readings: &'a [Reading],
     /// The reported method.
     pub method: Method,
     /// Its pictures, where they exist.
@@ -31,7 +35,12 @@ pub struct Trial<'a> {
 impl<'a> Trial<'a> {
     /// The tone of the rotor, if there is one with a settled order.
     pub(crate) fn tone(&self) -> Option<&'a RotorTone> {
-        match &self.analysis.filter(|_| self.reason.is_none())?.outcome {
+        self.heard_tone().filter(|_| self.reason.is_none())
+    }
+
+    /// The tone of the rotor, also where its order is not settled: then that of the most plausible reading.
+    pub(crate) fn heard_tone(&self) -> Option<&'a RotorTone> {
+        match &self.analysis?.outcome {
             Outcome::Ok(tone) => Some(tone),
             Outcome::NoRotorTone { .. } => None,
         }
@@ -56,11 +65,25 @@ impl<'a> Trial<'a> {
         self.tone().map_or(&[], |tone| &tone.bands)
     }
 
+    /// The same, also where the order is not settled.
+    pub(crate) fn heard_bands(&self) -> &'a [Band] {
+        self.heard_tone().map_or(&[], |tone| &tone.bands)
+    }
+
     /// Order of the lowest followed harmonic over its number: the divisor of the right axes.
     pub(crate) fn tone_order(&self) -> Option<f64> {
-        let band = self.bands().first()?;
-        Some(band.order.lines_per_turn() / f64::from(band.harmonic))
+        order_of_first(self.bands())
     }
+
+    /// The same, also where the order is not settled.
+    pub(crate) fn heard_tone_order(&self) -> Option<f64> {
+        order_of_first(self.heard_bands())
+    }
+}
+
+fn order_of_first(bands: &[Band]) -> Option<f64> {
+    let band = bands.first()?;
+    Some(band.order.lines_per_turn() / f64::from(band.harmonic))
 }
 
 /// The same lines with fewer points, for a panel in which they are nearly straight.
@@ -84,6 +107,23 @@ pub(crate) fn track_lines(track: &[TrackPoint]) -> Vec<Vec<Point>> {
     steps_s.sort_by(f64::total_cmp);
     let step_s = steps_s.get(steps_s.len() / 2).copied().unwrap_or(f64::INFINITY);
     lines_of(points, step_s)
+}
+
+/// The line that stands for all rotors: the ridge, if a method of the paper was requested, else the track of the speed.
+pub(crate) fn common_lines(trial: &Trial<'_>, tone: &RotorTone, band: &Band) -> Vec<Vec<Point>> {
+    if !trial.method.reads_ridges() && !tone.track.is_empty() {
+        return in_hz(track_lines(&tone.track), band);
+    }
+    let method = if trial.method == Method::Gaussian { Method::Gaussian } else { Method::MaximumTrace };
+    let ridge = tone.ridges.iter().find(|ridge| ridge.band.harmonic == band.harmonic);
+    ridge.map_or(Vec::new(), |ridge| ridge_lines(&ridge.frames, ridge.hop_s, method))
+}
+
+/// Shaft speeds as frequencies of a band.
+pub(crate) fn in_hz(lines: Vec<Vec<Point>>, band: &Band) -> Vec<Vec<Point>> {
+    let order = band.order.lines_per_turn();
+    let line = |line: Vec<Point>| line.into_iter().map(|point| Point { y: order * point.y, ..point }).collect();
+    lines.into_iter().map(line).collect()
 }
 
 /// Splits a curve at its gaps. A curve with more points than are visible keeps the lowest and the highest point of each group.

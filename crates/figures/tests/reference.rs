@@ -3,145 +3,20 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // what tests share has no attribute by which the lints know it
 
-use hovertone_analysis::{Method, Outcome, Span, SpeedAnalysis};
-use hovertone_figures::{ExperimentFigures, Figure, Trial, figure_png, figures_of_experiment, recording_figure};
-use hovertone_figures::{PictureConfig, Pictures, pictures_from_source, views_of_recording};
-use hovertone_rotor_speed::{Config, ToneConfig, speed_from_source};
-use hovertone_signal::Signal;
-use hovertone_thrust::{Force, LoadSpeeds, ThrustSettings, ThrustTable, TrialSpeeds, thrust_from_loads};
-use hovertone_vehicle::Order;
-use roxmltree::{Document, Node};
+mod drawn;
+mod small_experiment;
+
+use drawn::{Structure, pair, structure};
+use hovertone_analysis::Method;
+use hovertone_figures::{ExperimentFigures, Figure, figure_png, figures_of_experiment, recording_figure};
+use small_experiment::{all_heard, heard, tables, trials};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-const RATE_HZ: f64 = 16_000.0;
-const LENGTH_S: f64 = 6.0;
 /// Curves may be off by so much, in tenths of a millimetre: arithmetic differs between machines, and a frame at the edge of noise comes or goes.
 const UNITS_MAX: f64 = 5.0;
 /// Share of a curve's points that must be where they were.
 const POINTS_SHARE_MIN: f64 = 0.98;
-
-/// Two blades at a speed that sways by 1 %, three harmonics, in noise.
-fn hover(speed_rev_s: f64, seed: u64) -> Signal {
-    let (mut state, mut turn) = (seed, 0.0);
-    let samples = (0..(LENGTH_S * RATE_HZ) as usize).map(|n| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let noise = 0.02 * ((state >> 40) as f64 / (1_u64 << 23) as f64 - 1.0);
-        turn += speed_rev_s * (1.0 + 0.01 * (TAU * 0.5 * n as f64 / RATE_HZ).sin()) / RATE_HZ;
-        let line = |harmonic: f64| (TAU * 2.0 * harmonic * turn).sin() / harmonic;
-        (0.1 * (line(1.0) + line(2.0) + line(3.0)) + noise) as f32
-    });
-    Signal::new(samples.collect(), RATE_HZ)
-}
-
-struct Heard {
-    load: &'static str,
-    name: String,
-    analysis: SpeedAnalysis,
-    pictures: Pictures,
-}
-
-fn heard(load: &'static str, number: u64, speed_rev_s: f64) -> Heard {
-    let mut source = hover(speed_rev_s, number);
-    let config = Config { all_methods: true, ..Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap())) };
-    let analysis = speed_from_source(&mut source, &config, &mut |_| {}).unwrap();
-    let Outcome::Ok(tone) = &analysis.outcome else { panic!("no tone in {load}: {:?}", analysis.outcome) };
-    let config = PictureConfig { rows_max: 64, columns_max: 64, ..PictureConfig::default() };
-    let views = views_of_recording(Some(tone), RATE_HZ, &config);
-    let all = Span { from_s: 0.0, to_s: LENGTH_S };
-    let pictures = pictures_from_source(&mut source, all, &views, &analysis.hover.segments, &config).unwrap();
-    Heard { load, name: format!("{load}/{number}.wav"), analysis, pictures }
-}
-
-/// Two loads of two trials.
-fn all_heard() -> Vec<Heard> {
-    vec![heard("light", 1, 300.0), heard("light", 2, 301.0), heard("heavy", 3, 330.0), heard("heavy", 4, 329.0)]
-}
-
-fn trials(heard: &[Heard]) -> Vec<Trial<'_>> {
-    heard
-        .iter()
-        .map(|Heard { load, name, analysis, pictures }| Trial {
-            load,
-            recording: name,
-            analysis: Some(analysis),
-            reason: None,
-            method: Method::Harmonic,
-            pictures: Some(pictures),
-        })
-        .collect()
-}
-
-fn tables(heard: &[Heard]) -> Vec<ThrustTable> {
-    let speeds = |method: Method| -> Vec<LoadSpeeds> {
-        [("light", 0.0), ("heavy", 0.1)]
-            .map(|(load, added_mass_kg)| LoadSpeeds {
-                name: load.to_owned(),
-                force: Force::Weight {
-                    vehicle_mass_kg: 0.5,
-                    added_mass_kg,
-                    mass_std_kg: 0.0005,
-                    gravity_m_s2: 9.8,
-                    gravity_std_m_s2: 0.0005,
-                },
-                rotors_running: 4,
-                power_w: None,
-                trials: heard
-                    .iter()
-                    .filter(|one| one.load == load)
-                    .map(|one| match TrialSpeeds::from_analysis(&one.name, &one.analysis, method) {
-                        Some(trial) => trial,
-                        None => panic!("no tone"),
-                    })
-                    .collect(),
-            })
-            .to_vec()
-    };
-    [Method::Harmonic, Method::MaximumTrace, Method::Gaussian]
-        .map(|method| thrust_from_loads(&speeds(method), method, &ThrustSettings::for_rotors(4)))
-        .to_vec()
-}
-
-/// What a drawing shows.
-#[derive(Debug, Default)]
-struct Structure {
-    /// Axes of every panel: place and range.
-    panels: Vec<Vec<f64>>,
-    words: Vec<String>,
-    /// Classes of the layers, and for each the points of all that is drawn in it.
-    layers: Vec<(String, Vec<(f64, f64)>)>,
-}
-
-fn structure(svg: &str) -> Structure {
-    const AXES: [&str; 8] =
-        ["data-left", "data-top", "data-right", "data-bottom", "data-x-from", "data-x-to", "data-y-from", "data-y-to"];
-    let drawn = Document::parse(svg).unwrap();
-    let number = |node: Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse::<f64>().unwrap();
-    let mut structure = Structure::default();
-    for group in drawn.root_element().children().filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "g"))) {
-        let class = group.attribute("class").unwrap().to_owned();
-        if class == "panel" {
-            structure.panels.push(AXES.map(|name| number(group, name)).to_vec());
-        }
-        let inside = || group.descendants();
-        structure
-            .words
-            .extend(inside().filter_map(|node| Some(node.text()?.trim().to_owned())).filter(|text| !text.is_empty()));
-        let points = inside().flat_map(|node| match node.tag_name().name() {
-            "polyline" | "polygon" => node.attribute("points").unwrap().split_whitespace().map(pair).collect(),
-            "circle" => vec![(number(node, "cx"), number(node, "cy"))],
-            "rect" | "image" => vec![(number(node, "x"), number(node, "y"))],
-            _ => Vec::new(),
-        });
-        structure.layers.push((class, points.collect()));
-    }
-    structure
-}
-
-fn pair(text: &str) -> (f64, f64) {
-    let (x, y) = text.split_once(',').unwrap();
-    (x.parse().unwrap(), y.parse().unwrap())
-}
 
 /// What differs between two drawings, in words.
 fn differences(reference: &Structure, drawn: &Structure) -> Vec<String> {

@@ -22,6 +22,8 @@ pub struct Report<'a> {
     pub simulators: &'a [SimulatorLines],
     /// The command that repeats the run.
     pub command: &'a str,
+    /// Day of the run, as 2026-11-26; empty where it is not known.
+    pub date: &'a str,
 }
 
 /// Lines to paste into the model of a simulator.

@@ -4,7 +4,7 @@
 //! input      input of the page                            report    the page
 //! filters    filters of the templates
 //! view       the results as words and cells of templates      recordings   the same for the recordings
-//! warnings   all warnings, linked to their places
+//! warnings   all warnings, linked to their places        head         their lines of one width
 //! low_level  the page of the low-level model          archive      the page of an archive
 //! sound      a recording, small enough for the page       seal      content security policy: the page loads nothing
 //! ```
@@ -13,6 +13,7 @@
 
 mod archive;
 mod filters;
+mod head;
 mod input;
 mod low_level;
 mod recordings;

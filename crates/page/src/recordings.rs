@@ -21,7 +21,10 @@ pub(crate) struct TrialView<'a> {
     /// Its file without folders.
     pub(crate) name: String,
     pub(crate) speed: Option<String>,
-    pub(crate) decision: DecisionWords,
+    /// Absent without a rotor tone.
+    pub(crate) decision: Option<DecisionWords>,
+    /// Whether several speeds remain possible.
+    pub(crate) is_ambiguous: bool,
     pub(crate) reason: Option<String>,
     pub(crate) cuts: Option<String>,
     /// "9.4 of 10.0", seconds.
@@ -58,7 +61,8 @@ impl<'a> TrialView<'a> {
             speed: record
                 .speed()
                 .map(|speed| with_uncertainty(speed.speed.rev_s(), speed.combined_std_uncertainty_rev_s())),
-            decision: decision_in_words(record).unwrap_or_default(),
+            decision: decision_in_words(record),
+            is_ambiguous: record.is_ambiguous(),
             reason: record.reason(),
             cuts: cuts_of(record),
             used,
@@ -73,6 +77,7 @@ impl<'a> TrialView<'a> {
     /// Class, sign and meaning of the state of the recording.
     pub(crate) fn mark(&self) -> (&'static str, &'static str, &'static str) {
         match (&self.speed, self.warnings.is_empty()) {
+            (None, _) if self.is_ambiguous => ("doubt", "?", "ambiguous"),
             (None, _) => ("fails", "✗", "no speed"),
             (Some(_), false) => ("doubt", "!", "has warnings"),
             (Some(_), true) if self.has_shared_warning => ("holds", "✓", "no warning of its own"),

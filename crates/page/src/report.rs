@@ -35,6 +35,7 @@ pub(crate) const SCRIPT: &str = concat!(
     include_str!("../templates/script/sound.js"),
     include_str!("../templates/script/tables.js"),
     include_str!("../templates/script/page.js"),
+    include_str!("../templates/script/print.js"),
     "})();\n",
 );
 /// Most bytes of all sound as text in the page. With the pictures of 15 trials the page stays below 4 MB.
@@ -110,6 +111,11 @@ impl Page<'_> {
     /// The methods that are neither reported nor of the paper.
     fn other_methods(&self) -> impl Iterator<Item = &MethodView> {
         self.methods.iter().filter(|method| !method.is_papers && !method.is_reported)
+    }
+
+    /// The year of the run, where its day is known.
+    fn year(&self) -> Option<&str> {
+        self.report.date.split_once('-').map(|(year, _)| year)
     }
 
     fn has_other_methods(&self) -> bool {

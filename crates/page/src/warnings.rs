@@ -1,5 +1,7 @@
 //! All warnings of the page: one line each in the answer, linked to the place where the advice stands.
 
+use crate::head::head_of;
+use hovertone_figures::shortened;
 use hovertone_report::{
     FlightLogRecord, FoldedWarning, InputRecord, Notice, SpeedRecord, counted, distinct_notices, own_notices,
     own_reason, warning_count,
@@ -8,8 +10,10 @@ use hovertone_thrust::{ThrustTable, ThrustWarning};
 
 /// Most lines in the answer; the others are counted.
 const LINES_MAX: usize = 8;
+/// Most letters of a load or a recording before its warning.
+const NAME_LETTERS: usize = 22;
 
-/// A line of the answer.
+/// A line of the answer: the head of a warning.
 pub(crate) struct WarningLine {
     pub(crate) text: String,
     /// The element with the whole warning.
@@ -20,6 +24,7 @@ pub(crate) struct WarningLine {
 pub(crate) struct PlacedNotice {
     pub(crate) id: String,
     section: &'static str,
+    head: String,
     pub(crate) text: String,
     pub(crate) hint: String,
 }
@@ -44,19 +49,26 @@ impl Warnings {
     ) -> Self {
         let records: Vec<&SpeedRecord> = inputs.iter().map(|input| &input.record).collect();
         let of_constant = table.into_iter().flat_map(|table| &table.warnings);
-        let of_constant = of_constant.map(|warning| (section_of(warning), Notice::from(warning)));
-        let of_several = folded.iter().map(|kind| ("recordings", kind.notice.clone()));
+        let of_constant = of_constant.map(|warning| {
+            let notice = Notice::from(warning);
+            (section_of(warning), head_of("", &notice.text, ""), notice)
+        });
+        let of_several = folded.iter().map(|kind| {
+            let head = head_of("", &kind.what, &format!(" (in {})", kind.counted));
+            ("recordings", head, kind.notice.clone())
+        });
         let notices: Vec<PlacedNotice> = (1..)
             .zip(of_constant.chain(of_several))
-            .map(|(number, (section, notice))| PlacedNotice {
+            .map(|(number, (section, head, notice))| PlacedNotice {
                 id: format!("warning-{number}"),
                 section,
+                head,
                 text: notice.text,
                 hint: notice.hint,
             })
             .collect();
         let mut lines: Vec<WarningLine> =
-            notices.iter().map(|notice| WarningLine { text: notice.text.clone(), target: notice.id.clone() }).collect();
+            notices.iter().map(|notice| WarningLine { text: notice.head.clone(), target: notice.id.clone() }).collect();
         // a missing speed, or one that the log contradicts, weighs more than any warning about another recording
         let is_worse = |input: &InputRecord| {
             input.record.reason().is_some() || input.log.as_ref().is_some_and(FlightLogRecord::has_failed_check)
@@ -86,7 +98,8 @@ pub(crate) fn recording_id(index: usize) -> String {
 /// The lines of one recording: its warnings, and a missing speed, without those that are folded.
 fn lines_of(input: &InputRecord, name: &str, index: usize, folded: &[FoldedWarning]) -> Vec<WarningLine> {
     let (record, id) = (&input.record, recording_id(index));
-    let words = |text: &str| format!("{} · {name}: {text}", input.load);
+    let before = format!("{} · {}: ", shortened(&input.load, NAME_LETTERS), shortened(name, NAME_LETTERS));
+    let words = |text: &str| head_of(&before, text, "");
     let why_none = own_reason(record, folded).map(|reason| WarningLine { text: words(&reason), target: id.clone() });
     let own = own_notices(record, folded);
     let notices = (1..)

@@ -22,6 +22,10 @@ const NUMBER: &str = "#";
 pub struct FoldedWarning {
     /// The warning with its ranges of numbers and its recordings: "12–15 % of the frames hold no tone (in 2 of 9 recordings: a.wav, b.wav)".
     pub notice: Notice,
+    /// The warning with its ranges of numbers alone: "12–15 % of the frames hold no tone".
+    pub what: String,
+    /// How many recordings have it: "2 of 9 recordings".
+    pub counted: String,
     /// Whether it is the reason for missing speeds.
     pub is_missing_speed: bool,
     /// Whether all recordings have it in the same words.
@@ -143,6 +147,8 @@ fn kinds_of(all: &[Vec<Notice>], names: &[String]) -> Vec<FoldedWarning> {
         }
         let mut kind = FoldedWarning {
             notice: notice.clone(),
+            what: String::new(),
+            counted: String::new(),
             is_missing_speed: false,
             is_of_all: all.iter().all(|notices| notices.contains(notice)),
             shape: shape(&notice.text),
@@ -151,7 +157,9 @@ fn kinds_of(all: &[Vec<Notice>], names: &[String]) -> Vec<FoldedWarning> {
         let with: Vec<bool> = all.iter().map(|notices| notices.iter().any(|other| kind.has(other))).collect();
         let texts: Vec<&str> =
             all.iter().flatten().filter(|other| kind.has(other)).map(|other| other.text.as_str()).collect();
-        kind.notice.text = format!("{} (in {})", text_of_all(&texts), recordings_in_words(&with, names));
+        kind.what = text_of_all(&texts);
+        kind.counted = counted_recordings(&with);
+        kind.notice.text = format!("{} (in {})", kind.what, recordings_in_words(&with, names));
         if with.iter().filter(|has| **has).count() > 1 {
             kinds.push(kind);
         }
@@ -165,9 +173,9 @@ fn recordings_in_words(with: &[bool], names: &[String]) -> String {
         with.iter().zip(names).filter(|(has, _)| **has == wanted).map(|(_, name)| name.as_str()).collect()
     };
     let (having, others) = (named(true), named(false));
-    let count = format!("{} of {} recordings", having.len(), with.len());
+    let count = counted_recordings(with);
     if others.is_empty() {
-        return format!("all {} recordings", with.len());
+        return count;
     }
     if others.len() <= EXCEPTIONS_MAX && others.len() < having.len() {
         return format!("{count}: all but {}", others.join(", "));
@@ -175,6 +183,14 @@ fn recordings_in_words(with: &[bool], names: &[String]) -> String {
     let more = having.len().saturating_sub(NAMES_MAX);
     let named = having[..having.len() - more].join(", ");
     if more > 0 { format!("{count}: {named} and {more} more") } else { format!("{count}: {named}") }
+}
+
+/// "all 15 recordings", "14 of 15 recordings".
+fn counted_recordings(with: &[bool]) -> String {
+    match with.iter().filter(|has| **has).count() {
+        count if count == with.len() => format!("all {count} recordings"),
+        count => format!("{count} of {} recordings", with.len()),
+    }
 }
 
 /// One text for texts of one shape: numbers that differ become a range.

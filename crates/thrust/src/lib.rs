@@ -7,6 +7,7 @@
 //! regression          lines with errors in x and y            budget         uncertainty budget (GUM)
 //! drift               significant drifts of the constant      air            density, gravity, thrust coefficients
 //! plan                flights for a wanted uncertainty        weighing       mass from a constant and a speed
+//! outline             warnings before anything is heard
 //! vehicle_model       a simulator's model beside the result   table          output, with warnings
 //! ```
 
@@ -17,6 +18,7 @@ mod drift;
 mod fit;
 mod force;
 mod misfiled;
+mod outline;
 mod plan;
 pub mod regression;
 mod settings;
@@ -37,6 +39,7 @@ pub use campaign::TrialBootstrap;
 pub use drift::{Drift, DriftKind, row_drifts};
 pub use fit::{thrust_from_loads, warnings_of_points};
 pub use force::Force;
+pub use outline::{LoadOutline, warnings_of_outline};
 pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
 pub use settings::{ThrustSettings, UncertaintyInputs};
 pub use speeds::{LoadSpeeds, SampleSpeed, TrialSpeeds};

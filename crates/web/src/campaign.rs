@@ -155,8 +155,8 @@ impl LastIdentified {
         .to_string())
     }
 
-    /// The report: the recordings are read again for their pictures and their sound.
-    pub(crate) fn report(&self, heard: &HeardFiles, on_share: OnShare<'_>) -> Result<String, String> {
+    /// The report of a run on this day: the recordings are read again for their pictures and their sound.
+    pub(crate) fn report(&self, heard: &HeardFiles, date: &str, on_share: OnShare<'_>) -> Result<String, String> {
         let identification = self.identified.identification();
         let count = self.numbers.len() as f64;
         let mut drawings = Vec::new();
@@ -180,7 +180,7 @@ impl LastIdentified {
             .map_err(|error| words(&error))?;
         let results = results_json(&identification).map_err(|error| words(&error))?;
         let extras =
-            ReportExtras { command: "hovertone identify experiment.toml -o report", ..ReportExtras::default() };
+            ReportExtras { command: "hovertone identify experiment.toml -o report", date, ..ReportExtras::default() };
         drawn.page(&ReportFigures { experiment, recordings }, &results, &extras).map_err(|error| words(&error))
     }
 }

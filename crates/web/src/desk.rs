@@ -116,7 +116,9 @@ impl Desk {
     /// A recording that cannot be read again.
     pub fn report(&self, on_share: &js_sys::Function) -> Result<String, String> {
         let identified = self.identified.as_ref().ok_or("there is no result yet")?;
-        identified.report(&self.heard, &mut shown_by(on_share))
+        // an ISO date begins with its ten letters of year, month and day
+        let date: String = String::from(js_sys::Date::new_0().to_iso_string()).chars().take(10).collect();
+        identified.report(&self.heard, &date, &mut shown_by(on_share))
     }
 }
 

@@ -52,6 +52,7 @@ pub fn trial_of<'a>(
         recording: &record.file,
         analysis: record.analysis(),
         reason,
+        readings: record.alternatives(),
         method: record.method,
         pictures: drawing.map(|drawing| &drawing.pictures),
     }

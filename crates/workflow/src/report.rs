@@ -34,6 +34,8 @@ pub struct ReportExtras<'a> {
     pub more_tables: &'a [TitledTable],
     /// The command that repeats the run.
     pub command: &'a str,
+    /// Day of the run, as 2026-11-26; empty where it is not known.
+    pub date: &'a str,
 }
 
 impl<'a> Drawn<'a> {
@@ -90,6 +92,7 @@ impl<'a> Drawn<'a> {
             more_tables: extras.more_tables,
             simulators: &simulators_of(results),
             command: extras.command,
+            date: extras.date,
         })
     }
 }

@@ -25,6 +25,7 @@ const COMPLETIONS: [(&str, &str); 5] = [
 ];
 /// Files of the repository that a release has too.
 const COPIED: [&str; 4] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE"];
+const LICENCES: &str = "THIRD-PARTY-LICENSES.md";
 const SUMS: &str = "SHA256SUMS";
 
 /// Builds everything into `target/dist` and says what is there.
@@ -34,22 +35,10 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     let version = publication::version(root)?;
     let name = format!("hovertone-{version}-{triple}");
     let dist = target(root).join("dist");
-    let folder = dist.join(&name);
-    if folder.exists() {
-        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    }
-    make_folder(&folder)?;
     let program = build(root, &triple)?;
     let is_static = elf::is_static(&read(&program)?);
-    let file = program.file_name().map(PathBuf::from).unwrap_or_default();
-    fs::copy(&program, folder.join(&file)).map_err(|error| format!("{}: {error}", program.display()))?;
-    describe(&folder.join(&file), &folder)?;
-    for name in COPIED {
-        fs::copy(root.join(name), folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
-    }
-    write(&folder.join("THIRD-PARTY-LICENSES.md"), &licences::text(root, &triple, PACKAGE)?)?;
-    let archive = pack(&dist, &name)?;
-    let mut released = vec![archive.clone(), folder.join(&file)];
+    let Release { folder, archive, program } = release(root, &triple, &program, &dist, &name)?;
+    let mut released = vec![archive.clone(), program];
     released.extend(wheels(root, &dist)?);
     write_sums(&dist, &released)?;
     publication::rehearse(root)?;
@@ -57,6 +46,31 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     println!("the program {}", in_words(is_static));
     println!("written: {} and {}", archive.display(), dist.join(SUMS).display());
     Ok(())
+}
+
+/// What is made of a program.
+struct Release {
+    folder: PathBuf,
+    archive: PathBuf,
+    /// The program in the folder.
+    program: PathBuf,
+}
+
+/// Makes the folder of a program, with all that stands beside it, and packs it.
+fn release(root: &Path, triple: &str, program: &Path, dist: &Path, name: &str) -> Result<Release, String> {
+    let folder = dist.join(name);
+    if folder.exists() {
+        fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    make_folder(&folder)?;
+    let copy = folder.join(program.file_name().map(PathBuf::from).unwrap_or_default());
+    fs::copy(program, &copy).map_err(|error| format!("{}: {error}", program.display()))?;
+    describe(&copy, &folder)?;
+    for name in COPIED {
+        fs::copy(root.join(name), folder.join(name)).map_err(|error| format!("{name}: {error}"))?;
+    }
+    write(&folder.join(LICENCES), &licences::text(root, triple, PACKAGE)?)?;
+    Ok(Release { archive: pack(dist, name)?, folder, program: copy })
 }
 
 /// The wheel of the Python package; none without a Python that has maturin.
@@ -104,11 +118,15 @@ fn describe(program: &Path, folder: &Path) -> Result<(), String> {
     let completions = folder.join("completions");
     make_folder(&completions)?;
     for (shell, name) in COMPLETIONS {
-        write(&completions.join(name), &output_of(Command::new(program).args(["completions", shell]))?)?;
+        // without the vehicles of the person who builds
+        write(
+            &completions.join(name),
+            &output_of(Command::new(program).args(["completions", shell]).env("XDG_CONFIG_HOME", folder))?,
+        )?;
     }
     let pages = folder.join("man");
     output_of(Command::new(program).args(["man", "-o"]).arg(&pages))?;
-    // the release has one list of all its files
+    // this list is for a later run of `man` into the same folder; in a release the checksum of the archive covers the pages
     let list = pages.join("files.sha256");
     std::fs::remove_file(&list).map_err(|error| format!("{}: {error}", list.display()))
 }
@@ -189,6 +207,46 @@ mod tests {
         let sums = fs::read_to_string(dist.path().join(SUMS)).unwrap();
         // FIPS 180-2, appendix B.1
         assert_eq!(sums, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad  abc\n");
+    }
+
+    /// All but the build for a release: with the program that the tests of the command line run.
+    #[test]
+    fn a_release_holds_program_completions_man_pages_licences_and_checksums() {
+        let root = crate::root();
+        let program = target(&root).join("debug").join(format!("hovertone{}", std::env::consts::EXE_SUFFIX));
+        if !program.is_file() {
+            println!("skipped: no {}; the tests of the whole workspace build it", program.display());
+            return;
+        }
+        let dist = tempfile::tempdir().unwrap();
+        let made = release(&root, &host_triple().unwrap(), &program, dist.path(), "hovertone-test").unwrap();
+        let files = listing(&made.folder).unwrap();
+        let has = |name: &str| files.lines().any(|line| line.split_whitespace().next() == Some(name));
+        for name in COPIED.into_iter().chain([LICENCES, "man/hovertone.1", "man/hovertone-identify.1"]) {
+            assert!(has(name), "{name} in\n{files}");
+        }
+        for (shell, name) in COMPLETIONS {
+            let text = fs::read_to_string(made.folder.join("completions").join(name)).unwrap();
+            assert!(text.contains("identify") && text.contains("--vehicle"), "{shell}");
+        }
+        let pages: Vec<_> = fs::read_dir(made.folder.join("man")).unwrap().map(|entry| entry.unwrap().path()).collect();
+        assert!(pages.len() > 15, "{pages:?}");
+        for page in &pages {
+            assert!(fs::read_to_string(page).unwrap().contains(".TH"), "{}", page.display());
+        }
+        // the archive has the same files, and its bytes do not depend on the time
+        let listed = output_of(Command::new("tar").arg("-tzf").arg(&made.archive)).unwrap();
+        assert_eq!(listed.lines().filter(|line| !line.ends_with('/')).count(), files.lines().count(), "{listed}");
+        let bytes = fs::read(&made.archive).unwrap();
+        assert_eq!(bytes, fs::read(pack(dist.path(), "hovertone-test").unwrap()).unwrap());
+        write_sums(dist.path(), &[made.archive.clone(), made.program.clone()]).unwrap();
+        let check = |is_right: bool| {
+            let run = Command::new("sha256sum").args(["--check", SUMS]).current_dir(dist.path()).output().unwrap();
+            assert_eq!(run.status.success(), is_right, "{}", String::from_utf8_lossy(&run.stdout));
+        };
+        check(true);
+        fs::write(&made.archive, "changed").unwrap();
+        check(false);
     }
 
     #[test]

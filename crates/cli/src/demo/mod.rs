@@ -10,6 +10,7 @@ use crate::identify::{ExperimentSource, identify, jobs_of, page_line};
 use crate::recording::Hearing;
 use crate::report_folder::PAGE;
 use crate::terminal::Terminal;
+use crate::today::today;
 use crate::typed::typed_command;
 use hovertone::speed::Method;
 use hovertone::thrust::ThrustTable;
@@ -60,6 +61,7 @@ pub(crate) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
         compared: &compared,
         more_tables: &[TitledTable::new(TRUTH_TITLE, against_truth)],
         command: &typed_command(),
+        date: &today(),
     };
     identified.write(folder, &extras)?;
     terminal.text(&page_line(&folder.place(PAGE)))?;

@@ -55,8 +55,10 @@ pub(super) fn run(
     terminal.flush()?;
     let faults = faults_of(&plan, &missing, arguments.data_root.as_deref().unwrap_or(&source.folder));
     faults.iter().for_each(|fault| terminal.error(fault));
-    experiment.mass_warning().iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
-    wishes_of(experiment).iter().for_each(|wish| terminal.warning(wish, ""));
+    let counts: Vec<usize> = plan.loads.iter().map(|load| load.recordings.len()).collect();
+    let warnings = experiment.warnings_before_hearing(&counts);
+    warnings.iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
+    wishes_of(experiment).iter().for_each(|wish| terminal.tip(wish));
     terminal.text(&format!("\n{}", verdict(faults.len(), arguments.output.as_deref())))?;
     Ok(if faults.is_empty() { Ending::Done } else { Ending::FilesFailed })
 }
@@ -100,42 +102,34 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
     missing.chain(broken).collect()
 }
 
-/// What would make the answer better.
+/// What would make the answer better, beside what the warnings say.
 fn wishes_of(experiment: &Experiment) -> Vec<Notice> {
     let hovers = || experiment.loads.iter().filter(|load| matches!(load.force, Force::Weight { .. }));
     let has_gravity = !hovers().any(|load| {
         matches!(load.force, Force::Weight { gravity_std_m_s2, .. } if gravity_std_m_s2 >= Gravity::UNKNOWN.std_m_s2)
     });
     let loads = experiment.loads.len();
-    let few = match loads {
-        1 => "there is only one load, so the law F = C_f ω² cannot be tested".to_owned(),
-        _ => format!("{} test the law F = C_f ω² weakly: {LOADS_WANTED} or more are better", counted(loads, "load")),
-    };
+    let few = format!("{} test the law F = C_f ω² weakly: {LOADS_WANTED} or more are better", counted(loads, "load"));
     [
-        (
-            experiment.is_weighed || hovers().next().is_none(),
-            "the vehicle was not weighed: the mass is that of another one",
-            "write vehicle.mass_kg",
-        ),
         (
             experiment.propeller_diameter_m.is_some(),
             match experiment.config.known.shaft_speed {
-                Some(_) => "the diameter of the propellers is not known: the thrust coefficient C_T is left out",
+                Some(_) => "the diameter of the propellers is not known: C_f needs none, but the thrust coefficient C_T is left out",
                 None => "the diameter of the propellers is not known: with it, half and double the speed can be ruled out, and C_T needs it",
             },
-            "write vehicle.propeller_diameter_m, or give --diameter-m",
+            "write propeller_diameter_m under [vehicle]; without an experiment file, give --diameter-m",
         ),
         (
             has_gravity,
             "the place is not known: gravity differs by 0.5 % on Earth",
-            "write vehicle.latitude_deg and height_m, or give --latitude-deg",
+            "write latitude_deg and height_m under [vehicle]; without an experiment file, give --latitude-deg",
         ),
         (
             experiment.air.is_some(),
-            "the density of the air is not known: the thrust coefficient C_T is left out",
+            "the density of the air is not known: C_f needs none, but the thrust coefficient C_T is left out",
             "write [air] with temperature_c and pressure_hpa in an experiment file",
         ),
-        (loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),
+        (loads == 1 || loads >= LOADS_WANTED, few.as_str(), "add a load: a heavier one makes the ± smaller"),
     ]
     .into_iter()
     .filter(|(is_there, ..)| !is_there)

@@ -21,6 +21,7 @@ use crate::progress::Progress;
 use crate::recording::{Hearing, Job, records_of};
 use crate::report_folder::{PAGE, RESULTS, write_report};
 use crate::terminal::Terminal;
+use crate::today::today;
 use crate::typed::typed_command;
 use hovertone::experiment::Experiment;
 use hovertone::speed::Method;
@@ -99,7 +100,7 @@ impl Measured {
     /// Writes the report, where it is wanted. Returns the place of its page.
     fn write(&self) -> Result<Option<PathBuf>, Failure> {
         let Some(folder) = &self.folder else { return Ok(None) };
-        let extras = ReportExtras { command: &typed_command(), ..ReportExtras::default() };
+        let extras = ReportExtras { command: &typed_command(), date: &today(), ..ReportExtras::default() };
         self.identified.write(folder, &extras)?;
         if let Some(text) = &self.text_of_typed {
             folder.write(EXPERIMENT, text)?;

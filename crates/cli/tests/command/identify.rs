@@ -235,4 +235,14 @@ fn a_recording_with_several_possible_speeds_is_no_trial() {
     let run = hovertone(&[&flags, &known[..]].concat()).ends_with(3);
     assert!(run.stderr.contains("ambiguous: several rotor speeds explain this sound"), "{}", run.stderr);
     assert!(run.stdout.contains("0 of them with a speed") && run.stdout.contains("C_f: none"), "{}", run.stdout);
+    // the page weighs the speeds against each other, and draws them over the spectrogram
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    let row = page.split("<tr>").find(|row| row.contains("<span class=\"spoken\">ambiguous</span>")).unwrap();
+    assert!(row.contains("not decided: ") && row.contains(" rev/s, odds ") && row.contains(" %)"), "{row}");
+    let fold = page.split("<details class=\"trial\"").nth(1).unwrap();
+    for words in
+        ["<dt>runner-up</dt>", "<dt>possible speeds</dt>", "tracks reading-1", "reading reading-2", "key readings"]
+    {
+        assert!(fold.contains(words), "{words}");
+    }
 }

@@ -64,6 +64,33 @@ fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
     assert!((compared["over_heard"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{compared}");
 }
 
+/// Ends of lines stay as they are, CR LF too, and the difference is a patch in both directions; also where the last line has no end.
+#[test]
+fn the_difference_of_a_model_with_other_ends_of_lines_is_a_patch() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let model = folder.path().join("iris.sdf");
+    let on_one_line = IRIS.replace('\n', " ");
+    for original in [IRIS.replace('\n', "\r\n"), IRIS.trim_end().to_owned(), on_one_line.trim_end().to_owned()] {
+        fs::write(&model, &original).unwrap();
+        let changed = export(&results, &["--into", text(&model)]).ends_with(0);
+        let after = fs::read_to_string(&model).unwrap();
+        assert!(after != original && after.matches("\r\n").count() == original.matches("\r\n").count(), "{after:?}");
+        assert_eq!(after.matches('\n').count(), original.matches('\n').count());
+        let patch = folder.path().join("change.patch");
+        fs::write(&patch, &changed.stdout).unwrap();
+        for (direction, expected) in [("--reverse", &original), ("--forward", &after)] {
+            let run = Command::new("patch").args(["--fuzz=0", direction]).args([&model, &patch]).output();
+            let Ok(run) = run else {
+                println!("skipped: no `patch`");
+                return;
+            };
+            assert!(run.status.success(), "{direction}: {}", String::from_utf8_lossy(&run.stdout));
+            assert_eq!(&fs::read_to_string(&model).unwrap(), expected, "{direction}");
+        }
+    }
+}
+
 #[test]
 fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
     let folder = tempfile::tempdir().unwrap();

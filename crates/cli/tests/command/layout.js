@@ -1,6 +1,7 @@
 // Faults of the layout of a page, as it is on the screen now. Each is a text; a page without faults gives an empty list.
 (async ({ width, isPrint }) => {
-  const LETTER_PX_MIN = 9;
+  // on paper 7 pt, less the rounding of a scale
+  const LETTER_PX_MIN = isPrint ? 9.3 : 9;
   const CONTRAST_MIN = 4.5;
   const PAGE_PX = (297 - 30) * 96 / 25.4;
   const faults = [];
@@ -30,7 +31,7 @@
     const scale = svg.getScreenCTM().a;
     const texts = all("text", svg).filter(isVisible);
     const letter = Math.min(...texts.map((text) => Number(text.getAttribute("font-size")) * scale));
-    if (!isPrint && letter < LETTER_PX_MIN) faults.push(`letters of ${letter} px in ${svg.dataset.figure}`);
+    if (letter < LETTER_PX_MIN) faults.push(`letters of ${letter} px in ${svg.dataset.figure}`);
     const boxOf = (text) => text.getBoundingClientRect();
     const sheet = boxOf(svg);
     for (const text of texts) {
@@ -69,9 +70,16 @@
     const ratio = contrast(colour, background);
     if (ratio < CONTRAST_MIN) faults.push(`${name(element)}: contrast ${ratio.toFixed(2)}, ${colour} on ${background}`);
   };
+  const letters = (element) => parseFloat(getComputedStyle(element).fontSize);
   const hasText = (element) => [...element.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.textContent.trim());
   const written = outside.concat(all(".scroll *").filter((element) => !element.closest("svg") && isVisible(element))).filter(hasText);
   for (const element of written) check(element, getComputedStyle(element).color, behind(element));
+  const small = isPrint ? written.filter((element) => letters(element) < LETTER_PX_MIN) : [];
+  for (const element of small) faults.push(`letters of ${letters(element)} px in ${name(element)}`);
+  for (const hash of isPrint ? all(".files .hash").filter(isVisible) : []) {
+    const lines = hash.getBoundingClientRect().height / parseFloat(getComputedStyle(hash).lineHeight);
+    if (lines > 2.5) faults.push(`a hash has ${lines} lines`);
+  }
   for (const svg of figures) {
     const sheet = getComputedStyle(svg.querySelector(".sheet")).fill;
     for (const text of all("text", svg).filter((text) => isVisible(text) && !text.closest(".reason-of-cut"))) check(text, getComputedStyle(text).fill, sheet);
@@ -110,10 +118,22 @@
 
   // on paper nothing is parted that fits on one page
   if (isPrint) {
-    for (const element of all("figure, .scroll:not(.long)").filter(isVisible)) {
+    for (const element of all("figure:not(.parted), .scroll:not(.long), .part").filter((element) => isVisible(element) && !element.matches(".parted .scroll"))) {
       const { height } = element.getBoundingClientRect();
       if (height > PAGE_PX) faults.push(`${name(element)} is ${height} px high`);
       if (getComputedStyle(element).breakInside !== "avoid") faults.push(`${name(element)} may be parted`);
+    }
+    // a panel stays whole, with its title: text at its left end, above it
+    for (const part of all(".part").filter(isVisible)) {
+      const sheet = part.getBoundingClientRect();
+      for (const panel of all("g.panel", part)) {
+        const { top, bottom } = panel.getBoundingClientRect();
+        if (top < sheet.top && bottom > sheet.top + 1 && panel.querySelector(".ticks text") && !all(".trial", part).length) faults.push(`a panel of ${part.dataset.figure} is parted`);
+      }
+      for (const title of all(".load text", part).filter((title) => !all(".trial", part).length)) {
+        const [at, end] = [title.getBoundingClientRect().top, sheet.bottom];
+        if (at < end && at > end - 40) faults.push(`${name(title)} is parted from its panel`);
+      }
     }
     for (const fold of all("details:not(.trial):not(.lines)")) if (!fold.open) faults.push(`${name(fold)} is folded on paper`);
   }

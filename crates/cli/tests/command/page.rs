@@ -1,7 +1,7 @@
 //! The page as a person uses it: what stands where, what fits on a phone, a screen and paper, what can be copied, saved and sorted.
 
 use crate::chromium::Browser;
-use crate::report_fixture::{MANY, many_identified};
+use crate::report_fixture::{MANY, contradictory_identified, many_identified};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -32,6 +32,38 @@ fn sixty_recordings_and_one_without_a_rotor_can_be_read_on_phone_screen_and_pape
     recordings_are_a_short_table_on_a_phone(&mut browser);
     figures_scroll_by_keyboard_on_a_phone(&mut browser);
     assert_eq!(browser.complaints(), [""; 0]);
+}
+
+/// Loads and recordings with names of 80 letters, whose masses and speeds contradict each other in every way.
+#[test]
+fn the_longest_warnings_take_one_line_each_on_a_screen() {
+    let Some(mut browser) = Browser::start() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    contradictory_identified(folder.path());
+    browser.open(&folder.path().join("out/report.html"));
+    browser.screen(SCREEN);
+    browser.draw();
+    let lines = browser.value(
+        "[...document.querySelectorAll('#answer .warnings li')].map(line => [line.offsetHeight / parseFloat(getComputedStyle(line).lineHeight),
+          line.scrollWidth - line.clientWidth, line.textContent, document.querySelector(line.firstElementChild.getAttribute('href')).textContent])",
+    );
+    let lines = lines.as_array().unwrap();
+    let is_cut = |line: &&Value| line[2].as_str().is_some_and(|head| head.contains('…'));
+    assert!(lines.len() >= 4 && lines.iter().filter(is_cut).count() >= 4, "{lines:?}");
+    for line in lines {
+        assert!(line[0].as_f64().unwrap() < 1.5, "{} lines: {}", line[0], line[2]);
+        assert_eq!(line[1], 0, "px are cut of {}", line[2]);
+        // the whole warning stands where its line leads to
+        let (head, place) = (line[2].as_str().unwrap(), line[3].as_str().unwrap());
+        let said = head.split(['…', ':', '"']).map(str::trim).rfind(|part| part.len() > 12).unwrap();
+        assert!(place.contains(said), "{said} in {place}");
+    }
+    // letters are as wide as a name can make them
+    let wide = browser.value(
+        "(() => { const line = document.querySelector('#answer .warnings li'); line.firstElementChild.textContent = 'W'.repeat(100);
+          return line.offsetHeight / parseFloat(getComputedStyle(line).lineHeight); })()",
+    );
+    assert!(wide.as_f64().unwrap() < 1.5, "{wide} lines");
 }
 
 /// Asserts that nothing is cut, too small or too pale, with these folds open.
@@ -214,7 +246,23 @@ fn constants_can_be_copied(browser: &mut Browser, results: &Value) {
     assert!(gazebo.contains("motorConstant"), "{gazebo}");
     assert!(copied("button[data-copy-from=lines-rotorpy]").contains("k_eta"));
     let bibtex = copied("button[data-copy-from=bibtex]");
-    assert!(bibtex.starts_with("@article{") && bibtex.contains("@software{hovertone"), "{bibtex}");
+    // both entries have what BibTeX asks for; the program's year is that of the run
+    let entries: Vec<&str> = bibtex.split('@').skip(1).collect();
+    assert!(
+        entries.len() == 2 && entries[0].starts_with("article{pizetta2021") && entries[1].starts_with("software{"),
+        "{bibtex}"
+    );
+    for field in ["author  = ", "title   = ", "year    = "] {
+        assert!(entries.iter().all(|entry| entry.contains(field)), "{field} in {bibtex}");
+    }
+    let year = entries[1].split_once("year    = \"").unwrap().1.split('"').next().unwrap();
+    assert!(entries[1].contains(&format!("run on {year}-")) && year.parse::<u32>().unwrap() >= 2026, "{bibtex}");
+    assert!(
+        entries[1].contains("author  = \"{The hovertone authors}\"") && entries[1].contains("version = \"0."),
+        "{bibtex}"
+    );
+    let braces = |sign: char| bibtex.matches(sign).count();
+    assert_eq!(braces('{'), braces('}'), "{bibtex}");
 }
 
 fn tables_are_sorted_and_saved(browser: &mut Browser, out: &Path) {

@@ -77,13 +77,19 @@ fn numbers_are_those_of_the_results(browser: &mut Browser, results: &Value) {
     let lines = browser.value("document.querySelectorAll('#answer .warnings li').length");
     assert_eq!(counted, format!("⚠ {lines} warnings"));
     let words = browser.text("document.querySelector('#answer .warnings').textContent");
-    let hints = browser.text("[...document.querySelectorAll('.notice')].map(notice => notice.textContent).join('')");
+    let notices = browser.text("[...document.querySelectorAll('.notice')].map(notice => notice.textContent).join('')");
     for warning in results["warnings"].as_array().unwrap() {
         let (text, hint) = warning.as_str().unwrap().split_once(" (hint: ").unwrap();
-        assert!(words.contains(text) && hints.contains(hint.trim_end_matches(')')), "{warning}");
+        // the answer has its head, the place where that leads to all of it
+        let head: String = text.chars().take(40).collect();
+        assert!(words.contains(&head), "{head} in {words}");
+        assert!(notices.contains(text) && notices.contains(hint.trim_end_matches(')')), "{warning}");
     }
     let rejected = browser.text("document.querySelector('table.recordings tbody tr:last-child').textContent");
     assert!(rejected.contains("noise.wav") && rejected.contains("no speed"), "{rejected}");
+    // a gear mesh has odds as well
+    let heard = browser.value("[...document.querySelectorAll('.trial dl')].map(facts => facts.textContent).filter(facts => facts.includes('odds ') && facts.includes(' : 1, by its lines: '))");
+    assert_eq!(heard.as_array().unwrap().len(), 3, "{heard}");
     let hashes = browser.text("document.querySelector('#settings').textContent");
     for input in results["inputs"].as_array().unwrap() {
         assert!(hashes.contains(input["recording"]["sha256"].as_str().unwrap()));
@@ -181,6 +187,20 @@ fn methods_are_shown_on_request(browser: &mut Browser, results: &Value) {
     assert_eq!(shown(browser, "method-gaussian"), Some(6));
     browser.value("document.querySelector('[data-method=gaussian]').click()");
     assert_eq!(shown(browser, "method-gaussian"), Some(0));
+    // bars and interval of the shown method fill the plot of the residuals, whatever the hidden ones need
+    let seen = browser.value(
+        "(() => { const svg = document.querySelector('[data-figure=fit]'), panel = svg.panels[1], { a: scale, f: shift } = svg.getScreenCTM();
+          const boxes = [...svg.querySelectorAll('.residuals.method-harmonic .zoomable > *, .residuals.method-separated .zoomable > *')].filter(part => part.getClientRects().length > 0).map(part => part.getBoundingClientRect());
+          const height = (panel.bottom - panel.top) * scale, top = panel.top * scale + shift;
+          return [(Math.min(...boxes.map(box => box.top)) - top) / height, (Math.max(...boxes.map(box => box.bottom)) - top) / height,
+            panel.view.xTo, panel.view.yTo - panel.view.yFrom]; })()",
+    );
+    let [top, bottom, x_to, range_mn] = [0, 1, 2, 3].map(|index: usize| seen[index].as_f64().unwrap());
+    let share = results["uncertainty_budget"]["expanded_share"].as_f64().unwrap();
+    let force_n = results["thrust_constant_total_n_s2"]["value"].as_f64().unwrap() * 1e3 * x_to;
+    let interval = 2.0 * share * force_n * 1e3 / range_mn;
+    assert!(top > 0.0 && bottom < 1.0, "bars reach from {top} to {bottom} of the plot");
+    assert!((bottom - top).max(interval) > 0.6, "bars: {top} to {bottom}, interval: {interval}");
     // the law with an intercept lies over the others, and the key names it
     let intercept = browser.value(
         "(() => { const svg = document.querySelector('[data-figure=fit]'); const [line, key] = ['g.with-intercept[data-panel]', '.key.with-intercept text'].map(part => svg.querySelector(part));

@@ -83,6 +83,29 @@ pub(crate) fn many_identified(folder: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(out.join("results.json")).unwrap()).unwrap()
 }
 
+/// Loads and recordings with long names: a trial that differs, a heavier load with slower rotors, and a recording of noise.
+pub(crate) fn contradictory_identified(folder: &Path) {
+    let mut experiment =
+        "[vehicle]\nrotors = 1\nblades = 2\nmass_kg = 0.5\n[tone]\norder = 2\n[samples]\nlength_s = 2.0\n".to_owned();
+    for (load, speeds_rev_s) in (0..).zip([[100.0, 106.0], [112.0, 112.1], [96.0, 96.1], [0.0, 120.0]]) {
+        let name = format!("payload of the campaign of a very long day with the camera and second battery, no. {load}");
+        let files =
+            [1, 2].map(|number| format!("{load}/recording_of_a_very_long_day_with_the_camera_no_{load}_{number}.wav"));
+        let added_kg = 0.05 * f64::from(load);
+        experiment += &format!("[[load]]\nname = \"{name}\"\nadded_mass_kg = {added_kg}\nrecordings = {files:?}\n");
+        for (file, speed_rev_s) in files.iter().zip(speeds_rev_s) {
+            let path = folder.join(file);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            match speed_rev_s {
+                0.0 => write_noise(&path, MANY_S),
+                _ => write_rotor(&path, speed_rev_s, 0.0, MANY_S, load),
+            }
+        }
+    }
+    fs::write(folder.join("experiment.toml"), experiment).unwrap();
+    hovertone(&["identify", text(&folder.join("experiment.toml")), "-o", text(&folder.join("out"))]).ends_with(3);
+}
+
 /// One rotor of two blades with five harmonics in noise, after silence; faster to make than a simulated hover.
 pub(crate) fn write_rotor(path: &Path, speed_rev_s: f64, silence_s: f64, rotor_s: f64, seed: u32) {
     let rate = f64::from(MANY_RATE_HZ);

@@ -1,6 +1,6 @@
 //! Completions and man pages.
 
-use crate::testkit::{hovertone, refused_with, text};
+use crate::testkit::{hovertone, hovertone_with, refused_with, text};
 use std::fs;
 use std::process::Command;
 
@@ -26,6 +26,33 @@ fn bash_reads_its_completions_and_offers_commands() {
         return;
     };
     assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "calibrate", "{:?}", output.stderr);
+}
+
+/// After `--vehicle`, bash offers the vehicles and no files: those of the program, and a person's own. Other names are still taken.
+#[test]
+fn bash_offers_vehicles() {
+    let folder = tempfile::tempdir().unwrap();
+    let own = folder.path().join("hovertone");
+    fs::create_dir(&own).unwrap();
+    fs::write(own.join("vehicles.toml"), "[artichoke]\nname = \"Mine\"\nrotors = 4\nblades = 2\nsource = \"me\"\n")
+        .unwrap();
+    let run = hovertone_with(&["completions", "bash"], |command| command.env("XDG_CONFIG_HOME", folder.path()));
+    let script = folder.path().join("hovertone.bash");
+    fs::write(&script, run.ends_with(0).stdout).unwrap();
+    fs::write(folder.path().join("arbitrary.wav"), "").unwrap();
+    let ask = "cd \"$2\"; source \"$1\"; COMP_WORDS=(hovertone \"$3\" --vehicle ar); COMP_CWORD=3; _hovertone hovertone ar --vehicle; echo \"${COMPREPLY[@]}\"";
+    for command in ["speed", "identify", "tones", "init"] {
+        let words = ["-c", ask, "bash", text(&script), text(folder.path()), command];
+        let Ok(output) = Command::new("bash").args(words).output() else {
+            println!("skipped: no bash");
+            return;
+        };
+        let offered = String::from_utf8_lossy(&output.stdout).into_owned();
+        let offered: Vec<&str> = offered.split_whitespace().collect();
+        assert!(offered.contains(&"ardrone") && offered.contains(&"artichoke"), "{command}: {offered:?}");
+        assert!(offered.iter().all(|name| !name.contains('.')), "{command}: {offered:?}");
+    }
+    refused_with(&["speed", "--vehicle", "no-such-drone", text(&script)], &["no-such-drone", "hovertone vehicles"]);
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn three_movies_become_a_constant_in_under_a_minute() {
     let masses = ["--mass", "413g=hover 1.mov", "--mass", "0.444", "hover 2.mov", "--mass", "0.472=hover 3.mov"];
     let init = run_in(at, &[&["init", "--vehicle", "ardrone"], &masses[..]].concat()).ends_with(0);
     assert!(init.stderr.contains("written: experiment.toml") && init.stderr.contains("--check"), "{}", init.stderr);
-    run_in(at, &["identify", "experiment.toml", "--check"]).ends_with(0);
+    let check = run_in(at, &["identify", "experiment.toml", "--check"]).ends_with(0);
     let identified = run_in(at, &["identify", "experiment.toml", "-o", "results"]).ends_with(0);
     let took = begun.elapsed();
     println!("from the empty folder to the constant: {:.1} s", took.as_secs_f64());
@@ -57,6 +57,13 @@ fn three_movies_become_a_constant_in_under_a_minute() {
     assert!(identified.stdout.contains("verdict: not tested: each load has one recording"), "{}", identified.stdout);
     assert!(results["loads"].as_array().unwrap().iter().all(|load| load["fits"].is_null()), "{}", results["loads"]);
     assert!(identified.stderr.contains("so the law cannot be tested"), "{}", identified.stderr);
+    // the check has said so before, in the same words
+    let warnings = |run: &Run| -> Vec<String> {
+        run.stderr.lines().filter(|line| line.starts_with("warning: ")).map(str::to_owned).collect()
+    };
+    let (before, after) = (warnings(&check), warnings(&identified));
+    assert!(before.len() == 1 && before[0].contains("each load has one recording"), "{before:?}");
+    assert!(before.iter().all(|warning| after.contains(warning)), "{before:?}, {after:?}");
     assert!(at.join("results/report.html").exists());
     assert!(took < Duration::from_secs(60), "{took:?}");
     // what was written is never replaced without being asked

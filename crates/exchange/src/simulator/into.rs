@@ -17,10 +17,12 @@ const TOLERANCE: f64 = 1e-6;
 pub struct ChangedLine {
     /// Its number, counted from 1.
     pub line_number: usize,
-    /// The line before.
+    /// The line before, with a carriage return where its end is CR LF.
     pub before: String,
-    /// The line after.
+    /// The line after, with the same end.
     pub after: String,
+    /// Whether the text ends with this line, without an end of a line.
+    pub is_unended: bool,
 }
 
 /// A model with the measured numbers.
@@ -137,12 +139,15 @@ fn edited(text: &str, edits: &[Edit]) -> String {
 
 /// Edits replace parts of lines, so both texts have the same lines.
 fn changed_lines(before: &str, after: &str) -> Vec<ChangedLine> {
-    let pairs = (1..).zip(before.lines().zip(after.lines()));
+    // a patch needs the carriage returns, which `lines` takes away
+    let pairs = (1..).zip(before.split_inclusive('\n').zip(after.split_inclusive('\n')));
     let differs = pairs.filter(|(_, (before, after))| before != after);
+    let whole = |line: &str| line.strip_suffix('\n').unwrap_or(line).to_owned();
     let line = |(line_number, (before, after)): (usize, (&str, &str))| ChangedLine {
         line_number,
-        before: before.to_owned(),
-        after: after.to_owned(),
+        before: whole(before),
+        after: whole(after),
+        is_unended: !before.ends_with('\n'),
     };
     differs.map(line).collect()
 }

@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 mod readable;
 mod sheet;
 
-pub(crate) use readable::{Datum, Label};
+pub(crate) use readable::{Datum, Label, PanelPart};
 pub(crate) use sheet::{Anchor, Plot, Sheet};
 
 /// Height of letters in units of the sheet: 8 points in print.
@@ -279,6 +279,11 @@ impl Place {
     /// Whether two places have a common part.
     pub(crate) fn meets(&self, other: &Self) -> bool {
         self.left < other.right && other.left < self.right && self.top < other.bottom && other.top < self.bottom
+    }
+
+    /// Whether a place is inside of another.
+    pub(crate) fn is_within(&self, other: &Self) -> bool {
+        self.left > other.left && self.right < other.right && self.top > other.top && self.bottom < other.bottom
     }
 
     pub(crate) fn middle_y(&self) -> i32 {

@@ -1,8 +1,9 @@
 //! What a viewer needs beside the drawing: points that a pointer finds, curves with a name, labels that move with their point.
 
 use super::{Anchor, Canvas, Panel, Plot};
+use crate::axis::Axis;
 use crate::figure::{FigureError, escaped};
-use crate::geometry::Point;
+use crate::geometry::{Extent, Point};
 use plotters::style::RGBColor;
 use std::fmt::Write as _;
 
@@ -13,6 +14,13 @@ pub(crate) struct Datum {
     pub(crate) at: Point,
     /// Key of its description, which the viewer has.
     pub(crate) key: String,
+}
+
+/// A part of the axes of a panel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PanelPart {
+    pub(crate) x: Extent,
+    pub(crate) y: Extent,
 }
 
 /// Text at a point of a panel. A viewer keeps it there when it enlarges the panel.
@@ -29,8 +37,8 @@ pub(crate) struct Label<'a> {
 }
 
 impl Canvas {
-    /// Invisible points of the last panel, for a pointer to find.
-    pub(crate) fn data(&mut self, panel: &Panel, class: &str, data: &[Datum]) {
+    /// Invisible points of the last panel, for a pointer to find, and the part of the axes that a viewer shows where these points are all.
+    pub(crate) fn data(&mut self, panel: &Panel, class: &str, data: &[Datum], part: &PanelPart) {
         let mut circles = String::new();
         for Datum { at, key } in data {
             let (x, y) = (panel.x_unit(at.x), panel.y_unit(at.y));
@@ -43,8 +51,13 @@ impl Canvas {
                 escaped(key)
             );
         }
-        let number = self.panels;
-        self.push_group(&format!("data {class}"), &format!(" data-panel=\"{number}\""), &circles);
+        // an axis has a width
+        let (x, y) = (Axis::new("", part.x), Axis::new("", part.y));
+        let about = format!(
+            " data-panel=\"{}\" data-x-from=\"{}\" data-x-to=\"{}\" data-y-from=\"{}\" data-y-to=\"{}\"",
+            self.panels, x.from, x.to, y.from, y.to
+        );
+        self.push_group(&format!("data {class}"), &about, &circles);
     }
 
     /// A layer of the last panel with curves of one name, whose values a viewer can read.

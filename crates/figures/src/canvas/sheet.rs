@@ -62,6 +62,11 @@ impl Sheet<'_, '_> {
         self.area.draw(&Text::new(text.to_owned(), at.pair(), style)).map_err(refused)
     }
 
+    /// Width of an entry of the key, dashed or not.
+    pub(crate) fn key_width(text: &str) -> i32 {
+        66 + text.chars().count() as i32 * LETTER * 11 / 20
+    }
+
     /// An entry of the key with a dashed line. Returns the x of the next entry.
     pub(crate) fn dashed_key(&self, at: Point<i32>, colour: RGBColor, text: &str) -> Result<i32, FigureError> {
         for dash in 0..3 {
@@ -69,7 +74,7 @@ impl Sheet<'_, '_> {
             self.line(&[from, Point { x: from.x + 12, ..from }], colour, 4)?;
         }
         self.text(text, Point { x: at.x + 66, ..at }, Anchor::Left, MUTED)?;
-        Ok(at.x + 66 + text.chars().count() as i32 * LETTER * 11 / 20 + 40)
+        Ok(at.x + Self::key_width(text) + 40)
     }
 
     /// An entry of the key: a line and its meaning. Returns the x of the next entry.

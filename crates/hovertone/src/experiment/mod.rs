@@ -39,7 +39,9 @@ pub use time::time_s_from_text;
 use hovertone_rotor_speed::{
     Config, HoverConfig, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig,
 };
-use hovertone_thrust::{Air, Force, ThrustSettings, ThrustWarning, UncertaintyInputs, VehicleModel};
+use hovertone_thrust::{
+    Air, Force, LoadOutline, ThrustSettings, ThrustWarning, UncertaintyInputs, VehicleModel, warnings_of_outline,
+};
 use hovertone_vehicle::{ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, Gear, KnownRotor, Order, QuantityError};
 use serde::{Deserialize, Serialize};
 
@@ -246,10 +248,20 @@ impl Experiment {
 }
 
 impl Experiment {
-    /// The warning about a load that is far from the mass of the known vehicle.
-    pub fn mass_warning(&self) -> Option<ThrustWarning> {
-        let loads = self.loads.iter().map(|load| (load.name.as_str(), load.force));
-        ThrustWarning::of_masses(loads, self.known_mass_kg?)
+    /// The warnings that the constant will have if all recordings have a speed. `recording_counts` are the recordings of each load.
+    pub fn warnings_before_hearing(&self, recording_counts: &[usize]) -> Vec<ThrustWarning> {
+        let outlines: Vec<LoadOutline<'_>> = self
+            .loads
+            .iter()
+            .zip(recording_counts)
+            .map(|(load, &recording_count)| LoadOutline {
+                name: &load.name,
+                force: load.force,
+                rotors_running: load.rotors_running,
+                recording_count,
+            })
+            .collect();
+        warnings_of_outline(&outlines, &self.thrust_settings())
     }
 }
 

@@ -6,6 +6,8 @@ for (const swatch of all(".swatch")) swatch.style.background = swatch.dataset.co
 for (const toggle of all(".method-toggles input")) {
   const show = () => {
     for (const shown of all(`#fit .method-${toggle.dataset.method}`)) shown.classList.toggle("hidden", !toggle.checked);
+    // the axes are those of the methods that are shown
+    for (const panel of all("#fit svg").flatMap((svg) => svg.panels)) panel.startWithShown();
   };
   toggle.addEventListener("change", show);
   show();

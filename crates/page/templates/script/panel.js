@@ -7,6 +7,8 @@ class Panel {
     for (const side of ["left", "top", "right", "bottom"]) this[side] = Number(data[side]);
     this.home = { xFrom: Number(data.xFrom), xTo: Number(data.xTo), yFrom: Number(data.yFrom), yTo: Number(data.yTo) };
     this.view = { ...this.home };
+    // what is shown before and after a zoom: the whole, unless methods are hidden
+    this.start = { ...this.home };
     this.xTitle = data.xTitle;
     this.yTitle = data.yTitle;
     this.rightTitle = data.rightTitle;
@@ -16,6 +18,7 @@ class Panel {
     this.pictures = this.layers.flatMap((layer) => all("image.picture", layer)).map((image) => new Picture(image));
     this.curves = groups.filter((layer) => layer.dataset.curve).map((layer) => new Curve(layer));
     this.labels = groups.filter((layer) => layer.classList.contains("label"));
+    this.needs = groups.filter((layer) => layer.matches(".data[data-y-from]"));
     this.data = groups.filter((layer) => layer.classList.contains("data")).flatMap((layer) => all("circle", layer));
     this.xTickCount = 8;
     this.yTickCount = 6;
@@ -28,6 +31,11 @@ class Panel {
   yOf(at) { return this.view.yFrom + ((this.bottom - at.y) / (this.bottom - this.top)) * (this.view.yTo - this.view.yFrom); }
   px(x) { return this.left + ((x - this.view.xFrom) / (this.view.xTo - this.view.xFrom)) * (this.right - this.left); }
   py(y) { return this.bottom - ((y - this.view.yFrom) / (this.view.yTo - this.view.yFrom)) * (this.bottom - this.top); }
+  get isStart() {
+    const { home, start, view } = this;
+    const [width, height] = [home.xTo - home.xFrom, home.yTo - home.yFrom];
+    return Object.keys(home).every((key) => Math.abs(start[key] - view[key]) <= 1e-9 * (key.startsWith("x") ? width : height));
+  }
   get isWhole() { return Object.keys(this.home).every((key) => this.home[key] === this.view[key]); }
 
   words(at) {
@@ -75,6 +83,19 @@ class Panel {
     const isAll = width === home.xTo - home.xFrom && height === home.yTo - home.yFrom;
     this.view = isAll ? { ...home } : { xFrom, xTo: xFrom + width, yFrom, yTo: yFrom + height };
     this.draw();
+  }
+
+  // starts with the points that are shown, where they say what they need
+  startWithShown() {
+    const shown = this.needs.filter(isShown).map((layer) => layer.dataset);
+    if (shown.length === 0) return;
+    const { home } = this;
+    const [least, most] = [(key) => Math.min(...shown.map((data) => Number(data[key]))), (key) => Math.max(...shown.map((data) => Number(data[key])))];
+    this.start = {
+      xFrom: Math.max(least("xFrom"), home.xFrom), xTo: Math.min(most("xTo"), home.xTo),
+      yFrom: Math.max(least("yFrom"), home.yFrom), yTo: Math.min(most("yTo"), home.yTo),
+    };
+    this.show(this.start);
   }
 
   draw() {

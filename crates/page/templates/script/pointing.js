@@ -48,7 +48,7 @@ const prepare = (svg) => {
     readout.style.top = `${clamp(event.clientY + 16, 0, innerHeight - readout.offsetHeight - 8)}px`;
     return at;
   };
-  const reset = () => panels.forEach((panel) => panel.show(panel.home));
+  const reset = () => panels.forEach((panel) => panel.show(panel.start));
 
   svg.addEventListener("pointermove", (event) => {
     const at = read(event);
@@ -97,7 +97,7 @@ const prepare = (svg) => {
   svg.addEventListener("dblclick", reset);
   svg.addEventListener("keydown", (event) => {
     // the arrows scroll a figure that is not enlarged
-    if (active.isWhole && event.key.startsWith("Arrow")) return;
+    if (active.isStart && event.key.startsWith("Arrow")) return;
     const { view } = active;
     const [width, height] = [view.xTo - view.xFrom, view.yTo - view.yFrom];
     const scaled = (share) => ({

@@ -5,19 +5,21 @@ mod campaign_tests;
 #[cfg(test)]
 mod misfiled_tests;
 #[cfg(test)]
+mod outline_tests;
+#[cfg(test)]
 mod suspicious_tests;
 #[cfg(test)]
 mod tests;
 
 use crate::air::{ThrustCoefficients, figure_of_merit, is_plausible_merit, thrust_constant_n_s2};
 use crate::budget::{UncertaintyBudget, budget_of_fit};
-use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
+use crate::campaign::{Campaign, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
 use crate::drift::drifts;
-use crate::force::Force;
 use crate::misfiled::misfiled;
+use crate::outline::{LoadOutline, too_alike, warnings_of_masses, warnings_of_recordings};
 use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
-use crate::square_law::{ForceLaw, ForcePoint, PointNoise, PointVerdict, SquareLawFit, are_split, square_law_fit};
+use crate::square_law::{ForceLaw, ForcePoint, PointVerdict, SquareLawFit, are_split, square_law_fit};
 use crate::statistics::{mean, std, student_factor};
 use crate::table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 use crate::warning::ThrustWarning;
@@ -53,7 +55,7 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
         .zip(air)
         .map(|(constant, (diameter_m, density))| ThrustCoefficients::of_rotor(constant.value, diameter_m, density));
     let drifts = drifts(&campaign);
-    let mut warnings = warnings_of(&campaign, &rows, fit.as_ref());
+    let mut warnings = warnings_of(&campaign, loads, &rows, fit.as_ref());
     warnings.extend(drifts.iter().copied().map(ThrustWarning::ConstantDrifts));
     warnings.extend(
         coefficients
@@ -61,13 +63,7 @@ pub fn thrust_from_loads(loads: &[LoadSpeeds], method: Method, settings: &Thrust
             .map(|coefficients| ThrustWarning::ImplausibleThrustCoefficient { propeller: coefficients.propeller }),
     );
     warnings.extend(implausible_merits(&rows));
-    let mass_kg = campaign.loads.iter().find_map(|load| match load.load.force {
-        Force::Weight { vehicle_mass_kg, .. } => Some(vehicle_mass_kg),
-        Force::Thrust { .. } => None,
-    });
-    let forces = || loads.iter().map(|load| (load.name.as_str(), load.force));
-    warnings.extend(settings.known_mass_kg.and_then(|known_kg| ThrustWarning::of_masses(forces(), known_kg)));
-    warnings.extend(mass_kg.filter(|_| !settings.is_weighed).map(|mass_kg| ThrustWarning::MassNotWeighed { mass_kg }));
+    warnings.extend(warnings_of_masses(&outlines_of(loads, &campaign), settings));
     if settings.follows_loudest && loads.iter().any(|load| load.rotors_running > 1) && total.is_some() {
         warnings.push(ThrustWarning::LoudestRotor);
     }
@@ -232,7 +228,12 @@ fn mean_over_loads(campaign: &Campaign<'_>, rows: &[LoadThrust]) -> Option<Estim
     })
 }
 
-fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&SquareLawFit>) -> Vec<ThrustWarning> {
+fn warnings_of(
+    campaign: &Campaign<'_>,
+    loads: &[LoadSpeeds],
+    rows: &[LoadThrust],
+    fit: Option<&SquareLawFit>,
+) -> Vec<ThrustWarning> {
     let left_out = |GrossTrial { load, recording }: &GrossTrial| ThrustWarning::TrialLeftOut {
         load: load.clone(),
         recording: recording.clone(),
@@ -254,13 +255,7 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
         }));
     }
     warnings.extend(misfiled(campaign));
-    if matches!(campaign.noise, PointNoise::Unrepeated { .. }) && !campaign.loads.is_empty() {
-        warnings.push(ThrustWarning::OneRecordingEach { load_count: campaign.loads.len() });
-    }
-    let kinds = |is_hover: bool| campaign.loads.iter().any(|load| load.is_hover() == is_hover);
-    if kinds(true) && kinds(false) {
-        warnings.push(ThrustWarning::MixedBenchAndHover);
-    }
+    warnings.extend(warnings_of_recordings(&outlines_of(loads, campaign)));
     let are_split = campaign.are_split || are_split_points(&campaign.points);
     // a range that would be wide enough for misfiled trials tells nothing about the loads
     let is_contradicted = warnings.iter().any(ThrustWarning::is_of_misfiled);
@@ -270,26 +265,37 @@ fn warnings_of(campaign: &Campaign<'_>, rows: &[LoadThrust], fit: Option<&Square
     warnings
 }
 
+/// All loads, with the number of their trials that are used.
+fn outlines_of<'a>(loads: &'a [LoadSpeeds], campaign: &Campaign<'_>) -> Vec<LoadOutline<'a>> {
+    let used = |index: usize| {
+        let heard = campaign.loads.iter().find(|load| load.index == index);
+        heard.map_or(0, |load| load.trials_rad_s.len())
+    };
+    let outline = |(index, load): (usize, &'a LoadSpeeds)| LoadOutline {
+        name: &load.name,
+        force: load.force,
+        rotors_running: load.rotors_running,
+        recording_count: used(index),
+    };
+    loads.iter().enumerate().map(outline).collect()
+}
+
 fn are_split_points(points: &[ForcePoint]) -> bool {
     are_split(&points.iter().map(ForcePoint::thrust_constant_n_s2).collect::<Vec<_>>())
 }
 
 /// Warnings about the set of loads: they contradict each other, are too few or too similar, or another law describes them better.
 fn range_warnings(points: &[ForcePoint], fit: &SquareLawFit, are_split: bool) -> Vec<ThrustWarning> {
-    let forces = || points.iter().map(|point| point.force_n);
-    let (least, most) = (forces().fold(f64::INFINITY, f64::min), forces().fold(0.0, f64::max));
     if are_split {
         // where half of the constants are wrong, range and law of the loads mean nothing
-        vec![ThrustWarning::ConstantsSplit]
-    } else if points.len() == 1 {
-        vec![ThrustWarning::SingleLoad]
-    } else if most / least - 1.0 < EQUAL_FORCES_SHARE {
-        vec![ThrustWarning::EqualLoads { count: points.len() }]
-    } else {
-        // forces that show another law are not too alike to test this one
-        let narrow = || fit.range.filter(|range| !range.shows_intercept).map(ThrustWarning::NarrowLoadRange);
-        law_warning(fit).or_else(narrow).into_iter().collect()
+        return vec![ThrustWarning::ConstantsSplit];
     }
+    if let Some(alike) = too_alike(&points.iter().map(|point| point.force_n).collect::<Vec<_>>()) {
+        return vec![alike];
+    }
+    // forces that show another law are not too alike to test this one
+    let narrow = || fit.range.filter(|range| !range.shows_intercept).map(ThrustWarning::NarrowLoadRange);
+    law_warning(fit).or_else(narrow).into_iter().collect()
 }
 
 /// Warnings about a fit of the rows of a table. `gravity_m_s2` is given where the rows are masses that hover.

@@ -1,0 +1,77 @@
+//! The readings of an ambiguous tone over a spectrogram: the track of the most plausible one, and where the tones of the others would be.
+
+use crate::canvas::{Canvas, Panel, Sheet, WIDTH};
+use crate::colour::OVER_PICTURE;
+use crate::figure::FigureError;
+use crate::geometry::{Extent, Point};
+use crate::rotors::colour_of_rotor;
+use crate::trial::{Trial, coarser, common_lines};
+use hovertone_analysis::Reading;
+use plotters::style::Color;
+
+/// Tones this near are one line of the picture: readings of one tone that differ in its order.
+const SAME_LINE_SHARE: f64 = 0.02;
+/// Height of the key over the panel.
+const KEY_UP: i32 = 66;
+
+/// Draws the readings over the spectrogram of all frequencies, and the key above it.
+pub(crate) fn draw(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, range_s: Extent) -> Result<(), FigureError> {
+    let Some((first, others)) = trial.readings.split_first() else { return Ok(()) };
+    if let Some(tone) = trial.heard_tone() {
+        canvas.plot(panel, "tracks reading-1", |plot| {
+            let lines = tone.bands.iter().flat_map(|band| coarser(common_lines(trial, tone, band)));
+            lines.into_iter().try_for_each(|line| {
+                plot.line(&line, OVER_PICTURE.mix(0.8).stroke_width(7))?;
+                plot.line(&line, colour_of_rotor(0).stroke_width(3))
+            })
+        })?;
+    }
+    for (number, reading) in (2..).zip(others).filter(|(_, reading)| !is_same_line(first, reading)) {
+        canvas.plot(panel, &format!("reading reading-{number}"), |plot| {
+            let at = |time_s: f64| Point::new(time_s, reading.tone_hz);
+            let (from, to) = (at(range_s.low), at(range_s.high));
+            plot.line(&[from, to], OVER_PICTURE.mix(0.8).stroke_width(7))?;
+            plot.dashed(from, to, colour_of_rotor(number - 1), 4)
+        })?;
+    }
+    canvas.layer("key readings", |sheet| key(sheet, trial.readings, panel))
+}
+
+/// The meaning of each line; those without room are named in the description alone.
+fn key(sheet: &Sheet<'_, '_>, readings: &[Reading], panel: &Panel) -> Result<(), FigureError> {
+    let mut at = Point::new(panel.place.left, panel.place.top - KEY_UP);
+    let Some(first) = readings.first() else { return Ok(()) };
+    for (index, reading) in readings.iter().enumerate() {
+        let words = in_words(reading);
+        if at.x + Sheet::key_width(&words) > WIDTH {
+            break;
+        }
+        at.x = if is_same_line(first, reading) {
+            sheet.key(at, colour_of_rotor(index), &words)?
+        } else {
+            sheet.dashed_key(at, colour_of_rotor(index), &words)?
+        };
+    }
+    Ok(())
+}
+
+fn is_same_line(first: &Reading, other: &Reading) -> bool {
+    (other.tone_hz / first.tone_hz - 1.0).abs() < SAME_LINE_SHARE
+}
+
+/// "52.4 rev/s (62 %)".
+fn in_words(reading: &Reading) -> String {
+    format!("{:.1} rev/s ({:.0} %)", reading.speed.rev_s(), 100.0 * reading.plausibility)
+}
+
+/// What the lines mean, as a sentence of the description.
+pub(crate) fn description(readings: &[Reading]) -> Option<String> {
+    let (first, others) = readings.split_first()?;
+    let others: Vec<String> = others.iter().map(in_words).collect();
+    Some(format!(
+        "Several speeds remain possible. Solid: the track of the most plausible one, {}; dashed: where the tones of the others are, {}. \
+         A speed with the same tone is in the key alone.",
+        in_words(first),
+        others.join(", ")
+    ))
+}
