@@ -168,7 +168,7 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "check: trials drawn anew {} times (bootstrap, seed {}) give u = {} %; the rows \"{}\" and \"{}\" together should give about as much\n",
+            "check: trials resampled {} times (bootstrap, seed {}) give u = {} %; the rows \"{}\" and \"{}\" together should give about as much\n",
             drawn.draws,
             drawn.seed,
             significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2),

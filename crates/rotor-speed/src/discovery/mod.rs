@@ -60,8 +60,9 @@ impl FoundSpeed {
 ///
 /// The strongest family that a rotor can make (not a brief one, where there is another) is read in its most plausible way, and then analysed as
 /// if its order had been given: [`crate::speed_from_source`] says how, and whether it is a rotor. Where the lines do not settle the reading and the
-/// evidence of all orders hears a rotor, each reading has half of its belief from the evidence, and the evidence says that it is a rotor; with the blades given, all of it. Where
-/// several readings stay plausible they are the `alternatives`, and the speed of the analysis is only that of the first.
+/// evidence of all orders hears a rotor, each reading has half of its belief from the evidence (all of it where the blades are given), and the
+/// evidence says that it is a rotor. Where several readings stay plausible they are the `alternatives`, and the speed of the analysis is only
+/// that of the first.
 ///
 /// `config` gives all settings but the tone's order, blades and range of speeds; a band in it is where the fundamental is
 /// looked for. Reads the source twice.

@@ -10,21 +10,11 @@
 //! reflection may take most of a line of the blade pass away (a notch), or weaken every other one: an echo that comes half a period of the
 //! blade pass later.
 
-use super::level_table::LEVEL_DB_MIN;
 use super::levels::NoiseLevel;
+use super::ratio_table::{LineScatter, RatioTable};
 use hovertone_signal::statistics::log_sum_exp;
 use hovertone_vehicle::LineLevels;
 
-/// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
-const LINE_DB: std::ops::RangeInclusive<i32> = -45..=95;
-/// Steps of a measured level to a dB. *Numeric.*
-const STEPS_PER_DB: f64 = 16.0;
-/// Number of these steps: to 90 dB. *Numeric.*
-const MEASURED_STEPS: usize = 1921;
-/// Deviations of a line from its mean level over which the tables are integrated, in standard deviations. *Numeric.*
-const DEVIATIONS: [f64; 13] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
-/// Range of levels that a line of something else may have, dB. *Decision.*
-const FOREIGN_RANGE_DB: f64 = 45.0;
 /// Step of the levels of the integrals, dB. *Numeric.*
 const STEP_DB: i32 = 3;
 /// Steps of the integral over the loudness, dB. *Numeric.*
@@ -135,12 +125,13 @@ impl<'a> LevelModel<'a> {
     fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line], blades: u32) -> f64 {
         let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
         let at_fall = self.falls.iter().map(|(fall, weight)| {
-            let even = scatter.blade_pass.sums(&lines.even, blades, fall);
-            let odd = scatter.blade_pass.sums(&lines.odd, blades, fall);
-            let shaft = scatter.shaft.sums(&lines.shaft, blades, fall);
+            let even = sums(&scatter.blade_pass, &lines.even, blades, fall);
+            let odd = sums(&scatter.blade_pass, &lines.odd, blades, fall);
+            let shaft = sums(&scatter.shaft, &lines.shaft, blades, fall);
             let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
                 let mean_db = f64::from(loudness_db) + self.prior.below_db;
-                let below_nats: f64 = below.iter().map(|line| self.below.ratio(line, mean_db - line.floor_db)).sum();
+                let below_nats: f64 =
+                    below.iter().map(|line| self.below.from(line.row, mean_db - line.floor_db).above(0)).sum();
                 let blade_nats = self.blade_nats(&even, &odd, loudness_db);
                 let shaft_nats = self.shaft_nats(&shaft, loudness_db);
                 let up_to = blade_nats.iter().zip(shaft_nats).map(|(blade, shaft)| blade + shaft);
@@ -243,120 +234,27 @@ fn lines_of(table: &mut RatioTable, levels: &[OrderLevel], is_wanted: impl Fn(u3
     wanted.map(|level| Line { order: level.order, row: table.row(level.level_db), floor_db: level.floor_db }).collect()
 }
 
-/// How the lines of one class scatter about their mean level.
-struct LineScatter<'a> {
-    std_db: f64,
-    /// Share of lines that are missing.
-    missing: f64,
-    /// Share of lines in a notch.
-    notched: f64,
-    prior: &'a LineLevels,
-}
-
-/// Log-likelihood ratios of the lines of one class, as a table over their measured and mean levels. A row is filled when it is first asked for.
-struct RatioTable {
-    noise: NoiseLevel,
-    missing: f64,
-    notched: f64,
-    foreign: f64,
-    weights: [f64; DEVIATIONS.len()],
-    /// For each mean level, the levels in noise of the lines that scatter about it, and of those in a notch.
-    scattered_db: Vec<[[f64; DEVIATIONS.len()]; 2]>,
-    /// `nats[measured level][mean level]`; empty where it was not asked for.
-    nats: Vec<Vec<f64>>,
-}
-
-impl RatioTable {
-    fn new(noise: NoiseLevel, scatter: &LineScatter<'_>, foreign: f64) -> Self {
-        let LineScatter { std_db, missing, notched, prior } = *scatter;
-        // mean level of a line of level x in noise: the powers add
-        let noise_power = 10f64.powf(noise.mean_db / 10.0);
-        let in_noise = |x: f64| 10.0 * (10f64.powf(x / 10.0) + noise_power).log10();
-        let about = |mean_db: f64, std_db: f64| DEVIATIONS.map(|deviation| in_noise(mean_db + deviation * std_db));
-        let scattered_db = LINE_DB
-            .map(f64::from)
-            .map(|mean_db| [about(mean_db, std_db), about(mean_db + prior.notch_db, prior.notch_std_db)])
-            .collect();
-        let sum: f64 = DEVIATIONS.iter().map(|deviation| normal(*deviation)).sum();
-        let weights = DEVIATIONS.map(|deviation| normal(deviation) / sum);
-        Self { noise, missing, notched, foreign, weights, scattered_db, nats: vec![Vec::new(); MEASURED_STEPS] }
-    }
-
-    /// The row of a measured level.
-    fn row(&mut self, level_db: f64) -> usize {
-        let row = ((level_db - LEVEL_DB_MIN) * STEPS_PER_DB).round().clamp(0.0, (MEASURED_STEPS - 1) as f64) as usize;
-        if self.nats[row].is_empty() {
-            self.nats[row] = self.ratios(LEVEL_DB_MIN + row as f64 / STEPS_PER_DB);
+/// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of the
+/// order. The orders rise.
+fn sums(table: &RatioTable, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpTo> {
+    let mut up_to = vec![[0.0; LAST_HARMONICS.len()]; SUMS];
+    let (mut sums, mut next) = ([0.0; SUMS], 0);
+    let mut keep = |sums: &[f64; SUMS], last: usize| {
+        up_to.iter_mut().zip(sums).for_each(|(up_to, &sum)| up_to[last] = sum);
+    };
+    for line in lines {
+        while line.order > LAST_HARMONICS[next] * blades {
+            keep(&sums, next);
+            next += 1;
         }
-        row
-    }
-
-    /// The ratio of a measured level for each mean level.
-    fn ratios(&self, level_db: f64) -> Vec<f64> {
-        let density = |mean_db: f64| noise_density(level_db - mean_db, self.noise.std_db);
-        let nothing = (1.0 - self.foreign) * density(self.noise.mean_db) + self.foreign / FOREIGN_RANGE_DB;
-        let mean_density = |means_db: &[f64; DEVIATIONS.len()]| -> f64 {
-            self.weights.iter().zip(means_db).map(|(weight, &mean_db)| weight * density(mean_db)).sum()
-        };
-        let ratio = |[whole_db, in_notch_db]: &[[f64; DEVIATIONS.len()]; 2]| {
-            let whole = (1.0 - self.missing - self.notched) * mean_density(whole_db);
-            let in_notch = if self.notched > 0.0 { self.notched * mean_density(in_notch_db) } else { 0.0 };
-            ((whole + in_notch) / nothing + self.missing).ln()
-        };
-        self.scattered_db.iter().map(ratio).collect()
-    }
-
-    fn ratio(&self, line: &Line, mean_db: f64) -> f64 {
-        self.nats[line.row][inside(place_of(mean_db))]
-    }
-
-    /// Sums of the ratios of the lines, for each sum of loudness and offset, where the levels fall by `fall` dB for each tenth of a decade of
-    /// the order. The orders rise.
-    fn sums(&self, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpTo> {
-        let mut up_to = vec![[0.0; LAST_HARMONICS.len()]; SUMS];
-        let (mut sums, mut next) = ([0.0; SUMS], 0);
-        let mut keep = |sums: &[f64; SUMS], last: usize| {
-            up_to.iter_mut().zip(sums).for_each(|(up_to, &sum)| up_to[last] = sum);
-        };
-        for line in lines {
-            while line.order > LAST_HARMONICS[next] * blades {
-                keep(&sums, next);
-                next += 1;
-            }
-            let fall_db = line.floor_db + fall.db(f64::from(line.order) / f64::from(blades));
-            let (nats, lowest) = (&self.nats[line.row], place_of(f64::from(SUM_DB_MIN) - fall_db));
-            for (sum, step) in sums.iter_mut().zip(0..) {
-                *sum += nats[inside(lowest + STEP_DB * step)];
-            }
+        let fall_db = line.floor_db + fall.db(f64::from(line.order) / f64::from(blades));
+        let ratios = table.from(line.row, f64::from(SUM_DB_MIN) - fall_db);
+        for (sum, step) in sums.iter_mut().zip(0..) {
+            *sum += ratios.above(STEP_DB * step);
         }
-        (next..LAST_HARMONICS.len()).for_each(|last| keep(&sums, last));
-        up_to
     }
-}
-
-/// The place of a mean level in the tables, which may lie outside.
-fn place_of(mean_db: f64) -> i32 {
-    mean_db.round() as i32 - LINE_DB.start()
-}
-
-/// The nearest place inside the tables.
-fn inside(place: i32) -> usize {
-    place.clamp(0, LINE_DB.end() - LINE_DB.start()) as usize
-}
-
-/// Normal density but for its factor.
-fn normal(deviation: f64) -> f64 {
-    (-0.5 * deviation * deviation).exp()
-}
-
-/// Factor of Student's density with eight degrees of freedom, `35 √2/128`. *Numeric.*
-const STUDENT_FACTOR: f64 = 0.386_699;
-
-/// Density of a deviation from the mean level: Student's t with eight degrees of freedom, `35 √2/(128 s) · (1 + x²/(8 s²))^(−9/2)`. Skirts of
-/// loud lines make deviations of several standard deviations more frequent than a normal distribution allows.
-fn noise_density(deviation_db: f64, std_db: f64) -> f64 {
-    let base = 1.0 / (1.0 + (deviation_db / std_db).powi(2) / 8.0);
-    STUDENT_FACTOR / std_db * base.powi(4) * base.sqrt()
+    (next..LAST_HARMONICS.len()).for_each(|last| keep(&sums, last));
+    up_to
 }
 
 /// Logarithms of the weights of the offsets of shaft lines: blades are alike, or unlike.

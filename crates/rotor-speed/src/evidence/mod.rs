@@ -36,6 +36,7 @@ mod levels;
 mod near_speed;
 mod own_lines;
 mod path;
+mod ratio_table;
 mod rounding;
 mod search;
 mod second_look;
