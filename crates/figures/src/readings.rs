@@ -67,11 +67,16 @@ fn in_words(reading: &Reading) -> String {
 /// What the lines mean, as a sentence of the description.
 pub(crate) fn description(readings: &[Reading]) -> Option<String> {
     let (first, others) = readings.split_first()?;
-    let others: Vec<String> = others.iter().map(in_words).collect();
-    Some(format!(
-        "Several speeds remain possible. Solid: the track of the most plausible one, {}; dashed: where the tones of the others are, {}. \
-         A speed with the same tone is in the key alone.",
-        in_words(first),
-        others.join(", ")
-    ))
+    let (same, apart): (Vec<&Reading>, Vec<&Reading>) = others.iter().partition(|other| is_same_line(first, other));
+    let listed =
+        |readings: &[&Reading]| readings.iter().map(|reading| in_words(reading)).collect::<Vec<_>>().join(", ");
+    let mut words =
+        format!("Several speeds remain possible. Solid: the track of the most plausible one, {}", in_words(first));
+    if !same.is_empty() {
+        words += &format!("; the same line with another order: {}", listed(&same));
+    }
+    if !apart.is_empty() {
+        words += &format!("; dashed: where the tones of the others would be, {}", listed(&apart));
+    }
+    Some(words + ".")
 }

@@ -1,6 +1,6 @@
 //! All warnings of the page: one line each in the answer, linked to the place where the advice stands.
 
-use crate::head::head_of;
+use crate::head::{LETTERS_MAX, head_of};
 use hovertone_figures::shortened;
 use hovertone_report::{
     FlightLogRecord, FoldedWarning, InputRecord, Notice, SpeedRecord, counted, distinct_notices, own_notices,
@@ -54,7 +54,12 @@ impl Warnings {
             (section_of(warning), head_of("", &notice.text, ""), notice)
         });
         let of_several = folded.iter().map(|kind| {
-            let head = head_of("", &kind.what, &format!(" (in {})", kind.counted));
+            let whole = &kind.notice.text;
+            // the names of the recordings stand where the line leads to, if there is no room for them
+            let head = match whole.chars().count() {
+                0..=LETTERS_MAX => whole.clone(),
+                _ => head_of("", &kind.what, &format!(" (in {})", kind.counted)),
+            };
             ("recordings", head, kind.notice.clone())
         });
         let notices: Vec<PlacedNotice> = (1..)

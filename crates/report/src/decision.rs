@@ -88,13 +88,10 @@ fn odds_in_words(chosen: Option<&Weighed>, second: Option<&Weighed>, is_ambiguou
             format!("not decided: {} rev/s, {}", significant(*speed_rev_s, DIGITS), odds(*share))
         }
         Some(Weighed { plausibility: Some(share), .. }) => odds(*share),
-        Some(Weighed { lines_db: Some(db), .. }) => {
-            let by_lines = format!("by its lines: {db:.1} dB over their surroundings");
-            match second.and_then(|second| second.lines_db) {
-                Some(second_db) => format!("{}, {by_lines}", odds(share_by_lines(db - second_db))),
-                None => by_lines,
-            }
-        }
+        Some(Weighed { lines_db: Some(db), .. }) => match second.and_then(|second| second.lines_db) {
+            Some(second_db) => format!("{} (lines of {db:.1} dB)", odds(share_by_lines(db - second_db))),
+            None => format!("by its lines: {db:.1} dB over their surroundings"),
+        },
         _ => "no other speed was weighed".to_owned(),
     }
 }
@@ -138,7 +135,7 @@ fn runner_up_in_words(second: Option<&Weighed>, chosen: Option<&Weighed>) -> Str
     match (second.plausibility, second.lines_db, chosen.and_then(|chosen| chosen.lines_db)) {
         (Some(share), ..) if share < 0.001 => format!("{speed} (below 0.1 %)"),
         (Some(share), ..) => format!("{speed} ({:.1} %)", 100.0 * share),
-        (None, Some(db), Some(_)) => format!("{speed}, whose lines have {db:.1} dB"),
+        (None, Some(db), Some(_)) => format!("{speed} (lines of {db:.1} dB)"),
         _ => speed,
     }
 }
@@ -178,9 +175,9 @@ mod tests {
     fn a_gear_mesh_is_decided_by_its_lines_with_odds() {
         let (first, second) = (weighed(60.2, None, Some(14.84)), weighed(31.0, None, Some(8.6)));
         let words = odds_in_words(Some(&first), Some(&second), false);
-        assert_eq!(words, "odds 28 : 1, by its lines: 14.8 dB over their surroundings");
+        assert_eq!(words, "odds 28 : 1 (lines of 14.8 dB)");
         assert_eq!(odds_in_words(Some(&first), None, false), "by its lines: 14.8 dB over their surroundings");
-        assert_eq!(runner_up_in_words(Some(&second), Some(&first)), "31.00 rev/s, whose lines have 8.6 dB");
+        assert_eq!(runner_up_in_words(Some(&second), Some(&first)), "31.00 rev/s (lines of 8.6 dB)");
         assert!((share_by_lines(0.0) - 0.5).abs() < 1e-12);
         assert!(share_by_lines(3.0) < share_by_lines(6.0) && share_by_lines(40.0) > 0.9999);
     }
