@@ -2,7 +2,7 @@
 
 use hovertone_analysis::Method;
 use hovertone_report::{
-    Identification, Row, ScaledNumber, TextTable, Verdict, counted, rotors_heard_text, scaled_number,
+    Identification, Row, ScaledNumber, TextTable, Verdict, counted, rotors_heard_text, scaled_number, tone_of_order,
 };
 use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable};
 use hovertone_vehicle::Estimate;
@@ -197,7 +197,8 @@ pub(crate) struct Words<'a> {
     pub(crate) sha256: &'a str,
     /// "4 rotors".
     pub(crate) rotors: String,
-    pub(crate) order: String,
+    /// "tone at 2 times the rotor speed".
+    pub(crate) tone: String,
     /// "3 loads".
     pub(crate) loads: String,
     /// "15 recordings".
@@ -213,7 +214,7 @@ impl<'a> Words<'a> {
             experiment: identification.file,
             sha256: identification.sha256,
             rotors: counted(experiment.rotor_count as usize, "rotor"),
-            order: experiment.order.to_string(),
+            tone: tone_of_order(experiment.order),
             loads: counted(experiment.load_count, "load"),
             recordings: counted(identification.inputs.len(), "recording"),
             heard_count: identification.inputs.iter().filter(|input| input.record.speed().is_some()).count(),

@@ -10,8 +10,8 @@
 //!    lines of several rotors pass for those of a slow comb.
 //! 3. *Levels* (`levels`): the level of each order along a path over the local floor (`floor`), the floor there, and the noise from orders where
 //!    no rotor has a line.
-//! 4. *Level model* (`level_model`): the log-likelihood ratio of these levels, as lines of a rotor, against levels of nothing, integrated
-//!    over loudness, slope, and the level of the shaft lines against the blade pass.
+//! 4. *Level model* (`level_model`, and `ratio_table` for one line): the log-likelihood ratio of these levels, as lines of a rotor, against levels
+//!    of nothing, integrated over loudness, slope, and the level of the shaft lines against the blade pass.
 //! 5. *Hypotheses* (`hypotheses`): each path at its octaves and families, compared on the same frames, with the prior of mass, diameter and
 //!    number of rotors.
 //! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of a hypothesis are the mean of both looks:
