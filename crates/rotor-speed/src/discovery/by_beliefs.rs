@@ -84,8 +84,12 @@ impl Believed {
         let Some(speed) = speed_of(&analysis, &found) else { return Ok(None) };
         let ratio = speed.speed.rad_s() / first.speed.rad_s();
         let ratio = if (ratio - 1.0).abs() < SAME_LINE_SHARE { ratio } else { 1.0 };
-        let possible = if self.is_settled(&first, discovery) { Vec::new() } else { possible(&family, discovery) };
-        let alternatives: Vec<Reading> = possible.into_iter().map(|reading| at_ratio(reading, ratio)).collect();
+        // the analysis knows the speed better
+        let readings = family.readings.iter().map(|reading| at_ratio(reading, ratio)).collect();
+        let family = ToneFamily { readings, ..family };
+        let is_settled = self.is_settled(&first, discovery);
+        let possible = if is_settled { Vec::new() } else { possible(&family, discovery) };
+        let alternatives: Vec<Reading> = possible.into_iter().cloned().collect();
         let family = ToneFamily { is_settled: alternatives.is_empty(), ..family };
         let others = families.all.iter().enumerate().filter(|(index, _)| Some(*index) != families.rotor);
         let families = std::iter::once(family).chain(others.map(|(_, family)| family.clone())).collect();
@@ -107,7 +111,10 @@ impl Believed {
     /// A family of the survey with these readings, beside its own where the blades are not given; the evidence knows the speed better.
     fn with_readings(&self, family: &ToneFamily, discovery: &Discovery) -> ToneFamily {
         if discovery.known.blade_count.is_some() {
-            return ToneFamily { readings: self.readings.clone(), ..family.clone() };
+            // with what rules out the others
+            let excluded = family.readings.iter().filter(|reading| reading.plausibility == 0.0);
+            let readings = self.readings.iter().chain(excluded).cloned().collect();
+            return ToneFamily { readings, ..family.clone() };
         }
         let first = &self.readings[0];
         let same = reading_like(&family.readings, first);
