@@ -1,7 +1,7 @@
 //! The uncertainty budget as bars.
 
 use crate::axis::Axis;
-use crate::canvas::{Anchor, Canvas, LETTER, Panel, Place, WIDTH};
+use crate::canvas::{Anchor, Canvas, Panel, Place, WIDTH, text_width};
 use crate::colour::{INK, MUTED, SERIES};
 use crate::figure::{Figure, FigureError};
 use crate::geometry::{Extent, Point};
@@ -40,7 +40,7 @@ impl Bar {
     /// Length of the axis over which the bar leaves room for its words.
     fn axis_percent(&self) -> f64 {
         let room = RIGHT - LEFT;
-        let words = GAP + self.words.chars().count() as i32 * LETTER * 11 / 20;
+        let words = GAP + text_width(&self.words);
         self.percent * f64::from(room) / f64::from(room - words)
     }
 }

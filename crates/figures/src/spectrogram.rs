@@ -1,7 +1,7 @@
 //! The spectrogram of one recording with bands and cuts, and the tracks of all rotors over it.
 
 use crate::axis::Axis;
-use crate::canvas::{Anchor, Canvas, LETTER, Label, Panel, Place, WIDTH};
+use crate::canvas::{Anchor, Canvas, LETTER, Label, Panel, Place, WIDTH, text_width};
 use crate::colour::{BAND, ColourMap, INK, MUTED, OVER_PICTURE, PAPER};
 use crate::figure::{Figure, FigureError, beginning, shortened, without_advice};
 use crate::geometry::{Extent, Point};
@@ -134,7 +134,7 @@ fn draw_cuts(canvas: &mut Canvas, trial: &Trial<'_>, panel: &Panel, all_hz: Exte
         let touching = |span: &Span| span.overlap(cut.span).length_s() > -TOUCHING_S;
         let span = hull(edges().filter(touching).chain([cut.span])).unwrap_or(cut.span);
         let room = panel.x_unit(span.to_s) - panel.x_unit(span.from_s);
-        if words.chars().count() as i32 * LETTER * 11 / 20 <= room {
+        if text_width(&words) <= room {
             let middle_s = span.middle_s();
             let on_sheet = Point::new(panel.x_unit(middle_s), panel.place.top + LETTER);
             let label = Label { text: &words, x: middle_s, y: None, on_sheet, anchor: Anchor::Middle, colour: INK };

@@ -29,6 +29,11 @@ const DASHES: &str = "stroke-dasharray=\"18 12\"";
 const TICK: i32 = 10;
 const LINE: u32 = 2;
 
+/// Width of a text on the sheet: a letter is on average 11/20 as wide as high.
+pub(crate) fn text_width(text: &str) -> i32 {
+    text.chars().count() as i32 * LETTER * 11 / 20
+}
+
 /// A rectangle on the sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {

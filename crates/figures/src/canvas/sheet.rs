@@ -1,6 +1,6 @@
 //! What draws: on the whole sheet in its unit, or on one panel in its coordinates.
 
-use super::{DASHED_OPACITY, LETTER, PLOTTERS_SIZE, Place, refused};
+use super::{DASHED_OPACITY, LETTER, PLOTTERS_SIZE, Place, refused, text_width};
 use crate::colour::MUTED;
 use crate::figure::FigureError;
 use crate::geometry::{Extent, Point};
@@ -64,7 +64,7 @@ impl Sheet<'_, '_> {
 
     /// Width of an entry of the key, dashed or not.
     pub(crate) fn key_width(text: &str) -> i32 {
-        66 + text.chars().count() as i32 * LETTER * 11 / 20
+        66 + text_width(text)
     }
 
     /// An entry of the key with a dashed line. Returns the x of the next entry.
@@ -81,7 +81,7 @@ impl Sheet<'_, '_> {
     pub(crate) fn key(&self, at: Point<i32>, colour: RGBColor, text: &str) -> Result<i32, FigureError> {
         self.line(&[at, Point { x: at.x + 50, ..at }], colour, 6)?;
         self.text(text, Point { x: at.x + 62, ..at }, Anchor::Left, MUTED)?;
-        Ok(at.x + 62 + text.chars().count() as i32 * LETTER * 11 / 20 + 40)
+        Ok(at.x + 62 + text_width(text) + 40)
     }
 }
 
