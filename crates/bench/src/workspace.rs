@@ -29,9 +29,15 @@ pub(crate) fn made_by(root: &Path, exam: &str, words: &[&str]) -> String {
     let git = |arguments: &[&str]| output_of(Command::new("git").args(arguments).current_dir(root));
     let commit = git(&["rev-parse", "--short", "HEAD"]).unwrap_or_default();
     let is_changed = !git(&["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default().is_empty();
+    // where the program or the rows lie on this computer says nothing to a reader
+    let is_place = |word: &&str| ["--hovertone", "--out"].contains(word);
+    let told = words.iter().enumerate().filter(|(index, word)| {
+        !is_place(word) && !index.checked_sub(1).is_some_and(|before| is_place(&words[before]))
+    });
+    let told = told.map(|(_, word)| *word);
     format!(
         "made by `{}`, hovertone {} at commit {}{}",
-        ["cargo run --release -p hovertone-bench --", exam].iter().chain(words).copied().collect::<Vec<_>>().join(" "),
+        ["cargo run --release -p hovertone-bench --", exam].into_iter().chain(told).collect::<Vec<_>>().join(" "),
         env!("CARGO_PKG_VERSION"),
         commit.trim(),
         if is_changed { " with changes" } else { "" },
