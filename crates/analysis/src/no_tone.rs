@@ -1,6 +1,5 @@
 //! Reasons why no rotor tone was found.
 
-use crate::percent::percent_in_words;
 use serde::Serialize;
 use std::fmt;
 
@@ -29,15 +28,6 @@ pub enum NoTone {
         /// Length of the hover.
         hover_s: f64,
     },
-    /// The candidate series consists of something other than lines.
-    NotALine {
-        /// Tone of the strongest candidate.
-        tone_hz: f64,
-        /// Share of its frames that show a line.
-        line_share: f64,
-        /// Required share.
-        line_share_min: f64,
-    },
     /// The only candidate is mains hum.
     MainsHum {
         /// Measured mains frequency.
@@ -50,33 +40,12 @@ pub enum NoTone {
         /// Longest continuous time of that tone.
         held_s: f64,
     },
-    /// The lines belong to a slower shaft or to an instrument.
-    ForeignSeries {
-        /// Distance between the lines.
-        fundamental_hz: f64,
-        /// Tone of the strongest candidate.
-        tone_hz: f64,
-    },
     /// The tone lies above the bandwidth of the recording.
     BandCutByCodec {
         /// Expected frequency of the tone.
         tone_hz: f64,
         /// Upper end of the bandwidth.
         above_hz: f64,
-    },
-    /// A weak steady tone, with lines between the lines that this rotor can have.
-    SlowerShaft {
-        /// Number of the lines between.
-        line_count: usize,
-        /// Speed of a shaft that has all these lines, if they have equal levels.
-        speed_rev_s: Option<f64>,
-    },
-    /// An intermittent line without harmonics.
-    LonelyLine {
-        /// Its frequency.
-        tone_hz: f64,
-        /// Share of its frames that show a line.
-        line_share: f64,
     },
 }
 
@@ -94,19 +63,6 @@ impl fmt::Display for NoTone {
                     "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; give shorter frames with --window-s"
                 )
             }
-            Self::NotALine { tone_hz, line_share, line_share_min } if line_share > line_share_min => write!(
-                f,
-                "a tone near {tone_hz:.0} Hz may be a rotor (it is heard for {:.0} % of the time), but the hover is too short to be certain; \
-                 record a longer one",
-                100.0 * line_share
-            ),
-            Self::NotALine { tone_hz, line_share, line_share_min } => write!(
-                f,
-                "the clearest tone, near {tone_hz:.0} Hz, is heard for {} of the time, and a rotor would be heard for more than {:.0} %; \
-                 place the microphone nearer, or record a longer hover",
-                percent_in_words(*line_share),
-                100.0 * line_share_min
-            ),
             Self::MainsHum { mains_hz } => write!(
                 f,
                 "the sound is mains hum: lines at multiples of {mains_hz:.2} Hz that do not move; no rotor is heard beside it; \
@@ -117,26 +73,10 @@ impl fmt::Display for NoTone {
                 "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most, and others sound for longer; \
                  if a rotor is among them, choose its part with --from and --to"
             ),
-            Self::ForeignSeries { fundamental_hz, tone_hz } => write!(
-                f,
-                "something makes lines every {fundamental_hz:.1} Hz, and a rotor with its tone near {tone_hz:.0} Hz cannot make them: it is a \
-                 slower rotor, an engine or an instrument; check the blades or the gear"
-            ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
                 "the tone would be near {tone_hz:.0} Hz, and the recording has nothing above {above_hz:.0} Hz: a codec or the recorder cut it; \
                  record without compression, or follow a tone of lower order"
-            ),
-            Self::SlowerShaft { line_count, .. } => write!(
-                f,
-                "the tone is weak, and {line_count} lines sound between the harmonics of this rotor: a slower \
-                 shaft makes them; check the blades or the gear"
-            ),
-            Self::LonelyLine { tone_hz, line_share } => write!(
-                f,
-                "the clearest tone, near {tone_hz:.0} Hz, is heard for {} of the time, and none of its harmonics is heard; \
-                 place the microphone nearer, or record a longer hover",
-                percent_in_words(*line_share)
             ),
         }
     }

@@ -84,50 +84,36 @@ impl ToneFamily {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum Meaning {
-    /// The family is a blade pass; its lines do not show the number of blades.
+    /// The tone is a blade pass.
     BladePass {
         /// Blades of the propeller.
         blades: u32,
     },
-    /// The family consists of the lines of the shaft; every b-th line, the blade pass, is louder.
-    ShaftLines {
-        /// Blades of the propeller.
-        blades: u32,
-        /// Level of the blade pass over the lines between.
-        contrast_db: f64,
-    },
-    /// The family is a blade pass, and the mesh of a known gear is audible at its order of the same shaft.
+    /// The tone is the mesh of a known gear; a propeller turns behind it.
     BladePassAndMesh {
         /// Blades of the propeller.
         blades: u32,
         /// The gear.
         gear: Gear,
-        /// Mean level of the mesh over its surroundings.
-        mesh_db: f64,
     },
-    /// The family itself is the mesh of a known gear.
-    Mesh {
-        /// The gear.
-        gear: Gear,
-    },
+    /// The tone has the order that is given.
+    GivenOrder,
 }
 
 impl Meaning {
     /// Blades of the propeller, where the reading contains them.
     pub fn blades(&self) -> Option<u32> {
         match *self {
-            Self::BladePass { blades } | Self::ShaftLines { blades, .. } | Self::BladePassAndMesh { blades, .. } => {
-                Some(blades)
-            }
-            Self::Mesh { .. } => None,
+            Self::BladePass { blades } | Self::BladePassAndMesh { blades, .. } => Some(blades),
+            Self::GivenOrder => None,
         }
     }
 
     /// The gear between motor and rotor, if there is one.
     pub fn gear(&self) -> Option<Gear> {
         match *self {
-            Self::BladePassAndMesh { gear, .. } | Self::Mesh { gear } => Some(gear),
-            Self::BladePass { .. } | Self::ShaftLines { .. } => None,
+            Self::BladePassAndMesh { gear, .. } => Some(gear),
+            Self::BladePass { .. } | Self::GivenOrder => None,
         }
     }
 }
@@ -136,11 +122,10 @@ impl fmt::Display for Meaning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::BladePass { blades } => write!(f, "{blades} blades"),
-            Self::ShaftLines { blades, .. } => write!(f, "{blades} blades, and the lowest tone sounds once per turn"),
-            Self::BladePassAndMesh { blades, gear, .. } => {
+            Self::BladePassAndMesh { blades, gear } => {
                 write!(f, "{blades} blades, gear {}:{}", gear.pinion, gear.wheel)
             }
-            Self::Mesh { gear } => write!(f, "gear {}:{}", gear.pinion, gear.wheel),
+            Self::GivenOrder => f.write_str("the given order"),
         }
     }
 }

@@ -67,7 +67,7 @@ fn compared(tone: &RotorTone, alternatives: &[Reading], speed_rev_s: f64, config
         };
         return alternatives.iter().map(possible).collect();
     }
-    let weighed = tone.weighed.iter().filter_map(|it| Some((it.speed.rev_s(), it.plausibility?)));
+    let weighed = tone.weighed.iter().map(|it| (it.speed.rev_s(), it.plausibility));
     let weighed: Vec<PossibleSpeed> =
         weighed.map(|(speed_rev_s, belief)| PossibleSpeed { speed_rev_s, belief, ..own }).collect();
     if weighed.is_empty() { vec![own] } else { weighed }

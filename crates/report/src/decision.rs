@@ -3,8 +3,6 @@
 use crate::number::significant;
 use crate::recording::SpeedRecord;
 use hovertone_analysis::{Outcome, Reading, RotorTone, RotorsHeard, WeighedSpeed};
-use hovertone_vehicle::LineLevels;
-use statrs::distribution::{ContinuousCDF, Normal};
 
 /// Digits of a speed whose uncertainty stands elsewhere.
 const DIGITS: usize = 4;
@@ -12,9 +10,6 @@ const DIGITS: usize = 4;
 const ODDS_MAX: f64 = 1000.0;
 /// Speeds of rotors of one vehicle differ by less.
 const SAME_VEHICLE_SHARE: f64 = 0.25;
-
-/// Weights of the lines in the level of a gear mesh, h^−½ for harmonic h: the fewest lines by which a speed without plausibility is weighed.
-const MESH_WEIGHTS: [f64; 3] = [1.0, std::f64::consts::FRAC_1_SQRT_2, 0.577_350_269_189_625_8];
 
 /// The decision for a shaft speed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -32,20 +27,19 @@ pub struct DecisionWords {
 /// A weighed speed, from the evidence or from the readings of a search.
 struct Weighed {
     speed_rev_s: f64,
-    plausibility: Option<f64>,
-    lines_db: Option<f64>,
+    plausibility: f64,
 }
 
 impl From<&WeighedSpeed> for Weighed {
     fn from(weighed: &WeighedSpeed) -> Self {
-        let &WeighedSpeed { speed, plausibility, lines_db } = weighed;
-        Self { speed_rev_s: speed.rev_s(), plausibility, lines_db }
+        let &WeighedSpeed { speed, plausibility } = weighed;
+        Self { speed_rev_s: speed.rev_s(), plausibility }
     }
 }
 
 impl From<&Reading> for Weighed {
     fn from(reading: &Reading) -> Self {
-        Self { speed_rev_s: reading.speed.rev_s(), plausibility: Some(reading.plausibility), lines_db: None }
+        Self { speed_rev_s: reading.speed.rev_s(), plausibility: reading.plausibility }
     }
 }
 
@@ -58,8 +52,8 @@ pub fn decision_in_words(record: &SpeedRecord) -> Option<DecisionWords> {
     let chosen = all.iter().find(is_chosen);
     let second = all.iter().find(|weighed| !is_chosen(weighed));
     Some(DecisionWords {
-        odds: odds_in_words(chosen, second, record.is_ambiguous()),
-        runner_up: runner_up_in_words(second, chosen),
+        odds: odds_in_words(chosen, record.is_ambiguous()),
+        runner_up: runner_up_in_words(second),
         possible: record
             .alternatives()
             .iter()
@@ -77,34 +71,18 @@ fn all_weighed(record: &SpeedRecord, tone: &RotorTone) -> Vec<Weighed> {
     } else {
         readings.iter().filter(|reading| reading.plausibility > 0.0).map(Weighed::from).collect()
     };
-    let rank = |weighed: &Weighed| weighed.plausibility.or(weighed.lines_db).unwrap_or(0.0);
-    all.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    all.sort_by(|a, b| b.plausibility.total_cmp(&a.plausibility));
     all
 }
 
-fn odds_in_words(chosen: Option<&Weighed>, second: Option<&Weighed>, is_ambiguous: bool) -> String {
+fn odds_in_words(chosen: Option<&Weighed>, is_ambiguous: bool) -> String {
     match chosen {
-        Some(Weighed { plausibility: Some(share), speed_rev_s, .. }) if is_ambiguous => {
-            format!("not decided: {} rev/s, {}", significant(*speed_rev_s, DIGITS), odds(*share))
+        Some(Weighed { plausibility, speed_rev_s }) if is_ambiguous => {
+            format!("not decided: {} rev/s, {}", significant(*speed_rev_s, DIGITS), odds(*plausibility))
         }
-        Some(Weighed { plausibility: Some(share), .. }) => odds(*share),
-        Some(Weighed { lines_db: Some(db), .. }) => match second.and_then(|second| second.lines_db) {
-            Some(second_db) => format!("{} (lines of {db:.1} dB)", odds(share_by_lines(db - second_db))),
-            None => format!("by its lines: {db:.1} dB over their surroundings"),
-        },
-        _ => "no other speed was weighed".to_owned(),
+        Some(Weighed { plausibility, .. }) => odds(*plausibility),
+        None => "no other speed was weighed".to_owned(),
     }
-}
-
-/// Probability that the lines of one speed are the louder ones by their mean level, where they are louder by this: the levels of lines
-/// scatter with σ = [`line_std_db`](LineLevels::line_std_db), or more in some recordings ([`SCATTERS`](LineLevels::SCATTERS)). The difference
-/// of two mean levels with the weights w scatters with σ √(2 Σw²) / Σw. More lines than those of a gear mesh scatter less: with a blade pass
-/// as well the probability is too small.
-fn share_by_lines(louder_db: f64) -> f64 {
-    let sum = |power: i32| MESH_WEIGHTS.iter().map(|weight| weight.powi(power)).sum::<f64>();
-    let std_db = LineLevels::default().line_std_db * (2.0 * sum(2)).sqrt() / sum(1);
-    let normal = Normal::standard();
-    LineLevels::SCATTERS.iter().map(|(times, share)| share * normal.cdf(louder_db / (times * std_db))).sum()
 }
 
 /// "60.2 rev/s (62 %)", with the source of the tone where the readings differ in it.
@@ -129,14 +107,15 @@ fn odds(share: f64) -> String {
     }
 }
 
-fn runner_up_in_words(second: Option<&Weighed>, chosen: Option<&Weighed>) -> String {
-    let Some(second) = second else { return "none: no other speed explains the lines".to_owned() };
-    let speed = format!("{} rev/s", significant(second.speed_rev_s, DIGITS));
-    match (second.plausibility, second.lines_db, chosen.and_then(|chosen| chosen.lines_db)) {
-        (Some(share), ..) if share < 0.001 => format!("{speed} (below 0.1 %)"),
-        (Some(share), ..) => format!("{speed} ({:.1} %)", 100.0 * share),
-        (None, Some(db), Some(_)) => format!("{speed} (lines of {db:.1} dB)"),
-        _ => speed,
+fn runner_up_in_words(second: Option<&Weighed>) -> String {
+    let Some(&Weighed { speed_rev_s, plausibility }) = second else {
+        return "none: no other speed explains the lines".to_owned();
+    };
+    let speed = format!("{} rev/s", significant(speed_rev_s, DIGITS));
+    if plausibility < 0.001 {
+        format!("{speed} (below 0.1 %)")
+    } else {
+        format!("{speed} ({:.1} %)", 100.0 * plausibility)
     }
 }
 
@@ -153,10 +132,6 @@ fn rotors_in_words(record: &SpeedRecord, tone: &RotorTone) -> String {
 mod tests {
     use super::*;
 
-    fn weighed(speed_rev_s: f64, plausibility: Option<f64>, lines_db: Option<f64>) -> Weighed {
-        Weighed { speed_rev_s, plausibility, lines_db }
-    }
-
     #[test]
     fn odds_and_runner_up_are_words() {
         for (share, words) in
@@ -164,21 +139,11 @@ mod tests {
         {
             assert_eq!(odds(share), words);
         }
-        let (first, second) = (weighed(60.2, Some(0.98), None), weighed(120.4, Some(0.02), None));
-        assert_eq!(odds_in_words(Some(&first), Some(&second), false), "odds 49 : 1");
-        assert_eq!(odds_in_words(Some(&first), Some(&second), true), "not decided: 60.20 rev/s, odds 49 : 1");
-        assert_eq!(runner_up_in_words(Some(&second), Some(&first)), "120.4 rev/s (2.0 %)");
-        assert_eq!(runner_up_in_words(None, Some(&first)), "none: no other speed explains the lines");
-    }
-
-    #[test]
-    fn a_gear_mesh_is_decided_by_its_lines_with_odds() {
-        let (first, second) = (weighed(60.2, None, Some(14.84)), weighed(31.0, None, Some(8.6)));
-        let words = odds_in_words(Some(&first), Some(&second), false);
-        assert_eq!(words, "odds 28 : 1 (lines of 14.8 dB)");
-        assert_eq!(odds_in_words(Some(&first), None, false), "by its lines: 14.8 dB over their surroundings");
-        assert_eq!(runner_up_in_words(Some(&second), Some(&first)), "31.00 rev/s (lines of 8.6 dB)");
-        assert!((share_by_lines(0.0) - 0.5).abs() < 1e-12);
-        assert!(share_by_lines(3.0) < share_by_lines(6.0) && share_by_lines(40.0) > 0.9999);
+        let first = Weighed { speed_rev_s: 60.2, plausibility: 0.98 };
+        let second = Weighed { speed_rev_s: 120.4, plausibility: 0.02 };
+        assert_eq!(odds_in_words(Some(&first), false), "odds 49 : 1");
+        assert_eq!(odds_in_words(Some(&first), true), "not decided: 60.20 rev/s, odds 49 : 1");
+        assert_eq!(runner_up_in_words(Some(&second)), "120.4 rev/s (2.0 %)");
+        assert_eq!(runner_up_in_words(None), "none: no other speed explains the lines");
     }
 }

@@ -21,6 +21,9 @@ use serde_json::Value;
 /// Digits of the speeds of several readings, of which at most one is right.
 const DIGITS_OF_READINGS: usize = 4;
 
+/// Readings below this plausibility are counted and not shown.
+const SHOWN_MIN: f64 = 0.01;
+
 /// The speeds of all recordings, one row each. The folder that all files share stands below the table.
 pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
     let files: Vec<&str> = records.iter().map(|record| record.file.as_str()).collect();
@@ -48,8 +51,14 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
             None if record.is_ambiguous() => {
                 table.push_words(name(record), "a rotor tone that can mean:".to_owned());
                 let readings = record.alternatives();
-                for (reading, meaning) in readings.iter().zip(meanings_of(readings)) {
+                let shown = readings.iter().filter(|reading| reading.plausibility >= SHOWN_MIN).count().max(2);
+                for (reading, meaning) in readings.iter().zip(meanings_of(readings)).take(shown) {
                     table.push(cells_of_reading(record, reading, &meaning));
+                }
+                match readings.len().saturating_sub(shown) {
+                    0 => {}
+                    more => table
+                        .push_words(format!("  {more} more"), "each below 1 %: hovertone tones lists them".to_owned()),
                 }
             }
             None => table.push_words(name(record), "no rotor tone".to_owned()),

@@ -16,8 +16,6 @@ use serde_json::Value;
 const DIGITS: usize = 4;
 /// Standard deviation of a fundamental over time, Hz, up to which a tone is steady: it has two decimals.
 const STEADY_HZ: f64 = 0.1;
-/// Lines of a shaft and of a gear are named as the meaning of another family from this plausibility on.
-const RARE_PLAUSIBILITY_MIN: f64 = 0.1;
 /// Indentation of the table of a family.
 const INDENT: &str = "   ";
 
@@ -46,9 +44,8 @@ impl<'a> From<&'a Reading> for ReadingLine<'a> {
             tone_hz: reading.tone_hz,
             meaning: match reading.meaning {
                 Meaning::BladePass { .. } => "blade_pass",
-                Meaning::ShaftLines { .. } => "shaft_lines",
                 Meaning::BladePassAndMesh { .. } => "blade_pass_and_mesh",
-                Meaning::Mesh { .. } => "mesh",
+                Meaning::GivenOrder => "given_order",
             },
             blades: reading.meaning.blades(),
             gear: reading.meaning.gear(),
@@ -199,11 +196,9 @@ fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
         .collect()
 }
 
-/// The readings that nothing rules out; lines of a shaft and of a gear only where they are likely.
+/// The readings that nothing rules out.
 fn possible_readings(family: &ToneFamily) -> impl Iterator<Item = &Reading> {
-    let is_rare = |reading: &Reading| matches!(reading.meaning, Meaning::ShaftLines { .. } | Meaning::Mesh { .. });
-    let least = move |reading: &Reading| if is_rare(reading) { RARE_PLAUSIBILITY_MIN } else { 0.0 };
-    family.readings.iter().filter(move |reading| reading.plausibility > least(reading))
+    family.readings.iter().filter(|reading| reading.plausibility > 0.0)
 }
 
 fn readings_in_a_line(family: &ToneFamily) -> String {

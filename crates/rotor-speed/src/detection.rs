@@ -1,18 +1,15 @@
-//! Whether the ridges show a rotor at all, and what weakens what they show.
+//! Whether a speed is held, and what weakens it.
 
 use crate::hover::HoverConfig;
-use crate::ridge::RidgeConfig;
 use crate::survey::Survey;
 use hovertone_analysis::{
     CutReason, Hover, Method, NoTone, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, Warning,
 };
-use hovertone_signal::statistics::{mean, std};
+use hovertone_signal::statistics::mean;
 
 /// Frame lengths whose share of lines differs by less than this are equally clear, and the longest, which resolves most,
 /// is taken. Where rotors part or wander, lines get fewer with length, so that clarity itself keeps frames short. *Decision.*
 const EQUALLY_CLEAR_SHARE: f64 = 0.01;
-/// One-sided 95 % of a normal distribution. *Numeric.*
-const CONFIDENCE_STDS: f64 = 1.645;
 /// A ridge on the edge of its band in more frames than this is not in its band. *Decision.*
 const EDGE_SHARE: f64 = 0.2;
 /// More gaps than this are said. *Decision.*
@@ -35,24 +32,6 @@ pub(crate) fn clearest_ridges(ladder: &[Vec<Ridge>]) -> Option<&Vec<Ridge>> {
     drawn().rfind(|ridges| clarity(ridges) >= clearest - EQUALLY_CLEAR_SHARE)
 }
 
-/// Why these ridges are no rotor; `None` when they are one.
-///
-/// The clearest harmonic must be a line in `line_share_min` of its frames with 95 % confidence (few frames prove little),
-/// and another harmonic must be heard with it unless it is nearly always a line.
-pub(crate) fn no_tone_reason(ridges: &[Ridge], config: &RidgeConfig) -> Option<NoTone> {
-    let mut by_clarity: Vec<&Ridge> = ridges.iter().collect();
-    by_clarity.sort_by(|a, b| b.line_share.total_cmp(&a.line_share));
-    let clearest = by_clarity.first()?;
-    let line_share = clearest.line_share;
-    let tone_hz = mean(&clearest.points_hz(Method::MaximumTrace))
-        .unwrap_or((clearest.band.band_hz_low + clearest.band.band_hz_high) / 2.0);
-    if surely_above(line_share, clearest.independent_frames()) < config.line_share_min {
-        return Some(NoTone::NotALine { tone_hz, line_share, line_share_min: config.line_share_min });
-    }
-    let has_company = by_clarity.get(1).is_none_or(|second| second.line_share >= config.company_share_min);
-    (!has_company && line_share < config.lonely_line_share_min).then_some(NoTone::LonelyLine { tone_hz, line_share })
-}
-
 /// Why a hover that lies in pieces among other tones is none: music, speech and beeps change, a hover holds its speed.
 pub(crate) fn not_held_reason(restless_s: f64, hover: &Hover, tone_hz: f64, config: &HoverConfig) -> Option<NoTone> {
     let held_s = hover.segments.iter().map(Span::length_s).fold(0.0, f64::max);
@@ -63,28 +42,9 @@ pub(crate) fn not_held_reason(restless_s: f64, hover: &Hover, tone_hz: f64, conf
 /// The reason as it is said where mains hum was taken out before: then the hum is what was heard.
 pub(crate) fn or_mains_hum(reason: NoTone, survey: &Survey) -> NoTone {
     match (&survey.hum, &reason) {
-        (Some(hum), NoTone::NoSeries | NoTone::NoHover | NoTone::NotALine { .. } | NoTone::LonelyLine { .. }) => {
-            NoTone::MainsHum { mains_hz: hum.mains_hz }
-        }
+        (Some(hum), NoTone::NoSeries | NoTone::NoHover) => NoTone::MainsHum { mains_hz: hum.mains_hz },
         _ => reason,
     }
-}
-
-/// Whether the clearest of the ridges is a line of the mains hum that was heard. A gear mesh above what was searched for hum
-/// is none, whatever number it happens to stand at.
-pub(crate) fn mains_hum_reason(ridges: &[Ridge], survey: &Survey) -> Option<NoTone> {
-    let hum = survey.hum.as_ref()?;
-    let clearest = ridges.iter().rev().max_by(|a, b| a.line_share.total_cmp(&b.line_share))?;
-    let points_hz = clearest.points_hz(Method::MaximumTrace);
-    let (mean_hz, std_hz) = (mean(&points_hz)?, std(&points_hz)?);
-    let is_hum = mean_hz <= survey.fine_hz_max && hum.holds(mean_hz, std_hz);
-    is_hum.then_some(NoTone::MainsHum { mains_hz: hum.mains_hz })
-}
-
-/// What a share counted in so many observations is above with 95 % confidence (Wilson's lower bound).
-fn surely_above(share: f64, observations: f64) -> f64 {
-    let z2 = CONFIDENCE_STDS * CONFIDENCE_STDS / observations.max(f64::MIN_POSITIVE);
-    (share + z2 / 2.0 - (share * (1.0 - share) * z2 + z2 * z2 / 4.0).sqrt()) / (1.0 + z2)
 }
 
 /// What the cuts say against the speed.
@@ -142,19 +102,4 @@ pub(crate) fn warnings_of_speed(ridges: &[Ridge], speeds: &[SpeedEstimate]) -> V
         warnings.push(Warning::SeveralLines { spread_share });
     }
     warnings
-}
-
-#[cfg(test)]
-mod tests {
-    use super::surely_above;
-
-    #[test]
-    fn few_frames_prove_little() {
-        assert!(surely_above(1.0, 1.0) < 0.5 && surely_above(1.0, 2.0) < 0.5);
-        assert!(surely_above(1.0, 4.0) > 0.5);
-        assert!(surely_above(0.6, 10.0) < 0.5 && surely_above(0.6, 200.0) > 0.5);
-        assert!(surely_above(0.5, 1e9) < 0.5 && surely_above(0.501, 1e9) > 0.5);
-        // NIST handbook 7.2.4.1: 4 of 20, two-sided 90 %: lower limit 0.0931 by Wilson's formula
-        assert!((surely_above(0.2, 20.0) - 0.0931).abs() < 5e-4, "{}", surely_above(0.2, 20.0));
-    }
 }

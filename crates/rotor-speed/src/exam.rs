@@ -2,10 +2,10 @@
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{LinesNear, OwnPropeller, lines_near};
+use crate::evidence::{LinesNear, RotorLines, lines_near};
 use crate::pipeline::survey_from_passes;
 use crate::stages::{beliefs_of, passes_of_survey};
-use crate::tone::{blades_of_tone, search_range_rev_s};
+use crate::tone::search_range_rev_s;
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::Passes;
 
@@ -29,7 +29,7 @@ pub struct ComparedSpeed {
     pub belief: f64,
 }
 
-/// The evidence of a recording, beside a speed that is known: one pass. The tone of the settings must be a blade pass; else nothing is seen.
+/// The evidence of a recording, beside a speed that is known: one pass.
 ///
 /// # Errors
 /// Settings without a meaning, a source that fails, a band above half the sample rate.
@@ -37,15 +37,12 @@ pub fn evidence_near(source: &mut dyn SignalSource, speed_rev_s: f64, config: &C
     let mut unseen = |_| {};
     let passes = &mut Passes::planned(source, passes_of_survey(), &mut unseen)?;
     let surveyed = survey_from_passes(passes, config)?;
-    let (Some(looks), Some(blades)) = (&surveyed.excess, blades_of_tone(&config.tone)) else {
-        return Ok(EvidenceNear::default());
-    };
-    let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
+    let (looks, rotor) = (&surveyed.looks, RotorLines::of_tone(&config.tone));
     let range_rev_s = search_range_rev_s(&config.tone, passes.sample_rate_hz())?;
     let beliefs = beliefs_of(&surveyed, range_rev_s, config).ok().flatten();
     let compared = beliefs.iter().flat_map(|beliefs| &beliefs.hypotheses);
-    let lines = lines_near(&looks.short, speed_rev_s, &propeller);
-    let long = lines_near(&looks.long, speed_rev_s, &propeller);
+    let lines = lines_near(&looks.short, speed_rev_s, &rotor, &config.evidence.levels);
+    let long = lines_near(&looks.long, speed_rev_s, &rotor, &config.evidence.levels);
     Ok(EvidenceNear {
         levels_nats: lines.as_ref().zip(long).map(|(short, long)| short.levels_nats + long.levels_nats),
         lines,
@@ -90,12 +87,5 @@ mod tests {
         assert!(level(3) < level(8) - 6.0 && lines.noise.mean_db < 0.0, "{} {:?}", level(3), lines.noise);
         assert!(lines.votes_nats > config.evidence.votes_nats_min && seen.levels_nats.unwrap() > 10.0);
         assert!((seen.speeds[0].speed_rev_s - 80.0).abs() < 0.5 && seen.speeds[0].belief > 0.5, "{:?}", seen.speeds);
-    }
-
-    #[test]
-    fn nothing_is_seen_of_a_gear() {
-        let config = Config::for_tone(ToneConfig::of_order(Order::new(69.0).unwrap()));
-        let seen = evidence_near(&mut rotor(), 80.0, &config).unwrap();
-        assert!(seen.lines.is_none() && seen.speeds.is_empty());
     }
 }

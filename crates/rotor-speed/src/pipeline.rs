@@ -3,11 +3,11 @@
 use crate::config::Config;
 use crate::error::Error;
 use crate::stages::{
-    Candidates, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate, lines_from_hover,
-    passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
+    Candidates, HeardRotor, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate,
+    lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
 };
-use crate::tone::search_range_rev_s;
-use hovertone_analysis::{Hover, Method, Outcome, RotorEstimate, SpeedAnalysis};
+use crate::tone::{blades_of_tone, search_range_rev_s};
+use hovertone_analysis::{Hover, Method, RotorEstimate, SpeedAnalysis};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
 
@@ -34,9 +34,7 @@ pub fn speed_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Spe
 }
 
 /// Passes that a speed needs: one for the survey, one for the lines, and two where a known number of rotors is separated. Where several are
-/// heard, two more separate them, and two more look for others beside these; where a weak tone is steady, one more tells its octave; where no
-/// rotor is heard there, but a slower shaft explains the tone, its lines take as many as the first ones. These are announced when they turn out
-/// to be needed.
+/// heard, two more separate them, and two more look for others beside these. These are announced when they turn out to be needed.
 pub fn passes_of_speed(config: &Config) -> u32 {
     passes_of_survey() + passes_after_survey(config)
 }
@@ -71,21 +69,6 @@ pub fn speed_from_survey(
     }
 }
 
-/// The stages after the survey for a tone that was found, and that nobody has named: it may be a single line.
-///
-/// # Errors
-/// As [`speed_from_source`].
-pub(crate) fn speed_of_found_tone(
-    passes: &mut Passes<'_>,
-    surveyed: &Surveyed,
-    config: &Config,
-) -> Result<SpeedAnalysis, Error> {
-    match candidates_from_survey(surveyed, passes.sample_rate_hz(), config) {
-        Ok(candidates) => speed_from_candidates(passes, surveyed, &candidates.of_found_tone(), config),
-        Err(stop) => stop.answer(surveyed.heard),
-    }
-}
-
 fn speed_from_candidates(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -97,16 +80,7 @@ fn speed_from_candidates(
         passes.expect_more(passes_after_survey(several) - passes_after_survey(config));
     }
     let config = several.as_ref().unwrap_or(config);
-    let leading = speed_of_candidate(passes, surveyed, candidates, candidates.leading_rev_s, config)?;
-    if matches!(leading.outcome, Outcome::Ok(_)) {
-        return Ok(leading);
-    }
-    if let Some(slower_rev_s) = candidates.slower_than(&leading)
-        && let Some(slower) = rotor_at_another_speed(passes, surveyed, candidates, slower_rev_s, config)?
-    {
-        return Ok(slower);
-    }
-    Ok(leading)
+    speed_of_candidate(passes, surveyed, candidates, candidates.leading_rev_s, config)
 }
 
 /// The stages after the survey, for a rotor that was heard at this speed.
@@ -116,11 +90,11 @@ fn speed_from_candidates(
 pub(crate) fn speed_of_heard_rotor(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
-    speed_rev_s: f64,
+    rotor: HeardRotor,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let candidates = Candidates::of_heard_rotor(surveyed, speed_rev_s, passes.sample_rate_hz(), config)?;
-    speed_of_candidate(passes, surveyed, &candidates, speed_rev_s, config)
+    let candidates = Candidates::of_heard_rotor(surveyed, rotor, passes.sample_rate_hz(), config)?;
+    speed_of_candidate(passes, surveyed, &candidates, rotor.speed_rev_s, config)
 }
 
 /// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that
@@ -147,19 +121,6 @@ pub struct HoverRotors {
     pub rotors: Vec<RotorEstimate>,
 }
 
-/// The analysis at another speed, in passes that are announced. `None` where no rotor is heard there.
-fn rotor_at_another_speed(
-    passes: &mut Passes<'_>,
-    surveyed: &Surveyed,
-    candidates: &Candidates,
-    speed_rev_s: f64,
-    config: &Config,
-) -> Result<Option<SpeedAnalysis>, Error> {
-    passes.expect_more(passes_after_survey(config));
-    let analysis = speed_of_candidate(passes, surveyed, candidates, speed_rev_s, config)?;
-    Ok(matches!(analysis.outcome, Outcome::Ok(_)).then_some(analysis))
-}
-
 fn speed_of_candidate(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -169,8 +130,13 @@ fn speed_of_candidate(
 ) -> Result<SpeedAnalysis, Error> {
     let hover = hover_from_candidate(surveyed, candidates, speed_rev_s, config);
     let middle_rev_s = candidates.middle_rev_s(surveyed, &hover, speed_rev_s, config);
+    // the lines of a mesh stand apart, so that those of the loudest rotor are not in the middle of all
+    let rotors_rev_s = match blades_of_tone(&config.tone) {
+        Some(_) => speed_rev_s,
+        None => candidates.map.refined_rev_s(speed_rev_s),
+    };
     lines_from_hover(passes, surveyed, &hover, middle_rev_s, config)
-        .and_then(|lines| decision_from_lines(passes, surveyed, candidates, &hover, speed_rev_s, lines, config))
+        .and_then(|lines| decision_from_lines(passes, surveyed, candidates, &hover, rotors_rev_s, lines, config))
         .and_then(|decision| speeds_from_decision(surveyed.heard, hover, decision, config))
         .or_else(|stop: Stop| stop.answer(surveyed.heard))
 }

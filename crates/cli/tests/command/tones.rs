@@ -66,7 +66,7 @@ fn an_open_reading_is_ambiguous_shows_all_and_ends_with_3() {
             );
         }
         let table = hovertone(&["speed", text(&path)]).ends_with(3);
-        assert!(table.stdout.contains("2 blades?") && table.stderr.contains("ambiguous:"), "{}", table.stdout);
+        assert!(table.stdout.contains("  2 blades") && table.stderr.contains("ambiguous:"), "{}", table.stdout);
     }
     // what is known of the vehicle settles it
     let known = hovertone(&["tones", "--json", "--vehicle", "crazyflie", text(&path)]).ends_with(0);
@@ -100,7 +100,7 @@ fn a_sine_is_one_family_with_its_frequency_to_a_hundredth() {
     }
     write_sine(&path, 44100, 437.31, 0.0);
     let words = hovertone(&["tones", text(&path)]).stdout;
-    assert!(words.contains(": a single line at 437.31 Hz") && words.contains("or of something else"), "{words}");
+    assert!(words.contains("single line: 437.31 Hz") && words.contains("if it is a rotor: 2 blades"), "{words}");
 }
 
 #[test]
@@ -137,19 +137,24 @@ fn bench_recordings_are_never_read_wrong() {
     for (line, known) in lines.iter().zip(known_rev_s) {
         assert!(speeds(line).iter().any(|speed| (speed / known - 1.0).abs() < 0.005), "{known}: {line}");
     }
-    let settled = lines.iter().filter(|line| line["status"] == "ok").count();
-    assert!(settled >= 3, "only {settled} settled");
+    // the true speed is first in all of them, with more than three quarters of the plausibility
+    let first = |line: &Value| line["alternatives"][0].clone();
+    let are_near = lines.iter().zip(known_rev_s).all(|(line, known)| {
+        (number(&first(line), "speed_rev_s") / known - 1.0).abs() < 0.005 && number(&first(line), "plausibility") > 0.75
+    });
+    assert!(are_near, "{lines:?}");
 }
 
 #[test]
 fn the_motor_step_has_two_blades_and_its_beeps_are_another_family() {
     let Some(folder) = recordings("motor-step") else { return };
     let path = folder.join("motor_step.wav");
-    let line = &hovertone(&["tones", "--json", text(&path)]).ends_with(0).json_lines()[0];
-    assert!((number(line, "speed_rev_s") - 91.8).abs() < 0.3, "{}", line["speed_rev_s"]);
+    let line = &hovertone(&["tones", "--json", text(&path)]).ends_with(3).json_lines()[0];
     let families = line["families"].as_array().unwrap();
     let rotor = families.iter().find(|family| family["is_rotor"] == true).unwrap();
-    assert_eq!((&rotor["readings"][0]["blades"], &rotor["readings"][0]["meaning"]), (&2.into(), &"shaft_lines".into()));
+    let first = &rotor["readings"][0];
+    assert!((number(first, "speed_rev_s") - 91.8).abs() < 0.3 && number(first, "plausibility") > 0.75, "{first}");
+    assert_eq!((&first["blades"], &first["meaning"]), (&2.into(), &"blade_pass".into()));
     let beeps = families.iter().find(|family| (number(family, "fundamental_hz") - 1043.0).abs() < 5.0).unwrap();
     assert_eq!(beeps["remark"], "brief");
     assert!(

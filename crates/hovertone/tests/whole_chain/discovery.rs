@@ -134,13 +134,11 @@ impl Series {
 
 #[derive(Debug, Default)]
 struct Tally {
-    settled: usize,
+    first_right: usize,
     wrong: usize,
     open: usize,
     open_without_truth: usize,
     nothing: usize,
-    settled_with_shaft_lines: usize,
-    with_shaft_lines: usize,
 }
 
 fn tally(seeds: std::ops::Range<u64>) -> Tally {
@@ -148,7 +146,6 @@ fn tally(seeds: std::ops::Range<u64>) -> Tally {
     for seed in seeds {
         let series = Series::random(seed);
         let found = find(series.samples(seed), RATE_HZ, KnownRotor::default());
-        tally.with_shaft_lines += usize::from(series.has_shaft_lines);
         let report = |what: &str| {
             println!(
                 "seed {seed} {what}: truth {:.2} rev/s, {} blades, shaft lines {}, trap {}, {} rotors {:.3}, noise {:.2}/{}: {:?}",
@@ -165,8 +162,7 @@ fn tally(seeds: std::ops::Range<u64>) -> Tally {
         };
         match answer(&found) {
             Answer::Settled(speed) if series.is_right(speed) => {
-                tally.settled += 1;
-                tally.settled_with_shaft_lines += usize::from(series.has_shaft_lines);
+                tally.first_right += 1;
             }
             Answer::Settled(_) => {
                 report("WRONG");
@@ -174,6 +170,7 @@ fn tally(seeds: std::ops::Range<u64>) -> Tally {
             }
             Answer::Open(speeds) => {
                 tally.open += 1;
+                tally.first_right += usize::from(series.is_right(speeds[0]));
                 if !speeds.iter().any(|&speed| series.is_right(speed)) {
                     report("open without the truth");
                     tally.open_without_truth += 1;
@@ -208,12 +205,18 @@ const WITH_SHAFT: [(f64, f64); 10] = [
 ];
 
 #[test]
-fn shaft_lines_settle_the_blades_and_a_blade_pass_alone_leaves_them_open() {
+fn what_is_known_settles_the_speed_and_a_blade_pass_alone_leaves_the_blades_open() {
     let of = |lines: &[(f64, f64)], known: KnownRotor| {
         let rotor = rotor(|_| 90.3, lines);
         find(sound(&[rotor], 4.0, 0.002, 3), SAMPLE_RATE_HZ, known)
     };
-    let Answer::Settled(speed) = answer(&of(&WITH_SHAFT, KnownRotor::default())) else { panic!("not settled") };
+    // lines of the shaft tell the blades, but not surely: on real sound they deceive in one recording of ten
+    let found = of(&WITH_SHAFT, KnownRotor::default());
+    let first = found.reading().expect("a reading");
+    assert!(matches!(answer(&found), Answer::Open(_)));
+    assert!(first.plausibility > 0.85 && (first.speed.rev_s() - 90.3).abs() < 0.02, "{first:?}");
+    let known = KnownRotor { blade_count: Some(2), ..KnownRotor::default() };
+    let Answer::Settled(speed) = answer(&of(&WITH_SHAFT, known)) else { panic!("not settled") };
     assert!((speed - 90.3).abs() < 0.02, "{speed}");
     let alone: Vec<(f64, f64)> = WITH_SHAFT.into_iter().filter(|line| line.0 % 2.0 == 0.0).collect();
     let Answer::Open(speeds) = answer(&of(&alone, KnownRotor::default())) else { panic!("not open") };
@@ -290,8 +293,9 @@ fn noise_silence_and_nothing_have_no_rotor() {
 }
 
 #[test]
-fn random_series_are_never_read_wrong_and_seldom_left_open_without_need() {
+fn random_series_are_never_read_wrong_and_the_truth_is_among_the_readings() {
     let tally = tally(0..60);
     assert_eq!(tally.wrong, 0);
-    assert!(tally.nothing <= 6 && tally.open_without_truth <= 4 && tally.settled >= 8, "{tally:?}");
+    // of two to six blades each is as frequent here, and two in the air: the first reading seldom has five
+    assert!(tally.nothing <= 6 && tally.open_without_truth <= 4 && tally.first_right >= 16, "{tally:?}");
 }

@@ -94,9 +94,10 @@ fn a_given_band_is_where_it_is_looked_for() {
     let loud = rotor(|_| 61.7, &[(2.0, 0.3), (4.0, 0.1), (6.0, 0.1)]);
     let samples = sound(&[quiet, loud], 5.0, 0.003, 10);
     let mut config = config(2.0);
-    assert!((tone(&analyse(samples.clone(), &config)).speeds[0].speed.rev_s() - 61.7).abs() < 0.1);
-    config.tone.band_hz = Some((170.0, 190.0));
-    assert!((tone(&analyse(samples, &config)).speeds[0].speed.rev_s() - 90.0).abs() < 0.1);
+    for (band_hz, speed_rev_s) in [((115.0, 132.0), 61.7), ((170.0, 190.0), 90.0)] {
+        config.tone.band_hz = Some(band_hz);
+        assert!((tone(&analyse(samples.clone(), &config)).speeds[0].speed.rev_s() - speed_rev_s).abs() < 0.1);
+    }
 }
 
 #[test]

@@ -43,7 +43,7 @@ class ToneFamily:
     from_s, to_s : float
         When it is heard, in s.
     is_settled : bool
-        Whether one reading has 95 % of the plausibility.
+        Whether it is the rotor's and one reading has 99 % of the plausibility.
     remark : str or None
         What else it may be.
     readings : tuple of Reading

@@ -2,26 +2,27 @@
 //! spectra here: that is in `tone/`.
 
 mod by_beliefs;
-mod by_family;
 
 use crate::config::Config;
+use crate::detection::or_mains_hum;
 use crate::error::Error;
-use crate::pipeline::{passes_after_survey, passes_of_speed};
-use crate::stages::{Silence, at_ratio, survey_from_source};
+use crate::pipeline::{passes_after_survey, passes_of_speed, speed_of_heard_rotor};
+use crate::stages::{HeardRotor, Silence, Surveyed, at_ratio, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
-use crate::tone::{DiscoveryConfig, families_from_surveys};
-use by_beliefs::Believed;
-use by_family::speed_of_family;
-use hovertone_analysis::{NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
+use crate::tone::{DiscoveryConfig, families_from_surveys, reading_at};
+use by_beliefs::{Believed, SAME_LINE_SHARE};
+use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
-use hovertone_vehicle::{KnownRotor, RotorSpeed};
+use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use serde::Serialize;
 
 /// Rows of the finer spectrum that are kept: 64 of a second are 6 MB at 44.1 kHz. *Numeric.*
 const DETAIL_ROWS_MAX: usize = 64;
 /// Frames of the finer spectrum to a row. They follow each other without overlap, which costs half as much. *Numeric.*
 const DETAIL_FRAMES: f64 = 2.0;
+/// Other speeds of the same rotor are looked for up to this factor: below an octave, so that it stays as it is. *Decision.*
+const OTHER_SPEED_FACTOR: f64 = 1.9;
 
 /// What is looked for, and what is known beforehand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -58,11 +59,9 @@ impl FoundSpeed {
 
 /// From a recording of which nothing is known to its tone families and the speed of its rotors.
 ///
-/// The strongest family that a rotor can make (not a brief one, where there is another) is read in its most plausible way, and then analysed as
-/// if its order had been given: [`crate::speed_from_source`] says how, and whether it is a rotor. Where the lines do not settle the reading and the
-/// evidence of all orders hears a rotor, each reading has half of its belief from the evidence (all of it where the blades are given), and the
-/// evidence says that it is a rotor. Where several readings stay plausible they are the `alternatives`, and the speed of the analysis is only
-/// that of the first.
+/// The evidence compares the shaft speeds of all propellers that are possible, those behind a known gear among them. The most plausible one is
+/// analysed as if it had been given: [`crate::speed_from_source`] says how. Where several readings stay plausible they are the `alternatives`,
+/// and the speed of the analysis is only that of the first. The families of lines are listed beside it; they decide nothing.
 ///
 /// `config` gives all settings but the tone's order, blades and range of speeds; a band in it is where the fundamental is
 /// looked for. Reads the source twice.
@@ -78,7 +77,7 @@ pub fn tones_from_source(
     tones_from_passes(&mut Passes::planned(source, passes_of_speed(config), on_progress)?, config, discovery)
 }
 
-/// The same, where the caller has planned the passes: as many as [`passes_of_speed`] says; another reading that is tried announces its own.
+/// The same, where the caller has planned the passes: as many as [`passes_of_speed`] says.
 ///
 /// # Errors
 /// As [`tones_from_source`].
@@ -106,73 +105,50 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     let (fundamental_hz_min, fundamental_hz_max) =
         config.tone.band_hz.unwrap_or((discovery.config.fundamental_hz_min, discovery.config.fundamental_hz_max));
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
-    let believed = Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery);
-    let is_believed = |family: &ToneFamily| believed.as_ref().is_none_or(|it| it.has_lines_in(family, discovery));
+    let believed = match Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery) {
+        Ok(believed) => believed,
+        Err(reason) => return Ok(nothing(reason, Vec::new())),
+    };
     let families = families_from_surveys(survey, &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
-        !discovery.wants_all && doubt(family) == Some(0) && (family.is_settled || is_believed(family))
+        !discovery.wants_all && believed.as_ref().is_some_and(|it| it.has_lines_in(family))
     });
-    let by_lines = rotor_among(&families);
-    // with the blades given, a family has one reading, and the evidence compares its octaves
-    let is_compared = believed.is_some() && discovery.known.blade_count.is_some();
-    let is_settled = !is_compared && by_lines.is_some_and(|rotor| families[rotor].is_settled);
-    let by_beliefs = families.iter().position(|family| believed.is_some() && !is_settled && is_believed(family));
-    let rotor = by_beliefs.or(by_lines);
-    let families = Families { all: families, rotor };
-    // the evidence knows no gears
-    let believed = believed.filter(|_| !families.of_rotor().is_some_and(is_geared));
-    if let Some(believed) = believed.as_ref().filter(|_| !is_settled) {
-        if let Some(found) = believed.speed(passes, &surveyed, &families, config, discovery)? {
-            return Ok(found);
+    let found = match believed {
+        Some(believed) => {
+            let found = believed.speed(passes, &surveyed, families, config)?;
+            if found.rotor.is_some() {
+                return Ok(found);
+            }
+            passes.expect_more(passes_after_survey(config));
+            found
         }
-        passes.expect_more(passes_after_survey(config));
+        None => nothing(or_mains_hum(NoTone::NoSeries, survey), families),
+    };
+    let families = with_refined_line(passes, &surveyed, found.families, config)?;
+    Ok(FoundSpeed { families, ..found })
+}
+
+/// The families, where the first is a single line, with its frequency from all of the sound: as if it were a tone once a turn.
+fn with_refined_line(
+    passes: &mut Passes<'_>,
+    surveyed: &Surveyed,
+    mut families: Vec<ToneFamily>,
+    config: &Config,
+) -> Result<Vec<ToneFamily>, Error> {
+    let Some(line) = families.first_mut().filter(|family| family.remark == Some(Remark::SingleLine)) else {
+        return Ok(families);
+    };
+    let Ok(once_a_turn) = Order::new(1.0) else { return Ok(families) };
+    let speed = RotorSpeed::from_tone_hz(line.fundamental_hz, once_a_turn);
+    let found = config_for(config, &reading_at(speed, once_a_turn, Meaning::GivenOrder));
+    let rotor = HeardRotor { speed_rev_s: speed.rev_s(), is_faint: false };
+    let analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
+    let ratio = speed_of(&analysis, &found).map(|found| found.speed.rad_s() / speed.rad_s());
+    if let Some(ratio) = ratio.filter(|ratio| (ratio - 1.0).abs() < SAME_LINE_SHARE) {
+        line.fundamental_hz *= ratio;
+        line.harmonics.iter_mut().for_each(|harmonic| harmonic.hz *= ratio);
+        line.readings = line.readings.iter().map(|reading| at_ratio(reading, ratio)).collect();
     }
-    let Some(rotor) = rotor else { return Ok(nothing(NoTone::NoSeries, families.all)) };
-    let found = speed_of_family(passes, &surveyed, families.all, rotor, config, discovery)?;
-    let Some(believed) = believed.filter(|_| is_settled) else { return Ok(found) };
-    match speed_of(&found.analysis, &found.config).zip(found.reading()) {
-        Some((speed, reading)) => {
-            let answered = at_ratio(reading, speed.speed.rad_s() / reading.speed.rad_s());
-            Ok(FoundSpeed { alternatives: believed.objection(answered), ..found })
-        }
-        None => {
-            passes.expect_more(passes_after_survey(&found.config));
-            let families = Families { all: found.families.clone(), rotor: Some(rotor) };
-            Ok(believed.speed(passes, &surveyed, &families, config, discovery)?.unwrap_or(found))
-        }
-    }
-}
-
-/// Families of lines, and which of them is the rotor's.
-struct Families {
-    all: Vec<ToneFamily>,
-    rotor: Option<usize>,
-}
-
-impl Families {
-    fn of_rotor(&self) -> Option<&ToneFamily> {
-        self.all.get(self.rotor?)
-    }
-}
-
-/// Whether the most plausible reading of a family is a gear.
-fn is_geared(family: &ToneFamily) -> bool {
-    family.readings.first().is_some_and(|reading| reading.plausibility > 0.0 && reading.meaning.gear().is_some())
-}
-
-/// The strongest family that any reading can explain; brief ones and single lines only where there is no other.
-fn rotor_among(families: &[ToneFamily]) -> Option<usize> {
-    let possible = families.iter().enumerate().filter_map(|(index, family)| Some((index, doubt(family)?)));
-    possible.min_by_key(|&(_, doubt)| doubt).map(|(index, _)| index)
-}
-
-/// How little a family looks like a rotor's; `None` where no reading can explain it.
-fn doubt(family: &ToneFamily) -> Option<u32> {
-    family.readings.first().filter(|reading| reading.plausibility > 0.0)?;
-    Some(match family.remark {
-        None | Some(Remark::NearMains) => 0,
-        Some(Remark::SingleLine) => 1,
-        Some(Remark::Brief) => 2,
-    })
+    Ok(families)
 }
 
 /// The speed that an analysis with these settings found.
@@ -183,13 +159,13 @@ fn speed_of<'a>(analysis: &'a SpeedAnalysis, config: &Config) -> Option<&'a Spee
     }
 }
 
-/// Settings for a reading, whose speed is looked for up to this factor faster or slower.
-fn config_for(config: &Config, reading: &Reading, factor: f64) -> Config {
+/// Settings for the tone of a reading.
+fn config_for(config: &Config, reading: &Reading) -> Config {
     let mut config = config.clone();
     config.tone.order = reading.order;
     config.tone.blades = reading.meaning.blades();
     config.tone.band_hz = None;
-    config.tone.speed_min = RotorSpeed::from_rad_s(reading.speed.rad_s() / factor);
-    config.tone.speed_max = RotorSpeed::from_rad_s(reading.speed.rad_s() * factor);
+    config.tone.speed_min = RotorSpeed::from_rad_s(reading.speed.rad_s() / OTHER_SPEED_FACTOR);
+    config.tone.speed_max = RotorSpeed::from_rad_s(reading.speed.rad_s() * OTHER_SPEED_FACTOR);
     config
 }

@@ -3,6 +3,7 @@
 use super::excess::{Excess, Looks};
 use super::own_lines::{OwnPropeller, is_apart, loudness_db, own_lines_nats};
 use super::path::best_path;
+use super::rotor_lines::RotorLines;
 use super::second_look::path_in_long_frames;
 use super::votes::{HARMONICS, VoteTable};
 use hovertone_signal::statistics::{mean, median};
@@ -22,7 +23,7 @@ const STEP: f64 = 1e-3;
 ///
 /// One propeller had up to 13 nats, several rotors 15 to 50 (`docs/measurements.md`). Rotors less than 1 % apart are not told.
 pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &OwnPropeller<'_>) -> Option<f64> {
-    let table = VoteTable::for_blades(propeller.blades);
+    let table = VoteTable::of(&RotorLines::of_blades(propeller.blades));
     let heard_rev_s = path_in_long_frames(looks, speeds_rev_s, &table)?;
     nats_beside(&looks.long, &[heard_rev_s], propeller)
 }
@@ -32,7 +33,7 @@ pub(super) fn companion_nats(looks: &Looks, speeds_rev_s: &[f64], propeller: &Ow
 ///
 /// - `heard_rev_s`: speed of each heard rotor in each long frame.
 pub(crate) fn nats_beside(long: &Excess, heard_rev_s: &[Vec<f64>], propeller: &OwnPropeller<'_>) -> Option<f64> {
-    let table = VoteTable::for_blades(propeller.blades);
+    let table = VoteTable::of(&RotorLines::of_blades(propeller.blades));
     let speeds_in = |frame: usize| -> Vec<f64> { heard_rev_s.iter().map(|speeds| speeds[frame]).collect() };
     let middles_rev_s: Vec<f64> = (0..long.frames.len()).map(|frame| mean(&speeds_in(frame))).collect::<Option<_>>()?;
     let steps = (DISTANCE_MAX / STEP) as i32;

@@ -4,7 +4,6 @@ use super::floor::{Floor, FloorShape, FloorSums};
 use super::level_table::{Level, LevelTable};
 use super::rounding::Rounding;
 use hovertone_signal::spectrogram::{Stft, Window};
-use hovertone_signal::statistics::median;
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
 use std::sync::Arc;
@@ -19,8 +18,6 @@ const HOP_S: f64 = 0.05;
 const LONG_HOPS: u32 = 2;
 /// Bins to the resolution of a frame. *Numeric.*
 const ZERO_PAD_FACTOR: u32 = 4;
-/// Highest frequency, Hz: lines of small rotors are audible to their twelfth blade pass. *Decision.*
-const HZ_MAX: f64 = 9000.0;
 /// Highest frequency as a share of the sample rate: filters of recorders end below one half. *Decision.*
 const RATE_SHARE_MAX: f64 = 0.45;
 /// Noise that is added to power and floor, as a share of the mean power of the frame: codecs leave holes in the spectrum. *Numeric.*
@@ -33,8 +30,10 @@ const SKIRT_SHARE: f64 = 0.5;
 const SIDE_LOBES: Range<usize> = 8..40;
 /// A side lobe may be higher than that of a steady line by this factor, because the line moves. *Decision.*
 const SIDE_LOBE_MARGIN: f64 = 2.0;
-/// Share of the median power of the frames below which no rotor hovers: before take-off, after landing. *Decision.*
+/// Share of the power that a quarter or half of the frames exceed, below which no rotor hovers. *Decision.*
 const QUIET_SHARE: f64 = 0.01;
+/// Shortest rest between two flights, s. *Decision.*
+const REST_S_MIN: f64 = 3.0;
 /// Length of a section, s: long recordings are heard in sections with gaps between. *Numeric.*
 const SECTION_S: f64 = 1.0;
 /// Largest number of sections. *Numeric.*
@@ -117,6 +116,7 @@ impl ExcessFrame {
 pub(crate) struct ExcessBuilder {
     start_s: f64,
     sample_rate_hz: f64,
+    hz_max: f64,
     /// Samples that were pushed.
     samples: usize,
     /// Sections from one that is kept to the next.
@@ -131,9 +131,11 @@ struct Section {
 }
 
 impl ExcessBuilder {
-    /// Sections of a recording that starts at `start_s`.
-    pub(crate) fn new(sample_rate_hz: f64, start_s: f64) -> Self {
-        Self { start_s, sample_rate_hz, samples: 0, stride: 1, sections: Vec::new(), rounding: Rounding::default() }
+    /// Sections of a recording that starts at `start_s`, up to a highest frequency.
+    pub(crate) fn new(sample_rate_hz: f64, start_s: f64, hz_max: f64) -> Self {
+        let hz_max = hz_max.min(RATE_SHARE_MAX * sample_rate_hz);
+        let rounding = Rounding::default();
+        Self { start_s, sample_rate_hz, hz_max, samples: 0, stride: 1, sections: Vec::new(), rounding }
     }
 
     fn section_samples(&self) -> usize {
@@ -169,8 +171,8 @@ impl ExcessBuilder {
     /// The sections in frames of both lengths. Each section is freed once it is in frames.
     pub(crate) fn finish(self) -> Looks {
         let section_samples = self.section_samples();
-        let mut short = Frames::new(self.sample_rate_hz, SHORT_S, HOP_S, self.rounding);
-        let mut long = Frames::new(self.sample_rate_hz, LONG_S, f64::from(LONG_HOPS) * HOP_S, self.rounding);
+        let mut short = Frames::new(&self, SHORT_S, HOP_S);
+        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S);
         let mut next = None;
         for Section { index, samples } in self.sections {
             let start_s = self.start_s + (index * section_samples) as f64 / self.sample_rate_hz;
@@ -197,12 +199,12 @@ struct Frames {
 }
 
 impl Frames {
-    fn new(sample_rate_hz: f64, frame_s: f64, hop_s: f64, rounding: Rounding) -> Self {
-        let stft = Stft::<f32>::new(sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
+    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64) -> Self {
+        let stft = Stft::<f32>::new(sound.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         Self {
-            bins: (HZ_MAX.min(RATE_SHARE_MAX * sample_rate_hz) / stft.bin_hz()) as usize,
+            bins: (sound.hz_max / stft.bin_hz()) as usize,
             floor: Floor::of_bins(stft.bin_hz()),
-            rounding_power: rounding.line_power(),
+            rounding_power: sound.rounding.line_power(),
             floors: FloorSums::default(),
             levels: LevelTable::new(),
             frames: Vec::new(),
@@ -233,11 +235,30 @@ impl Frames {
     fn finish(self) -> Excess {
         let bin_hz = self.stft.bin_hz();
         let mut frames = self.frames;
-        let powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
-        let power_min = QUIET_SHARE * median(&powers).unwrap_or(0.0);
-        frames.retain(|frame| frame.mean_power > power_min);
+        drop_rests(&mut frames);
         Excess { bin_hz, frames, floor: Arc::new(self.floors.shape()) }
     }
+}
+
+/// Drops the frames before take-off, after landing, and between flights, by the loudest quarter of the frames. A shorter pause is dropped only
+/// where it is quiet by the louder half: a rotor makes none, and a tune of beeps is told by its pauses.
+fn drop_rests(frames: &mut Vec<ExcessFrame>) {
+    let mut powers: Vec<f64> = frames.iter().map(|frame| frame.mean_power).collect();
+    powers.sort_by(f64::total_cmp);
+    let quiet_under = |quarters: usize| QUIET_SHARE * powers.get(quarters * powers.len() / 4).copied().unwrap_or(0.0);
+    let (power_min, rest_power_min) = (quiet_under(2), quiet_under(3));
+    let is_quiet = |frame: &ExcessFrame| frame.mean_power <= rest_power_min;
+    let ends_s = frames.first().zip(frames.last()).map(|(first, last)| (first.centre_s, last.centre_s));
+    let mut rests: Vec<Range<f64>> = Vec::new();
+    for run in frames.chunk_by(|a, b| is_quiet(a) == is_quiet(b)).filter(|run| is_quiet(&run[0])) {
+        let (from_s, to_s) = (run[0].centre_s, run[run.len() - 1].centre_s);
+        let is_at_end = ends_s.is_some_and(|(first_s, last_s)| from_s <= first_s || to_s >= last_s);
+        if is_at_end || to_s - from_s >= REST_S_MIN {
+            rests.push(from_s..to_s + HOP_S);
+        }
+    }
+    let is_in_rest = |frame: &ExcessFrame| is_quiet(frame) && rests.iter().any(|rest| rest.contains(&frame.centre_s));
+    frames.retain(|frame| frame.mean_power > power_min && !is_in_rest(frame));
 }
 
 /// Power over the floor, with noise added to both. A skirt or a side lobe of a line counts as noise at most.
@@ -284,7 +305,7 @@ mod tests {
 
     #[test]
     fn a_long_recording_keeps_a_bounded_number_of_sections() {
-        let mut builder = ExcessBuilder::new(2000.0, 3.0);
+        let mut builder = ExcessBuilder::new(2000.0, 3.0, 1e4);
         let mut noise = 1u64;
         for _ in 0..200 {
             let second: Vec<f32> = (0..2000)

@@ -2,23 +2,25 @@
 
 use super::companions::companion_nats;
 use super::excess::{Excess, Looks};
-use super::level_model::{LevelModel, OrderLevel};
-use super::levels::{NoiseLevel, levels_of_orders, noise_level};
+use super::level_model::{LevelModel, RotorLevels};
+use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::own_lines::OwnPropeller;
+use super::presence::Presence;
+use super::rotor_lines::RotorLines;
 use super::search::{Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
 use hovertone_signal::statistics::{log_sum_exp, mean};
-use hovertone_vehicle::{KnownRotor, LineLevels};
+use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
 
 /// Smallest share of the most votes that a path has which is no octave or family of the best one, less some nats. *Decision.*
 const OTHER_VOTES_SHARE_MIN: f64 = 0.8;
 /// Width of the speeds of a hover, as a share. *Decision.*
 const HOVER_WIDTH_SHARE: f64 = 0.024;
-/// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything:
-/// then the evidence tells which speed, and not whether a rotor sounds. *Decision.*
+/// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
+/// So a slower rotor is heard only where the diameter, the vehicle or the band says that it may be there. *Decision.*
 const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
@@ -32,33 +34,28 @@ pub(crate) struct Beliefs {
     pub(crate) hypotheses: Vec<Hypothesis>,
     /// The noise between the lines.
     noise: NoiseLevel,
+    /// Whether only long frames hear the rotor.
+    pub(crate) is_faint: bool,
 }
 
 impl Beliefs {
-    /// Whether the evidence tells that a rotor sounds: the lines of the most probable one stand apart.
-    pub(crate) fn is_resolved(&self) -> bool {
-        is_resolved(&self.hypotheses)
-    }
-
-    /// Whether the most probable speed has votes of its own, not those of its octaves alone.
-    pub(crate) fn is_clear(&self, config: &EvidenceConfig) -> bool {
-        self.hypotheses.first().is_some_and(|first| first.votes_nats >= config.votes_nats_min)
-    }
-
     /// Harmonics of the blade pass of the most probable rotor that stand out of the noise, with their levels over it in dB.
     pub(crate) fn harmonics_db(&self) -> Vec<(u32, f64)> {
-        let first = self.hypotheses.iter().take(1);
-        let lines = first.flat_map(|first| first.levels.iter().map(|line| (line.order, first.blades, line.level_db)));
+        let first = self.hypotheses.iter().take(1).filter_map(|first| Some((first, first.lines.blades?)));
+        let lines = first
+            .flat_map(|(first, blades)| first.levels.shaft.iter().map(move |line| (line.order, blades, line.level_db)));
         lines
             .filter(|(order, blades, level_db)| order.is_multiple_of(*blades) && self.noise.is_below(*level_db))
             .map(|(order, blades, level_db)| (order / blades, level_db - self.noise.mean_db))
             .collect()
     }
 
-    /// Whether the most probable rotor is one of several, which turn at other speeds.
+    /// Whether the most probable rotor is one of several, which turn at other speeds. Beside a faint one no other is heard.
     pub(crate) fn are_several(&self, looks: &Looks, config: &EvidenceConfig) -> bool {
-        self.hypotheses.first().is_some_and(|first| {
-            let propeller = OwnPropeller { blades: first.blades, prior: &config.levels };
+        let first = self.hypotheses.first().filter(|_| !self.is_faint);
+        let first = first.and_then(|first| Some((first, first.lines.blades?)));
+        first.is_some_and(|(first, blades)| {
+            let propeller = OwnPropeller { blades, prior: &config.levels };
             let nats = companion_nats(looks, &first.speeds_rev_s, &propeller);
             nats.is_some_and(|nats| nats >= config.companion_nats_min)
         })
@@ -81,8 +78,8 @@ impl Beliefs {
 /// One shaft speed, with a number of blades.
 #[derive(Clone, Debug)]
 pub(crate) struct Hypothesis {
-    /// Blades of the propeller.
-    pub(crate) blades: u32,
+    /// Lines of the rotor.
+    pub(crate) lines: RotorLines,
     /// Speed in each short frame.
     speeds_rev_s: Vec<f64>,
     /// Mean speed along the path.
@@ -96,13 +93,13 @@ pub(crate) struct Hypothesis {
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
     /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that two tell no more than one.
-    levels_nats: f64,
+    pub(super) levels_nats: f64,
     /// The same, with what is known of the vehicle.
     nats: f64,
     /// Levels of its lines in short frames.
-    levels: Vec<OrderLevel>,
+    pub(super) levels: RotorLevels,
     /// The same in long frames, where they were looked at.
-    long_levels: Option<Vec<OrderLevel>>,
+    pub(super) long_levels: Option<RotorLevels>,
     /// Probability among the hypotheses.
     pub(crate) belief: f64,
 }
@@ -121,34 +118,45 @@ pub(crate) struct WantedRotor {
     pub(crate) propellers: Vec<WantedPropeller>,
     /// What is known of the vehicle.
     pub(crate) known: KnownRotor,
+    /// Whether something that is known says that the rotor may be slow.
+    pub(crate) may_be_slow: bool,
 }
 
-/// A propeller that is possible.
+/// A propeller that is possible, with its gear.
 #[derive(Clone, Debug)]
 pub(crate) struct WantedPropeller {
-    /// Its blades.
-    pub(crate) blades: u32,
+    /// Its lines.
+    pub(crate) lines: RotorLines,
     /// How common it is.
     pub(crate) share: f64,
     /// Slowest and fastest shaft that is possible.
     pub(crate) speeds_rev_s: RangeInclusive<f64>,
 }
 
-/// Compares the hypotheses in two looks at the same sound. `None` where no rotor is heard.
+/// Compares the hypotheses in two looks at the same sound, in long frames alone where short ones hear no rotor: a faint, steady one. `None` where
+/// no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
+    beliefs_of(looks, wanted, config).or_else(|| {
+        let of_long_frames = Looks { short: looks.long.clone(), long: looks.long.clone() };
+        let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
+        Some(Beliefs { is_faint: true, ..beliefs_of(&of_long_frames, wanted, &of_any_votes)? })
+    })
+}
+
+fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     let Look { noise, mut of_propellers } = look_at(&looks.short, wanted, config)?;
     let long_noise = look_again(looks, &mut of_propellers, config);
     let mut presence = Presence::new(noise, long_noise, &config.levels);
-    // where the blades are not known, a slow comb of other blades would hide all readings
-    let is_possible = |look: &OfPropeller| wanted.propellers.len() == 1 || is_resolved(&look.hypotheses);
-    let heard = of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(look, config));
+    let is_possible = |look: &OfPropeller| wanted.may_be_slow || is_resolved(&look.hypotheses);
+    let heard =
+        of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(&look.hypotheses, config));
     let hypotheses: Vec<Hypothesis> = heard
         .filter(|look| !is_tune(look, &looks.short, config))
         .flat_map(|look| {
             look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
         })
         .collect();
-    (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise })
+    (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise, is_faint: false })
 }
 
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
@@ -157,7 +165,7 @@ fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool 
     let jumps_nats = match &look.search {
         Some(search) => search.jumps_nats(first.speed_rev_s),
         None => {
-            Search::of(short, look.blades, &look.speeds_rev_s).and_then(|search| search.jumps_nats(first.speed_rev_s))
+            Search::of(short, &look.lines, &look.speeds_rev_s).and_then(|search| search.jumps_nats(first.speed_rev_s))
         }
     };
     jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
@@ -168,7 +176,7 @@ fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool 
 fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &EvidenceConfig) -> Option<NoiseLevel> {
     let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
     for look in &*of_propellers {
-        let table = VoteTable::for_blades(look.blades);
+        let table = VoteTable::of(&look.lines);
         // octaves are compared along one path: that of the one with the most votes
         let mut paths: Vec<(&Hypothesis, Vec<f64>)> = Vec::new();
         let mut by_votes: Vec<&Hypothesis> = look.hypotheses.iter().collect();
@@ -183,7 +191,7 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
         let along = |it: &Hypothesis| {
             let (of, path) = paths.iter().find(|(other, _)| other.path == it.path)?;
             let speeds_rev_s: Vec<f64> = path.iter().map(|speed_rev_s| it.factor / of.factor * speed_rev_s).collect();
-            SecondLook::along(&looks.long, &speeds_rev_s, look.blades)
+            SecondLook::along(&looks.long, &speeds_rev_s, &look.lines)
         };
         seen.push(look.hypotheses.iter().map(along).collect());
     }
@@ -193,7 +201,7 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
     for (look, seen) in of_propellers.iter_mut().zip(seen) {
         let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
         for (it, seen) in look.hypotheses.iter_mut().zip(seen) {
-            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels, look.blades));
+            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels, &look.lines));
             it.nats += levels_nats - it.levels_nats;
             it.levels_nats = levels_nats;
             it.long_levels = Some(seen.levels);
@@ -212,7 +220,7 @@ struct Look {
 
 /// The hypotheses with one propeller.
 struct OfPropeller {
-    blades: u32,
+    lines: RotorLines,
     speeds_rev_s: RangeInclusive<f64>,
     /// Logarithm of how common it is.
     share_nats: f64,
@@ -232,8 +240,10 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     };
     let mut noises: Vec<NoiseLevel> = Vec::new();
     let any = wanted.propellers.first()?;
-    for blades in NOISE_BLADES.filter(|&blades| wanted.propellers.iter().all(|wanted| wanted.blades != blades)) {
-        noises.extend(noises_of(&Search::of(excess, blades, &any.speeds_rev_s)?));
+    for blades in NOISE_BLADES.map(RotorLines::of_blades) {
+        if wanted.propellers.iter().all(|wanted| wanted.lines != blades) {
+            noises.extend(noises_of(&Search::of(excess, &blades, &any.speeds_rev_s)?));
+        }
     }
     // votes are large, so that those of the last propeller alone are kept
     let mut last: Option<Search> = None;
@@ -241,7 +251,7 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     let mut lines_share = f64::INFINITY;
     for propeller in &wanted.propellers {
         drop(last.take());
-        let search = Search::of(excess, propeller.blades, &propeller.speeds_rev_s)?;
+        let search = Search::of(excess, &propeller.lines, &propeller.speeds_rev_s)?;
         let own = noises_of(&search);
         lines_share = own.iter().map(|noise| noise.lines_share).fold(lines_share, f64::min);
         noises.extend(own);
@@ -253,12 +263,12 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     let mut model = LevelModel::of_speeds(noise, &config.levels);
     let of_propeller = |(propeller, multiples): (&WantedPropeller, Vec<Multiple>)| {
         let all = multiples.iter().filter_map(|multiple| {
-            let hypothesis = hypothesis_of(multiple, propeller.blades, excess, &mut model)?;
+            let hypothesis = hypothesis_of(multiple, &propeller.lines, excess, &mut model)?;
             let nats = hypothesis.levels_nats + nats_of_vehicle(hypothesis.speed_rev_s, &wanted.known, config);
             Some(Hypothesis { nats, ..hypothesis })
         });
         OfPropeller {
-            blades: propeller.blades,
+            lines: propeller.lines,
             speeds_rev_s: propeller.speeds_rev_s.clone(),
             share_nats: propeller.share.ln(),
             hypotheses: one_of_each_speed(all.collect()),
@@ -277,44 +287,18 @@ fn is_resolved(hypotheses: &[Hypothesis]) -> bool {
     hypotheses.first().is_some_and(|first| first.speed_rev_s >= RESOLVED_REV_S)
 }
 
-/// The models that tell a rotor from none, in the noise of each look.
-struct Presence<'a> {
-    short: LevelModel<'a>,
-    long: Option<LevelModel<'a>>,
-}
-
-impl<'a> Presence<'a> {
-    fn new(short: NoiseLevel, long: Option<NoiseLevel>, prior: &'a LineLevels) -> Self {
-        let model = |noise: NoiseLevel| LevelModel::of_presence(noise, prior);
-        Self { short: model(short), long: long.map(model) }
-    }
-
-    /// Whether a rotor is heard: the first, most probable hypothesis has the levels in each look, and the one with the best levels has the
-    /// votes. What is known of the vehicle tells octaves apart, and no rotor from none.
-    fn is_heard(&mut self, look: &OfPropeller, config: &EvidenceConfig) -> bool {
-        let best = look.hypotheses.iter().max_by(|a, b| a.levels_nats.total_cmp(&b.levels_nats));
-        look.hypotheses.first().zip(best).is_some_and(|(first, best)| {
-            best.votes_nats >= config.votes_nats_min && self.least_nats(first) >= config.levels_nats_min
-        })
-    }
-
-    /// The evidence of the lines over the local floor, in the look that has the least: what the floor hides is no evidence that a rotor sounds.
-    fn least_nats(&mut self, hypothesis: &Hypothesis) -> f64 {
-        let short_nats = self.short.flat_nats(&hypothesis.levels, hypothesis.blades);
-        match self.long.as_mut().zip(hypothesis.long_levels.as_ref()) {
-            Some((long, levels)) => short_nats.min(long.flat_nats(levels, hypothesis.blades)),
-            None => short_nats,
-        }
-    }
-}
-
 /// The hypothesis that a rotor turns at this multiple of a path, with the evidence of its lines. `None` without speeds.
-fn hypothesis_of(multiple: &Multiple, blades: u32, excess: &Excess, model: &mut LevelModel<'_>) -> Option<Hypothesis> {
+fn hypothesis_of(
+    multiple: &Multiple,
+    lines: &RotorLines,
+    excess: &Excess,
+    model: &mut LevelModel<'_>,
+) -> Option<Hypothesis> {
     let &Multiple { path, factor, votes_nats, speed_rev_s, ref speeds_rev_s } = multiple;
-    let levels = levels_of_orders(excess, speeds_rev_s, blades);
-    let levels_nats = model.evidence_nats(&levels, blades);
+    let levels = levels_of_lines(excess, speeds_rev_s, lines);
+    let levels_nats = model.evidence_nats(&levels, lines);
     Some(Hypothesis {
-        blades,
+        lines: *lines,
         speeds_rev_s: speeds_rev_s.clone(),
         speed_rev_s,
         hover_rev_s: most_frequent_rev_s(speeds_rev_s)?,

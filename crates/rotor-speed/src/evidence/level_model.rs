@@ -12,6 +12,8 @@
 
 use super::levels::NoiseLevel;
 use super::ratio_table::{LineScatter, RatioTable};
+use super::rotor_lines::RotorLines;
+use super::votes::AUDIBLE_BESIDE_MESH;
 use hovertone_signal::statistics::log_sum_exp;
 use hovertone_vehicle::LineLevels;
 
@@ -46,6 +48,23 @@ pub struct OrderLevel {
     pub level_db: f64,
     /// The floor there, against the mean floor of the recording, in dB.
     pub floor_db: f64,
+}
+
+/// Levels of all lines of a rotor along a path.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RotorLevels {
+    /// Of the whole orders of the shaft.
+    pub(super) shaft: Vec<OrderLevel>,
+    /// Of the harmonics of the gear mesh, each with its number instead of its order.
+    pub(super) mesh: Vec<OrderLevel>,
+}
+
+impl RotorLevels {
+    /// The same levels as if the floor were flat.
+    fn over_flat_floor(&self) -> Self {
+        let flat = |levels: &[OrderLevel]| levels.iter().map(|level| OrderLevel { floor_db: 0.0, ..*level }).collect();
+        Self { shaft: flat(&self.shaft), mesh: flat(&self.mesh) }
+    }
 }
 
 /// Sums of log-likelihood ratios of the lines up to each of the last harmonics, in nats.
@@ -102,8 +121,21 @@ impl<'a> LevelModel<'a> {
         }
     }
 
-    /// The evidence of levels for a rotor with so many blades, in nats: log-likelihood ratio against noise with lines of something else.
-    pub(super) fn evidence_nats(&mut self, levels: &[OrderLevel], blades: u32) -> f64 {
+    /// The evidence of levels for a rotor, in nats: log-likelihood ratio against noise with lines of something else. A gear mesh is a series of its
+    /// own, whose lines have the levels of a blade pass; beside it, the propeller may be inaudible.
+    pub(super) fn evidence_nats(&mut self, levels: &RotorLevels, lines: &RotorLines) -> f64 {
+        let shaft_nats = lines.blades.map_or(0.0, |blades| self.shaft_nats(&levels.shaft, blades));
+        match lines.mesh_order {
+            None => shaft_nats,
+            Some(_) => {
+                let audible = [(1.0 - AUDIBLE_BESIDE_MESH).ln(), AUDIBLE_BESIDE_MESH.ln() + shaft_nats];
+                self.shaft_nats(&levels.mesh, 1) + log_sum_exp(audible.into_iter())
+            }
+        }
+    }
+
+    /// The evidence of the lines of a shaft with so many blades, in nats.
+    pub(super) fn shaft_nats(&mut self, levels: &[OrderLevel], blades: u32) -> f64 {
         let below = lines_of(&mut self.below, levels, |order| order < blades);
         let lines: Vec<LinesOfClasses> =
             self.scatters.iter_mut().map(|scatter| LinesOfClasses::of(scatter, levels, blades)).collect();
@@ -116,9 +148,8 @@ impl<'a> LevelModel<'a> {
 
     /// The evidence as if the floor were flat. Where lines lie close, as those of a slow comb, they are a part of the floor: then it hides lines that
     /// are not there. So the floor tells octaves apart, and no rotor from none.
-    pub(super) fn flat_nats(&mut self, levels: &[OrderLevel], blades: u32) -> f64 {
-        let flat: Vec<OrderLevel> = levels.iter().map(|level| OrderLevel { floor_db: 0.0, ..*level }).collect();
-        self.evidence_nats(&flat, blades)
+    pub(super) fn flat_nats(&mut self, levels: &RotorLevels, lines: &RotorLines) -> f64 {
+        self.evidence_nats(&levels.over_flat_floor(), lines)
     }
 
     /// The evidence where the lines scatter as much.
@@ -133,7 +164,7 @@ impl<'a> LevelModel<'a> {
                 let below_nats: f64 =
                     below.iter().map(|line| self.below.from(line.row, mean_db - line.floor_db).above(0)).sum();
                 let blade_nats = self.blade_nats(&even, &odd, loudness_db);
-                let shaft_nats = self.shaft_nats(&shaft, loudness_db);
+                let shaft_nats = self.unlike_blades_nats(&shaft, loudness_db);
                 let up_to = blade_nats.iter().zip(shaft_nats).map(|(blade, shaft)| blade + shaft);
                 weight + below_nats + log_sum_exp(up_to) - shares
             });
@@ -157,7 +188,7 @@ impl<'a> LevelModel<'a> {
     }
 
     /// The other lines of the shaft, integrated over their level against the blade pass; they may be inaudible.
-    fn shaft_nats(&self, shaft: &[UpTo], loudness_db: i32) -> UpTo {
+    fn unlike_blades_nats(&self, shaft: &[UpTo], loudness_db: i32) -> UpTo {
         let inaudible = self.prior.shaft_inaudible;
         std::array::from_fn(|last| {
             let nats = SHAFT_DB.iter().map(|offset_db| shaft[sum_index(loudness_db + offset_db)][last]);
@@ -282,7 +313,7 @@ mod tests {
     fn evidence(levels_db: &[f64], blades: u32) -> f64 {
         let levels: Vec<OrderLevel> =
             (1..).zip(levels_db).map(|(order, &level_db)| OrderLevel { order, level_db, floor_db: 0.0 }).collect();
-        LevelModel::of_speeds(NOISE, &LineLevels::default()).evidence_nats(&levels, blades)
+        LevelModel::of_speeds(NOISE, &LineLevels::default()).shaft_nats(&levels, blades)
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! Levels of orders along a path.
 
 use super::excess::Excess;
-use super::level_model::{LAST_HARMONIC, OrderLevel};
+use super::level_model::{LAST_HARMONIC, OrderLevel, RotorLevels};
 use super::level_table;
+use super::rotor_lines::RotorLines;
+use super::votes::MESH_HARMONICS;
 use hovertone_signal::statistics::{STD_PER_MEDIAN_DEVIATION, mean, median};
 use hovertone_vehicle::LineLevels;
 
@@ -14,6 +16,8 @@ pub(super) const LINE_HZ_MIN: f64 = 25.0;
 const NOISE_FRACTIONS: [f64; 6] = [0.23, 0.37, 0.42, 0.58, 0.63, 0.77];
 /// Orders around which the noise is measured. *Numeric.*
 const NOISE_ORDERS: u32 = 30;
+/// Distance from a gear mesh at which orders are those of its sidebands: shaft speeds to either side. *Physics.*
+const SIDEBANDS: f64 = 2.0;
 /// Standard deviations of the noise above which a level is that of a line. *Decision.*
 const LINE_STDS: f64 = 3.0;
 /// Standard deviation of the noise, dB: the least, by skirts of lines, and the most that some seconds of noise can have. *Decision.*
@@ -37,14 +41,26 @@ pub(super) fn level_db(excess: &Excess, speeds_rev_s: &[f64], order: f64) -> Opt
     (is_inside && hz_sum >= LINE_HZ_MIN * frames).then(|| level_table::level_db(f64::from(sum) / f64::from(count)))
 }
 
-/// Levels of all orders that are compared, along a path.
-pub(super) fn levels_of_orders(excess: &Excess, speeds_rev_s: &[f64], blades: u32) -> Vec<OrderLevel> {
+/// Levels of all lines that are compared, along a path. Orders near those of a gear mesh belong to the mesh and its sidebands.
+pub(super) fn levels_of_lines(excess: &Excess, speeds_rev_s: &[f64], lines: &RotorLines) -> RotorLevels {
     let floors = FloorAlong::of(excess, speeds_rev_s);
-    let level = |order: u32| {
-        let level_db = level_db(excess, speeds_rev_s, f64::from(order))?;
-        Some(OrderLevel { order, level_db, floor_db: floors.db(order) })
+    let level = |number: u32, of_order: f64| {
+        let order = f64::from(number) * of_order;
+        let level_db = level_db(excess, speeds_rev_s, order)?;
+        Some(OrderLevel { order: number, level_db, floor_db: floors.db(order) })
     };
-    (1..=LAST_HARMONIC * blades).filter_map(level).collect()
+    let is_of_mesh = |order: &u32| {
+        lines.mesh_order.is_some_and(|mesh_order| {
+            let harmonic = (f64::from(*order) / mesh_order).round().max(1.0);
+            (f64::from(*order) - harmonic * mesh_order).abs() <= SIDEBANDS
+        })
+    };
+    let shaft = lines.blades.into_iter().flat_map(|blades| 1..=LAST_HARMONIC * blades).filter(|it| !is_of_mesh(it));
+    let mesh = lines.mesh_order.into_iter().flat_map(|order| (1..=MESH_HARMONICS).map(move |k| (k, order)));
+    RotorLevels {
+        shaft: shaft.filter_map(|order| level(order, 1.0)).collect(),
+        mesh: mesh.filter_map(|(k, order)| level(k, order)).collect(),
+    }
 }
 
 /// The floor of a recording at the orders of a path.
@@ -60,8 +76,8 @@ impl<'a> FloorAlong<'a> {
     }
 
     /// Against the mean floor, dB.
-    pub(super) fn db(&self, order: u32) -> f64 {
-        self.excess.floor.db(f64::from(order) * self.mean_rev_s)
+    pub(super) fn db(&self, order: f64) -> f64 {
+        self.excess.floor.db(order * self.mean_rev_s)
     }
 }
 

@@ -3,8 +3,8 @@
 //! A rotor is a shaft speed that moves no faster than a motor can, with lines at whole orders. In frames of 0.1 s, the power R of each bin
 //! over the local floor has the density e^(−R) in noise.
 //!
-//! 1. *Votes* (`votes`): each line of a candidate votes for it in each frame, with `ln(1 − p + p Λ(R))`, where Λ is the likelihood ratio of
-//!    a line of unknown level, and p the probability that a line of this class is audible. No vote exceeds 8 nats, so that one loud hum
+//! 1. *Votes* (`votes`): each line of a candidate (`rotor_lines`) votes for it in each frame, with `ln(1 − p + p Λ(R))`, where Λ is the likelihood
+//!    ratio of a line of unknown level, and p the probability that a line of this class is audible. No vote exceeds 8 nats, so that one loud hum
 //!    cannot outweigh the absence of all other lines.
 //! 2. *Paths* (`path`): in each window of speeds, the path with the most votes, by dynamic programming. With one path over all speeds, wide
 //!    lines of several rotors pass for those of a slow comb.
@@ -17,11 +17,11 @@
 //! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of a hypothesis are the mean of both looks:
 //!    they are at the same lines, so that their sum would count each level twice.
 //! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own, beside one or beside all that were separated.
-//! 8. *Near a speed* (`near_speed`): where none is heard, the evidence at the speed that the old rules would tell. Below 4.6 nats, they tell none;
-//!    in a given band, below 0.
+//! 8. *Near a speed* (`near_speed`): the same at a speed that is known, for an exam.
 //!
-//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor, its lines
-//! stand apart in a frame (from 30 rev/s on), and no path that jumps, as a voice or an instrument does, has 7.8 nats a frame more.
+//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor (0 in a
+//! given band), its lines stand apart in a frame (from 30 rev/s on, unless it is known to be slow), and no path that jumps, as a voice or an
+//! instrument does, has 7.8 nats a frame more. A faint one is heard in long frames alone, without votes, where its lines keep their phase.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
@@ -36,7 +36,9 @@ mod levels;
 mod near_speed;
 mod own_lines;
 mod path;
+mod presence;
 mod ratio_table;
+mod rotor_lines;
 mod rounding;
 mod search;
 mod second_look;
@@ -49,6 +51,7 @@ pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, Wan
 pub use level_model::OrderLevel;
 pub use levels::NoiseLevel;
 pub use near_speed::LinesNear;
-pub(crate) use near_speed::{lines_near, nats_near};
+pub(crate) use near_speed::lines_near;
 pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
+pub(crate) use rotor_lines::RotorLines;
 pub use settings::EvidenceConfig;

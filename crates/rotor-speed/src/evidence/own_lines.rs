@@ -25,7 +25,7 @@ pub(crate) fn loudness_db(excess: &Excess, speeds_rev_s: &[f64], blades: u32) ->
     let orders = (1..=HARMONICS).map(|harmonic| harmonic * blades);
     let levels = orders.filter_map(|order| Some((order, level_db(excess, speeds_rev_s, f64::from(order))?)));
     let loudest = levels.max_by(|(_, a), (_, b)| a.total_cmp(b));
-    loudest.map(|(order, level_db)| level_db + floors.db(order))
+    loudest.map(|(order, level_db)| level_db + floors.db(f64::from(order)))
 }
 
 /// The evidence in nats that a rotor sounds, by those lines of its blade pass which no other rotor's shaft lines meet: negative where they are
@@ -58,12 +58,12 @@ pub(crate) fn own_lines_nats(
         }
         let is_often_apart = f64::from(count) >= APART_SHARE_MIN * excess.frames.len() as f64;
         let level_db = level_table::level_db(f64::from(sum) / f64::from(count.max(1)));
-        is_often_apart.then(|| OrderLevel { order, level_db, floor_db: floors.db(order) })
+        is_often_apart.then(|| OrderLevel { order, level_db, floor_db: floors.db(f64::from(order)) })
     };
     let levels: Vec<OrderLevel> = (1..=HARMONICS).filter_map(own_level).collect();
     let noise = noise_level(excess, speeds_rev_s).filter(|_| !levels.is_empty())?;
     let prior = LineLevels { blade_pass_db: loudest_db, blade_pass_std_db: prior.rotors_std_db, ..*prior };
-    Some(LevelModel::of_speeds(noise, &prior).evidence_nats(&levels, blades))
+    Some(LevelModel::of_speeds(noise, &prior).shaft_nats(&levels, blades))
 }
 
 /// The propeller of the rotors, with the levels of real ones.

@@ -2,6 +2,7 @@
 
 use super::excess::Excess;
 use super::path::{best_path, gain_of_jumps_nats};
+use super::rotor_lines::RotorLines;
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
 use hovertone_signal::statistics::{mean, median};
 use std::ops::{Range, RangeInclusive};
@@ -24,10 +25,13 @@ const VOTES_SHARE_MIN: f64 = 0.5;
 pub(super) const VOTES_NATS_APART: f64 = 3.0;
 /// Paths whose mean distance is at most this many points are one path. *Numeric.*
 const SAME_POINTS: usize = 2;
+/// Smallest difference of the logarithms of two speeds that is a jump: rotors of one vehicle, and a rotor in a manoeuvre, stay within a quarter.
+/// *Decision.*
+const JUMP_MIN: f64 = 0.223;
 /// Largest difference of the logarithms of the speeds of two rotors of one vehicle. *Decision.*
 pub(super) const ROTORS_APART: f64 = 0.14;
 
-/// The votes of all frames for all speeds of a rotor with so many blades.
+/// The votes of all frames for all speeds of a rotor that makes these lines.
 pub(super) struct Search {
     grid: SpeedGrid,
     /// `votes[frame][speed]`.
@@ -51,10 +55,10 @@ pub(super) struct Multiple {
 
 impl Search {
     /// `None` without frames.
-    pub(super) fn of(excess: &Excess, blades: u32, speeds_rev_s: &RangeInclusive<f64>) -> Option<Self> {
+    pub(super) fn of(excess: &Excess, lines: &RotorLines, speeds_rev_s: &RangeInclusive<f64>) -> Option<Self> {
         let bins = excess.frames.first()?.levels.len();
         let grid = SpeedGrid::of(speeds_rev_s);
-        let table = VoteTable::for_blades(blades);
+        let table = VoteTable::of(lines);
         let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
         let votes: Vec<Vec<f32>> = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
         let hops = excess.hops();
@@ -109,7 +113,7 @@ impl Search {
         let best = self.paths.iter().filter(is_family).max_by(|a, b| sum(a).total_cmp(&sum(b)))?;
         let is_near = |shift: isize| {
             let ratio = shift as f64 * GRID_STEP;
-            OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < ROTORS_APART)
+            OCTAVES.iter().any(|octave| (ratio - octave.ln()).abs() < JUMP_MIN)
         };
         Some(gain_of_jumps_nats(&self.votes, best, GRID_STEP, is_near))
     }

@@ -1,28 +1,31 @@
 //! A second look at each hypothesis, in long frames: along the best path near that of the short frames, so that both look at one rotor.
 
 use super::excess::{Excess, Looks};
-use super::level_model::OrderLevel;
-use super::levels::{NoiseLevel, levels_of_orders, noise_level};
+use super::level_model::RotorLevels;
+use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::path::best_path;
+use super::rotor_lines::RotorLines;
 use super::votes::{VotePlaces, VoteTable, votes_of_frame};
 
 /// Largest distance of the paths, as a logarithm of the speed. *Decision.*
 const NEAR: f64 = 0.03;
 /// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
 const STEP: f64 = 1e-3;
+/// The same where a gear mesh is followed: a quarter of that width at its third harmonic. *Numeric.*
+const MESH_STEP: f64 = 2e-4;
 
 /// What long frames show along a path.
 pub(super) struct SecondLook {
     /// Levels of the lines.
-    pub(super) levels: Vec<OrderLevel>,
+    pub(super) levels: RotorLevels,
     /// Levels between them.
     pub(super) noise: NoiseLevel,
 }
 
 impl SecondLook {
     /// Looks along a path. `None` without a band.
-    pub(super) fn along(long: &Excess, speeds_rev_s: &[f64], blades: u32) -> Option<Self> {
-        Some(Self { levels: levels_of_orders(long, speeds_rev_s, blades), noise: noise_level(long, speeds_rev_s)? })
+    pub(super) fn along(long: &Excess, speeds_rev_s: &[f64], lines: &RotorLines) -> Option<Self> {
+        Some(Self { levels: levels_of_lines(long, speeds_rev_s, lines), noise: noise_level(long, speeds_rev_s)? })
     }
 }
 
@@ -34,8 +37,9 @@ pub(super) fn path_in_long_frames(looks: &Looks, speeds_rev_s: &[f64], table: &V
 /// The best path in frames within `reach` of a speed in each, as a logarithm of the speed. `None` without frames.
 pub(super) fn path_near(look: &Excess, middles_rev_s: &[f64], reach: f64, table: &VoteTable) -> Option<Vec<f64>> {
     let bins = look.frames.first()?.levels.len();
-    let steps = (reach / STEP) as i32;
-    let ratios: Vec<f64> = (-steps..=steps).map(|step| (STEP * f64::from(step)).exp()).collect();
+    let grid_step = if table.has_mesh() { MESH_STEP } else { STEP };
+    let steps = (reach / grid_step) as i32;
+    let ratios: Vec<f64> = (-steps..=steps).map(|step| (grid_step * f64::from(step)).exp()).collect();
     let votes: Vec<Vec<f32>> = look
         .frames
         .iter()
@@ -45,7 +49,7 @@ pub(super) fn path_near(look: &Excess, middles_rev_s: &[f64], reach: f64, table:
             votes_of_frame(frame, table, &VotePlaces::new(&speeds_rev_s, table, look.bin_hz, bins))
         })
         .collect();
-    let path = best_path(&votes, 0..ratios.len(), &look.hops(), STEP);
+    let path = best_path(&votes, 0..ratios.len(), &look.hops(), grid_step);
     Some(path.iter().zip(middles_rev_s).map(|(&point, middle_rev_s)| ratios[point] * middle_rev_s).collect())
 }
 

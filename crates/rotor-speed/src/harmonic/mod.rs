@@ -43,9 +43,7 @@ use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::spectrogram::power_db;
 use join::joined;
 pub(crate) use join::{EndBlock, joined_variance_turns2};
-use partition::{
-    Partition, best_partition, blocks_between, first_partition, likelihood_min, line_likelihoods, straight_partition,
-};
+use partition::{Partition, best_partition, blocks_between, first_partition, likelihood_min, straight_partition};
 use speed_map::{Centroid, FRAME_HOPS, LinePowers, STRONG_POWER_MIN, SpeedMap};
 use speed_path::{SpeedPath, SpeedPoint};
 pub(crate) use track::{HarmonicBlock, HarmonicTrack, LENGTH_POWER, LineRecord, SAME_TIME_S};
@@ -67,8 +65,6 @@ const CLEAR_SHARE: f64 = 0.9;
 const CLEAR_TIMES: f64 = 2.0;
 /// Largest change of a path, in cycles of the highest line within a tick, for which its lines are not demodulated again. *Numeric.*
 const NEAR_TURNS: f64 = 0.02;
-/// Largest number of blocks of a chunk with a steady speed. *Decision.*
-const STEADY_BLOCKS_MAX: usize = 8;
 /// Smallest information of a block that counts as heard, s²: a standard uncertainty of 10 rev/s. *Decision.*
 const INFORMATION_MIN: f64 = 1e-2;
 /// Smallest length of a steady block, s: a tone too weak to be a line in any frame is a tone if lines keep their phase for this long.
@@ -185,12 +181,6 @@ fn content_of_chunk(chunk: &Chunk<'_>, map: &mut SpeedMap, records: &mut [LineRe
     let AlongPath { lines, path } =
         along.filter(|along| along.path.is_within(near_rev_s, &path)).unwrap_or_else(|| lines.along(path));
     let partition = joined(&lines, &path, &partition);
-    if partition.blocks.len() <= STEADY_BLOCKS_MAX {
-        let likelihoods = line_likelihoods(&lines, &path, &partition);
-        for (&index, likelihood) in used.iter().zip(likelihoods) {
-            records[index].steady_likelihood += likelihood;
-        }
-    }
     Some(ChunkContent::One { between: blocks_between(&lines, &path, &partition), partition, is_coherent })
 }
 

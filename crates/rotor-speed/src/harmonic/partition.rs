@@ -219,16 +219,6 @@ fn climbed(blocks: &[TimedBlock], d_speed: f64, cell_rev_s: f64) -> SpeedLine {
     place
 }
 
-/// J of each line, summed over all blocks of a partition.
-pub(crate) fn line_likelihoods(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Vec<f64> {
-    let mut sums = vec![0.0; lines.len()];
-    for block in &partition.blocks {
-        let slices = BlockSlices::new(lines, path, block.ticks(), block.speed_line());
-        sums.iter_mut().zip(slices.line_likelihoods()).for_each(|(sum, likelihood)| *sum += likelihood);
-    }
-    sums
-}
-
 /// Blocks from the middle of each block to the middle of the next, where both stand out of the noise. A block knows its speed best in
 /// its middle, and the middle of these blocks lies where the others meet.
 pub(crate) fn blocks_between(lines: &[Line], path: &SpeedPath, partition: &Partition) -> Vec<BlockFit> {

@@ -1,19 +1,9 @@
 //! The result of the harmonic likelihood for a hover: blocks of speed, and the contribution of each line.
 
 use hovertone_analysis::Span;
-use hovertone_signal::statistics::mean;
-
-/// Smallest likelihood of a line between the assumed ones, for each chunk; noise reaches it in one of ten thousand lines and blocks.
-/// *Decision.*
-const BETWEEN_LIKELIHOOD_MIN: f64 = 16.0;
-/// Smallest power of the lines between, as a share of the power of the others, at which all form one series. *Decision.*
-const SERIES_POWER_SHARE: f64 = 0.5;
 
 /// Rounding error of the times at which blocks meet, s. *Numeric.*
 pub(crate) const SAME_TIME_S: f64 = 1e-6;
-
-/// Rounding error of the ratio of two orders: a ratio this close to a whole number is one. *Numeric.*
-const ORDER_TOLERANCE: f64 = 1e-6;
 
 /// Largest number of blocks of a track: half a hop each, they last for 11 minutes. *Numeric.*
 const BLOCKS_MAX: usize = 1 << 14;
@@ -133,8 +123,6 @@ pub(crate) struct LineRecord {
     pub(crate) order: f64,
     /// Sum over the chunks of the mean power on the path, over the power of noise.
     pub(crate) on_path: f64,
-    /// Likelihood in the chunks whose speed is steady.
-    pub(crate) steady_likelihood: f64,
     /// Number of chunks.
     pub(crate) chunks: u32,
     /// Chunks in which the line was not used, because of a foreign sound in its band.
@@ -142,11 +130,6 @@ pub(crate) struct LineRecord {
 }
 
 impl LineRecord {
-    /// Whether the line keeps its phase.
-    fn is_heard(&self) -> bool {
-        self.steady_likelihood > BETWEEN_LIKELIHOOD_MIN * f64::from(self.chunks.max(1))
-    }
-
     /// Weight of the line in the speed: order squared times power over noise.
     pub(crate) fn weight(&self) -> f64 {
         let heard = 1.0 - f64::from(self.chunks_left_out) / f64::from(self.chunks.max(1));
@@ -237,37 +220,6 @@ impl HarmonicTrack {
         let steady_s: f64 = self.blocks.iter().filter(|block| block.is_steady).map(|block| block.span.length_s()).sum();
         steady_s / hover_s.max(f64::MIN_POSITIVE)
     }
-
-    /// Lines that keep their phase at orders that are no multiples of `order`: they belong to a slower shaft. `None` for fewer than two
-    /// lines.
-    pub(crate) fn lines_between(&self, order: f64) -> Option<LinesBetween> {
-        let is_between = |line: &&LineRecord| (line.order / order).fract() != 0.0;
-        let reach = self.lines.iter().filter(is_between).map(|line| line.order).fold(0.0, f64::max);
-        let heard: Vec<f64> =
-            self.lines.iter().filter(is_between).filter(|line| line.is_heard()).map(|line| line.order).collect();
-        let times_slower = (2..=5u32).find(|&times| {
-            let parts = |line_order: f64| f64::from(times) * line_order / order;
-            let is_part = |line_order: f64| (parts(line_order) - parts(line_order).round()).abs() < ORDER_TOLERANCE;
-            let mean_of = |is_own: bool| {
-                let of_kind =
-                    |line: &&LineRecord| is_between(line) != is_own && line.order <= reach && is_part(line.order);
-                mean(&self.lines.iter().filter(of_kind).map(|line| line.steady_likelihood).collect::<Vec<f64>>())
-            };
-            let is_one_series =
-                || mean_of(false).zip(mean_of(true)).is_some_and(|(b, own)| b > SERIES_POWER_SHARE * own);
-            heard.iter().all(|&line_order| is_part(line_order)) && is_one_series()
-        });
-        (heard.len() > 1).then_some(LinesBetween { count: heard.len(), times_slower })
-    }
-}
-
-/// Lines between the lines that the assumed rotor makes.
-pub(crate) struct LinesBetween {
-    /// Number of lines.
-    pub(crate) count: usize,
-    /// Ratio of the assumed speed to the speed of a shaft that makes all lines, where the lines between are as strong as the others. The
-    /// shaft lines of the assumed rotor have these orders too, but are much weaker.
-    pub(crate) times_slower: Option<u32>,
 }
 
 #[cfg(test)]

@@ -80,15 +80,8 @@ pub struct RidgeConfig {
     /// Smallest height of a line over the median of its surroundings, dB. Noise reaches 16 dB in one frame of a hundred, the lines of
     /// real hovers in 60 to 100 % of the frames.
     pub line_over_sides_db: f64,
-    /// Smallest share of frames in which the clearest harmonic of a rotor is a line. Rotors recorded in flight give 0.64 to 1.00, machines
-    /// and traffic up to 0.45.
-    pub line_share_min: f64,
-    /// Smallest share of frames in which a second harmonic is a line too, unless one of the two conditions below holds.
-    pub company_share_min: f64,
-    /// Share of frames in which the clearest harmonic is a line, from which no second harmonic is needed.
-    pub lonely_line_share_min: f64,
-    /// Share of the hover in which lines keep their phase in blocks of a second and more, from which a tone is accepted however weak it is.
-    /// A rotor on a bench or in a simulation can be so steady; no rotor in flight is.
+    /// Share of the hover in which lines keep their phase in blocks of a second and more, from which they are those of one rotor: on a bench or in a
+    /// simulation it can be so steady; no rotor in flight is.
     pub steady_share_min: f64,
     /// Smallest share of frames with a point at which a ridge is used.
     pub point_share_min: f64,
@@ -102,9 +95,6 @@ impl Default for RidgeConfig {
             gaussian_threshold_share: 0.8,
             false_point_chance: 0.02,
             line_over_sides_db: 16.0,
-            line_share_min: 0.5,
-            company_share_min: 0.1,
-            lonely_line_share_min: 0.85,
             steady_share_min: 0.8,
             point_share_min: 0.3,
             harmonic_disagreement_share_max: 0.01,
@@ -117,9 +107,6 @@ impl RidgeConfig {
         check_range("gaussian_threshold_share", self.gaussian_threshold_share, 0.3, 0.95)?;
         check_range("false_point_chance", self.false_point_chance, 1e-9, 0.5)?;
         check_range("line_over_sides_db", self.line_over_sides_db, 3.0, 60.0)?;
-        check_range("line_share_min", self.line_share_min, 0.0, 1.0)?;
-        check_range("company_share_min", self.company_share_min, 0.0, 1.0)?;
-        check_range("lonely_line_share_min", self.lonely_line_share_min, 0.0, 1.0)?;
         check_range("steady_share_min", self.steady_share_min, 0.0, 1.0)?;
         check_range("point_share_min", self.point_share_min, 0.0, 1.0)?;
         check_range("harmonic_disagreement_share_max", self.harmonic_disagreement_share_max, 0.0, 0.2)

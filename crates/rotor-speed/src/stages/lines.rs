@@ -7,17 +7,12 @@ use crate::harmonic::{HarmonicTracer, HarmonicTrack};
 use crate::ridge::RidgeTracer;
 use crate::tone::{bands_around, bands_worth_following, lines_around, lines_worth_hearing};
 use hovertone_analysis::{Band, Hover, NoTone, Ridge, Warning};
-use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::passes::Passes;
 
 /// The lines of one candidate in its hover, as ridges and by harmonic likelihood.
 pub(crate) struct Lines {
     /// Bands of the ridges.
     pub(crate) bands: Vec<Band>,
-    /// Bands of the lines of the harmonic likelihood.
-    pub(crate) channel_bands: Vec<ChannelBand>,
-    /// The ridges at the frame length that shows lines in most frames.
-    pub(crate) clearest: Vec<Ridge>,
     /// The ridges at the frame length of the settings, where given; otherwise the clearest.
     pub(crate) ridges: Vec<Ridge>,
     /// Speed along the hover by harmonic likelihood.
@@ -53,8 +48,8 @@ pub(crate) fn lines_from_hover(
     let wanted = config.spectrogram.window_s.and_then(|_| ladder.pop());
     match clearest_ridges(&ladder).cloned() {
         Some(clearest) => {
-            let ridges = wanted.unwrap_or_else(|| clearest.clone());
-            Ok(Lines { bands, channel_bands, clearest, ridges, harmonic, warnings })
+            let ridges = wanted.unwrap_or(clearest);
+            Ok(Lines { bands, ridges, harmonic, warnings })
         }
         None => {
             let reason = or_mains_hum(NoTone::NoHover, survey);

@@ -38,9 +38,9 @@ pub(super) fn heard_rotors(
 
 /// Whether another rotor is heard beside all of these, where each of them has a track.
 fn others_sound_beside(rotors: &RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> bool {
-    let Some((looks, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return false };
+    let Some(blades) = blades_of_tone(&config.tone) else { return false };
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let SeenRotors { excess, speeds_rev_s } = SeenRotors::new(looks.long.within(&hover.spans_s()), rotors);
+    let SeenRotors { excess, speeds_rev_s } = SeenRotors::new(surveyed.looks.long.within(&hover.spans_s()), rotors);
     let all_rev_s: Option<Vec<Vec<f64>>> = speeds_rev_s.into_iter().collect();
     let nats = all_rev_s.and_then(|all_rev_s| nats_beside(&excess, &all_rev_s, &propeller));
     nats.is_some_and(|nats| nats >= config.evidence.companion_nats_min)
@@ -74,9 +74,10 @@ pub(crate) fn rotors_from_hover(
 /// frames resolve rotors that are close. A rotor that has no such line stays, because nothing can be said of it. The most doubtful one goes
 /// first: its lines may hide those of others.
 fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> RotorTracks {
-    let Some((looks, blades)) = surveyed.excess.as_ref().zip(blades_of_tone(&config.tone)) else { return tracks };
+    let Some(blades) = blades_of_tone(&config.tone) else { return tracks };
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let mut seen = [&looks.short, &looks.long].map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));
+    let mut seen = [&surveyed.looks.short, &surveyed.looks.long]
+        .map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));
     loop {
         let own_nats = |rotor: usize| {
             let nats = seen.iter().filter_map(|seen| seen.own_nats(rotor, &propeller));

@@ -3,9 +3,8 @@
 use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{Beliefs, ExcessBuilder, Looks, WantedRotor, beliefs_from_looks};
+use crate::evidence::{Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines, WantedRotor, beliefs_from_looks};
 use crate::survey::{MainsHum, RowsBuilder, Survey, SurveyBuilder};
-use crate::tone::blades_of_tone;
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
 
@@ -14,8 +13,8 @@ use hovertone_signal::passes::{Passes, Piece};
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
-    /// Power over the floor in short and long frames, where the tone is a blade pass, or is looked for.
-    pub(crate) excess: Option<Looks>,
+    /// Power over the floor in short and long frames.
+    pub(crate) looks: Looks,
 }
 
 impl Surveyed {
@@ -29,10 +28,15 @@ impl Surveyed {
     /// # Errors
     /// Mains hum, where the blade pass of the rotor is one of its lines.
     pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Result<Option<Beliefs>, NoTone> {
-        let heard = self.excess.as_ref().and_then(|looks| beliefs_from_looks(looks, wanted, &config.evidence));
+        // who gives a band says that a tone is in it: then only evidence against it refutes it
+        let levels_nats_min = if config.tone.band_hz.is_some() { 0.0 } else { config.evidence.levels_nats_min };
+        let evidence = EvidenceConfig { levels_nats_min, ..config.evidence };
+        let heard = beliefs_from_looks(&self.looks, wanted, &evidence);
         let first = heard.as_ref().and_then(|beliefs| beliefs.hypotheses.first());
-        let holds =
-            |hum: &&MainsHum| first.is_some_and(|first| hum.holds(f64::from(first.blades) * first.hover_rev_s, 0.0));
+        // above the frequencies that were searched for hum, a line may happen to be at a multiple
+        let line_hz = first.and_then(|first| Some(first.lines.first_order()? * first.hover_rev_s));
+        let line_hz = line_hz.filter(|&line_hz| line_hz <= self.survey.fine_hz_max);
+        let holds = |hum: &&MainsHum| line_hz.is_some_and(|line_hz| hum.holds(line_hz));
         match self.survey.hum.as_ref().filter(holds) {
             Some(hum) => Err(NoTone::MainsHum { mains_hz: hum.mains_hz }),
             None => Ok(heard),
@@ -68,15 +72,13 @@ pub(crate) fn survey_from_source(
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
-    let mut excess = (beside.is_some() || blades_of_tone(&config.tone).is_some())
-        .then(|| ExcessBuilder::new(passes.sample_rate_hz(), from_s));
+    let hz_max = RotorLines::of_tone(&config.tone).hz_max();
+    let mut excess = ExcessBuilder::new(passes.sample_rate_hz(), from_s, hz_max);
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
         Piece::Samples(samples) => {
             builder.push(samples);
-            if let Some(excess) = &mut excess {
-                excess.push(samples);
-            }
+            excess.push(samples);
             if let Some(beside) = &mut beside {
                 beside.push(samples);
             }
@@ -84,5 +86,5 @@ pub(crate) fn survey_from_source(
         Piece::Heard(_) => {}
     })?;
     let heard = Span { from_s, to_s: to_s.max(from_s) };
-    Ok(Surveyed { survey: builder.finish(to_s), heard, excess: excess.map(ExcessBuilder::finish) })
+    Ok(Surveyed { survey: builder.finish(to_s), heard, looks: excess.finish() })
 }

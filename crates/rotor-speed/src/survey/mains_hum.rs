@@ -18,8 +18,6 @@ const PEAK_ERROR_BINS: f64 = 0.08;
 const OWN_SHARE: f64 = 0.0003;
 /// The same in addition, Hz: the error of the peak. *Numeric.*
 const OWN_HZ: f64 = 0.15;
-/// Largest deviation of the fundamental of a series from the frequency of the hum, as a share, at which the series is hum. *Decision.*
-const SERIES_SHARE: f64 = 0.01;
 /// Smallest height of a line of hum over its surroundings, dB. *Decision.*
 const OVER_DB_MIN: f64 = 10.0;
 /// Smallest power of a line, re a sine of full scale: the rounding of 16 bits, 2⁻³⁰/12, over the power 1/2 of such a sine: −98 dB. The rounding of
@@ -40,9 +38,6 @@ const LOW_MULTIPLES_DB: f64 = 15.0;
 const LOW_MULTIPLES: usize = 3;
 /// Number of multiples whose presence is examined. *Decision.*
 const PATTERN_MULTIPLES: usize = 8;
-/// Largest fraction of the mains frequency that a fundamental may be: an eighth. *Decision.*
-const FRACTIONS_MAX: u32 = 8;
-
 /// Mains hum of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MainsHum {
@@ -66,19 +61,11 @@ impl MainsHum {
         }
     }
 
-    /// Whether a line with this mean and standard deviation over its frames is a line of the hum.
-    pub(crate) fn holds(&self, mean_hz: f64, std_hz: f64) -> bool {
-        let multiple = (mean_hz / self.mains_hz).round().max(1.0);
-        let off_hz = (mean_hz - multiple * self.mains_hz).abs();
-        off_hz <= OWN_SHARE * mean_hz + OWN_HZ && std_hz <= GRID_SHARE * mean_hz + OWN_HZ
-    }
-
-    /// Whether a series with this fundamental is hum: the fundamental is a multiple of the mains frequency, or a simple fraction of one.
-    pub(crate) fn explains(&self, fundamental_hz: f64) -> bool {
-        (1..=FRACTIONS_MAX).any(|part| {
-            let multiple = (f64::from(part) * fundamental_hz / self.mains_hz).round().max(1.0);
-            (f64::from(part) * fundamental_hz / (multiple * self.mains_hz) - 1.0).abs() < SERIES_SHARE
-        })
+    /// Whether a frequency is that of a line of the hum.
+    pub(crate) fn holds(&self, line_hz: f64) -> bool {
+        let multiple = (line_hz / self.mains_hz).round().max(1.0);
+        let off_hz = (line_hz - multiple * self.mains_hz).abs();
+        off_hz <= OWN_SHARE * line_hz + OWN_HZ
     }
 
     /// The lowest line of the hum in a band.

@@ -10,11 +10,6 @@ use std::ops::RangeInclusive;
 /// Sound above this share of half the sample rate is inside the recorder's own filter. *Physics.*
 const USABLE_NYQUIST_SHARE: f64 = 0.98;
 
-/// Harmonics between which other lines are looked for. *Decision.*
-const BETWEEN_LINES: u32 = 8;
-/// A steady rotor is looked for again so near to where it was found. *Decision.*
-const STEADY_SHARE: f64 = 0.003;
-
 /// Shaft speeds to look for, in turns per second: the given band's or the configured ones, as far as a recording of that
 /// rate can hold their tone.
 pub(crate) fn search_range_rev_s(tone: &ToneConfig, sample_rate_hz: f64) -> Result<RangeInclusive<f64>, Error> {
@@ -97,29 +92,6 @@ pub fn lines_between_speeds(
             is_first: order == tone.order.lines_per_turn() || blades == Some(order),
             band_hz_low: order * speeds_rev_s.start(),
             band_hz_high: order * speeds_rev_s.end(),
-            noise_fall_db: 0.0,
-        })
-        .collect()
-}
-
-/// The lines of a steady rotor and those at halves, thirds, quarters and fifths between the lowest of its blade pass: where they sound,
-/// the shaft turns more slowly than assumed. They are looked for at its speed alone: among so many lines there are always some
-/// that noise puts in a row at another.
-pub(crate) fn lines_and_between(lines: &[ChannelBand], order: f64, speed_rev_s: f64) -> Vec<ChannelBand> {
-    let mut between: Vec<f64> = (2..=5)
-        .flat_map(|parts: u32| (1..parts).map(move |part| f64::from(part) / f64::from(parts)))
-        .flat_map(|share| (0..BETWEEN_LINES).map(move |line| (f64::from(line) + share) * order))
-        .collect();
-    between.sort_by(f64::total_cmp);
-    // a half is two quarters
-    between.dedup_by(|a, b| (*a - *b).abs() < 1e-9 * order);
-    let own = lines.iter().map(|line| (line.order, line.is_first));
-    own.chain(between.into_iter().map(|order| (order, false)))
-        .map(|(order, is_first)| ChannelBand {
-            order,
-            is_first,
-            band_hz_low: order * speed_rev_s * (1.0 - STEADY_SHARE),
-            band_hz_high: order * speed_rev_s * (1.0 + STEADY_SHARE),
             noise_fall_db: 0.0,
         })
         .collect()

@@ -1,10 +1,9 @@
 //! Survey → tone families: which series of lines a recording holds, and what each can mean.
 
 use super::levels::LevelRows;
-use super::mesh::hear_meshes;
 use super::pattern::{Look, Pattern};
 use super::profile::OrderProfile;
-use super::reading::{is_settled, readings_of};
+use super::reading::readings_of_tone;
 use super::series::Series;
 use crate::survey::Survey;
 use crate::tone::DiscoveryConfig;
@@ -58,8 +57,6 @@ fn family_of(
     // a line that stands alone, more than an octave above the others, may be another sound's
     let together = lines.windows(2).position(|pair| pair[1] > 2 * pair[0]).map_or(lines.len(), |last| last + 1);
     let refined = series.by_lines_in(coarse, fine, &lines[..together]).unwrap_or_else(|| series.clone());
-    let mut readings = readings_of(&pattern, refined.hz, known, config);
-    hear_meshes(&mut readings, coarse, &series, config);
     let harmonics: Vec<SeenHarmonic> =
         heard.map(|(number, level_db)| SeenHarmonic { number, hz: f64::from(number) * refined.hz, level_db }).collect();
     let level_db = harmonics.iter().map(|line| line.level_db).fold(0.0, f64::max);
@@ -68,7 +65,6 @@ fn family_of(
     let span = Span { from_s: present.first()?.from_s, to_s: present.last()?.to_s };
     let time_share = present.len() as f64 / coarse.rows.len() as f64;
     let row_hz: Vec<f64> = refined.row_hz.iter().copied().flatten().collect();
-    let is_settled = is_settled(&readings, known, config);
     let is_near_mains = MAINS_HZ.into_iter().any(|mains_hz| (refined.hz / mains_hz - 1.0).abs() < MAINS_SHARE);
     let remark = if is_near_mains {
         Some(Remark::NearMains)
@@ -84,8 +80,8 @@ fn family_of(
         level_db,
         time_share,
         span,
-        readings,
-        is_settled,
+        readings: readings_of_tone(refined.hz, known, config),
+        is_settled: false,
         remark,
     })
 }

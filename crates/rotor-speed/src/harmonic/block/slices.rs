@@ -96,11 +96,6 @@ impl BlockSlices {
         self.lines.iter().zip(self.sums.chunks_exact(self.times_s.len()))
     }
 
-    /// J of each line at the guess.
-    pub(crate) fn line_likelihoods(&self) -> Vec<f64> {
-        self.lines().map(|(line, sums)| line.scale * sums.iter().sum::<Complex<f64>>().norm_sqr()).collect()
-    }
-
     /// The sum of each line at the guess over √(N V): the square of its magnitude is J.
     pub(crate) fn line_sums(&self) -> Vec<LineSum> {
         self.lines()
