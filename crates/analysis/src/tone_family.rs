@@ -73,11 +73,6 @@ impl ToneFamily {
         let pairs = [(self.fundamental_hz, other.fundamental_hz), (tone_hz(self), tone_hz(other))];
         pairs.into_iter().any(|(a, b)| (a / b - 1.0).abs() < SAME_VEHICLE_SHARE)
     }
-
-    /// The readings with at least the given plausibility, most plausible first.
-    pub fn plausible_readings(&self, plausible_min: f64) -> Vec<&Reading> {
-        self.readings.iter().filter(|reading| reading.plausibility >= plausible_min).collect()
-    }
 }
 
 /// Source of the tone of a reading.

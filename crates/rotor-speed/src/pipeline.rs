@@ -6,7 +6,7 @@ use crate::stages::{
     Candidates, HeardRotor, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate,
     lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
 };
-use crate::tone::{blades_of_tone, search_range_rev_s};
+use crate::tone::search_range_rev_s;
 use hovertone_analysis::{Hover, Method, RotorEstimate, SpeedAnalysis};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
@@ -130,11 +130,7 @@ fn speed_of_candidate(
 ) -> Result<SpeedAnalysis, Error> {
     let hover = hover_from_candidate(surveyed, candidates, speed_rev_s, config);
     let middle_rev_s = candidates.middle_rev_s(surveyed, &hover, speed_rev_s, config);
-    // the lines of a mesh stand apart, so that those of the loudest rotor are not in the middle of all
-    let rotors_rev_s = match blades_of_tone(&config.tone) {
-        Some(_) => speed_rev_s,
-        None => candidates.map.refined_rev_s(speed_rev_s),
-    };
+    let rotors_rev_s = candidates.rotors_rev_s(speed_rev_s, config);
     lines_from_hover(passes, surveyed, &hover, middle_rev_s, config)
         .and_then(|lines| decision_from_lines(passes, surveyed, candidates, &hover, rotors_rev_s, lines, config))
         .and_then(|decision| speeds_from_decision(surveyed.heard, hover, decision, config))

@@ -60,6 +60,15 @@ impl Candidates {
         self.map.middle_near(rows, speed_rev_s, config.tone.band_half_width_share)
     }
 
+    /// The speed around which the rotors are separated, near one of them: the lines of a mesh stand apart, so that the loudest rotor is not in the
+    /// middle of all.
+    pub(crate) fn rotors_rev_s(&self, speed_rev_s: f64, config: &Config) -> f64 {
+        match blades_of_tone(&config.tone) {
+            Some(_) => speed_rev_s,
+            None => self.map.refined_rev_s(speed_rev_s),
+        }
+    }
+
     /// The speeds that remain possible, most probable first; empty where one is decided.
     pub(crate) fn alternatives(&self, config: &Config) -> Vec<Reading> {
         match self.beliefs.as_ref().map_or(&[][..], |beliefs| beliefs.possible(config.evidence.belief_min)) {
