@@ -26,14 +26,12 @@ pub(crate) fn run(root: &Path) -> Result<(), String> {
     tested(&python, &program, &package)
 }
 
-/// The wheel of a release, in a folder.
+/// The wheel of a release, in a folder. It reads object stores: what is installed from it needs no compiler.
 pub(crate) fn wheel(root: &Path, folder: &Path) -> Result<(), String> {
     let package = root.join("crates").join("python");
     let python = interpreter(root)?;
-    run_in(
-        &package,
-        python.command().args(["-m", "maturin", "build", "--release", "--locked", "--strip", "--out"]).arg(folder),
-    )
+    let words = ["-m", "maturin", "build", "--release", "--locked", "--strip", "--features", "stores", "--out"];
+    run_in(&package, python.command().args(words).arg(folder))
 }
 
 /// Whether there is a Python that can build a wheel.

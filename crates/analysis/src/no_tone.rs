@@ -60,7 +60,7 @@ impl fmt::Display for NoTone {
             Self::NoFrame { window_s, hover_s } => {
                 write!(
                     f,
-                    "no frame of {window_s} s in {hover_s:.1} s of hover holds the tone; give shorter frames with --window-s"
+                    "in {hover_s:.1} s of hover no line of the tone stands out for {window_s} s; choose a longer or steadier part with --from and --to"
                 )
             }
             Self::MainsHum { mains_hz } => write!(

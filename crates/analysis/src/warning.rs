@@ -122,7 +122,9 @@ impl Warning {
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
             }
-            Self::RotorsNotApart { .. } => "the mean speed is still right; its ± is larger",
+            Self::RotorsNotApart { .. } => {
+                "use their mean speed, whose ± allows for it; for each rotor, place the microphone nearer"
+            }
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
             Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",
         }
@@ -174,7 +176,7 @@ impl fmt::Display for Warning {
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not known: there may be more of them, and the ± assumes that their speeds differ by {:.1} % (standard deviation)",
+                "the number of rotors is not known; for the ±, hovertone assumes that their speeds differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::SeveralLines { spread_share } => {

@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+/// Most differences that are named.
+const DIFFERENCES_MAX: usize = 4;
+
 /// Version of the parts and tables. It rises when their columns change.
 pub const FORMAT: u32 = 1;
 
@@ -24,12 +27,18 @@ pub struct BatchIdentity {
 }
 
 impl BatchIdentity {
-    /// What differs, each as `NAME: THERE there, HERE here`; empty where a run may continue.
-    pub fn differences(&self, here: &Self) -> Vec<String> {
-        let (there, here) = (self.to_json(), here.to_json());
+    /// What differs, as `NAME: OWN where, OTHER where; …`, the first few; `None` where a run may continue. `places` say where each of the two is:
+    /// "in speeds".
+    pub fn differences(&self, other: &Self, places: [&str; 2]) -> Option<String> {
+        let (own, other) = (self.to_json(), other.to_json());
         let mut differences = Vec::new();
-        differ("", &there, &here, &mut differences);
-        differences
+        differ("", [&own, &other], places, &mut differences);
+        let more = differences.len().saturating_sub(DIFFERENCES_MAX);
+        differences.truncate(DIFFERENCES_MAX);
+        if more > 0 {
+            differences.push(format!("and {more} more"));
+        }
+        (!differences.is_empty()).then(|| differences.join("; "))
     }
 
     /// As read from its text: a reader of JSON may round the last digit of a number, and both sides must be read alike.
@@ -39,22 +48,22 @@ impl BatchIdentity {
     }
 }
 
-fn differ(name: &str, there: &Value, here: &Value, differences: &mut Vec<String>) {
-    match (there, here) {
-        (Value::Object(of_there), Value::Object(of_here)) => {
-            let mut keys: Vec<&String> = of_there.keys().chain(of_here.keys()).collect();
+fn differ(name: &str, [own, other]: [&Value; 2], places: [&str; 2], differences: &mut Vec<String>) {
+    match (own, other) {
+        (Value::Object(of_own), Value::Object(of_other)) => {
+            let mut keys: Vec<&String> = of_own.keys().chain(of_other.keys()).collect();
             keys.sort();
             keys.dedup();
             for key in keys {
                 let inner = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
-                differ(&inner, value_of(of_there, key), value_of(of_here, key), differences);
+                differ(&inner, [value_of(of_own, key), value_of(of_other, key)], places, differences);
             }
         }
-        _ if there == here => {}
+        _ if own == other => {}
         _ => {
-            let name = name.strip_prefix("settings.").unwrap_or(name);
-            let name = in_words(name.strip_prefix("analysis.").unwrap_or(name));
-            differences.push(format!("{name}: {} there, {} here", shown(there), shown(here)));
+            let outer = ["settings.", "analysis.", "known."];
+            let name = outer.iter().fold(name, |name, outer| name.strip_prefix(outer).unwrap_or(name));
+            differences.push(format!("{name}: {} {}, {} {}", shown(own), places[0], shown(other), places[1]));
         }
     }
 }
@@ -63,15 +72,10 @@ fn value_of<'a>(object: &'a Map<String, Value>, key: &str) -> &'a Value {
     object.get(key).unwrap_or(&Value::Null)
 }
 
-/// "known rotor count" of `known.rotor_count`.
-fn in_words(name: &str) -> String {
-    name.replace(['.', '_'], " ")
-}
-
 fn shown(value: &Value) -> String {
     match value {
         Value::Object(entries) => {
-            let entry = |(name, value): (&String, &Value)| format!("{} {}", in_words(name), shown(value));
+            let entry = |(name, value): (&String, &Value)| format!("{name} {}", shown(value));
             entries.iter().map(entry).collect::<Vec<_>>().join(", ")
         }
         Value::Null => "none".to_owned(),
@@ -100,7 +104,7 @@ mod tests {
     fn an_identity_equals_itself_after_it_was_written() {
         let there = identity(json!({"speed_rad_s_min": 94.247_779_607_693_79, "x": 0.1 + 0.2}));
         let read: BatchIdentity = serde_json::from_str(&serde_json::to_string_pretty(&there).unwrap()).unwrap();
-        assert_eq!(read.differences(&there), Vec::<String>::new());
+        assert_eq!(read.differences(&there, ["there", "here"]), None);
     }
 
     #[test]
@@ -108,17 +112,16 @@ mod tests {
         let there = identity(
             json!({"known": {"rotor_count": 4, "shaft_speed": {"rev_s_high": 80, "rev_s_low": 20}}, "order": 2.0}),
         );
-        assert!(there.differences(&there).is_empty());
+        assert_eq!(there.differences(&there, ["there", "here"]), None);
         let here = identity(json!({"known": {"rotor_count": 2}, "order": 2.0, "channel": 1}));
         let here = BatchIdentity { inputs: vec!["A".to_owned(), "B".to_owned()], ..here };
         assert_eq!(
-            there.differences(&here),
-            [
-                "inputs: DIR there, A B here",
-                "channel: none there, 1 here",
-                "known rotor count: 4 there, 2 here",
-                "known shaft speed: rev s high 80, rev s low 20 there, none here"
-            ]
+            there.differences(&here, ["there", "here"]).unwrap(),
+            "inputs: DIR there, A B here; channel: none there, 1 here; rotor_count: 4 there, 2 here; \
+             shaft_speed: rev_s_high 80, rev_s_low 20 there, none here"
         );
+        let many = identity(json!({"a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1}));
+        let words = many.differences(&identity(json!({})), ["there", "here"]).unwrap();
+        assert!(words.ends_with("; d: 1 there, none here; and 2 more"), "{words}");
     }
 }

@@ -51,7 +51,13 @@ impl From<QuantityError> for Failure {
 /// A setting out of its range, or a span or band without content.
 impl From<ConfigError> for Failure {
     fn from(error: ConfigError) -> Self {
-        Self::usage(error.to_string(), correct_number())
+        let hint = match &error {
+            ConfigError::EmptySpan { .. } => {
+                "give a later time with --to, or an earlier one with --from; both in seconds, or as 1:02.5".to_owned()
+            }
+            _ => correct_number(),
+        };
+        Self::usage(error.to_string(), hint)
     }
 }
 

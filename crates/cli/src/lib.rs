@@ -131,7 +131,7 @@ fn run_command(command: &Command, terminal: &mut Terminal<'_>) -> Result<Ending,
         #[cfg(not(feature = "page"))]
         Command::Serve(_) => Err(Failure::Failed {
             what: "this build of hovertone has no page for the browser".to_owned(),
-            hint: "speed and identify do the same in the terminal; to build the page: cargo xtask page, then cargo build --release --features page".to_owned(),
+            hint: "use `hovertone speed` and `hovertone identify` in the terminal; or build the page: `cargo xtask page`, then `cargo build --release --features page`".to_owned(),
             path: None,
         }),
         Command::Completions(arguments) => shell::run_completions(arguments, terminal),

@@ -56,17 +56,16 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
         let checked = weighed.check().and_then(|()| model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
-    let warning = weighed.as_ref().and_then(WeighedHover::warning);
+    let warnings: Vec<Notice> = weighed.iter().filter_map(WeighedHover::warning).map(|it| Notice::from(&it)).collect();
     let about: Vec<&SpeedRecord> = records.iter().collect();
-    terminal.warning_count(warning_count(&about) + warning.iter().count());
-    warning.iter().for_each(|warning| terminal.warning(&Notice::from(warning), ""));
+    terminal.warning_count(warning_count(&about) + warnings.len());
+    warnings.iter().for_each(|warning| terminal.warning(warning, ""));
     terminal.notes(&about);
-    if let Some(weighed) = &weighed {
-        if arguments.json {
-            terminal.data(&weighed_json(weighed).map_err(Failure::internal)?)?;
-        } else {
-            terminal.text(&weighed_text(weighed))?;
-        }
+    if arguments.json {
+        let document = weighed_json(weighed.as_ref(), &warnings, &records).map_err(Failure::internal)?;
+        terminal.data(&document)?;
+    } else if let Some(weighed) = &weighed {
+        terminal.text(&weighed_text(weighed))?;
     }
     Ok(ending_of(&records))
 }

@@ -94,7 +94,8 @@ impl Listener {
     fn live_speed(&mut self) -> LiveSpeed {
         let followed = self.follower.as_mut().and_then(Follower::now).zip(self.heard.as_ref());
         let status = match followed {
-            None => LiveStatus::NoRotorTone,
+            None if self.reviewed_at_s > 0.0 => LiveStatus::NoRotorTone,
+            None => LiveStatus::Listening,
             Some(_) if self.octave.possible().is_empty() => LiveStatus::Ok,
             Some(_) => LiveStatus::Ambiguous,
         };

@@ -29,4 +29,6 @@ pub enum LiveStatus {
     Ambiguous,
     /// No rotor tone.
     NoRotorTone,
+    /// Too little sound yet for the first review.
+    Listening,
 }

@@ -38,12 +38,12 @@ def test_tables_and_pictures(name):
     assert "<table>" in result._repr_html_()
 
 
-@pytest.mark.parametrize("name", ["speed", "tones", "identify"])
+@pytest.mark.parametrize("name", RESULTS)
 def test_figures_are_svg(name):
     result = RESULTS[name]()
     svg = result.figure()
     assert svg is not None and ElementTree.fromstring(svg).tag.endswith("svg")
-    assert svg in result._repr_html_()
+    assert "<svg" in result._repr_html_()
 
 
 @pytest.mark.parametrize("name", RESULTS)

@@ -84,6 +84,14 @@ def test_a_bucket_has_the_rows_of_its_folder(bucket, archive, program):
     assert rows("out")["speed_rev_s"][0].as_py() == pytest.approx(90.0, abs=0.1)
 
 
+def test_a_listing_of_several_pages_is_read_to_its_end(bucket, archive, program):
+    # the store tells a thousand names at once; the recordings of day 1 are behind these
+    for number in range(1005):
+        bucket.put_object(Bucket=BUCKET, Key=f"archive/day 0/note {number:04}.txt", Body=b"no recording")
+    assert program("batch", f"s3://{BUCKET}/archive", "-o", "out", *FLAGS).returncode == 3
+    assert same(rows("out"), archive, f"s3://{BUCKET}")
+
+
 def test_one_recording_and_a_list_of_addresses(bucket, archive, program):
     assert program("batch", f"s3://{BUCKET}/archive/day 1/3.wav", "-o", "one", *FLAGS).returncode == 0
     assert rows("one")["file"].to_pylist() == [f"s3://{BUCKET}/archive/day 1/3.wav"]

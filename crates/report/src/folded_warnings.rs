@@ -89,11 +89,14 @@ fn lines_of_warnings(records: &[&SpeedRecord], folded: &[FoldedWarning]) -> usiz
 
 /// "1 recording without a speed, 2 warnings": what stands above the speeds of recordings. `None` where there is nothing to tell.
 pub fn weaknesses_in_words(records: &[&SpeedRecord]) -> Option<String> {
-    let missing = records.iter().filter(|record| record.reason().is_some() && !record.has_failed()).count();
+    let ambiguous = records.iter().filter(|record| record.is_ambiguous()).count();
+    let without = records.iter().filter(|record| record.reason().is_some() && !record.has_failed()).count() - ambiguous;
     let warnings = lines_of_warnings(records, &folded_warnings(records));
     let mut words = Vec::new();
-    if missing > 0 {
-        words.push(format!("{} without a speed", counted(missing, "recording")));
+    for (count, what) in [(without, "without a speed"), (ambiguous, "with several possible speeds")] {
+        if count > 0 {
+            words.push(format!("{} {what}", counted(count, "recording")));
+        }
     }
     if warnings > 0 {
         words.push(counted(warnings, "warning"));

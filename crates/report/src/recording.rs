@@ -184,11 +184,15 @@ impl SpeedRecord {
                 Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
-                    "several rotor speeds explain this sound; count the blades and give --blades N, or give --diameter-m, \
-                     --mass-kg and --rotors"
-                        .to_owned(),
+                    if self.has_thrust_coefficients() {
+                        "several rotor speeds explain this sound; count the blades, and give --blades N too"
+                    } else {
+                        "several rotor speeds explain this sound; count the blades and give --blades N, and if that is not enough --diameter-m, \
+                         --mass-kg and --rotors too"
+                    }
+                    .to_owned(),
                 ),
-                Outcome::Ok(tone) if tone.alternatives.iter().all(|reading| reading.thrust_coefficient.is_none()) => Some(
+                Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(
                     "several rotor speeds explain this sound; give the diameter of the propellers (--diameter-m), the mass (--mass-kg) and the \
                      number of rotors (--rotors): they rule out speeds that cannot carry the vehicle"
                         .to_owned(),
@@ -200,6 +204,11 @@ impl SpeedRecord {
                 ),
             },
         }
+    }
+
+    /// Whether diameter, mass and number of rotors are known, so that each possible speed has a thrust coefficient.
+    fn has_thrust_coefficients(&self) -> bool {
+        self.alternatives().iter().any(|reading| reading.thrust_coefficient.is_some())
     }
 
     /// Whether the file could not be read.

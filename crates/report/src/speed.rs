@@ -49,7 +49,7 @@ pub fn speed_table(records: &[SpeedRecord], width: Option<usize>) -> String {
             }
             None if record.has_failed() => table.push_words(name(record), "could not be heard".to_owned()),
             None if record.is_ambiguous() => {
-                table.push_words(name(record), "a rotor tone that can mean:".to_owned());
+                table.push_words(name(record), "possible speeds, each with its plausibility:".to_owned());
                 let readings = record.alternatives();
                 let shown = readings.iter().filter(|reading| reading.plausibility >= SHOWN_MIN).count().max(2);
                 for (reading, meaning) in readings.iter().zip(meanings_of(readings)).take(shown) {
@@ -99,7 +99,7 @@ fn cell_of_span(record: &SpeedRecord) -> String {
 /// One of several readings; its plausibility stands in the column of the uncertainty.
 fn cells_of_reading(record: &SpeedRecord, reading: &Reading, meaning: &str) -> Vec<String> {
     vec![
-        format!("  {meaning}? ({} %)", percent(reading.plausibility)),
+        format!("  {meaning} ({} %)", percent(reading.plausibility)),
         significant(reading.tone_hz, DIGITS_OF_READINGS),
         significant(reading.speed.rev_s(), DIGITS_OF_READINGS),
         DASH.to_owned(),

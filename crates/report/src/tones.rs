@@ -102,6 +102,9 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     text
 }
 
+/// A tone that moves by more (standard deviation) has no single frequency.
+const MOVING_SHARE: f64 = 0.002;
+
 /// "rotor: harmonics 1–9 of 360.2 Hz, 31 dB over the noise, all the time".
 fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
     let time = match (100.0 * family.time_share).round() {
@@ -112,7 +115,11 @@ fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
     let lines = match family.harmonics.len() {
         1 if kind == Remark::SingleLine.text() => format!("{fundamental} Hz"),
         1 => format!("a {} at {fundamental} Hz", Remark::SingleLine.text()),
-        _ => format!("harmonics {} of {fundamental} Hz", numbers_in_words(&family.harmonics)),
+        _ => {
+            let is_moving = family.spread_hz.is_some_and(|spread_hz| spread_hz > MOVING_SHARE * family.fundamental_hz);
+            let about = if is_moving { "about " } else { "" };
+            format!("harmonics {} of {about}{fundamental} Hz", numbers_in_words(&family.harmonics))
+        }
     };
     format!("{kind}: {lines}, {:.0} dB over the noise, {time}", family.level_db)
 }
@@ -148,6 +155,8 @@ pub(crate) fn percent(plausibility: f64) -> String {
     match plausibility {
         0.0 => DASH.to_owned(),
         share if share < 0.005 => "<1".to_owned(),
+        // 99 % would settle it
+        share if (0.985..1.0).contains(&share) => format!("{:.1}", (1000.0 * share).floor() / 10.0),
         share => format!("{:.0}", 100.0 * share),
     }
 }
@@ -163,14 +172,15 @@ fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
     let (readings, digits) = (&family.readings, digits(family));
     let has_mach = readings.iter().any(|reading| reading.tip_mach.is_some());
     let has_coefficient = readings.iter().any(|reading| reading.thrust_coefficient.is_some());
+    let has_gear = readings.iter().any(|reading| reading.meaning.gear().is_some());
     let mut columns = vec![
         Column::words("if it has"),
         Column::numbers("order", ""),
         Column::numbers("tone", "Hz"),
         Column::numbers("shaft", "rev/s"),
         Column::numbers("shaft", "rpm"),
-        Column::numbers("motor", "rpm"),
     ];
+    columns.extend(has_gear.then(|| Column::numbers("motor", "rpm")));
     columns.extend(has_mach.then(|| Column::numbers("tip", "Mach")));
     columns.extend(has_coefficient.then(|| Column::numbers("C_T", "")));
     columns.extend([Column::numbers("plausible", "%"), Column::words("because")]);
@@ -182,8 +192,8 @@ fn readings_table(family: &ToneFamily, width: Option<usize>) -> String {
             significant(reading.tone_hz, digits),
             significant(reading.speed.rev_s(), digits),
             significant(reading.speed.rpm(), digits),
-            significant(reading.motor_speed.rpm(), digits),
         ];
+        cells.extend(has_gear.then(|| significant(reading.motor_speed.rpm(), digits)));
         let number = |value: Option<f64>| value.map_or(DASH.to_owned(), |value| significant(value, 2));
         cells.extend(has_mach.then(|| number(reading.tip_mach)));
         cells.extend(has_coefficient.then(|| number(reading.thrust_coefficient)));

@@ -1,28 +1,65 @@
 //! The mass of a hovering vehicle from its sound.
 
+use crate::notice::Notice;
 use crate::number::{rounded, significant, with_uncertainty};
+use crate::recording::SpeedRecord;
 use crate::thrust::WITHOUT_FLIGHTS;
 use crate::version::VERSION;
 use hovertone_thrust::{COVERAGE_FACTOR, WeighedHover};
-use hovertone_vehicle::Estimate;
+use hovertone_vehicle::{Estimate, RotorSpeed};
 use serde::Serialize;
 
 /// Digits of a mass without uncertainty.
 const DIGITS: usize = 3;
 
 #[derive(Serialize)]
-struct Weighed<'a> {
-    #[serde(flatten)]
-    weighed: &'a WeighedHover,
+struct WeighedDocument<'a> {
+    mass_kg: Option<Estimate>,
+    payload_kg: Option<Estimate>,
+    speed_rad_s: Option<RotorSpeed>,
+    recording_count: usize,
+    has_flight_scatter: Option<bool>,
+    warnings: &'a [Notice],
+    recordings: Vec<HeardLine<'a>>,
     version: &'static str,
 }
 
-/// JSON, ending with a line feed.
+/// What a recording gave, and what weakens it.
+#[derive(Serialize)]
+struct HeardLine<'a> {
+    file: &'a str,
+    status: &'static str,
+    reason: Option<String>,
+    warnings: &'a [Notice],
+}
+
+impl<'a> From<&'a SpeedRecord> for HeardLine<'a> {
+    fn from(record: &'a SpeedRecord) -> Self {
+        Self { file: &record.file, status: record.status(), reason: record.reason(), warnings: &record.notices }
+    }
+}
+
+/// JSON, ending with a line feed. `warnings` are about the mass, those of a recording stand beside its name. Where no recording has a
+/// speed, the mass is null.
 ///
 /// # Errors
 /// None is known, since all types can be serialised.
-pub fn weighed_json(weighed: &WeighedHover) -> Result<String, serde_json::Error> {
-    Ok(serde_json::to_string_pretty(&Weighed { weighed, version: VERSION })? + "\n")
+pub fn weighed_json(
+    weighed: Option<&WeighedHover>,
+    warnings: &[Notice],
+    records: &[SpeedRecord],
+) -> Result<String, serde_json::Error> {
+    let document = WeighedDocument {
+        mass_kg: weighed.map(|weighed| weighed.mass_kg),
+        payload_kg: weighed.and_then(|weighed| weighed.payload_kg),
+        speed_rad_s: weighed.map(|weighed| weighed.speed),
+        recording_count: weighed.map_or(0, |weighed| weighed.recording_count),
+        has_flight_scatter: weighed.map(|weighed| weighed.has_flight_scatter),
+        warnings,
+        recordings: records.iter().map(HeardLine::from).collect(),
+        version: VERSION,
+    };
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
 
 /// Mass and payload in grams, with their expanded uncertainties.
@@ -32,12 +69,12 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
         let mass = mass_kg.scaled(1e3);
         match mass.std_uncertainty {
             Some(_) => format!("{} g (k = 2{flights})", with_uncertainty(mass.value, mass.std_uncertainty)),
-            None => format!("{} g (± is not known: the constant has none)", significant(mass.value, DIGITS)),
+            None => format!("{} g (± is not known, because the constant has none)", significant(mass.value, DIGITS)),
         }
     };
     let share = weighed.mass_kg.std_uncertainty.map(|std| COVERAGE_FACTOR * std / weighed.mass_kg.value);
     let mut text = format!(
-        "hovers at {} rpm ({} {})\nmass: {}\n",
+        "hovers at {} rpm ({} {})\nmass as flown: {}\n",
         // m ∝ ω²: the speed is known to half of the share of the mass
         rounded(weighed.speed.rpm(), share.map(|share| share / 2.0 * weighed.speed.rpm()).or(Some(10.0))),
         weighed.recording_count,
@@ -53,7 +90,7 @@ pub fn weighed_text(weighed: &WeighedHover) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hovertone_vehicle::{Ending, RotorSpeed};
+    use hovertone_vehicle::Ending;
 
     #[test]
     fn the_speed_has_no_more_digits_than_the_mass_allows() {

@@ -77,7 +77,7 @@ pub enum ConfigError {
         max: f64,
     },
     /// A band whose upper edge is not above its lower edge.
-    #[error("the band {low_hz}:{high_hz} Hz holds nothing, its end must be above its start")]
+    #[error("the band {low_hz}:{high_hz} Hz is empty: its upper edge must be above its lower edge")]
     EmptyBand {
         /// Lower edge.
         low_hz: f64,
@@ -85,7 +85,7 @@ pub enum ConfigError {
         high_hz: f64,
     },
     /// A span whose end is not after its start.
-    #[error("the span from {from_s} s to {to_s} s holds nothing, its end must be after its start")]
+    #[error("the end of the span, {to_s} s, is before its start, {from_s} s")]
     EmptySpan {
         /// Start.
         from_s: f64,

@@ -16,6 +16,7 @@ pub fn live_status_in_words(status: LiveStatus, reason: &str) -> String {
     match status {
         LiveStatus::Ok => String::new(),
         LiveStatus::Ambiguous => "several speeds are possible".to_owned(),
+        LiveStatus::Listening => "listening".to_owned(),
         LiveStatus::NoRotorTone if reason.is_empty() => "no rotor tone".to_owned(),
         LiveStatus::NoRotorTone => format!("no rotor tone: {reason}"),
     }

@@ -6,18 +6,15 @@ use crate::args::BatchCompareArguments;
 use crate::failure::{Ending, Failure};
 use crate::terminal::Terminal;
 use hovertone_archive::{Archives, BatchIdentity, Summary, drift_json, drift_of, drift_text, summaries_of_parquet};
-use hovertone_report::{Notice, shared_folder};
+use hovertone_report::{Notice, printable, shared_folder};
 use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
-/// Most different settings that a warning names.
-const DIFFERENCES_MAX: usize = 4;
-
 /// Compares two folders of results.
 pub(crate) fn run(arguments: &BatchCompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let (earlier, later) = (Results::read(&arguments.earlier)?, Results::read(&arguments.later)?);
-    if let Some(notice) = earlier.other_settings(&later) {
+    if let Some(notice) = earlier.other_settings(&later, [&arguments.earlier, &arguments.later]) {
         terminal.warning(&notice, "");
     }
     let drift = drift_of(Archives { earlier: &earlier.summaries, later: &later.summaries });
@@ -45,8 +42,13 @@ struct Results {
 
 impl Results {
     fn read(folder: &Path) -> Result<Self, Failure> {
-        let is_none =
-            |what: &str| Failure::failed(what, "give the folder -o of a `hovertone batch` that has ended", folder);
+        let is_none = |what: &str| {
+            Failure::failed(
+                what,
+                "hear both archives first, with `hovertone batch ARCHIVE -o OUT`, and give both OUT",
+                folder,
+            )
+        };
         let text = fs::read_to_string(folder.join(IDENTITY)).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound if !folder.exists() => is_none("there is no such folder"),
             _ => is_none("this is not a folder that `hovertone batch -o` wrote"),
@@ -65,17 +67,14 @@ impl Results {
     }
 
     /// The warning that the recordings were heard in another way.
-    fn other_settings(&self, later: &Self) -> Option<Notice> {
+    fn other_settings(&self, later: &Self, folders: [&Path; 2]) -> Option<Notice> {
         let there = BatchIdentity {
             inputs: later.identity.inputs.clone(),
             list_from_stdin: later.identity.list_from_stdin.clone(),
             ..self.identity.clone()
         };
-        let differences = there.differences(&later.identity);
-        if differences.is_empty() {
-            return None;
-        }
-        let shown = differences.iter().take(DIFFERENCES_MAX).cloned().collect::<Vec<_>>().join("; ");
+        let places = folders.map(|folder| format!("in {}", printable(&folder.to_string_lossy())));
+        let shown = there.differences(&later.identity, places.each_ref().map(String::as_str))?;
         let text = format!("the two archives were heard with other settings: a change may come from them ({shown})");
         Some(Notice::new(text, "hear both with the same settings"))
     }

@@ -18,8 +18,6 @@ pub(crate) const IDENTITY: &str = "batch.json";
 const PARTS: &str = "parts";
 /// Ending of a part.
 const PART_ENDING: &str = "part";
-/// Most differences that a message names.
-const DIFFERENCES_MAX: usize = 4;
 
 /// A folder that this run may write.
 pub(crate) struct BatchFolder {
@@ -166,17 +164,8 @@ fn refuse_other(path: &Path, identity: &BatchIdentity) -> Result<(), Failure> {
             &place,
         ));
     };
-    let differences = there.differences(identity);
-    if differences.is_empty() {
-        return Ok(());
-    }
-    let shown = differences.iter().take(DIFFERENCES_MAX).cloned().collect::<Vec<_>>().join("; ");
-    let more = match differences.len().saturating_sub(DIFFERENCES_MAX) {
-        0 => String::new(),
-        more => format!("; and {more} more"),
-    };
-    let what =
-        format!("this folder holds results of other recordings or settings: nothing was written ({shown}{more})");
+    let Some(shown) = there.differences(identity, ["in the folder", "in this run"]) else { return Ok(()) };
+    let what = format!("this folder holds results of other recordings or settings: nothing was written ({shown})");
     Err(refused(&what, hint, path))
 }
 

@@ -110,10 +110,10 @@ fn result_in_words(comparison: &Comparison, clock_ppm: f64) -> String {
     let judgement = comparison.check.judgement(clock_ppm);
     let reason = match (judgement, comparison.check.relation) {
         (Judgement::Passes, _) => "",
-        (Judgement::Undecided, _) => ": the clock is not decided",
-        (Judgement::Fails, Relation::Agrees) => ": the clock fails",
-        (Judgement::Fails, _) if comparison.heard.is_rotor => ": the order of the tone fails",
-        (Judgement::Fails, _) => ": the tone fails",
+        (Judgement::Undecided, _) => " (clock)",
+        (Judgement::Fails, Relation::Agrees) => " (clock)",
+        (Judgement::Fails, _) if comparison.heard.is_rotor => " (order of the tone)",
+        (Judgement::Fails, _) => " (tone)",
     };
     format!("result: {}{reason}\n", word(judgement))
 }
@@ -155,9 +155,9 @@ fn correction_decimals(expanded_ppm: f64) -> usize {
     usize::from(expanded_ppm < 10.0)
 }
 
-/// "0.129 ± 0.030 %", from millionths.
-fn percent(ppm: f64, std_ppm: f64) -> String {
-    format!("{} %", with_uncertainty(ppm / PPM_PER_PERCENT, Some(std_ppm / PPM_PER_PERCENT)))
+/// "129.4 ± 3.1 ppm".
+fn in_ppm(ppm: f64, std_ppm: f64) -> String {
+    format!("{} ppm", with_uncertainty(ppm, Some(std_ppm)))
 }
 
 fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
@@ -167,10 +167,10 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     // a direction is told where it is known
     let off = if check.is_significant() {
         let direction = if check.correction_ppm > 0.0 { "fast" } else { "slow" };
-        let off = percent(check.correction_ppm.abs(), check.correction_std_ppm);
+        let off = in_ppm(check.correction_ppm.abs(), check.correction_std_ppm);
         format!("it runs {direction} by {off}")
     } else {
-        let off = percent(check.correction_ppm, check.correction_std_ppm);
+        let off = in_ppm(check.correction_ppm, check.correction_std_ppm);
         format!("it is off by {off}")
     };
     let advice = match judgement {
@@ -182,13 +182,12 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
     };
     let verdict = word(judgement);
     let limit_ppm = arguments.clock_ppm;
-    let limit = limit_ppm / PPM_PER_PERCENT;
     let condition = match check.relation {
         Relation::OtherOrder(fitting) if comparison.heard.is_rotor => format!(", if the order is {fitting}"),
         _ => String::new(),
     };
     let mut text = format!(
-        "clock{condition}: {verdict}, {off} (k = 2); the limit is {limit} % (--clock-ppm {limit_ppm}){advice}\n"
+        "clock{condition}: {verdict}, {off} (millionths, k = 2); the limit is {limit_ppm} ppm (--clock-ppm){advice}\n"
     );
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
@@ -201,7 +200,7 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         let ppm = signed(whole_ppm, decimals).replace('−', "-").replace('+', "");
         format!(
             "correction of the clock: --clock-correction-ppm {ppm}, or in an experiment file\n  [recorder]\n  clock_correction_ppm = {ppm}\n  \
-             clock_ppm = {}\n",
+             clock_ppm = {}  # what may remain: clocks change with temperature\n",
             fixed(check.expanded_ppm().max(WARMTH_PPM), decimals)
         )
     } else {

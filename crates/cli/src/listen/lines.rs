@@ -2,13 +2,14 @@
 
 use crate::failure::Failure;
 use crate::listen::summary::LiveSummary;
-use hovertone::live::{Listener, LiveSpeed, LiveStatus};
+use hovertone::live::{Listener, LiveSpeed};
+use hovertone_report::fixed;
 use hovertone_workflow::{LiveLine, live_status_in_words, live_words};
 
 /// Live speeds of one second, of which a line of text tells the last.
 const SPEEDS_PER_LINE: usize = 10;
 /// Names of the columns, above the first line.
-const HEAD: &str = "      time       level  mean speed of the rotors, ± is k = 2\n";
+const HEAD: &str = "      time       level  mean speed of the rotors (± is k = 2; 0 dB is full scale)\n";
 
 /// One line of JSON.
 pub(crate) fn json_line(speed: &LiveSpeed, listener: &Listener) -> Result<String, Failure> {
@@ -24,7 +25,7 @@ pub(crate) struct PlainLines {
 }
 
 impl PlainLines {
-    /// The line of a speed; `None` for those between. A reason is written where it changes.
+    /// The line of a speed; `None` for those between. A reason why no rotor is heard is written where it changes.
     pub(crate) fn line(&mut self, speed: &LiveSpeed, reason: &str) -> Option<String> {
         self.summary.add(speed);
         self.count += 1;
@@ -36,15 +37,16 @@ impl PlainLines {
         let in_words =
             live_words(speed).map(|words| format!("{} ± {} rev/s", words.speed_rev_s, words.plus_minus_rev_s));
         let words = match in_words {
-            Some(words) if status.is_empty() || !is_new => words,
+            Some(words) if status.is_empty() => words,
             Some(words) => format!("{words}, {status}"),
             None if is_new => status.clone(),
-            None => live_status_in_words(LiveStatus::NoRotorTone, ""),
+            None => live_status_in_words(speed.status, ""),
         };
         self.last_status = status;
         let clipping = if speed.clipped_share > 0.0 { ", clipped" } else { "" };
         let head = if self.count == SPEEDS_PER_LINE { HEAD } else { "" };
-        let line = format!("{:8.1} s  {:7.1} dB{clipping}  {words}\n", speed.time_s, speed.level_db).replace('-', "−");
+        let level_db = fixed(speed.level_db, 1);
+        let line = format!("{:8.1} s  {level_db:>7} dB{clipping}  {words}\n", speed.time_s);
         Some(format!("{head}{line}"))
     }
 

@@ -13,7 +13,7 @@ use crate::args::{AnalysisArguments, ListenArguments};
 use crate::failure::{Ending, Failure};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
-use hovertone::live::{Listener, LiveConfig, LiveSpeed};
+use hovertone::live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
 use hovertone_vehicle::check_range;
 use lines::{PlainLines, json_line};
 use pace::Pace;
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
                 if is_reviewed {
                     listener.review().map_err(unheard)?;
                 }
-                has_told |= arrived.is_some_and(|speed| speed.speed_rev_s.is_some());
+                has_told |= arrived.is_some_and(|speed| speed.status == LiveStatus::Ok);
                 let wait = pace.time_left(listener.heard_s());
                 if !tell(&mut output, arrived, is_reviewed, wait, &mut listener, terminal)? {
                     return Ok(Ending::Done);

@@ -1,15 +1,15 @@
 //! All live speeds in one sentence.
 
-use hovertone::live::LiveSpeed;
+use hovertone::live::{LiveSpeed, LiveStatus};
 use hovertone_report::{fixed, with_uncertainty};
-
-const PERCENT: f64 = 100.0;
 
 /// Sums over the live speeds, which come at equal distances in time.
 #[derive(Debug, Default)]
 pub(crate) struct LiveSummary {
     count: usize,
-    with_speed_count: usize,
+    settled_count: usize,
+    ambiguous_count: usize,
+    listening_count: usize,
     sum_rev_s: f64,
     sum_std_rev_s: f64,
     end_s: f64,
@@ -19,40 +19,47 @@ impl LiveSummary {
     pub(crate) fn add(&mut self, speed: &LiveSpeed) {
         self.count += 1;
         self.end_s = speed.time_s;
-        if let (Some(speed_rev_s), Some(std_rev_s)) = (speed.speed_rev_s, speed.std_uncertainty_rev_s) {
-            self.with_speed_count += 1;
-            self.sum_rev_s += speed_rev_s;
-            self.sum_std_rev_s += std_rev_s;
+        match (speed.status, speed.speed_rev_s, speed.std_uncertainty_rev_s) {
+            (LiveStatus::Ok, Some(speed_rev_s), Some(std_rev_s)) => {
+                self.settled_count += 1;
+                self.sum_rev_s += speed_rev_s;
+                self.sum_std_rev_s += std_rev_s;
+            }
+            (LiveStatus::Ambiguous, ..) => self.ambiguous_count += 1,
+            (LiveStatus::Listening, ..) => self.listening_count += 1,
+            _ => {}
         }
     }
 
-    /// The mean speed, and how much of the time had a speed; `None` if nothing was heard.
+    /// The mean speed, and how long it was heard; `None` if there was no sound.
     ///
     /// The errors of live speeds are those of the same reviews, so they do not average out: the standard uncertainty of the mean is the mean of the
     /// standard uncertainties, which is its value for errors that are all equal and an upper bound for all others.
     pub(crate) fn in_words(&self) -> Option<String> {
         let end_s = fixed(self.end_s, 1);
-        match (self.count, self.with_speed_count as f64) {
-            (0, _) => None,
-            (_, 0.0) => Some(format!("no speed was heard in {end_s} s\n")),
-            (count, with_speed_count) => {
-                let std_rev_s = self.sum_std_rev_s / with_speed_count;
-                let mean = with_uncertainty(self.sum_rev_s / with_speed_count, Some(std_rev_s));
-                let share = with_speed_count / count as f64;
-                let heard_s = fixed(share * self.end_s, 1);
-                let percent = fixed(PERCENT * share, 0);
-                Some(format!(
-                    "mean: {mean} rev/s (k = 2), over {heard_s} of {end_s} s: {percent} % of the time had a speed\n"
-                ))
-            }
+        let part_s = |count: usize| fixed(count as f64 / self.count as f64 * self.end_s, 1);
+        let mean = (self.settled_count > 0).then(|| {
+            let count = self.settled_count as f64;
+            let mean = with_uncertainty(self.sum_rev_s / count, Some(self.sum_std_rev_s / count));
+            format!("mean: {mean} rev/s (k = 2), from {} s of {end_s} s", part_s(self.settled_count))
+        });
+        let mut words = match mean {
+            _ if self.count == 0 => return None,
+            Some(mean) => mean,
+            None if self.listening_count == self.count => format!("{end_s} s are too short for a first speed"),
+            None if self.ambiguous_count > 0 => format!("no single speed was heard in {end_s} s"),
+            None => format!("no speed was heard in {end_s} s"),
+        };
+        if self.ambiguous_count > 0 {
+            words += &format!("; for {} s several speeds are possible", part_s(self.ambiguous_count));
         }
+        Some(words + "\n")
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hovertone::live::LiveStatus;
 
     fn summary_of(speeds_rev_s: &[Option<f64>]) -> LiveSummary {
         let mut summary = LiveSummary::default();
@@ -70,10 +77,35 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_is_over_the_time_that_had_a_speed() {
+    fn the_mean_is_over_the_time_that_had_one_speed() {
         let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words().unwrap();
-        assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), over 0.2 of 0.4 s: 50 % of the time had a speed\n");
+        assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), from 0.2 s of 0.4 s\n");
         assert_eq!(summary_of(&[None; 20]).in_words().unwrap(), "no speed was heard in 2.0 s\n");
         assert_eq!(summary_of(&[]).in_words(), None);
+    }
+
+    #[test]
+    fn what_is_not_settled_is_no_part_of_the_mean() {
+        let of_status = |statuses: &[LiveStatus]| {
+            let mut summary = LiveSummary::default();
+            for (number, &status) in (1..).zip(statuses) {
+                let has_speed = matches!(status, LiveStatus::Ok | LiveStatus::Ambiguous);
+                summary.add(&LiveSpeed {
+                    time_s: f64::from(number),
+                    status,
+                    speed_rev_s: has_speed.then_some(if status == LiveStatus::Ok { 60.0 } else { 120.0 }),
+                    std_uncertainty_rev_s: has_speed.then_some(0.1),
+                    level_db: -20.0,
+                    clipped_share: 0.0,
+                });
+            }
+            summary.in_words().unwrap()
+        };
+        use LiveStatus::{Ambiguous, Listening, Ok};
+        assert_eq!(of_status(&[Listening; 2]), "2.0 s are too short for a first speed\n");
+        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible\n";
+        assert_eq!(of_status(&[Listening, Ambiguous, Ambiguous]), none);
+        let some = "mean: 60.00 ± 0.20 rev/s (k = 2), from 1.0 s of 3.0 s; for 1.0 s several speeds are possible\n";
+        assert_eq!(of_status(&[Listening, Ambiguous, Ok]), some);
     }
 }

@@ -231,8 +231,14 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
     assert_eq!(fs::read_dir(&full).unwrap().count(), 1, "nothing was written");
     batch(&archive, &out, &[]).ends_with(0);
     let words = ["batch", text(&archive), "-o", text(&out), "--rotors", "1", "--blades"];
-    refused_with(&[&words[..], &["3"]].concat(), &["other recordings or settings", "tone order: 2.0 there, 3.0 here"]);
-    refused_with(&["batch", text(&archive.join("flight 0")), "-o", text(&out), "--blades", "2"], &["inputs: ", "here"]);
+    refused_with(
+        &[&words[..], &["3"]].concat(),
+        &["other recordings or settings", "tone.order: 2.0 in the folder, 3.0 in this run"],
+    );
+    refused_with(
+        &["batch", text(&archive.join("flight 0")), "-o", text(&out), "--blades", "2"],
+        &["inputs: ", "in this run"],
+    );
     let before = results(&out);
     // what a person wrote beside the results stays
     fs::write(out.join("notes.txt"), "mine").unwrap();

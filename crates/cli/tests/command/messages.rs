@@ -302,7 +302,7 @@ fn what_weakens_an_answer_stands_on_top_counted() {
     for (arguments, answer) in [
         (vec!["fit", text(&table)], "C_f, one rotor"),
         (vec!["speed", "--vehicle", "ardrone", text(&sound)], "rev/s  "),
-        (vec!["weigh", text(&sound), "--vehicle", "ardrone", "--constant-n-s2", "2.831e-5"], "mass: "),
+        (vec!["weigh", text(&sound), "--vehicle", "ardrone", "--constant-n-s2", "2.831e-5"], "mass as flown: "),
     ] {
         let both = std::process::Command::new("sh")
             .args(["-c", "\"$0\" \"$@\" 2>&1", env!("CARGO_BIN_EXE_hovertone")])

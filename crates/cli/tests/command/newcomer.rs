@@ -75,7 +75,7 @@ fn a_newcomer_with_films_gets_the_constant_within_its_uncertainty() {
         }
         let run = run_in(at, &words).ends_with(0);
         if words[0] == "weigh" {
-            weighed = run.stdout.lines().find_map(|line| line.strip_prefix("mass: ")).map(str::to_owned);
+            weighed = run.stdout.lines().find_map(|line| line.strip_prefix("mass as flown: ")).map(str::to_owned);
         }
         done += 1;
     }

@@ -276,7 +276,7 @@ fn a_weighed_mass_is_that_of_a_vehicle() {
     // without a ± of the constant the mass has none, and says so
     let arguments = weigh("2.83e-5", &ardrone);
     let words = hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0).stdout;
-    assert!(words.contains("mass: 413 g (± is not known"), "{words}");
+    assert!(words.contains("mass as flown: 413 g (± is not known"), "{words}");
 }
 
 #[test]

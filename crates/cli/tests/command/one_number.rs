@@ -214,7 +214,9 @@ fn every_printed_plus_minus_is_k_2() {
     let weighed: Value =
         serde_json::from_str(&hovertone(&[&weigh[..], &["--json"]].concat()).ends_with(0).stdout).unwrap();
     let words = hovertone(&weigh).ends_with(0).stdout;
-    for (name, pointer) in [("mass: ", "/mass_kg/std_uncertainty"), ("payload: ", "/payload_kg/std_uncertainty")] {
+    for (name, pointer) in
+        [("mass as flown: ", "/mass_kg/std_uncertainty"), ("payload: ", "/payload_kg/std_uncertainty")]
+    {
         let line = words.lines().find(|line| line.starts_with(name)).unwrap();
         let (_, plus_minus) = line.split_once(" ± ").unwrap();
         let grams: f64 = plus_minus.split_whitespace().next().unwrap().parse().unwrap();

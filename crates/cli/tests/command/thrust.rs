@@ -1,6 +1,6 @@
 //! `hovertone fit`, `export`, `compare` and `weigh` on numbers whose truth is known.
 
-use crate::testkit::{files_in, hovertone, recordings, steady_hover, text, write_hover};
+use crate::testkit::{files_in, hovertone, recordings, steady_hover, text, write_hover, write_noise};
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
 use std::fs;
@@ -258,6 +258,16 @@ fn results_are_exported_compared_and_weigh_a_payload() {
     let payload_kg = number(&weighed, "/payload_kg/value");
     assert!((payload_kg - 0.050).abs() < 2.0 * number(&weighed, "/payload_kg/std_uncertainty"), "{weighed}");
     assert!((payload_kg - 0.050).abs() < 0.002, "{weighed}");
+    let noise = folder.path().join("noise.wav");
+    write_noise(&noise, 3.0);
+    let both = ["weigh", text(&laden), text(&noise), "--constant", text(&results), "--json"];
+    let both: Value = serde_json::from_str(&hovertone(&both).ends_with(3).stdout).unwrap();
+    assert_eq!(both["mass_kg"]["value"], weighed["mass_kg"]["value"], "{both}");
+    let status: Vec<&Value> = both["recordings"].as_array().unwrap().iter().map(|line| &line["status"]).collect();
+    assert_eq!(status, ["ok", "no_rotor_tone"], "{both}");
+    let nothing = ["weigh", text(&noise), "--constant", text(&results), "--json"];
+    let nothing: Value = serde_json::from_str(&hovertone(&nothing).ends_with(3).stdout).unwrap();
+    assert!(nothing["mass_kg"].is_null() && nothing["recordings"][0]["reason"].is_string(), "{nothing}");
     let words = hovertone(&["weigh", text(&laden), "--constant", text(&results)]).ends_with(0).stdout;
     assert!(words.contains("payload: ") && words.contains(" g"), "{words}");
     for (flag, value) in [("--mass-std-kg", "nan"), ("--mass-std-kg", "-1"), ("--mass-kg", "nan")] {

@@ -14,7 +14,7 @@ from . import _native
 from ._errors import HovertoneError
 from ._estimate import Estimate
 from ._extras import axes_of
-from ._rows import Json, Kinds, Shown, column_wise, filled, numbered
+from ._rows import Drawn, Json, Kinds, column_wise, filled, numbered
 from ._words import Path, is_table, paths_of, refused, words
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _POINT_KINDS: Kinds = {
 
 
 @dataclass(frozen=True, eq=False)
-class Fit(Shown):
+class Fit(Drawn):
     """The thrust constant of a table. As a table: one row for each point.
 
     Attributes

@@ -14,6 +14,7 @@ from ._extras import extra
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+    from matplotlib.axes import Axes
 
 T = TypeVar("T")
 Json = dict[str, Any]
@@ -72,6 +73,26 @@ class Shown(Table):
 
     def _repr_html_(self) -> str:
         return html_table(self._facts()) + (self.figure() or "")
+
+
+class Drawn(Shown):
+    """A result whose figure is its plot by matplotlib."""
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw by matplotlib."""
+        raise NotImplementedError
+
+    def figure(self) -> str | None:
+        """The plot as SVG; ``None`` where matplotlib is not installed."""
+        try:
+            drawn = extra("matplotlib.figure", "plot").Figure(figsize=(6.4, 3.2), layout="constrained")
+        except ImportError:
+            return None
+        self.plot(drawn.subplots())
+        written = io.StringIO()
+        drawn.savefig(written, format="svg")
+        text = written.getvalue()
+        return text[text.index("<svg"):]  # without the head of a file of its own
 
 
 def numbered(warnings: Iterable[str]) -> Json:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._extras import axes_of
 from ._progress import Progress, listening
-from ._rows import Json, Shown
+from ._rows import Drawn, Json
 from ._sound import load
 from ._words import Path, words
 
@@ -28,7 +28,7 @@ __all__ = ["Simulation", "demo", "simulate"]
 
 
 @dataclass(frozen=True, eq=False)
-class Simulation(Shown):
+class Simulation(Drawn):
     """A simulated flight. As a table: the truth, one row for each step.
 
     Attributes

@@ -15,7 +15,7 @@ from ._errors import FileError
 from ._extras import axes_of
 from ._heard import OfSound
 from ._progress import Progress, listening
-from ._rows import Json, Kinds, Shown, filled, kinds_of, numbered
+from ._rows import Drawn, Json, Kinds, filled, kinds_of, numbered
 from ._sound import SAMPLES_HINT, Recording, to_hear
 from ._words import Path, paths_of, refused, words
 
@@ -36,7 +36,7 @@ _SCALARS = (
 
 
 @dataclass(frozen=True, eq=False)
-class Track(Shown):
+class Track(Drawn):
     """The shaft speed over time, as ``hovertone speed --track`` writes it.
 
     Attributes

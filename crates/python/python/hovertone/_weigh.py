@@ -13,7 +13,7 @@ from ._estimate import Estimate, estimate
 from ._export import Results, as_file
 from ._extras import axes_of
 from ._progress import Progress, listening
-from ._rows import Json, Kinds, Shown, filled, numbered
+from ._rows import Drawn, Json, Kinds, filled, numbered
 from ._words import Path, paths_of, words
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ __all__ = ["Weighed", "weigh"]
 
 
 @dataclass(frozen=True)
-class Weighed(Shown):
+class Weighed(Drawn):
     """A mass from its sound.
 
     Attributes
@@ -123,47 +123,36 @@ def weigh(
     """
     paths = paths_of(recordings, "give names of files, without empty cells; weigh hears no arrays")
     with as_file(constant) as results, listening(progress) as listener:
-        data, messages, _ = _native.printed(words("weigh", paths, flags | {"constant": results, "json": True}), listener)
-    told = list(_messages(messages))
-    if data:
-        weighed: Json = json.loads(data)
+        data, _, _ = _native.printed(words("weigh", paths, flags | {"constant": results, "json": True}), listener)
+    weighed: Json = json.loads(data)
+    told = tuple(_told(weighed))
+    if weighed["mass_kg"]:
         return filled(
             Weighed,
             weighed,
             mass_kg=filled(Estimate, weighed["mass_kg"]),
             payload_kg=estimate(weighed["payload_kg"]),
-            warnings=tuple(text for _, text in told),
+            warnings=told,
             json=weighed,
         )
-    all_texts = "; ".join(text for _, text in told)
-    for label, text in told:
-        if label == "error":
-            file, _, reason = text.partition(": ")
-            raise FileError(all_texts, reason, "", file)
-    raise NoRotorToneError(all_texts)
+    for one in weighed["recordings"]:
+        if one["status"] == "error":
+            raise FileError("; ".join(told), one["reason"], "", one["file"])
+    raise NoRotorToneError("; ".join(told))
 
 
-def _messages(text: str) -> Iterator[tuple[str, str]]:
-    """The messages that the command prints beside its answer, each with its label and with the recording that it is about.
+def _told(weighed: Json) -> Iterator[str]:
+    """What weakens the answer, each with its recording.
 
     Examples
     --------
-    >>> list(_messages("1 warning\\na.wav\\n  no rotor tone: it is silent\\n  warning: too loud (hint: x)\\nerror: b.wav: there is no such file\\n"))
-    [('no rotor tone', 'a.wav: no rotor tone: it is silent'), ('warning', 'a.wav: too loud (hint: x)'), ('error', 'b.wav: there is no such file')]
+    >>> told = {"file": "a.wav", "status": "no_rotor_tone", "reason": "it is silent", "warnings": ["too short"]}
+    >>> list(_told({"warnings": ["one flight"], "recordings": [told]}))
+    ['one flight', 'a.wav: no rotor tone: it is silent', 'a.wav: too short']
     """
-    heading = ""
-    for line in text.splitlines():
-        label, colon, words_of = line.strip().partition(": ")
-        if line.startswith("  ") and not colon or line.startswith("  cut ") or label == "cut":
-            # times that are cut weaken nothing
-            continue
-        if not colon or label not in _LABELS:
-            # a number of warnings, or the recording of the next lines
-            heading = line
-            continue
-        said = words_of if label in ("warning", "error") else f"{label}: {words_of}"
-        yield label, f"{heading}: {said}" if line.startswith("  ") else said
-
-
-#: What stands before a message.
-_LABELS = ("warning", "error", "no rotor tone", "ambiguous")
+    yield from weighed["warnings"]
+    for one in weighed["recordings"]:
+        if one["reason"]:
+            label = "" if one["status"] == "error" else one["status"].replace("_", " ") + ": "
+            yield f"{one['file']}: {label}{one['reason']}"
+        yield from (f"{one['file']}: {warning}" for warning in one["warnings"])

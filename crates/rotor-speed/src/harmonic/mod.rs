@@ -254,9 +254,12 @@ impl ChunkLines<'_> {
                 let steady = [SpeedPoint { time_s: 0.0, speed_rev_s: steady_rev_s }];
                 let steady = self.along(SpeedPath::through(&steady, tick_s, ticks)?);
                 let straight = straight_partition(&steady.lines, &steady.path);
+                let is_explained = straight.likelihood() > COHERENT_SHARE * coarse.likelihood_of_heard(line_count);
                 let best = match following {
-                    Some((partition, _)) => straight.or_better(partition),
-                    None => straight,
+                    Some((partition, _)) if is_explained => straight.or_better(partition),
+                    Some((partition, _)) => partition,
+                    None if is_explained => straight,
+                    None => coarse.clone(),
                 };
                 (best, None)
             }

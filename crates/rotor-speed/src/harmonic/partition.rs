@@ -67,6 +67,11 @@ impl Partition {
         self.blocks.iter().map(|block| block.likelihood).sum()
     }
 
+    /// Likelihood of the blocks that stand out of the noise.
+    pub(crate) fn likelihood_of_heard(&self, lines: usize) -> f64 {
+        self.blocks.iter().map(|block| block.likelihood).filter(|&it| it >= likelihood_min(lines)).sum()
+    }
+
     /// Likelihood of all blocks, less the expectation for noise.
     pub(crate) fn likelihood_over_noise(&self, lines: usize) -> f64 {
         self.blocks.iter().map(|block| (block.likelihood - lines as f64 - 1.0).max(0.0)).sum()

@@ -25,7 +25,7 @@ impl HarmonicTrack {
     ///
     /// - The uncertainty of a block follows from the curvature of its likelihood and the scatter of its phases. The uncertainty of blocks that
     ///   are joined by phase follows from the angle at both ends.
-    /// - The variation of the speed itself is no uncertainty of its mean, where there are no gaps.
+    /// - The variation of the speed itself is no uncertainty of its mean, except for the time in which no block is heard.
     /// - For several rotors at once, the uncertainty is at least the one of their mean with unknown loudness.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<SpeedEstimate> {
         let parts: Vec<Part> = self
@@ -49,6 +49,7 @@ impl HarmonicTrack {
         let points: Vec<TrackPoint> = self.points_in(span, order);
         let speeds: Vec<f64> = points.iter().map(|point| point.speed_rev_s).collect();
         let spread_rev_s = std(&speeds);
+        let variance = variance + self.gap_share_squared(span) * spread_rev_s.unwrap_or(0.0).powi(2);
         let weights: f64 = self.lines.iter().map(|line| line.weight()).sum();
         Some(SpeedEstimate {
             method: Method::Harmonic,
@@ -75,6 +76,24 @@ impl HarmonicTrack {
                 })
                 .collect(),
         })
+    }
+
+    /// Square of the standard deviation of the mean over all time from the mean over the time that is heard, over the spread of the speed:
+    /// `g² (1/m + 1/n)` for a share g of the time in m gaps between n heard stretches, whose mean speeds are independent.
+    fn gap_share_squared(&self, span: Option<&Span>) -> f64 {
+        let stretches: Vec<&[HarmonicBlock]> =
+            self.blocks_in(span).chunk_by(|block, next| block.is_heard == next.is_heard).collect();
+        let lengths_s = |is_heard: bool| {
+            let of_kind = stretches.iter().filter(move |stretch| stretch[0].is_heard == is_heard);
+            of_kind.map(|stretch| stretch.iter().map(|block| block.span.length_s()).sum::<f64>()).collect::<Vec<f64>>()
+        };
+        let (heard_s, gaps_s) = (lengths_s(true), lengths_s(false));
+        if heard_s.is_empty() || gaps_s.is_empty() {
+            return 0.0;
+        }
+        let gap_s: f64 = gaps_s.iter().sum();
+        let gap_share = gap_s / (gap_s + heard_s.iter().sum::<f64>());
+        gap_share.powi(2) * (1.0 / gaps_s.len() as f64 + 1.0 / heard_s.len() as f64)
     }
 
     /// Whether a stretch of sound begins or ends at this time: one block begins or ends here, and no other.
@@ -233,6 +252,32 @@ mod tests {
             is_heard: true,
             is_steady: false,
         }
+    }
+
+    /// Of a speed that wanders, stretches of 1 s are heard at random: the mean over all time is within its ± as often as it should be.
+    #[test]
+    fn what_is_not_heard_makes_the_mean_uncertain() {
+        let order = Order::new(2.0).unwrap();
+        let mut state = 7u64;
+        let mut random = move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let mut squares = Vec::new();
+        for _ in 0..400 {
+            // independent speeds, one for each second
+            let speeds: Vec<f64> = (0..12).map(|_| 60.0 + (0..12).map(|_| random() - 0.5).sum::<f64>()).collect();
+            let blocks = (0..).zip(&speeds).map(|(index, &speed)| {
+                let still = CurvedSpeed { start_rev_s: speed, bend_rev_s3: 0.0 };
+                HarmonicBlock { is_heard: random() < 0.5, ..block(f64::from(index), f64::from(index + 1), &still) }
+            });
+            let track = HarmonicTrack { step_s: 0.1, blocks: blocks.collect(), ..HarmonicTrack::default() };
+            let Some(found) = track.speed_in(None, order) else { continue };
+            let error = found.speed.rev_s() - mean(&speeds).unwrap();
+            squares.push((error / found.std_uncertainty_rev_s.unwrap()).powi(2).min(100.0));
+        }
+        let rms = mean(&squares).unwrap().sqrt();
+        assert!((0.7..1.3).contains(&rms), "{rms}");
     }
 
     /// The error of straight blocks at their ends, c T² / 6 at most, is halved by the blocks between them.

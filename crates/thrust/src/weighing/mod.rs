@@ -8,7 +8,6 @@ use crate::settings::UncertaintyInputs;
 use crate::statistics::{mean, std, student_factor};
 use crate::warning::ThrustWarning;
 use hovertone_vehicle::{Ending, Estimate, MASS_FACTOR_MAX, RotorSpeed};
-use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// A payload may come out negative by this share of the vehicle's mass: thinner or denser air, another battery. *Decision.*
@@ -55,14 +54,13 @@ pub struct HeardHover {
 }
 
 /// The mass of a hovering vehicle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeighedHover {
     /// Total mass.
     pub mass_kg: Estimate,
     /// Mass of the payload, where the mass of the vehicle is known.
     pub payload_kg: Option<Estimate>,
     /// Mean shaft speed of all recordings.
-    #[serde(rename = "speed_rad_s")]
     pub speed: RotorSpeed,
     /// Number of recordings with a speed.
     pub recording_count: usize,

@@ -60,7 +60,7 @@ export interface Told {
 
 export interface ToldSpeed {
   time_s: number;
-  status: "ok" | "ambiguous" | "no_rotor_tone";
+  status: "ok" | "ambiguous" | "no_rotor_tone" | "listening";
   speed_rev_s: number | null;
   level_db: number;
   clipped_share: number;

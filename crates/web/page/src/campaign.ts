@@ -90,7 +90,7 @@ export class Campaign extends Observed {
 
   private hear({ speeds, recorded_s }: Told) {
     for (const { time_s, status } of speeds) {
-      const isHeard = status !== "no_rotor_tone";
+      const isHeard = (status === "ok" || status === "ambiguous");
       if (this.phase === "hover" && this.hasLasted(isHeard, time_s, HEARD_S)) this.begin();
       else if (this.phase === "recording" && !this.isByHand && this.hasLasted(!isHeard, time_s, LOST_S)) {
         void this.listening.end();
