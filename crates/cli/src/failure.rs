@@ -53,7 +53,7 @@ impl From<ConfigError> for Failure {
     fn from(error: ConfigError) -> Self {
         let hint = match &error {
             ConfigError::EmptySpan { .. } => {
-                "give a later time with --to, or an earlier one with --from; both in seconds, or as 1:02.5".to_owned()
+                format!("give a later end or an earlier start, in seconds or as 1:02.5: {}", see_help(&typed_words()))
             }
             _ => correct_number(),
         };

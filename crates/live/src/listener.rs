@@ -8,12 +8,14 @@ use crate::recent::Recent;
 use crate::review::{HeardRotors, Reviewed, review};
 use crate::settings::LiveConfig;
 use hovertone_analysis::NoTone;
-use hovertone_rotor_speed::Error;
+use hovertone_rotor_speed::{Discovery, Error};
 use hovertone_signal::{Signal, SignalSource};
 use hovertone_vehicle::RotorSpeed;
 
 /// Largest ratio of a chosen speed and the speeds that are still searched for. *Decision.*
 const CHOSEN_RANGE: f64 = 1.25;
+/// Reviews in sequence that must hear the same rotors before the next ones come more seldom. *Decision.*
+const SETTLED_REVIEWS: u32 = 3;
 
 /// Listens to sound that arrives block by block.
 ///
@@ -31,8 +33,8 @@ pub struct Listener {
     reviewed_at_s: f64,
     /// Whether a review is due.
     is_review_due: bool,
-    /// When the last review heard rotors.
-    heard_at_s: f64,
+    /// Number of the last reviews that heard the rotors that are followed; none where the last one did not.
+    agreeing_reviews: u32,
     follower: Option<Follower>,
     heard: Option<Box<HeardRotors>>,
     octave: Octave,
@@ -55,10 +57,13 @@ impl Listener {
             samples_left: every_samples,
             reviewed_at_s: 0.0,
             is_review_due: false,
-            heard_at_s: 0.0,
+            agreeing_reviews: 0,
             follower: None,
             heard: None,
-            octave: Octave::new(&config.analysis.evidence),
+            octave: Octave::new(
+                &config.analysis.evidence,
+                config.discovery.as_ref().is_some_and(Discovery::may_be_deceived),
+            ),
             reason: None,
             config,
         })
@@ -81,7 +86,11 @@ impl Listener {
                 self.samples_left = self.every_samples;
                 on_speed(self.live_speed());
                 self.meter = Meter::default();
-                let after_s = if self.is_following() { self.config.review_s } else { self.config.search_s };
+                let after_s = match (self.is_following(), self.agreeing_reviews) {
+                    (false, _) => self.config.search_s,
+                    (true, SETTLED_REVIEWS..) => self.config.settled_review_s,
+                    (true, _) => self.config.review_s,
+                };
                 if self.recent.heard_s() >= self.reviewed_at_s + after_s {
                     self.is_review_due = true;
                     break;
@@ -132,17 +141,19 @@ impl Listener {
             Reviewed::Heard(heard) => {
                 let followed = if self.is_following() { self.follower.as_mut().and_then(Follower::now) } else { None };
                 self.octave.take(&heard.compared, followed.map(|now| now.speed_rev_s));
-                self.heard_at_s = now_s;
+                let is_leading = self.octave.is_leading(heard.speed_rev_s);
+                self.agreeing_reviews = if is_leading && followed.is_some() { self.agreeing_reviews + 1 } else { 1 };
                 // the reviews before may know the octave better; then the rotors are followed as before
-                if followed.is_none() || self.octave.is_leading(heard.speed_rev_s) {
+                if followed.is_none() || is_leading {
                     self.follow(&sound, heard);
                 }
             }
             Reviewed::NotHeard(reason) => {
                 // a manoeuvre leaves no hover to review, while the rotors are followed
-                if !self.is_following() || now_s - self.heard_at_s > self.config.window_s {
+                if !self.is_following() || self.agreeing_reviews == 0 {
                     (self.follower, self.heard, self.reason) = (None, None, Some(reason));
                 }
+                self.agreeing_reviews = 0;
             }
         }
         Ok(())

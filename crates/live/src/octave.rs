@@ -1,7 +1,8 @@
 //! Which octave: the beliefs of all reviews of the rotors that are followed, together.
 //!
 //! A rotor that is followed keeps its octave. Each review hears other seconds, and tells a belief in each possible speed; the beliefs of the reviews
-//! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others.
+//! multiply. A speed that a review does not name may still be the truth: a decision leaves one chance of a hundred to others. Where neither the
+//! blades nor the diameter are known, the levels of the lines may deceive, and then they do so in all reviews: the belief is the mean of the reviews.
 
 use hovertone_rotor_speed::EvidenceConfig;
 use hovertone_vehicle::Order;
@@ -46,21 +47,28 @@ pub(crate) struct Octave {
     belief_min: f64,
     /// Belief in a speed that a review does not name: the most that it leaves to others where it has decided.
     unnamed_belief: f64,
+    /// Whether the reviews may all be wrong for the same reason.
+    may_be_deceived: bool,
+    /// Number of reviews of these speeds.
+    reviews: u32,
 }
 
 impl Octave {
     /// Decides as a recording does.
-    pub(crate) fn new(evidence: &EvidenceConfig) -> Self {
+    pub(crate) fn new(evidence: &EvidenceConfig, may_be_deceived: bool) -> Self {
         Self {
             speeds: Vec::new(),
             belief_min: evidence.belief_min,
             unnamed_belief: (1.0 - evidence.belief_min).max(f64::EPSILON),
+            may_be_deceived,
+            reviews: 0,
         }
     }
 
     /// Forgets all reviews.
     pub(crate) fn clear(&mut self) {
         self.speeds.clear();
+        self.reviews = 0;
     }
 
     /// Takes in the beliefs of a review, the most probable first, while the rotors are followed at a speed.
@@ -70,9 +78,12 @@ impl Octave {
         let Some(followed_rev_s) = followed_rev_s.filter(|&speed| is_conflict || chosen.is_same(speed)) else {
             // other rotors, or the same after a step
             self.speeds = reviewed.to_vec();
+            self.reviews = 1;
             return;
         };
         self.move_to(followed_rev_s);
+        let reviews_before = f64::from(self.reviews);
+        self.reviews += 1;
         let unnamed_belief = self.unnamed_belief;
         let unnamed = |speed: &PossibleSpeed| PossibleSpeed { belief: unnamed_belief, ..*speed };
         for named in reviewed {
@@ -82,7 +93,11 @@ impl Octave {
         }
         for known in &mut self.speeds {
             let named = reviewed.iter().find(|named| known.is_same(named.speed_rev_s));
-            known.belief *= named.map_or(unnamed_belief, |named| named.belief.max(unnamed_belief));
+            let belief = named.map_or(unnamed_belief, |named| named.belief.max(unnamed_belief));
+            known.belief = match self.may_be_deceived {
+                true => (reviews_before * known.belief + belief) / (reviews_before + 1.0),
+                false => known.belief * belief,
+            };
         }
         let sum: f64 = self.speeds.iter().map(|speed| speed.belief).sum();
         // what was improbable may become the truth again
@@ -122,7 +137,7 @@ mod tests {
 
     #[test]
     fn one_review_of_another_octave_does_not_outvote_two() {
-        let mut octave = Octave::new(&EvidenceConfig::default());
+        let mut octave = Octave::new(&EvidenceConfig::default(), false);
         octave.take(&beliefs(&[(90.0, 0.996), (180.0, 0.004)]), None);
         assert!(octave.is_leading(91.0) && octave.possible().is_empty());
         octave.take(&beliefs(&[(92.0, 0.996)]), Some(92.0));
@@ -137,8 +152,22 @@ mod tests {
     }
 
     #[test]
+    fn reviews_that_may_be_deceived_together_settle_nothing() {
+        let review = beliefs(&[(90.0, 0.93), (45.0, 0.04), (180.0, 0.03)]);
+        for may_be_deceived in [true, false] {
+            let mut octave = Octave::new(&EvidenceConfig::default(), may_be_deceived);
+            octave.take(&review, None);
+            (0..9).for_each(|_| octave.take(&review, Some(90.0)));
+            assert_eq!(octave.possible().len(), if may_be_deceived { 3 } else { 0 }, "{octave:?}");
+            if may_be_deceived {
+                assert!((octave.possible()[0].belief - 0.93).abs() < 1e-9, "{octave:?}");
+            }
+        }
+    }
+
+    #[test]
     fn a_step_or_another_rotor_begins_anew() {
-        let mut octave = Octave::new(&EvidenceConfig::default());
+        let mut octave = Octave::new(&EvidenceConfig::default(), false);
         octave.take(&beliefs(&[(90.0, 0.6), (180.0, 0.4)]), None);
         assert_eq!(octave.possible().len(), 2);
         octave.take(&beliefs(&[(110.0, 0.999)]), Some(90.0));

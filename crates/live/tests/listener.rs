@@ -142,7 +142,11 @@ fn noise_and_silence_are_no_rotor() {
         recording.add_noise(&Noise::white(level), &mut seeded(1));
         let speeds = live_speeds(&recording.samples_f32(), 4800);
         assert_eq!(speeds.len(), 60);
-        assert!(speeds.iter().all(|speed| speed.status == LiveStatus::NoRotorTone && speed.speed_rev_s.is_none()));
+        assert!(speeds.iter().all(|speed| speed.speed_rev_s.is_none()));
+        // nothing is said before the first review, after 2 s
+        let (before, after): (Vec<&LiveSpeed>, Vec<&LiveSpeed>) = speeds.iter().partition(|speed| speed.time_s < 2.05);
+        assert!(before.iter().all(|speed| speed.status == LiveStatus::Listening), "{before:?}");
+        assert!(after.iter().all(|speed| speed.status == LiveStatus::NoRotorTone), "{after:?}");
         let expected_db = if level > 0.0 { 10.0 * (2.0 * level * level).log10() } else { -200.0 };
         assert!(speeds.iter().all(|speed| (speed.level_db - expected_db).abs() < 0.3));
     }

@@ -96,9 +96,15 @@ pub fn hear(
     // a list of all families of tones follows none of them, and nor does a recording without a rotor
     let is_list = task.discovery.is_some_and(|discovery| discovery.wants_all);
     let follows_a_tone = !is_list && matches!(analysis.outcome, Outcome::Ok(_));
+    // where several speeds are possible, nothing is told that these could weaken
+    let is_ambiguous = match (&found, &analysis.outcome) {
+        (Some(found), _) => !found.alternatives.is_empty(),
+        (None, Outcome::Ok(tone)) => !tone.alternatives.is_empty(),
+        (None, Outcome::NoRotorTone { .. }) => false,
+    };
     let matters = |warning: &&Warning| match warning {
         Warning::HoverShorterThanSample { .. } => task.wants_samples,
-        other => follows_a_tone || !other.is_about_followed_tone(),
+        other => (follows_a_tone && !is_ambiguous) || !other.is_about_followed_tone(),
     };
     let of_analysis = analysis.warnings.iter().filter(matters).map(Notice::from);
     let notices = notices_of(recording).into_iter().chain(of_analysis).collect();

@@ -160,7 +160,7 @@ fn without_a_settled_speed_no_rotor_is_named() {
     fs::write(&log, "time_s,motor1_pwm,motor2_pwm,motor3_pwm,motor4_pwm\n0,1,2,3,4\n9,2,3,4,1\n").unwrap();
     for more in [["--log", text(&log)], ["--spin-up", "1,2,3,4"]] {
         let run = hovertone(&[&["speed", text(&sound), "--rotors", "4"], &more[..]].concat()).ends_with(3);
-        assert!(run.stdout.contains("a rotor tone that can mean:"), "{}", run.stdout);
+        assert!(run.stdout.contains("possible speeds, each with its plausibility:"), "{}", run.stdout);
         let said = "warning: no rotor is named: the shaft speed is ambiguous (hint: ";
         assert_eq!(run.stderr.matches(said).count(), 1, "{}", run.stderr);
     }

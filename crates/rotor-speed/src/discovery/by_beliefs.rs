@@ -145,8 +145,8 @@ fn known_gears() -> Vec<(Gear, u32)> {
 fn readings_of(beliefs: &Beliefs, discovery: &Discovery) -> Vec<Reading> {
     let (config, known) = (&discovery.config, &discovery.known);
     let mut readings: Vec<Reading> = beliefs.hypotheses.iter().filter_map(|it| reading_of_any(it, discovery)).collect();
-    let is_known = known.blade_count.is_some() || known.diameter_m.is_some();
-    let blade_pass = readings.first().filter(|first| first.meaning.gear().is_none() && !is_known);
+    let may_be_deceived = discovery.may_be_deceived();
+    let blade_pass = readings.first().filter(|first| first.meaning.gear().is_none() && may_be_deceived);
     if let Some(tone_hz) = blade_pass.map(|first| first.tone_hz) {
         readings.iter_mut().for_each(|reading| reading.plausibility *= 1.0 - config.deceived_share);
         for (blades, share) in BLADES.into_iter().zip(config.blade_shares) {

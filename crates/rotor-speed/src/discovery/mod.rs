@@ -35,6 +35,13 @@ pub struct Discovery {
     pub wants_all: bool,
 }
 
+impl Discovery {
+    /// Whether the levels of the lines may deceive about the speed: neither the blades nor the diameter are known.
+    pub fn may_be_deceived(&self) -> bool {
+        self.known.blade_count.is_none() && self.known.diameter_m.is_none()
+    }
+}
+
 /// The tone families of a recording, and its rotor's speed as far as the sound tells it.
 #[derive(Clone, Debug)]
 pub struct FoundSpeed {

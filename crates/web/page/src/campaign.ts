@@ -133,5 +133,5 @@ const REASONS: Record<Answer["status"], string> = {
   ok: "",
   error: "It could not be heard.",
   no_rotor_tone: "No rotor was heard. Come closer, and keep other noise away.",
-  ambiguous: "The tone can mean several speeds: say the blades of a propeller under Vehicle.",
+  ambiguous: "Several speeds are possible: say the blades of a propeller under Vehicle.",
 };

@@ -106,7 +106,7 @@ function Choices({ store }: { store: Store }) {
   if (choices.length === 0) return null;
   return (
     <div role="group" aria-label="Possible speeds">
-      <p>The tone can mean several speeds. Which one is it?</p>
+      <p>Several speeds are possible. Which one is it?</p>
       <ul class="readings">
         {choices.map((choice, index) => <li key={choice.words}><button type="button" onClick={() => store.trials.choose(index)}>{choice.words}</button></li>)}
       </ul>

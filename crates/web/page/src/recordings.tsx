@@ -106,7 +106,7 @@ function Speed({ answer }: { answer: Answer }) {
   );
 }
 
-const TITLES = { error: "could not be heard", no_rotor_tone: "no rotor tone", ambiguous: "a rotor tone that can mean", ok: "" };
+const TITLES = { error: "could not be heard", no_rotor_tone: "no rotor tone", ambiguous: "possible speeds, each with its plausibility", ok: "" };
 
 function NoSpeed({ store, recording, answer }: { store: Store; recording: Recording; answer: Answer }) {
   return (
