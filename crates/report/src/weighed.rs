@@ -105,7 +105,8 @@ mod tests {
         };
         // ± 0.6 % of the mass are ± 0.3 % of the speed, 12 rpm
         assert!(
-            weighed(Some(0.0014), true).starts_with("hovers at 3820 rpm (5 recordings)\nmass: 462.0 ± 2.8 g (k = 2)\n")
+            weighed(Some(0.0014), true)
+                .starts_with("hovers at 3820 rpm (5 recordings)\nmass as flown: 462.0 ± 2.8 g (k = 2)\n")
         );
         assert!(weighed(None, true).starts_with("hovers at 3820 rpm"));
         assert!(weighed(Some(0.0014), false).contains("(k = 2, without the differences from flight to flight)"));
