@@ -15,7 +15,7 @@ use hovertone_signal::passes::{Passes, Progress};
 ///
 /// # Errors
 /// Settings without a meaning, a source that fails, a band above half the sample rate. "No rotor tone" is no error but
-/// [`Outcome::NoRotorTone`].
+/// [`Outcome::NoRotorTone`](hovertone_analysis::Outcome::NoRotorTone).
 pub fn speed_from_source(
     source: &mut dyn SignalSource,
     config: &Config,
