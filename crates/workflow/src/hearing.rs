@@ -93,23 +93,17 @@ pub fn hear(
             return Err(NotHeard { facts: Some(Box::new(facts)), ..NotHeard::because(class_of(&error), error) });
         }
     };
-    // a list of all families of tones follows none of them, and nor does a recording without a rotor
+    let record = record_of(task, &config, Answer::Heard(Box::new(analysis)), Some(facts));
+    let mut record = SpeedRecord { found, spoiled, ..record };
+    // a list of all families of tones follows none of them, and nor does a recording without a rotor, or with several possible speeds
     let is_list = task.discovery.is_some_and(|discovery| discovery.wants_all);
-    let follows_a_tone = !is_list && matches!(analysis.outcome, Outcome::Ok(_));
-    // where several speeds are possible, nothing is told that these could weaken
-    let is_ambiguous = match (&found, &analysis.outcome) {
-        (Some(found), _) => !found.alternatives.is_empty(),
-        (None, Outcome::Ok(tone)) => !tone.alternatives.is_empty(),
-        (None, Outcome::NoRotorTone { .. }) => false,
-    };
+    let follows_a_tone = !is_list && record.tone().is_some() && !record.is_ambiguous();
     let matters = |warning: &&Warning| match warning {
         Warning::HoverShorterThanSample { .. } => task.wants_samples,
-        other => (follows_a_tone && !is_ambiguous) || !other.is_about_followed_tone(),
+        other => follows_a_tone || !other.is_about_followed_tone(),
     };
-    let of_analysis = analysis.warnings.iter().filter(matters).map(Notice::from);
-    let notices = notices_of(recording).into_iter().chain(of_analysis).collect();
-    let record = record_of(task, &config, Answer::Heard(Box::new(analysis)), Some(facts));
-    let mut record = SpeedRecord { found, notices, spoiled, ..record };
+    let of_analysis = record.analysis().into_iter().flat_map(|analysis| &analysis.warnings).filter(matters);
+    record.notices = notices_of(recording).into_iter().chain(of_analysis.map(Notice::from)).collect();
     record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
     Ok(Heard { record, config, spin_up })
 }

@@ -36,6 +36,9 @@ impl LiveSummary {
     /// The errors of live speeds are those of the same reviews, so they do not average out: the standard uncertainty of the mean is the mean of the
     /// standard uncertainties, which is its value for errors that are all equal and an upper bound for all others.
     pub(crate) fn in_words(&self) -> Option<String> {
+        if self.count == 0 {
+            return None;
+        }
         let end_s = fixed(self.end_s, 1);
         let part_s = |count: usize| fixed(count as f64 / self.count as f64 * self.end_s, 1);
         let mean = (self.settled_count > 0).then(|| {
@@ -44,7 +47,6 @@ impl LiveSummary {
             format!("mean: {mean} rev/s (k = 2), from {} s of {end_s} s", part_s(self.settled_count))
         });
         let mut words = match mean {
-            _ if self.count == 0 => return None,
             Some(mean) => mean,
             None if self.listening_count == self.count => format!("{end_s} s are too short for a first speed"),
             None if self.ambiguous_count > 0 => format!("no single speed was heard in {end_s} s"),
