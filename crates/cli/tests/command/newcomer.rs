@@ -1,5 +1,6 @@
 //! The commands of the README with films in place of the demo's recordings, from an empty folder to a constant.
 
+use crate::demo::finished_demo;
 use crate::testkit::{Run, files_in, hovertone_with, repository, text};
 use serde_json::Value;
 use std::fs;
@@ -28,14 +29,19 @@ fn film(recording: &Path, film: &Path) {
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
 }
 
-/// Replaces every recording of the demo by a film; the kinds take turns.
-fn replace_recordings(demo: &Path) {
+/// Writes a demo with a film in place of every recording; the kinds take turns.
+fn write_demo_of_films(demo: &Path) {
+    let finished = &finished_demo().folder;
     for (load, _) in LOADS {
-        for (number, recording) in files_in(&demo.join(load), ".wav").iter().enumerate() {
-            film(recording, &recording.with_extension(KINDS[number % KINDS.len()]));
-            fs::remove_file(recording).unwrap();
+        let films = demo.join(load);
+        fs::create_dir_all(&films).unwrap();
+        for (number, recording) in files_in(&finished.join(load), ".wav").iter().enumerate() {
+            let name = recording.with_extension(KINDS[number % KINDS.len()]);
+            film(recording, &films.join(name.file_name().unwrap()));
         }
     }
+    let files = finished.read_dir().unwrap().map(|file| file.unwrap().path()).filter(|path| path.is_file());
+    files.for_each(|file| drop(fs::copy(&file, demo.join(file.file_name().unwrap())).unwrap()));
 }
 
 /// The commands of the README as words, with films in place of recordings.
@@ -64,8 +70,7 @@ fn a_newcomer_with_films_gets_the_constant_within_its_uncertainty() {
     }
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    run_in(at, &["demo"]).ends_with(0);
-    replace_recordings(&at.join("demo"));
+    write_demo_of_films(&at.join("demo"));
     let (mut done, mut weighed) = (0, None);
     for words in commands_of_readme() {
         let words: Vec<&str> = words.iter().map(String::as_str).collect();

@@ -137,7 +137,7 @@ pub(crate) struct WantedPropeller {
 /// no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     beliefs_of(looks, wanted, config).or_else(|| {
-        let of_long_frames = Looks { short: looks.long.clone(), long: looks.long.clone() };
+        let of_long_frames = Looks { short: looks.long.clone(), long: Excess::default() };
         let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
         Some(Beliefs { is_faint: true, ..beliefs_of(&of_long_frames, wanted, &of_any_votes)? })
     })

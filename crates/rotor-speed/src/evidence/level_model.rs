@@ -78,7 +78,8 @@ pub(super) struct LevelModel<'a> {
     /// Logarithms of the weights of the integrals.
     loudness_nats: Vec<f64>,
     falls: Vec<(Fall, f64)>,
-    offset_nats: Vec<f64>,
+    /// Weights of the offsets of shaft lines.
+    offset_weights: Vec<f64>,
 }
 
 /// The lines of recordings whose levels scatter as much.
@@ -117,7 +118,7 @@ impl<'a> LevelModel<'a> {
                 .collect(),
             loudness_nats: ln_weights(&LOUDNESS_DB.map(f64::from), prior.blade_pass_db, prior.blade_pass_std_db),
             falls: falls(prior),
-            offset_nats: ln_weights_of_shaft_lines(prior),
+            offset_weights: weights_of_shaft_lines(prior),
         }
     }
 
@@ -156,45 +157,68 @@ impl<'a> LevelModel<'a> {
     fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line], blades: u32) -> f64 {
         let shares = f64::from(LAST_HARMONICS.len() as u32).ln();
         let at_fall = self.falls.iter().map(|(fall, weight)| {
-            let even = sums(&scatter.blade_pass, &lines.even, blades, fall);
-            let odd = sums(&scatter.blade_pass, &lines.odd, blades, fall);
-            let shaft = sums(&scatter.shaft, &lines.shaft, blades, fall);
+            let even = Likelihoods::of(&sums(&scatter.blade_pass, &lines.even, blades, fall));
+            let odd = Likelihoods::of(&sums(&scatter.blade_pass, &lines.odd, blades, fall));
+            let shaft = Likelihoods::of(&sums(&scatter.shaft, &lines.shaft, blades, fall));
+            let largest_nats: UpTo =
+                std::array::from_fn(|last| even.largest_nats[last] + odd.largest_nats[last] + shaft.largest_nats[last]);
+            let most_nats = largest_nats.into_iter().fold(f64::NEG_INFINITY, f64::max);
+            let shares_of_last = largest_nats.map(|nats| (nats - most_nats).exp());
+            let inaudible = shaft.largest_nats.map(|nats| self.prior.shaft_inaudible * (-nats).exp());
             let at_loudness = LOUDNESS_DB.iter().zip(&self.loudness_nats).map(|(&loudness_db, weight)| {
                 let mean_db = f64::from(loudness_db) + self.prior.below_db;
                 let below_nats: f64 =
                     below.iter().map(|line| self.below.from(line.row, mean_db - line.floor_db).above(0)).sum();
-                let blade_nats = self.blade_nats(&even, &odd, loudness_db);
-                let shaft_nats = self.unlike_blades_nats(&shaft, loudness_db);
-                let up_to = blade_nats.iter().zip(shaft_nats).map(|(blade, shaft)| blade + shaft);
-                weight + below_nats + log_sum_exp(up_to) - shares
+                let of_blades = self.of_blades(&even, &odd, loudness_db);
+                let of_shaft = self.of_unlike_blades(&shaft, &inaudible, loudness_db);
+                let up_to = shares_of_last.iter().zip(of_blades).zip(of_shaft);
+                let sum: f64 = up_to.map(|((share, blade), shaft)| share * blade * shaft).sum();
+                weight + below_nats + most_nats + sum.max(f64::MIN_POSITIVE).ln() - shares
             });
             weight + log_sum_exp(at_loudness)
         });
         log_sum_exp(at_fall)
     }
 
-    /// The lines of the blade pass, integrated over echoes. An echo weakens the even harmonics, or the odd ones.
-    fn blade_nats(&self, even: &[UpTo], odd: &[UpTo], loudness_db: i32) -> UpTo {
+    /// The lines of the blade pass, integrated over echoes: over the largest likelihoods. An echo weakens the even harmonics, or the odd ones.
+    fn of_blades(&self, even: &Likelihoods, odd: &Likelihoods, loudness_db: i32) -> UpTo {
         let whole = sum_index(loudness_db);
-        let share = (self.prior.echo / (2 * ECHO_DB.len()) as f64).ln();
+        let share = self.prior.echo / (2 * ECHO_DB.len()) as f64;
+        let weak = ECHO_DB.map(|echo_db| sum_index(loudness_db + echo_db));
+        let weakened = |of: &Likelihoods, last: usize| -> f64 { weak.iter().map(|&weak| of.of_sum[weak][last]).sum() };
         std::array::from_fn(|last| {
-            let (even, odd) = (|sum: usize| even[sum][last], |sum: usize| odd[sum][last]);
-            let echoes = ECHO_DB.iter().flat_map(|echo_db| {
-                let weak = sum_index(loudness_db + echo_db);
-                [share + even(weak) + odd(whole), share + even(whole) + odd(weak)]
-            });
-            log_sum_exp(echoes.chain([(1.0 - self.prior.echo).ln() + even(whole) + odd(whole)]))
+            let (even_whole, odd_whole) = (even.of_sum[whole][last], odd.of_sum[whole][last]);
+            let echoes = weakened(even, last) * odd_whole + even_whole * weakened(odd, last);
+            share * echoes + (1.0 - self.prior.echo) * even_whole * odd_whole
         })
     }
 
-    /// The other lines of the shaft, integrated over their level against the blade pass; they may be inaudible.
-    fn unlike_blades_nats(&self, shaft: &[UpTo], loudness_db: i32) -> UpTo {
-        let inaudible = self.prior.shaft_inaudible;
-        std::array::from_fn(|last| {
-            let nats = SHAFT_DB.iter().map(|offset_db| shaft[sum_index(loudness_db + offset_db)][last]);
-            let audible = log_sum_exp(self.offset_nats.iter().zip(nats).map(|(weight, nats)| weight + nats));
-            log_sum_exp([inaudible.ln(), (1.0 - inaudible).ln() + audible].into_iter())
-        })
+    /// The other lines of the shaft, integrated over their level against the blade pass: over the largest likelihood. They may be inaudible.
+    fn of_unlike_blades(&self, shaft: &Likelihoods, inaudible: &UpTo, loudness_db: i32) -> UpTo {
+        let mut audible = [0.0; LAST_HARMONICS.len()];
+        for (offset_db, weight) in SHAFT_DB.iter().zip(&self.offset_weights) {
+            let of_last = &shaft.of_sum[sum_index(loudness_db + offset_db)];
+            audible.iter_mut().zip(of_last).for_each(|(sum, likelihood)| *sum += weight * likelihood);
+        }
+        let share = 1.0 - self.prior.shaft_inaudible;
+        std::array::from_fn(|last| inaudible[last] + share * audible[last])
+    }
+}
+
+/// Likelihood ratios of the lines of one class, over the largest one up to each of the last harmonics: one that is `e⁻⁷⁰⁰` of it counts as
+/// nothing.
+struct Likelihoods {
+    /// The largest one or that of no line, whichever is larger, as a logarithm.
+    largest_nats: UpTo,
+    /// For each sum of loudness and offset.
+    of_sum: Vec<UpTo>,
+}
+
+impl Likelihoods {
+    fn of(nats: &[UpTo]) -> Self {
+        let largest_nats: UpTo = std::array::from_fn(|last| nats.iter().map(|up_to| up_to[last]).fold(0.0, f64::max));
+        let of_sum = nats.iter().map(|up_to| std::array::from_fn(|last| (up_to[last] - largest_nats[last]).exp()));
+        Self { largest_nats, of_sum: of_sum.collect() }
     }
 }
 
@@ -288,13 +312,14 @@ fn sums(table: &RatioTable, lines: &[Line], blades: u32, fall: &Fall) -> Vec<UpT
     up_to
 }
 
-/// Logarithms of the weights of the offsets of shaft lines: blades are alike, or unlike.
-fn ln_weights_of_shaft_lines(prior: &LineLevels) -> Vec<f64> {
-    let unlike = ln_weights(&SHAFT_DB.map(f64::from), prior.shaft_db, prior.shaft_std_db);
-    let alike = ln_weights(&SHAFT_DB.map(f64::from), prior.faint_shaft_db, prior.faint_shaft_std_db);
-    let (unlike_nats, alike_nats) = ((1.0 - prior.faint_shaft).ln(), prior.faint_shaft.ln());
-    let sum = |(unlike, alike): (f64, f64)| log_sum_exp([unlike_nats + unlike, alike_nats + alike].into_iter());
-    unlike.into_iter().zip(alike).map(sum).collect()
+/// Weights of the offsets of shaft lines: blades are alike, or unlike.
+fn weights_of_shaft_lines(prior: &LineLevels) -> Vec<f64> {
+    let grid = SHAFT_DB.map(f64::from);
+    let unlike = ln_weights(&grid, prior.shaft_db, prior.shaft_std_db);
+    let alike = ln_weights(&grid, prior.faint_shaft_db, prior.faint_shaft_std_db);
+    let weight =
+        |(unlike, alike): (f64, f64)| (1.0 - prior.faint_shaft) * unlike.exp() + prior.faint_shaft * alike.exp();
+    unlike.into_iter().zip(alike).map(weight).collect()
 }
 
 /// Logarithms of normal weights of the points of a grid, which sum to 1.

@@ -3,7 +3,7 @@
 use super::excess::Excess;
 use super::path::{best_path, gain_of_jumps_nats};
 use super::rotor_lines::RotorLines;
-use super::votes::{VotePlaces, VoteTable, votes_of_frame};
+use super::votes::{VotePlaces, VoteTable, votes_of_frames};
 use hovertone_signal::statistics::{mean, median};
 use std::ops::{Range, RangeInclusive};
 
@@ -60,7 +60,7 @@ impl Search {
         let grid = SpeedGrid::of(speeds_rev_s);
         let table = VoteTable::of(lines);
         let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
-        let votes: Vec<Vec<f32>> = excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
+        let votes = votes_of_frames(&excess.frames, &table, &places);
         let hops = excess.hops();
         let paths = grid.windows().into_iter().map(|window| best_path(&votes, window, &hops, GRID_STEP)).collect();
         Some(Self { grid, votes, paths })

@@ -4,6 +4,7 @@ use super::excess::ExcessFrame;
 use super::level_table::{LEVELS, Level, level_db};
 use super::levels::LINE_HZ_MIN;
 use super::rotor_lines::RotorLines;
+use std::ops::Range;
 
 /// Largest vote of a line for or against, in nats. *Decision.*
 const VOTE_NATS_MAX: f64 = 8.0;
@@ -108,34 +109,91 @@ impl VotePlaces {
     }
 }
 
-/// The votes of a frame for each speed of the grid, in nats. Beside a gear mesh, the propeller may be inaudible.
+/// Frames whose votes are counted together. *Numeric.*
+const FRAMES_TOGETHER: usize = 16;
+/// Speeds whose votes are counted together: their sums stay in the cache nearest to the processor. *Numeric.*
+const SPEEDS_TOGETHER: usize = 256;
+
+/// The votes of each frame for each speed of the grid, in nats: `votes[frame][speed]`. Beside a gear mesh, the propeller may be inaudible.
+pub(super) fn votes_of_frames(frames: &[ExcessFrame], table: &VoteTable, places: &VotePlaces) -> Vec<Vec<f32>> {
+    frames
+        .chunks(FRAMES_TOGETHER)
+        .flat_map(|frames| Together::<FRAMES_TOGETHER>::of(frames).votes(frames.len(), table, places))
+        .collect()
+}
+
+/// The same of one frame.
 pub(super) fn votes_of_frame(frame: &ExcessFrame, table: &VoteTable, places: &VotePlaces) -> Vec<f32> {
-    let mut sums = vec![0.0; places.speeds];
-    let (of_shaft, of_mesh) = places.bins.split_at(table.shaft.len() * places.speeds);
-    add_votes(&mut sums, frame, &table.shaft, of_shaft);
-    if table.has_mesh() {
-        let [audible, inaudible] = [AUDIBLE_BESIDE_MESH, 1.0 - AUDIBLE_BESIDE_MESH].map(|share| share.ln() as f32);
-        sums.iter_mut().for_each(|sum| *sum = ln_sum_of_two(audible + *sum, inaudible));
-        add_votes(&mut sums, frame, &table.mesh, of_mesh);
+    Together::<1>::of(std::slice::from_ref(frame)).votes(1, table, places).remove(0)
+}
+
+/// Levels of some frames, side by side: a line is at the same bin in all of them.
+struct Together<const FRAMES: usize> {
+    /// `levels[bin][frame]`.
+    levels: Vec<[Level; FRAMES]>,
+}
+
+impl<const FRAMES: usize> Together<FRAMES> {
+    fn of(frames: &[ExcessFrame]) -> Self {
+        let bins = frames.iter().map(|frame| frame.levels.len()).min().unwrap_or_default();
+        let mut levels = vec![[0; FRAMES]; bins];
+        for (place, frame) in frames.iter().enumerate() {
+            levels.iter_mut().zip(&*frame.levels).for_each(|(levels, level)| levels[place] = *level);
+        }
+        Self { levels }
     }
-    sums
+
+    /// The votes of the first `frames` of them.
+    fn votes(&self, frames: usize, table: &VoteTable, places: &VotePlaces) -> Vec<Vec<f32>> {
+        let mut votes: Vec<Vec<f32>> = vec![Vec::with_capacity(places.speeds); frames];
+        for from in (0..places.speeds).step_by(SPEEDS_TOGETHER) {
+            let sums = self.sums(from..(from + SPEEDS_TOGETHER).min(places.speeds), table, places);
+            for (place, votes) in votes.iter_mut().enumerate() {
+                votes.extend(sums.iter().map(|sums| sums[place]));
+            }
+        }
+        votes
+    }
+
+    /// The votes for some of the speeds: `sums[speed][frame]`.
+    fn sums(&self, speeds: Range<usize>, table: &VoteTable, places: &VotePlaces) -> Vec<[f32; FRAMES]> {
+        let mut sums = vec![[0.0; FRAMES]; speeds.len()];
+        let mut of_lines = places.bins.chunks_exact(places.speeds).map(|bins| &bins[speeds.clone()]);
+        for (line, bins) in table.shaft.iter().zip(&mut of_lines) {
+            self.add_votes(&mut sums, line, bins);
+        }
+        if table.has_mesh() {
+            let [audible, inaudible] = [AUDIBLE_BESIDE_MESH, 1.0 - AUDIBLE_BESIDE_MESH].map(|share| share.ln() as f32);
+            let either = |sum: &mut f32| *sum = ln_sum_of_two(audible + *sum, inaudible);
+            sums.iter_mut().flatten().for_each(either);
+            for (line, bins) in table.mesh.iter().zip(of_lines) {
+                self.add_votes(&mut sums, line, bins);
+            }
+        }
+        sums
+    }
+
+    /// Adds the votes of one line, whose bins these are for each speed.
+    fn add_votes(&self, sums: &mut [[f32; FRAMES]], line: &LineVotes, bins: &[u16]) {
+        let mut votes = [0.0; FRAMES];
+        let mut bin_before = None;
+        for (sums, &bin) in sums.iter_mut().zip(bins) {
+            // slow shafts are less than a bin apart
+            if bin_before != Some(bin) {
+                bin_before = Some(bin);
+                votes = match bin {
+                    BEYOND => [line.beyond; FRAMES],
+                    bin => self.levels[usize::from(bin)].map(|level| line.of_level[usize::from(level)]),
+                };
+            }
+            sums.iter_mut().zip(&votes).for_each(|(sum, vote)| *sum += vote);
+        }
+    }
 }
 
 /// `ln(eᵃ + eᵇ)`.
 fn ln_sum_of_two(a: f32, b: f32) -> f32 {
     a.max(b) + (-(a - b).abs()).exp().ln_1p()
-}
-
-/// Adds the votes of lines at these places.
-fn add_votes(sums: &mut [f32], frame: &ExcessFrame, lines: &[LineVotes], bins: &[u16]) {
-    for (line, bins) in lines.iter().zip(bins.chunks_exact(sums.len())) {
-        for (sum, &bin) in sums.iter_mut().zip(bins) {
-            *sum += match bin {
-                BEYOND => line.beyond,
-                bin => line.of_level[usize::from(frame.levels[usize::from(bin)])],
-            };
-        }
-    }
 }
 
 /// `ln Λ(R)`: likelihood of the excess power R of a line with the mean 1 + s, averaged over levels s, against noise with the mean 1.
@@ -150,6 +208,7 @@ fn ln_likelihood_ratio(excess: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::excess::Excess;
     use crate::evidence::level_table::level_of;
 
     #[test]
@@ -165,6 +224,35 @@ mod tests {
         }
         assert!(vote < 0.0, "{vote}");
         assert!(ratio < 1.001, "{ratio}");
+    }
+
+    #[test]
+    fn frames_together_have_the_votes_that_each_has_alone() {
+        let levels: Vec<Level> = (0..800u32).map(|bin| (bin * 7919 % 251) as Level).collect();
+        let mut excess = Excess::of_levels(2.5, 0.05, 37, &levels);
+        for (frame, shift) in excess.frames.iter_mut().zip(0..) {
+            frame.levels = levels.iter().cycle().skip(shift).take(levels.len()).copied().collect();
+        }
+        let speeds_rev_s: Vec<f64> = (0..700).map(|step| 5.0 * (7e-3 * f64::from(step)).exp()).collect();
+        let mesh = RotorLines { blades: Some(2), mesh_order: Some(8.625) };
+        for lines in [RotorLines::of_blades(3), mesh] {
+            let table = VoteTable::of(&lines);
+            let places = VotePlaces::new(&speeds_rev_s, &table, excess.bin_hz, levels.len());
+            let together = votes_of_frames(&excess.frames, &table, &places);
+            let alone: Vec<Vec<f32>> =
+                excess.frames.iter().map(|frame| votes_of_frame(frame, &table, &places)).collect();
+            assert_eq!(together, alone);
+            // the votes of one speed, line by line
+            let (frame, speed) = (20, 400);
+            let vote_of = |(line, at): (&LineVotes, usize)| match places.bins[at * places.speeds + speed] {
+                BEYOND => line.beyond,
+                bin => line.of_level[usize::from(excess.frames[frame].levels[usize::from(bin)])],
+            };
+            let of_shaft: f32 = table.shaft.iter().zip(0..).map(vote_of).sum();
+            let of_mesh: f32 = table.mesh.iter().zip(table.shaft.len()..).map(vote_of).sum();
+            let of_shaft = if table.has_mesh() { (0.5 + 0.5 * of_shaft.exp()).ln() } else { of_shaft };
+            assert!((together[frame][speed] - of_shaft - of_mesh).abs() < 1e-3);
+        }
     }
 
     #[test]
