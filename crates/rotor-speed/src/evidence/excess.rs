@@ -282,10 +282,12 @@ fn skirt_limits(excess: &[f64]) -> Vec<f64> {
         SIDE_LOBES.map(|bins| (bins, side_lobe_share(bins as f64 / f64::from(ZERO_PAD_FACTOR)))).collect();
     let Some(&(_, most)) = side_lobes.first() else { return limits };
     for (peak, &power) in excess.iter().enumerate().filter(|(_, power)| **power * most > 1.0) {
-        for &(bins, share) in &side_lobes {
-            for bin in [peak.checked_sub(bins), Some(peak + bins)].into_iter().flatten() {
+        // a limit below the noise changes nothing
+        let limited = side_lobes.iter().map(|(bins, share)| (bins, SIDE_LOBE_MARGIN * share * power));
+        for (bins, own_limit) in limited.take_while(|(_, limit)| *limit > 1.0) {
+            for bin in [peak.checked_sub(*bins), Some(peak + bins)].into_iter().flatten() {
                 if let Some(limit) = limits.get_mut(bin) {
-                    *limit = limit.max(SIDE_LOBE_MARGIN * share * power);
+                    *limit = limit.max(own_limit);
                 }
             }
         }
