@@ -21,6 +21,11 @@ const SAMPLE_RATE_HZ: f64 = 22_050.0;
 const FEW: usize = 200;
 /// Moments at which a run is killed.
 const KILLS: usize = 20;
+/// Least throughput of `batch` on one core, over that of `speed` on the same files.
+const SHARE_OF_SPEED_MIN: f64 = 0.8;
+/// Least throughput on two cores, over that on one.
+const TWO_CORES_OVER_ONE_MIN: f64 = 1.8;
+const PEAK_MIB_MAX: f64 = 300.0;
 const FLAGS: [&str; 5] = ["--blades", "2", "--rotors", "1", "--no-progress"];
 
 pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
@@ -38,8 +43,39 @@ pub(crate) fn run(root: &Path, options: &[&str]) -> Result<(), String> {
     let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
     let busy = load.split(' ').next().unwrap_or("–");
     println!("\n`hovertone batch` on recordings of {LENGTH_S} s; load of the machine before: {busy}\n");
-    exam.throughput(&few, &all)?;
-    exam.kills(&few)
+    let bounds = exam.throughput(&few, &all);
+    exam.kills(&few)?;
+    bounds
+}
+
+/// A number that was measured, and what is asked of it.
+struct Bound {
+    of: &'static str,
+    found: f64,
+    asked: Asked,
+}
+
+enum Asked {
+    Min(f64),
+    Max(f64),
+}
+
+impl Bound {
+    fn is_met(&self) -> bool {
+        match self.asked {
+            Asked::Min(least) => self.found >= least,
+            Asked::Max(most) => self.found <= most,
+        }
+    }
+
+    fn line(&self) -> String {
+        let asked = match self.asked {
+            Asked::Min(least) => format!("at least {least}"),
+            Asked::Max(most) => format!("at most {most}"),
+        };
+        let verdict = if self.is_met() { "met" } else { "NOT met" };
+        format!("{}: {:.2} (asked: {asked}; {verdict})", self.of, self.found)
+    }
 }
 
 /// Recordings in a folder.
@@ -113,11 +149,32 @@ impl Exam {
                 cost.peak_mib
             );
         }
-        println!("\nbatch over speed, on one core: {:.2} by wall time", single.wall_s / one.wall_s);
-        if let (Some(single), Some(one)) = (single.cpu_s, one.cpu_s) {
-            println!("batch over speed, on one core: {:.2} by processor time", single / one);
+        let share = match (single.cpu_s, one.cpu_s) {
+            (Some(single_s), Some(one_s)) => single_s / one_s,
+            _ => single.wall_s / one.wall_s,
+        };
+        let bounds = [
+            Bound {
+                of: "throughput of batch over that of speed, on one core",
+                found: share,
+                asked: Asked::Min(SHARE_OF_SPEED_MIN),
+            },
+            Bound {
+                of: "throughput on two cores over that on one",
+                found: one.wall_s / two.wall_s,
+                asked: Asked::Min(TWO_CORES_OVER_ONE_MIN),
+            },
+            Bound { of: "peak memory, MiB", found: large.peak_mib, asked: Asked::Max(PEAK_MIB_MAX) },
+        ];
+        println!();
+        bounds.iter().for_each(|bound| println!("{}", bound.line()));
+        let missed = bounds.iter().filter(|bound| !bound.is_met()).count();
+        if missed > 0 {
+            return Err(format!(
+                "{missed} of {} bounds were not met; beside other work, two cores are not twice as fast",
+                bounds.len()
+            ));
         }
-        println!("two cores over one: {:.2} by wall time", one.wall_s / two.wall_s);
         Ok(())
     }
 

@@ -85,8 +85,9 @@ def same_rows(heard, expected):
     return heard.drop_columns("file").equals(expected.drop_columns("file"))
 
 
-def test_dask(archive):
-    found = hovertone.dask.speeds((path for path in ["archive"]), **FLAGS).compute(scheduler="threads")
+@pytest.mark.parametrize("scheduler", ["threads", "processes"])
+def test_dask(archive, scheduler):
+    found = hovertone.dask.speeds((path for path in ["archive"]), **FLAGS).compute(scheduler=scheduler)
     expected = archive.to_pandas()
     assert list(found.columns) == list(expected.columns)
     assert found["file"].tolist() == expected["file"].tolist()

@@ -41,7 +41,9 @@ fn write_demo_of_films(demo: &Path) {
         }
     }
     let files = finished.read_dir().unwrap().map(|file| file.unwrap().path()).filter(|path| path.is_file());
-    files.for_each(|file| drop(fs::copy(&file, demo.join(file.file_name().unwrap())).unwrap()));
+    for file in files {
+        fs::copy(&file, demo.join(file.file_name().unwrap())).unwrap();
+    }
 }
 
 /// The commands of the README as words, with films in place of recordings.
