@@ -5,6 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, read_text};
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
+use hovertone::thrust::ThrustCoefficients;
 use hovertone_exchange::{
     ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
     updated_model,
@@ -116,13 +117,24 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
     let (thinnest, densest) = (*AIR_DENSITY_KG_M3.start(), *AIR_DENSITY_KG_M3.end());
     let density = arguments.air_density_kg_m3;
     density.map_or(Ok(()), |density| check_range("air_density_kg_m3", density, thinnest, densest))?;
-    Ok(IdentifiedRotor {
+    let rotor = IdentifiedRotor {
         torque_constant_n_m_s2: arguments.torque_constant_n_m_s2.or(rotor.torque_constant_n_m_s2),
         hover_command: arguments.hover_command,
         propeller_diameter_m: arguments.diameter_m.or(rotor.propeller_diameter_m),
         air_density_kg_m3: arguments.air_density_kg_m3.or(rotor.air_density_kg_m3),
         ..rotor
-    })
+    };
+    if let (Some(diameter_m), Some(density)) = (arguments.diameter_m, rotor.air_density_kg_m3) {
+        let coefficients = ThrustCoefficients::of_rotor(rotor.thrust_constant_n_s2, diameter_m, density);
+        if !coefficients.is_plausible {
+            let coefficient = coefficients.propeller;
+            let what = format!(
+                "diameter_m = {diameter_m} would give the propeller C_T = {coefficient:.2e}, and no propeller has that"
+            );
+            return Err(Failure::usage(what, "check the diameter: from tip to tip, in m or as 8in"));
+        }
+    }
+    Ok(rotor)
 }
 
 /// Reads results.json, or one group of the results of a table.

@@ -27,6 +27,8 @@ const ROTORS_OF_MOST: u32 = 4;
 struct Plan {
     gravity: Gravity,
     rotor_count: u32,
+    /// Whether the user says so; else it is one.
+    is_count_given: bool,
     diameter_m: Option<f64>,
     density_kg_m3: Option<f64>,
 }
@@ -45,6 +47,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     let plan = Plan {
         gravity,
         rotor_count: arguments.rotors.unwrap_or(1),
+        is_count_given: arguments.rotors.is_some(),
         diameter_m: arguments.air.diameter_m,
         density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
     };
@@ -153,7 +156,8 @@ fn fitted_table(
     if is_stated && stated < points.len() {
         warnings.push(ThrustWarning::UncertaintiesIncomplete { stated, of: points.len() });
     }
-    let notes = table.notes.iter().map(|note| Notice::new(note, ""));
+    let notes =
+        rotors_notice(table, is_weighed, plan).into_iter().chain(table.notes.iter().map(|note| Notice::new(note, "")));
     Ok(FittedTable {
         file: path.display().to_string(),
         sha256: sha256.to_owned(),
@@ -171,6 +175,27 @@ fn fitted_table(
         notices: notes.chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })
+}
+
+/// A notice where several rotors seem to make the forces, which count as the forces of one.
+fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<Notice> {
+    let several = table.rotors_in_header.filter(|count| *count > 1);
+    let text = match several {
+        _ if plan.is_count_given => return None,
+        Some(count) => {
+            format!(
+                "the column \"{}\" names {count} rotors, and its forces count as the forces of one",
+                table.force_column
+            )
+        }
+        None if is_weighed => "the masses count as if one rotor carried them".to_owned(),
+        None => return None,
+    };
+    let count = several.map_or_else(|| "N".to_owned(), |count| count.to_string());
+    Some(Notice::new(
+        text,
+        format!("give --rotors {count} for the constant of one rotor; --rotors 1 if one rotor is right"),
+    ))
 }
 
 /// Refuses the diameter of the arguments where the blade tips of a row would be faster than any multirotor's.

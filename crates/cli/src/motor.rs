@@ -119,7 +119,7 @@ impl<'a> Plan<'a> {
             let what = format!("this is no log, and no recording that can be heard: {reason}");
             Failure::failed(what, "give a log, or a video or audio file", file)
         })?;
-        let mut sound = MotorSound::default();
+        let mut sound = MotorSound { has_commands: commands.is_some(), ..MotorSound::default() };
         let (mut motors, mut rows) = (Vec::new(), Vec::new());
         match heard.motor {
             Err(reason) => sound.no_tone = Some(reason.to_string()),

@@ -102,7 +102,7 @@ impl OutputFolder {
             fs::create_dir_all(folder).map_err(|error| Failure::cannot_write(&error, folder))?;
         }
         let is_unchanged = self.list.has_unchanged(name);
-        let output = if is_unchanged { self.outputs.create_over(&place) } else { self.outputs.create(&place) }?;
+        let output = if is_unchanged { self.outputs.create_over(&place) } else { self.outputs.create_sound(&place) }?;
         Ok(output.listed(self.list.clone(), name.to_owned()))
     }
 

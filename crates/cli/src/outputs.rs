@@ -2,9 +2,10 @@
 
 use crate::failure::Failure;
 use crate::output_file::OutputFile;
+use hovertone_media::Container;
 use hovertone_report::printable;
-use std::fs;
-use std::io::Write;
+use std::fs::{self, File};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// The rules for all outputs of a run.
@@ -36,8 +37,20 @@ impl Outputs {
         write_whole(self.create(place)?, content.as_ref())
     }
 
-    /// Begins a file.
+    /// Begins a file that holds no sound. It never takes the place of a recording: who names one by mistake, and follows a hint about --force,
+    /// would lose it.
     pub(crate) fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
+        refuse_dash(place)?;
+        self.refuse_input(place)?;
+        if is_recording(place) {
+            let what = "this file is a recording, and the output would replace it: nothing was written";
+            return Err(refused(what, "choose another name for the output", place));
+        }
+        self.create_sound(place)
+    }
+
+    /// Begins a file that may hold sound.
+    pub(crate) fn create_sound(&self, place: &Path) -> Result<OutputFile, Failure> {
         refuse_dash(place)?;
         self.refuse_input(place)?;
         if self.would_lose(place) {
@@ -90,6 +103,19 @@ pub(crate) fn written(place: &Path) -> String {
 
 pub(crate) fn refused(what: &str, hint: &str, place: &Path) -> Failure {
     Failure::Usage { what: what.to_owned(), hint: hint.to_owned(), path: Some(place.to_owned()) }
+}
+
+/// Bytes that tell the kind of a file.
+const BEGINNING: u64 = 4096;
+
+/// Whether a file is there that begins as recordings do.
+fn is_recording(place: &Path) -> bool {
+    if !fs::metadata(place).is_ok_and(|old| old.is_file()) {
+        return false;
+    }
+    let mut beginning = Vec::new();
+    let is_read = File::open(place).and_then(|file| file.take(BEGINNING).read_to_end(&mut beginning)).is_ok();
+    is_read && Container::of_beginning(&beginning).is_some()
 }
 
 /// Whether something would be lost by writing here: a file with content, a link that leads nowhere. A device keeps nothing.
@@ -157,5 +183,16 @@ mod tests {
             assert!(forced.write(&name, "new").is_err() && forced.create_over(&name).is_err(), "{name:?}");
         }
         assert_eq!(fs::read_to_string(file("sound.wav")).unwrap(), "sound");
+    }
+
+    #[test]
+    fn a_recording_is_never_replaced_by_what_is_no_sound() {
+        let folder = tempfile::tempdir().unwrap();
+        let recording = folder.path().join("flight.csv");
+        fs::write(&recording, b"RIFF\x24\x00\x00\x00WAVEfmt ").unwrap();
+        let forced = Outputs::beside([folder.path().join("other.wav")], true);
+        assert!(forced.check(&recording).is_err() && forced.write(&recording, "new").is_err());
+        forced.create_sound(&recording).unwrap();
+        assert!(fs::read(&recording).unwrap().starts_with(b"RIFF"));
     }
 }

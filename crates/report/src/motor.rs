@@ -45,6 +45,8 @@ pub struct MotorSound {
     pub no_tone: Option<String>,
     /// Time that was added to the clock of the commands, where it was found from the steps.
     pub offset_s: Option<f64>,
+    /// Whether commands were given.
+    pub has_commands: bool,
 }
 
 /// A log or a recording, and its motors.
@@ -119,7 +121,7 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
             );
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);
-                format!("offset of the commands {offset_s} s, found from the steps: no dead time (give --offset)\n")
+                format!("offset of the commands {offset_s} s, found from the steps, so that the dead time is not known: give --offset if you know it\n")
             });
             heard + &offset
         }
@@ -227,6 +229,10 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         return match record.source {
             MotorSource::Log => {
                 "\nspeed of each command: not known, because no command in this log changes\n".to_owned()
+            }
+            MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
+                "\nspeed of each command: not known, because the commands do not step when the sound does; are they of this run?\n"
+                    .to_owned()
             }
             MotorSource::Sound(_) => {
                 "\nspeed of each command: not known without the commands (give --commands LOG)\n".to_owned()

@@ -50,7 +50,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         format!("offset of the log {} s: time to be added to its clock\n", signed(found.offset_s, 3))
     } else {
         format!(
-            "offset of the log: not found, because the speeds change too little ({} s is used)\n",
+            "offset of the log: not found, because other offsets fit nearly as well ({} s is used)\n",
             signed(found.offset_s, 1)
         )
     };
@@ -70,7 +70,8 @@ fn verdict_in_words(found: &Verification) -> String {
     match failed_check(found) {
         None => {
             let percent = percent_of(found);
-            format!("passed: order and clock are right; heard speeds differ by {percent} %")
+            let right = if found.is_offset_told { "order and clock are right" } else { "the order is right" };
+            format!("passed: {right}; heard speeds differ by {percent} %")
         }
         Some(Notice { text, hint }) => format!("failed: {text}; {hint}"),
     }

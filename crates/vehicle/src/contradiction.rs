@@ -146,7 +146,7 @@ impl Contradiction {
             Self::Band { order, rev_s_min, rev_s_max, .. } => {
                 let edge_hz = |rev_s: f64| rev_s * order.lines_per_turn();
                 format!(
-                    "leave the band out, or give one within {:.0}:{:.0}; for another tone also give its order",
+                    "leave the band out, or give the frequencies between which you expect the tone, within {:.0} to {:.0} Hz; for another tone also give its order",
                     edge_hz(*rev_s_min),
                     edge_hz(*rev_s_max)
                 )

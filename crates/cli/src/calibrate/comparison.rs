@@ -5,9 +5,10 @@ use crate::args::CalibrateArguments;
 use crate::failure::Failure;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
 use hovertone_report::{fixed, printable, signed, with_uncertainty};
-use hovertone_vehicle::{CLOCK_CORRECTION_PPM_MAX, Order, RotorSpeed};
+use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Order, RotorSpeed};
 use serde_json::json;
 
+const SECONDS_PER_MINUTE: f64 = 60.0;
 /// Millionths in a hundredth.
 const PPM_PER_PERCENT: f64 = 1e4;
 /// Largest error of a clock.
@@ -87,6 +88,12 @@ impl Comparison {
         format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
     }
 
+    /// Whether the known speed seems to be in turns per second, and not per minute.
+    fn is_known_in_turns_per_second(&self) -> bool {
+        let is_speed = matches!(self.reference, Reference::Speed { .. });
+        is_speed && (self.check.heard_over_known / SECONDS_PER_MINUTE - 1.0).abs() < BAND_SHARE
+    }
+
     /// The correction for the setting: on top of the one with which the recording was opened.
     fn whole_correction_ppm(&self, before_ppm: f64) -> f64 {
         MILLION * ((1.0 + before_ppm / MILLION) * (1.0 + self.check.correction_ppm / MILLION) - 1.0)
@@ -98,8 +105,8 @@ pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &Calibrat
     let (known, heard) = comparison.pair();
     let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
     let mut text = format!("{}: known {known}, heard {heard} (± is k = 2){order}\n", printable(name));
-    text += &order_in_words(comparison);
-    if comparison.check.relation != Relation::None {
+    text += &order_in_words(comparison, arguments);
+    if comparison.check.relation != Relation::None && !comparison.is_known_in_turns_per_second() {
         text += &clock_in_words(comparison, arguments);
     }
     text + &result_in_words(comparison, arguments.clock_ppm)
@@ -126,19 +133,16 @@ fn word(judgement: Judgement) -> &'static str {
     }
 }
 
-fn order_in_words(comparison: &Comparison) -> String {
+fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
     let Comparison { check, heard: HeardSpeed { order, is_rotor, .. }, .. } = comparison;
     let ratio = fixed(check.heard_over_known, 4);
     match check.relation {
         Relation::Agrees if !is_rotor => String::new(),
         Relation::Agrees => format!("order: pass, it is {order}\n"),
-        Relation::OtherOrder(fitting) if *is_rotor => format!(
-            "order: fail. The heard speed is {ratio} times the known speed, as if the order were {fitting} and not {order}. {}If {fitting} is \
-             right, leave --vehicle out and give --order {fitting} (for a blade pass --blades {fitting}), or in an experiment file [tone] \
-             order = {fitting}. If {order} is right, its tone lies in --band {}\n",
-            comparison.shaft_in_words(),
-            comparison.band()
-        ),
+        Relation::OtherOrder(fitting) if *is_rotor => {
+            format!("order: fail. The heard speed is {ratio} times the known speed")
+                + &other_order_in_words(comparison, fitting, arguments)
+        }
         _ if !is_rotor => format!(
             "tone: fail. The heard frequency is {ratio} times the known frequency, and no clock is off by more than {CLOCK_PERCENT_MAX} %. Is the \
              known frequency right? Was the file resampled or slowed down?\n"
@@ -148,6 +152,31 @@ fn order_in_words(comparison: &Comparison) -> String {
              more than {CLOCK_PERCENT_MAX} %. Was another rotor heard? Was the file resampled or slowed down?\n"
         ),
     }
+}
+
+/// What may be wrong where another order fits: the unit of the known speed, or the order.
+fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &CalibrateArguments) -> String {
+    let order = comparison.heard.order;
+    if let Reference::Speed { rpm, .. } = comparison.reference
+        && comparison.is_known_in_turns_per_second()
+    {
+        let in_rpm = SECONDS_PER_MINUTE * rpm;
+        return format!(
+            ". Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {in_rpm}\n"
+        );
+    }
+    let without_vehicle = if arguments.tone.vehicle.is_some() { "leave --vehicle out and " } else { "" };
+    let as_blades = if fitting.lines_per_turn() <= BLADES_MAX && fitting.lines_per_turn().fract() == 0.0 {
+        format!(" (for a blade pass --blades {fitting})")
+    } else {
+        String::new()
+    };
+    format!(
+        ", as if the order were {fitting} and not {order}. {}If {fitting} is right, {without_vehicle}give --order {fitting}{as_blades}, or in an \
+         experiment file [tone] order = {fitting}. If {order} is right, its tone lies in --band {}\n",
+        comparison.shaft_in_words(),
+        comparison.band()
+    )
 }
 
 /// Decimals of a correction in millionths: to the second digit of its ±, and one at most, which is a hundredth of what the warmth of a room does.

@@ -82,6 +82,11 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     ] {
         assert!(wrong.stdout.contains(words), "{words}:\n{}", wrong.stdout);
     }
+    // turns per second as if they were per minute
+    let slip =
+        hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "350"]).ends_with(3);
+    assert!(slip.stdout.contains("350 turns per second are --tachometer-rpm 21000"), "{}", slip.stdout);
+    assert!(!slip.stdout.contains("clock, if"), "{}", slip.stdout);
     let other =
         hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "15000"]).ends_with(3);
     assert!(other.stdout.contains("No other order of the tone gives this ratio"), "{}", other.stdout);

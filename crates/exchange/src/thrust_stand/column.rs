@@ -48,6 +48,14 @@ impl Column {
     }
 }
 
+/// The number before the word "rotor" or "rotors" in a header.
+pub(super) fn rotors_in(header: &str) -> Option<u32> {
+    let lower = header.to_lowercase();
+    let before = lower[..lower.find("rotor")?].trim_end_matches([' ', '_', '-']);
+    let digits = before.len() - before.trim_end_matches(|letter: char| letter.is_ascii_digit()).len();
+    before[before.len() - digits..].parse().ok()
+}
+
 pub(super) fn columns_of(headers: &StringRecord, records: &[StringRecord]) -> Vec<Column> {
     let column = |(index, header): (usize, &str)| {
         let meaning = meaning_of(header);
@@ -200,6 +208,13 @@ fn torque_unit_n_m(words: &[&str]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_header_may_say_of_how_many_rotors() {
+        let rotors: Vec<Option<u32>> =
+            ["thrust_g_4rotors", "Thrust of 6 rotors (N)", "rotor_thrust_n", "thrust_n"].map(rotors_in).into();
+        assert_eq!(rotors, [Some(4), Some(6), None, None]);
+    }
 
     #[test]
     fn headers_as_people_write_them() {

@@ -6,7 +6,7 @@ mod plausible;
 mod tests;
 
 use crate::csv_text::{CsvError, CsvText, line_of};
-use column::{Column, Quantity, columns_of};
+use column::{Column, Quantity, columns_of, rotors_in};
 use csv::StringRecord;
 use plausible::MeasuredColumns;
 use std::f64::consts::TAU;
@@ -74,6 +74,8 @@ pub struct StandTable {
     pub speed_column: String,
     /// Header of the column with the force.
     pub force_column: String,
+    /// Number of rotors that this header names, as in `thrust_g_4rotors`.
+    pub rotors_in_header: Option<u32>,
     /// Notes about rows that were left out or turned round.
     pub notes: Vec<String>,
 }
@@ -156,7 +158,13 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
             None => groups.push(StandGroup { name, rows: vec![row] }),
         }
     }
-    Ok(StandTable { groups, speed_column: speed.header.clone(), force_column: force.header.clone(), notes })
+    Ok(StandTable {
+        groups,
+        speed_column: speed.header.clone(),
+        force_column: force.header.clone(),
+        rotors_in_header: rotors_in(&force.header),
+        notes,
+    })
 }
 
 /// The column of a quantity with most numbers other than zero: a missing optical tachometer leaves a column of zeros.

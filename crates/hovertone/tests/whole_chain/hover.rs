@@ -101,6 +101,19 @@ fn a_given_band_is_where_it_is_looked_for() {
 }
 
 #[test]
+fn a_wide_band_does_not_choose_the_octave() {
+    // the shaft of unlike blades is loud: an octave down in a band that holds both
+    let lines = [(1.0, 0.02), (2.0, 0.03), (3.0, 0.004), (4.0, 0.02), (6.0, 0.012), (8.0, 0.008)];
+    let samples = sound(&[rotor(|_| 170.0, &lines)], 5.0, 0.003, 10);
+    let mut config = config(2.0);
+    for band_hz in [None, Some((30.0, 1600.0)), Some((100.0, 900.0)), Some((300.0, 380.0))] {
+        config.tone.band_hz = band_hz;
+        let speed_rev_s = tone(&analyse(samples.clone(), &config)).speeds[0].speed.rev_s();
+        assert!((speed_rev_s - 170.0).abs() < 0.1, "{band_hz:?}: {speed_rev_s}");
+    }
+}
+
+#[test]
 fn a_band_that_the_recording_cannot_hold_is_an_error_that_says_so() {
     let mut config = config(69.0);
     config.tone.band_hz = Some((23000.0, 24000.0));

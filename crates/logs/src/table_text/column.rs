@@ -80,7 +80,9 @@ pub(super) fn column_of(header: &str) -> Option<LogColumn> {
     if has(&["rps", "hz"]) || has(&["rev"]) && has(&["s"]) {
         return Some(LogColumn::MotorSpeed { motor, rev_s: 1.0 });
     }
-    let is_command = has(&["pwm", "command", "cmd", "duty", "output", "throttle", "voltage"]);
+    // what an ESC measures of its battery is no command
+    let is_measured = has(&["esc"]) && has(&["voltage"]);
+    let is_command = !is_measured && has(&["pwm", "command", "cmd", "duty", "output", "throttle", "voltage"]);
     let is_bare = words.first().is_some_and(|word| ["motor", "rotor", "esc", "m"].contains(&word.as_str()))
         && words.iter().skip(1).all(|word| word.parse::<u32>().is_ok() || ["us", "v"].contains(&word.as_str()));
     (is_command || is_bare).then_some(LogColumn::MotorCommand { motor })

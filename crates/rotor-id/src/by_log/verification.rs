@@ -18,7 +18,7 @@ const OFFSETS_MAX: usize = 40_000;
 const OVERLAP_SHARE_MIN: f64 = 0.5;
 /// Longest time between log rows over which the speed is straight, in s. *Decision.*
 const GAP_S_MAX: f64 = 1.0;
-/// Offsets this far away must be worse by this factor. *Decision.*
+/// Offsets this far away, and speeds that do not change, must be worse by this factor. *Decision.*
 const ELSEWHERE_S: f64 = 1.0;
 const ELSEWHERE_FACTOR: f64 = 1.2;
 /// Ratios that a wrong order, wrong blades or wrong pole pairs make. *Physics.*
@@ -107,6 +107,9 @@ pub fn verification_from_log(
     }
     let elsewhere = offsets.iter().zip(&costs).filter(|(offset_s, _)| (*offset_s - offsets[best]).abs() > ELSEWHERE_S);
     let elsewhere = elsewhere.map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
+    // steady speeds fit anywhere
+    let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * costs[best];
+    let is_offset_told = is_worse(elsewhere) && is_worse(comparison.cost_of_constants(COARSE_POINTS));
     let offset_s = comparison.fine_offset(offsets[best]);
     let mut rotors = comparison.rotors(offset_s);
     rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
@@ -114,7 +117,7 @@ pub fn verification_from_log(
     let logged: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s - rotor.bias_rev_s).sum();
     Ok(Verification {
         offset_s,
-        is_offset_told: elsewhere.is_finite() && elsewhere > ELSEWHERE_FACTOR * costs[best],
+        is_offset_told,
         clock_rate_share: comparison.clock_rate_share(offset_s),
         rotors,
         speed_ratio: heard / logged,
@@ -226,6 +229,17 @@ impl Comparison<'_> {
 
     fn cost(&self, offset_s: f64, points_max: usize) -> f64 {
         self.assignment(offset_s, points_max).cost
+    }
+
+    /// The same where each track is its mean.
+    fn cost_of_constants(&self, points_max: usize) -> f64 {
+        let square = |track: &&[TrackPoint]| {
+            let heard: Vec<f64> =
+                track.iter().step_by(track.len().div_ceil(points_max)).map(|point| point.speed_rev_s).collect();
+            let mean_rev_s = mean(heard.iter().copied()).unwrap_or_default();
+            mean(heard.iter().map(|speed_rev_s| (speed_rev_s - mean_rev_s).powi(2))).unwrap_or_default()
+        };
+        self.tracks.iter().map(square).sum()
     }
 
     fn fine_offset(&self, coarse_s: f64) -> f64 {
@@ -345,6 +359,19 @@ mod tests {
             assert!(rotor.coverage > 0.9, "{rotor:?}");
         }
         assert!(found.clock_rate_share.unwrap().abs() < 3e-4);
+    }
+
+    /// A log of a climb that the recording does not have: the offset that leaves the climb out fits best, and tells nothing.
+    #[test]
+    fn a_steady_recording_has_no_offset() {
+        let steady: Vec<TrackPoint> =
+            track(0, 1.0).into_iter().map(|point| TrackPoint { speed_rev_s: 80.0, ..point }).collect();
+        let time_s: Vec<f64> = (0..800).map(|row| 0.1 * f64::from(row)).collect();
+        let climb = |time_s: &f64| if (30.0..33.0).contains(time_s) { 84.0 } else { 80.0 };
+        let speeds_rev_s = [time_s.iter().map(climb).collect()];
+        let names = ["motor 1".to_owned()];
+        let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+        assert!(!verification_from_log(&[&steady], log, None).unwrap().is_offset_told);
     }
 
     #[test]

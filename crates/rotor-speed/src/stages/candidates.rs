@@ -166,6 +166,6 @@ pub(crate) fn beliefs_of(
 ) -> Result<Option<Beliefs>, NoTone> {
     let propeller = WantedPropeller { lines: RotorLines::of_tone(&config.tone), share: 1.0, speeds_rev_s };
     let may_be_slow =
-        config.tone.band_hz.is_some() || config.known.diameter_m.is_some() || config.known.shaft_speed.is_some();
+        config.tone.is_named_by_band() || config.known.diameter_m.is_some() || config.known.shaft_speed.is_some();
     surveyed.beliefs(&WantedRotor { propellers: vec![propeller], known: config.known, may_be_slow }, config)
 }

@@ -28,8 +28,8 @@ impl Surveyed {
     /// # Errors
     /// Mains hum, where the blade pass of the rotor is one of its lines.
     pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Result<Option<Beliefs>, NoTone> {
-        // who gives a band says that a tone is in it: then only evidence against it refutes it
-        let levels_nats_min = if config.tone.band_hz.is_some() { 0.0 } else { config.evidence.levels_nats_min };
+        // who names the tone by a band says that it is there: then only evidence against it refutes it
+        let levels_nats_min = if config.tone.is_named_by_band() { 0.0 } else { config.evidence.levels_nats_min };
         let evidence = EvidenceConfig { levels_nats_min, ..config.evidence };
         let heard = beliefs_from_looks(&self.looks, wanted, &evidence);
         let first = heard.as_ref().and_then(|beliefs| beliefs.hypotheses.first());

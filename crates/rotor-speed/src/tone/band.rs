@@ -33,9 +33,7 @@ pub(crate) fn bands_around(
     sample_rate_hz: f64,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Band>, Error> {
-    let tone_hz = speed_rev_s * tone.order.lines_per_turn();
-    let found_hz = (tone_hz * (1.0 - tone.band_half_width_share), tone_hz * (1.0 + tone.band_half_width_share));
-    let (low_hz, high_hz) = tone.band_hz.unwrap_or(found_hz);
+    let (low_hz, high_hz) = followed_hz(speed_rev_s, tone);
     let hz_max = USABLE_NYQUIST_SHARE * sample_rate_hz / 2.0;
     let mut bands = Vec::new();
     for harmonic in 1..=tone.harmonics {
@@ -62,10 +60,20 @@ pub(crate) fn bands_around(
 /// and the recording can hold them.
 pub(crate) fn lines_around(speed_rev_s: f64, tone: &ToneConfig, sample_rate_hz: f64) -> Vec<ChannelBand> {
     let order = tone.order.lines_per_turn();
-    let share = tone.band_half_width_share;
-    let found_rev_s = speed_rev_s * (1.0 - share)..=speed_rev_s * (1.0 + share);
-    let speeds_rev_s = tone.band_hz.map_or(found_rev_s, |(low_hz, high_hz)| low_hz / order..=high_hz / order);
-    lines_between_speeds(&speeds_rev_s, tone, sample_rate_hz)
+    let (low_hz, high_hz) = followed_hz(speed_rev_s, tone);
+    lines_between_speeds(&(low_hz / order..=high_hz / order), tone, sample_rate_hz)
+}
+
+/// The band in which the tone is followed: around the speed that was found, and inside the band that was given. A given band may be so wide
+/// that it holds several octaves; which of them is the rotor's was decided before.
+fn followed_hz(speed_rev_s: f64, tone: &ToneConfig) -> (f64, f64) {
+    let tone_hz = speed_rev_s * tone.order.lines_per_turn();
+    let (low_hz, high_hz) =
+        (tone_hz * (1.0 - tone.band_half_width_share), tone_hz * (1.0 + tone.band_half_width_share));
+    match tone.band_hz {
+        None => (low_hz, high_hz),
+        Some((given_low_hz, given_high_hz)) => (low_hz.max(given_low_hz), high_hz.min(given_high_hz)),
+    }
 }
 
 /// The same lines, for shafts in a range of speeds.
@@ -113,6 +121,20 @@ mod tests {
         assert_eq!(bands[2].order.lines_per_turn(), 207.0);
         assert!(bands.windows(2).all(|pair| pair[0].band_hz_high < pair[1].band_hz_low));
         assert!(bands[0].band_hz_low < 4151.7 && bands[0].band_hz_high > 4151.7);
+    }
+
+    #[test]
+    fn a_given_band_is_followed_where_the_speed_was_found() {
+        let with_band = |band_hz: (f64, f64)| {
+            let tone = ToneConfig { band_hz: Some(band_hz), ..mesh() };
+            let bands = bands_around(60.0, &tone, 48000.0, &mut Vec::new()).unwrap();
+            let lines = lines_around(60.0, &tone, 48000.0);
+            assert_eq!((lines[0].band_hz_low, lines[0].band_hz_high), (bands[0].band_hz_low, bands[0].band_hz_high));
+            (bands[0].band_hz_low.round(), bands[0].band_hz_high.round())
+        };
+        assert_eq!(with_band((4000.0, 4200.0)), (4000.0, 4200.0));
+        // an octave down is in the given band, and not followed
+        assert_eq!(with_band((1000.0, 9000.0)), (3809.0, 4471.0));
     }
 
     #[test]

@@ -13,6 +13,9 @@ const SLOWEST_REV_S: f64 = 15.0;
 /// Fastest shaft that is looked for: above the 670 rev/s of the smallest racers' propellers. *Decision.*
 const FASTEST_REV_S: f64 = 800.0;
 
+/// Ratio of two frequencies an octave apart. *Physics.*
+const OCTAVE: f64 = 2.0;
+
 /// Which tone of the rotor is followed, and where it is looked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ToneConfig {
@@ -64,6 +67,11 @@ impl ToneConfig {
             speed_max: RotorSpeed::from_rev_s(known.rev_s_high * KNOWN_RANGE_MARGIN),
             ..self
         }
+    }
+
+    /// Whether a band is given that names the tone: it is narrower than an octave, so that it tells speeds apart.
+    pub(crate) fn is_named_by_band(&self) -> bool {
+        self.band_hz.is_some_and(|(low_hz, high_hz)| high_hz < OCTAVE * low_hz)
     }
 
     /// Refuses a band in which the tone cannot lie.

@@ -18,7 +18,10 @@ const GAP_S = 0.35;
 export function Listen({ store }: { store: Store }) {
   const { listening } = store;
   useObserved(listening);
-  if (listening.state !== "on") {
+  if (listening.state === "asking") {
+    return <section class="card listen" aria-label="Microphone"><p class="now none" role="status">Waiting for the microphone. Allow it where the browser asks.</p></section>;
+  }
+  if (listening.state === "off") {
     return listening.fault ? <div class="fault" role="alert"><p>{listening.fault}</p><button type="button" onClick={() => listening.stop()}>Close</button></div> : null;
   }
   return (
@@ -51,18 +54,19 @@ export function Listen({ store }: { store: Store }) {
 
 function Speed({ listening }: { listening: Listening }) {
   const { now, isFrozen } = listening;
-  if (!now) return <p class="now none" role="status">The first answer comes after two seconds of sound.</p>;
+  if (!now || now.status === "listening") return <p class="now none" role="status">The first answer comes after two seconds of sound.</p>;
   const { words, status_words } = now;
+  const silent = now.status === "ambiguous" ? status_words : "no rotor tone";
   return (
     <>
       <p class={`now ${now.status}`} data-time={now.time_s}>
-        {words ? <><strong>{words.speed_rev_s}</strong> <span class="beside"><span class="plusminus">± {words.plus_minus_rev_s}</span> <span>rev/s</span></span></> : <span class="words">no rotor tone</span>}
+        {words ? <><strong>{words.speed_rev_s}</strong> <span class="beside"><span class="plusminus">± {words.plus_minus_rev_s}</span> <span>rev/s</span></span></> : <span class="words">{silent}</span>}
       </p>
       <p class="quiet others">
-        {words ? `${words.speed_rpm} rpm · ${words.speed_rad_s} rad/s · ± ${words.plus_minus_percent} %` : status_words.replace(/^no rotor tone:? ?/, "")}
+        {words ? `${words.speed_rpm} rpm · ${words.speed_rad_s} rad/s · ± ${words.plus_minus_percent} %` : status_words.slice(silent.length).replace(/^: /, "")}
         {isFrozen && " · frozen"}
       </p>
-      <p class="unseen" role="status">{words ? "a rotor is heard" : "no rotor tone"}</p>
+      <p class="unseen" role="status">{words ? "a rotor is heard" : silent}</p>
     </>
   );
 }

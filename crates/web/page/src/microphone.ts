@@ -22,6 +22,9 @@ const PROCESSING = {
 } as const;
 type Processing = keyof typeof PROCESSING;
 
+/** Some browsers start their sound only where there is something to play it, and wait for that without end. */
+const RESUME_MS = 8000;
+
 export class Microphone {
   private waiting: ((wav: Uint8Array<ArrayBuffer>) => void)[] = [];
 
@@ -44,7 +47,7 @@ export class Microphone {
     try {
       stream = await navigator.mediaDevices.getUserMedia({ audio: mapped(() => false) });
       const [track] = stream.getAudioTracks();
-      await context.resume();
+      await within(RESUME_MS, context.resume(), "the browser's sound did not start; connect a loudspeaker or headphones, and press Listen again");
       await context.audioWorklet.addModule(new URL("microphone.worklet.js", import.meta.url));
       const ear = new Worker(new URL("ear.js", import.meta.url), { type: "module" });
       const settings = track.getSettings();
@@ -94,6 +97,12 @@ export class Microphone {
     void this.context.close();
     void this.lock.then((lock) => lock?.release());
   }
+}
+
+/** What comes within a time, or an error with these words. */
+function within<T>(limitMs: number, coming: Promise<T>, words: string): Promise<T> {
+  const late = new Promise<never>((_, reject) => setTimeout(() => reject(new Error(words)), limitMs));
+  return Promise.race([coming, late]);
 }
 
 function mapped<T>(of: (each: Processing) => T) {

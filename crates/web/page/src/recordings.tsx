@@ -108,24 +108,46 @@ function Speed({ answer }: { answer: Answer }) {
 
 const TITLES = { error: "could not be heard", no_rotor_tone: "no rotor tone", ambiguous: "possible speeds, each with its plausibility", ok: "" };
 
+/** Readings that are less plausible are folded away. */
+const LIKELY = 0.01;
+
 function NoSpeed({ store, recording, answer }: { store: Store; recording: Recording; answer: Answer }) {
+  const likely = answer.readings.filter((reading) => reading.plausibility >= LIKELY);
+  const unlikely = answer.readings.filter((reading) => reading.plausibility < LIKELY);
   return (
     <div class="nospeed">
       <p class="answer"><strong class="words">{TITLES[answer.status]}</strong></p>
-      {answer.readings.length > 0 && (
-        <ul class="readings">
-          {answer.readings.map((reading) => (
-            <li key={`${reading.order} ${reading.meaning}`}>
-              <button type="button" onClick={() => say(store, recording, reading)}>{reading.meaning}</button>{" "}
-              {+reading.speed_rev_s.toPrecision(4)} rev/s, {+reading.speed_rpm.toPrecision(4)} rpm <span class="quiet">({Math.round(100 * reading.plausibility)} %)</span>
-            </li>
-          ))}
-        </ul>
+      {likely.length > 0 && (
+        <ReadingList store={store} recording={recording} readings={likely} />
+      )}
+      {unlikely.length > 0 && (
+        <details>
+          <summary>{unlikely.length} more, each below {Math.round(100 * LIKELY)} %</summary>
+          <ReadingList store={store} recording={recording} readings={unlikely} />
+        </details>
       )}
       {answer.readings.length > 0 && <p>Which one is it? Count the blades of a propeller, and choose; or give diameter, mass and rotors above.</p>}
       {answer.reason && answer.status !== "ambiguous" && <p>{plain(answer.reason)}</p>}
     </div>
   );
+}
+
+function ReadingList({ store, recording, readings }: { store: Store; recording: Recording; readings: Reading[] }) {
+  return (
+    <ul class="readings">
+      {readings.map((reading) => (
+        <li key={`${reading.speed_rev_s} ${reading.meaning}`}>
+          <button type="button" onClick={() => say(store, recording, reading)}>{reading.meaning}</button>{" "}
+          {+reading.speed_rev_s.toPrecision(4)} rev/s, {+reading.speed_rpm.toPrecision(4)} rpm <span class="quiet">({percent(reading.plausibility)} %)</span>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+/** A probability in per cent, with one digit where it is small. */
+function percent(share: number): string {
+  return share >= LIKELY || share === 0 ? (100 * share).toFixed(0) : share >= 0.001 ? (100 * share).toFixed(1) : "below 0.1";
 }
 
 /** The chosen reading says what the vehicle has. */
