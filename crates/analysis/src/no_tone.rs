@@ -55,7 +55,7 @@ impl fmt::Display for NoTone {
             Self::OutsideRecording => f.write_str("the recording has no sound between the chosen times; choose others with --from and --to"),
             Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover"),
             Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
-            Self::NoSeries => f.write_str("nothing sounds like a rotor; check the vehicle, the order or the band if one is given, or place the microphone nearer"),
+            Self::NoSeries => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
             Self::NoHover => f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off"),
             Self::NoFrame { window_s, hover_s } => {
                 write!(

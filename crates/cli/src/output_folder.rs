@@ -45,7 +45,7 @@ impl OutputFolder {
         let folder = Self { path: path.to_owned(), outputs, list, being_written: OnceLock::new() };
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
             let what = format!(
-                "this folder has other files than an earlier run for the same {} wrote: nothing was written",
+                "this folder has files that no earlier run for the same {} wrote: nothing was written",
                 content.name
             );
             let hint = "choose a new folder with -o DIR, or use --force to write there: files of the same names are \

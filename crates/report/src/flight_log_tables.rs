@@ -76,7 +76,7 @@ fn rotors_table(logged: &[Logged<'_>]) -> TextTable {
         Column::words("motor of the log"),
         Column::numbers("probability", ""),
         Column::numbers("heard", "rev/s"),
-        Column::numbers("less logged", "rev/s"),
+        Column::numbers("heard − logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
         Column::numbers("log within ±", ""),
         Column::numbers("points", ""),

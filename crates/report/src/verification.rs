@@ -30,7 +30,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         Column::words("rotor"),
         Column::words("motor of the log"),
         Column::numbers("heard", "rev/s"),
-        Column::numbers("less logged", "rev/s"),
+        Column::numbers("heard − logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),
         Column::numbers("log within ±", ""),
         Column::numbers("points", ""),

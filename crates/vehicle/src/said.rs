@@ -177,7 +177,7 @@ mod tests {
         SearchedTone { band_hz: None, ..of(0.0, 0.0) }.check().unwrap();
         for outside in [of(100.0, 130.0), of(6000.0, 7000.0)] {
             let error = outside.check().unwrap_err();
-            assert!(error.hint().contains("1380:5520"), "{}", error.hint());
+            assert!(error.hint().contains("1380 to 5520 Hz"), "{}", error.hint());
         }
         assert!(of(100.0, 130.0).check().unwrap_err().to_string().contains("at 1.4 to 1.9 rev/s"));
     }

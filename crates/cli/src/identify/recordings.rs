@@ -164,7 +164,9 @@ fn missing_failure(missing: &[Missing<'_>], source: &ExperimentSource, root: &Pa
     } else if is_root_given {
         format!("put them into the folder that --data-root names, or name another{notes}")
     } else {
-        format!("put them beside the experiment file, or give the folder that holds them: --data-root DIR{notes}")
+        format!(
+            "correct the names, put the recordings beside the experiment file, or give their folder: --data-root DIR{notes}"
+        )
     };
     match source.typed {
         Some(_) => Failure::Failed { what, hint, path: None },

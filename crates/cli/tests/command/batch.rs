@@ -227,7 +227,7 @@ fn a_folder_of_something_else_is_refused_with_what_differs() {
     write_archive(&archive, 2);
     fs::create_dir(&full).unwrap();
     fs::write(full.join("notes.txt"), "precious").unwrap();
-    refused_with(&["batch", text(&archive), "-o", text(&full)], &["has other files", "-o DIR"]);
+    refused_with(&["batch", text(&archive), "-o", text(&full)], &["has files that no earlier run", "-o DIR"]);
     assert_eq!(fs::read_dir(&full).unwrap().count(), 1, "nothing was written");
     batch(&archive, &out, &[]).ends_with(0);
     let words = ["batch", text(&archive), "-o", text(&out), "--rotors", "1", "--blades"];

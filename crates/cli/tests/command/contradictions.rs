@@ -15,7 +15,7 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
         (&["--gear", "8:68"], "gear = { pinion = 8, wheel = 68 }", "", ["gear = 8:68", "is 8:69"]),
         (&["--order", "46"], "", "order = 46", ["order = 46", "tones of order 69"]),
         (&["--order", "4"], "", "order = 4", ["order = 4", "harmonics"]),
-        (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["at 1.4 to 1.9 rev/s", "920:8280"]),
+        (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["at 1.4 to 1.9 rev/s", "920 to 8280 Hz"]),
         (&["--rotors", "6"], "rotors = 6", "", ["rotors = 6", "has 4 rotors"]),
         (&["--diameter-m", "0.02"], "propeller_diameter_m = 0.02", "", ["diameter_m = 0.02", "Mach 0.84"]),
         (&["--diameter-m", "4"], "propeller_diameter_m = 4.0", "", ["diameter_m = 4", "at 0.3 rev/s"]),

@@ -44,9 +44,9 @@ const CASES: [(&str, i32, &str); 47] = [
     ("spectrogram a.wav --blades 2 -o nowhere/x.png", 1, "nowhere/x.png"),
     ("init --vehicle ardrone --mass 413g=a.wav -o nowhere/x.toml", 1, "nowhere/x.toml"),
     // what would be written would replace something
-    ("identify good.toml -o full", 2, "has other files"),
-    ("demo -o full", 2, "has other files"),
-    ("simulate flight.toml -o full", 2, "has other files"),
+    ("identify good.toml -o full", 2, "has files that no earlier run"),
+    ("demo -o full", 2, "has files that no earlier run"),
+    ("simulate flight.toml -o full", 2, "has files that no earlier run"),
     ("speed a.wav --blades 2 --track full/notes.csv", 2, "exists already"),
     ("spectrogram a.wav --blades 2 -o full/notes.png", 2, "exists already"),
     ("init --vehicle ardrone --mass 413g=a.wav -o good.toml", 2, "exists already"),

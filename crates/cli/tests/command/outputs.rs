@@ -89,7 +89,7 @@ fn a_recording_of_a_new_experiment_is_not_replaced_by_its_file() {
         keeps(
             &wav,
             &["init", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&wav), "--force"],
-            &["same name as an input"],
+            &["this file is a recording"],
         );
     }
 }
@@ -176,10 +176,10 @@ fn results_go_into_a_new_folder_or_one_of_results() {
     fs::create_dir(&thesis).unwrap();
     fs::write(thesis.join("results.json"), "precious").unwrap();
     let file = thesis.join("results.json");
-    keeps(&file, &["identify", text(&experiment), "-o", text(&thesis)], &["has other files", "-o DIR", "--force"]);
+    keeps(&file, &["identify", text(&experiment), "-o", text(&thesis)], &["has files that no earlier run", "-o DIR", "--force"]);
     assert_eq!(fs::read_dir(&thesis).unwrap().count(), 1);
     // the folder of the experiment itself is not empty either
-    refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["has other files"]);
+    refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["has files that no earlier run"]);
     let out = folder.path().join("out");
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
     let listed = checked_list(&out);
@@ -217,7 +217,7 @@ fn an_experiment_file_that_was_changed_is_no_demos() {
     let experiment = folder.path().join("experiment.toml");
     fs::write(&experiment, "# Written by `hovertone demo` (hovertone 0.1.0, seed 1).\n[vehicle]\nmass_kg = 0.42\n")
         .unwrap();
-    keeps(&experiment, &["demo", "-o", text(folder.path())], &["has other files", "--force"]);
+    keeps(&experiment, &["demo", "-o", text(folder.path())], &["has files that no earlier run", "--force"]);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }
 
@@ -245,11 +245,11 @@ fn results_of_another_experiment_are_replaced_only_by_force() {
     hovertone(&identify).ends_with(3);
     let other = folder.path().join("other.toml");
     fs::write(&other, fs::read_to_string(&experiment).unwrap().replace("\"a\"\n", "\"b\"\n")).unwrap();
-    keeps_all(&out, &["identify", text(&other), "-o", text(&out)], &["has other files", "same experiment", "--force"]);
+    keeps_all(&out, &["identify", text(&other), "-o", text(&out)], &["has files that no earlier run", "same experiment", "--force"]);
     // the same recordings and masses, typed, are another experiment: they leave experiment.toml
     let mass = format!("413g={}", text(&folder.path().join("a.wav")));
     let typed = ["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)];
-    keeps_all(&out, &typed, &["has other files", "same experiment"]);
+    keeps_all(&out, &typed, &["has files that no earlier run", "same experiment"]);
     // a table that a person changed
     let table = out.join("tables.md");
     fs::write(&table, "precious").unwrap();

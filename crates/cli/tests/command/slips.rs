@@ -108,3 +108,18 @@ fn a_known_speed_is_that_of_a_rotor() {
     refused_with(&["calibrate", "a.wav", "--true-hz", "1e9"], &["true_hz", "1 to 192000"]);
     refused_with(&["fit", "a.csv", "--mass-kg", "413"], &["mass_kg = 413", "--plan"]);
 }
+
+#[test]
+fn forces_of_several_rotors_are_noticed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv");
+    for (force, words) in
+        [("thrust_g_4rotors", "names 4 rotors"), ("mass_g", "as if one rotor carried them"), ("thrust_g", "")]
+    {
+        fs::write(&path, format!("{force},rpm\n413,3610\n444,3742\n470,3825\n")).unwrap();
+        let said = |more: &[&str]| hovertone(&[&["fit", text(&path)], more].concat()).ends_with(0).stderr;
+        let alone = said(&[]);
+        assert!(alone.contains(words) && alone.contains("--rotors") == !words.is_empty(), "{force}: {alone}");
+        assert!(!said(&["--rotors", "4"]).contains("--rotors"), "{force}");
+    }
+}

@@ -182,21 +182,6 @@ fn a_plan_tells_before_flying() {
 
 /// Masses are weighed by gravity, and where nobody says where, that is uncertain by 0.15 %.
 #[test]
-fn forces_of_several_rotors_are_noticed() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("table.csv");
-    for (force, words) in
-        [("thrust_g_4rotors", "names 4 rotors"), ("mass_g", "as if one rotor carried them"), ("thrust_g", "")]
-    {
-        fs::write(&path, format!("{force},rpm\n413,3610\n444,3742\n470,3825\n")).unwrap();
-        let said = |more: &[&str]| hovertone(&[&["fit", text(&path)], more].concat()).ends_with(0).stderr;
-        let alone = said(&[]);
-        assert!(alone.contains(words) && alone.contains("--rotors") == !words.is_empty(), "{force}: {alone}");
-        assert!(!said(&["--rotors", "4"]).contains("--rotors"), "{force}");
-    }
-}
-
-#[test]
 fn a_table_of_masses_counts_gravity() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.csv");

@@ -10,8 +10,8 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> Result<String, ModelError> {
     let (Some(density), Some(diameter_m)) = (rotor.air_density_kg_m3, rotor.propeller_diameter_m) else {
         return Err(ModelError::Needs {
             format: "airsim",
-            what: "the propellers' diameter and the air's density: write vehicle.propeller_diameter_m and [air] into the \
-                   experiment file, or --diameter-m and --air-density-kg-m3",
+            what: "the propellers' diameter and the air's density: give --diameter-m and --air-density-kg-m3, or write \
+                   vehicle.propeller_diameter_m and [air] into the experiment file",
         });
     };
     let constant = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);

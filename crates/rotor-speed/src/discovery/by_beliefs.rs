@@ -155,7 +155,7 @@ fn readings_of(beliefs: &Beliefs, discovery: &Discovery) -> Vec<Reading> {
                 let speed = RotorSpeed::from_tone_hz(octave * tone_hz, order);
                 let other = Reading {
                     plausibility: 0.5 * share * config.deceived_share,
-                    why: "possible as long as the number of blades is not known".to_owned(),
+                    why: "unlikely, but possible while the number of blades is not known".to_owned(),
                     ..reading_at(speed, order, Meaning::BladePass { blades })
                 };
                 match readings.iter_mut().find(|reading| is_like(reading, &other)) {
