@@ -216,7 +216,7 @@ fn readings_in_a_line(family: &ToneFamily) -> String {
         .map(|reading| format!("{}: {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
         .collect();
     match words.is_empty() {
-        true => format!("{INDENT}no rotor: its speed is excluded, by what is known of the vehicle or by itself\n"),
+        true => format!("{INDENT}no rotor: the vehicle, or the speed by itself, excludes it\n"),
         false => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
     }
 }

@@ -176,7 +176,11 @@ fn results_go_into_a_new_folder_or_one_of_results() {
     fs::create_dir(&thesis).unwrap();
     fs::write(thesis.join("results.json"), "precious").unwrap();
     let file = thesis.join("results.json");
-    keeps(&file, &["identify", text(&experiment), "-o", text(&thesis)], &["has files that no earlier run", "-o DIR", "--force"]);
+    keeps(
+        &file,
+        &["identify", text(&experiment), "-o", text(&thesis)],
+        &["has files that no earlier run", "-o DIR", "--force"],
+    );
     assert_eq!(fs::read_dir(&thesis).unwrap().count(), 1);
     // the folder of the experiment itself is not empty either
     refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["has files that no earlier run"]);
@@ -245,7 +249,11 @@ fn results_of_another_experiment_are_replaced_only_by_force() {
     hovertone(&identify).ends_with(3);
     let other = folder.path().join("other.toml");
     fs::write(&other, fs::read_to_string(&experiment).unwrap().replace("\"a\"\n", "\"b\"\n")).unwrap();
-    keeps_all(&out, &["identify", text(&other), "-o", text(&out)], &["has files that no earlier run", "same experiment", "--force"]);
+    keeps_all(
+        &out,
+        &["identify", text(&other), "-o", text(&out)],
+        &["has files that no earlier run", "same experiment", "--force"],
+    );
     // the same recordings and masses, typed, are another experiment: they leave experiment.toml
     let mass = format!("413g={}", text(&folder.path().join("a.wav")));
     let typed = ["identify", "--vehicle", "ardrone", "--mass", &mass, "-o", text(&out)];
