@@ -19,9 +19,10 @@
 //! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own, beside one or beside all that were separated.
 //! 8. *Near a speed* (`near_speed`): the same at a speed that is known, for an exam.
 //!
-//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor (0 in a
-//! given band), its lines stand apart in a frame (from 30 rev/s on, unless it is known to be slow), and no path that jumps, as a voice or an
-//! instrument does, has 7.8 nats a frame more. A faint one is heard in long frames alone, without votes, where its lines keep their phase.
+//! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor (0
+//! in a band narrower than an octave), its lines stand apart in a frame (from 30 rev/s on, unless it is known to be slow), and no path that
+//! jumps, as a voice or an instrument does, has 7.8 nats a frame more. A faint one is heard in long frames alone, without votes, where its
+//! lines keep their phase.
 //!
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
