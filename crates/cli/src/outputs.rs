@@ -40,7 +40,6 @@ impl Outputs {
     /// Begins a file that holds no sound. It never takes the place of a recording: who names one by mistake, and follows a hint about --force,
     /// would lose it.
     pub(crate) fn create(&self, place: &Path) -> Result<OutputFile, Failure> {
-        refuse_dash(place)?;
         self.refuse_input(place)?;
         if is_recording(place) {
             let what = "this file is a recording, and the output would replace it: nothing was written";

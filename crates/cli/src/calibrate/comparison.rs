@@ -62,7 +62,7 @@ impl Comparison {
             with_uncertainty(value, self.heard.std_rev_s.map(|std| std * factor))
         };
         match self.reference {
-            Reference::Speed { rpm, .. } => (format!("{rpm} rpm"), format!("{} rpm", in_unit(60.0))),
+            Reference::Speed { rpm, .. } => (format!("{rpm} rpm"), format!("{} rpm", in_unit(SECONDS_PER_MINUTE))),
             Reference::Tone { hz, .. } => {
                 (format!("{hz} Hz"), format!("{} Hz", in_unit(self.heard.order.lines_per_turn())))
             }
