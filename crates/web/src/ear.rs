@@ -8,16 +8,25 @@ use hovertone_workflow::{live_status_in_words, live_words, possible_in_words};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// Longest sound that is kept of a trial: a person who forgets to end it fills no memory.
-const KEPT_S_MAX: f64 = 600.0;
-
 /// Listens to the microphone.
 #[wasm_bindgen]
 pub struct Ear {
     listener: Listener,
     sample_rate_hz: f64,
-    /// The samples of the trial that is recorded.
-    trial: Option<Vec<f32>>,
+    trial: Option<Trial>,
+}
+
+/// The sound of a trial. It has its full length and no more, however late the page ends it.
+struct Trial {
+    samples: Vec<f32>,
+    full_len: usize,
+}
+
+impl Trial {
+    fn take(&mut self, block: &[f32]) {
+        let missing = self.full_len - self.samples.len();
+        self.samples.extend_from_slice(&block[..missing.min(block.len())]);
+    }
 }
 
 /// What is told of a block.
@@ -66,9 +75,8 @@ impl Ear {
     /// # Errors
     /// Settings that the sample rate does not allow.
     pub fn push(&mut self, block: &[f32]) -> Result<String, String> {
-        if let Some(trial) = self.trial.as_mut().filter(|trial| (trial.len() as f64) < KEPT_S_MAX * self.sample_rate_hz)
-        {
-            trial.extend_from_slice(block);
+        if let Some(trial) = &mut self.trial {
+            trial.take(block);
         }
         let mut heard = Vec::new();
         let mut rest = block;
@@ -99,7 +107,7 @@ impl Ear {
                 .iter()
                 .map(|possible| Choice { words: possible_in_words(possible), blades: possible.blades })
                 .collect(),
-            recorded_s: self.trial.as_ref().map(|trial| trial.len() as f64 / self.sample_rate_hz),
+            recorded_s: self.trial.as_ref().map(|trial| trial.samples.len() as f64 / self.sample_rate_hz),
         }
     }
 
@@ -117,9 +125,10 @@ impl Ear {
         Ok(())
     }
 
-    /// Begins a trial: from now on the samples are kept.
-    pub fn begin(&mut self) {
-        self.trial = Some(Vec::new());
+    /// Begins a trial: the samples of the next `length_s` seconds are kept.
+    pub fn begin(&mut self, length_s: f64) {
+        let full_len = (length_s * self.sample_rate_hz).ceil() as usize;
+        self.trial = Some(Trial { samples: Vec::new(), full_len });
     }
 
     /// Ends the trial and returns its samples as a WAV file of 32-bit floats: the samples as the browser gave them. Empty without a trial.
@@ -128,6 +137,6 @@ impl Ear {
     /// None is known.
     pub fn end(&mut self) -> Result<Vec<u8>, String> {
         let Some(trial) = self.trial.take() else { return Ok(Vec::new()) };
-        wav_of_floats(&trial, self.sample_rate_hz.round() as u32)
+        wav_of_floats(&trial.samples, self.sample_rate_hz.round() as u32)
     }
 }

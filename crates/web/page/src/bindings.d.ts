@@ -6,7 +6,7 @@ declare module "hovertone-bindings" {
     push(block: Float32Array): string;
     choose(possible: number): void;
     hear_by(said: string): void;
-    begin(): void;
+    begin(lengthS: number): void;
     end(): Uint8Array;
   }
   export class Desk {

@@ -67,7 +67,7 @@ export class Campaign extends Observed {
   }
 
   private begin() {
-    this.listening.begin();
+    this.listening.begin(TRIAL_S);
     this.recordedS = 0;
     this.go("recording");
   }

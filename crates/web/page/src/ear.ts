@@ -20,7 +20,7 @@ self.onmessage = async ({ data, ports }: MessageEvent<ToEar>) => {
       case "choose":
         return ear?.choose(data.possible);
       case "begin":
-        return ear?.begin();
+        return ear?.begin(data.lengthS);
       case "end": {
         const wav = (ear?.end() ?? new Uint8Array()) as Uint8Array<ArrayBuffer>;
         return tell({ kind: "trial", wav }, [wav.buffer]);

@@ -58,8 +58,9 @@ export class Listening extends Observed {
     this.change(() => (this.isFrozen = !this.isFrozen));
   }
 
-  begin() {
-    this.microphone?.send({ kind: "begin" });
+  /** Records the next seconds. */
+  begin(lengthS: number) {
+    this.microphone?.send({ kind: "begin", lengthS });
   }
 
   async end(): Promise<Uint8Array<ArrayBuffer>> {

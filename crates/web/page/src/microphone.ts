@@ -6,7 +6,7 @@ export type ToEar =
   | { kind: "open"; rateHz: number; said: unknown }
   | { kind: "said"; said: unknown }
   | { kind: "choose"; possible: number }
-  | { kind: "begin" }
+  | { kind: "begin"; lengthS: number }
   | { kind: "end" };
 
 export type FromEar =

@@ -174,7 +174,8 @@ fn compare(browser: &mut Browser, downloads: &Path, count: usize) {
         let reader = hound::WavReader::new(&wav[..]).unwrap();
         assert_eq!(reader.spec().sample_format, hound::SampleFormat::Float);
         let length_s = f64::from(reader.duration()) / f64::from(reader.spec().sample_rate);
-        assert!((10.0..11.0).contains(&length_s), "{length_s} s");
+        // however busy the machine is, a trial has its ten seconds and no more
+        assert!((length_s - 10.0).abs() < 1e-3, "{length_s} s");
     }
     let file = downloads.join("experiment.toml");
     let printed = hovertone(&["identify", text(&file)]).ends_with(0).stdout;
