@@ -1,5 +1,6 @@
 //! `hovertone serve` and its page in a real browser: from dropped files to the constant of the command, broken files, cancel, a phone.
 
+mod choices;
 mod decoded;
 mod microphone;
 mod offline;

@@ -150,11 +150,19 @@ function percent(share: number): string {
   return share >= LIKELY || share === 0 ? (100 * share).toFixed(0) : share >= 0.001 ? (100 * share).toFixed(1) : "below 0.1";
 }
 
-/** The chosen reading says what the vehicle has. */
+/** Half width of the band around the tone of a chosen speed, as a ratio: all of the band is far from an octave away. */
+const CHOSEN_BAND = 1.25;
+
+/** The chosen reading says what the vehicle has; and where others differ from it by the speed alone, where the tone is. */
 function say(store: Store, recording: Recording, reading: Reading) {
   const { vehicle } = store.entries;
   const gear = reading.gear_wheel ? { pinion: vehicle.gear?.pinion ?? 1, wheel: reading.gear_wheel } : vehicle.gear;
   store.loads.setVehicle({ ...vehicle, blades: reading.blades ?? vehicle.blades, gear });
+  const alike = recording.answer?.readings.filter((other) => other.meaning === reading.meaning) ?? [];
+  if (alike.length > 1) {
+    const toneHz = reading.order * reading.speed_rev_s;
+    return store.loads.setBand(recording, [toneHz / CHOSEN_BAND, toneHz * CHOSEN_BAND]);
+  }
   if (store.loads.loadOf(recording) === undefined) store.hearing.hear(recording);
 }
 

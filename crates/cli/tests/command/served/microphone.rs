@@ -2,36 +2,35 @@
 
 use super::{IS_DONE, PATIENCE, Served, click, experiment, saved, select, stayed_at_home};
 use crate::chromium::Browser;
-use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise, write_wav};
+use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};
 use hovertone_sim::paper::LOADS;
-use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling, seeded};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-const LISTEN: &str = "Listen with the microphone";
+pub(super) const LISTEN: &str = "Listen with the microphone";
 /// The list of known vehicles is there.
 const VEHICLES: &str = "document.querySelector('option[value=ardrone]')";
 const TRIALS_SHOWN: &str = "document.querySelectorAll('.recording.ok').length";
 
 /// A browser whose microphone hears a file, over and over.
-fn hearing(profile: &Path, sound: &Path) -> Option<Browser> {
+pub(super) fn hearing(profile: &Path, sound: &Path) -> Option<Browser> {
     let switches = ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"].map(str::to_owned);
     let file = format!("--use-file-for-fake-audio-capture={}", sound.display());
     Browser::start_in(profile, &[&switches[..], &[file]].concat())
 }
 
-fn open(browser: &mut Browser, served: &Served) {
+pub(super) fn open(browser: &mut Browser, served: &Served) {
     browser.open_url(&served.url);
     browser.wait_for("document.querySelector('.drop')", PATIENCE);
 }
 
-/// Types a number into a field of the page.
-fn fill(browser: &mut Browser, label: &str, number: &str) {
+/// Types a number into the field with a label, among the fields of a CSS selector.
+pub(super) fn fill(browser: &mut Browser, fields: &str, label: &str, number: &str) {
     let found = browser.value(&format!(
-        "(() => {{ const field = [...document.querySelectorAll('.step input')].find((each) => each.labels[0]?.innerText.startsWith({label:?})); field?.focus(); field?.select(); return Boolean(field); }})()"
+        "(() => {{ const field = [...document.querySelectorAll({fields:?})].find((each) => each.labels[0]?.innerText.startsWith({label:?})); field?.focus(); field?.select(); return Boolean(field); }})()"
     ));
     assert_eq!(found, true, "there is no field {label}");
     browser.type_text(number);
@@ -79,50 +78,6 @@ fn the_speed_of_the_microphone_is_within_its_uncertainty() {
     stayed_at_home(&browser, &served);
 }
 
-/// Writes tones at the multiples of 180 Hz in noise: two blades at 90 rev/s sound so, and three at 60 rev/s.
-fn write_tones_of_two_or_three_blades(path: &Path) {
-    const RATE_HZ: u32 = 48_000;
-    let lines = (1..=4).map(|order| Line::new(f64::from(order), 0.2 / f64::from(order))).collect();
-    let mut tones = Recording::of_rotors(&[Rotor::steady(180.0, lines)], Sampling::new(f64::from(RATE_HZ), 12.0));
-    tones.add_noise(&Noise::white(0.02), &mut seeded(1));
-    write_wav(path, &tones.samples_f32(), RATE_HZ);
-}
-
-#[test]
-fn a_person_decides_for_one_of_the_possible_speeds() {
-    const CHOICES: &str = "[...document.querySelectorAll('[aria-label=\"Possible speeds\"] button')]";
-    let large_speed = |browser: &mut Browser| -> f64 {
-        let words = browser.text("document.querySelector('.now strong').innerText");
-        words.parse().unwrap_or_else(|_| panic!("{words} is no speed"))
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let sound = folder.path().join("tones.wav");
-    write_tones_of_two_or_three_blades(&sound);
-    let Some(mut browser) = hearing(&folder.path().join("profile"), &sound) else { return };
-    let served = Served::start();
-    open(&mut browser, &served);
-    click(&mut browser, LISTEN);
-    let offered = |blades: u32| format!("{CHOICES}.find((each) => each.innerText.includes(', {blades} blades,'))");
-    browser
-        .wait_for(&format!("{} && {} && document.querySelector('.now.ambiguous')", offered(2), offered(3)), PATIENCE);
-    let before_rev_s = large_speed(&mut browser);
-    assert!((before_rev_s / 90.0 - 1.0).abs() < 0.01, "{before_rev_s} rev/s");
-
-    browser.value(&format!("{}.click()", offered(3)));
-    // the vehicle has three blades now, and the sound is heard again by that
-    browser.wait_for(
-        &format!("document.querySelector('.now.ok strong')?.innerText.match(/^(59|60)[.]/) && {CHOICES}.length === 0"),
-        PATIENCE,
-    );
-    let after_rev_s = large_speed(&mut browser);
-    assert!((after_rev_s / 60.0 - 1.0).abs() < 0.01, "{after_rev_s} rev/s");
-    let blades = browser.text(
-        "[...document.querySelectorAll('input')].find((each) => each.labels[0]?.innerText.startsWith('Blades each')).value",
-    );
-    assert_eq!(blades, "3");
-    stayed_at_home(&browser, &served);
-}
-
 #[test]
 fn a_campaign_of_three_loads_gives_the_constant_of_the_command() {
     let folder = tempfile::tempdir().unwrap();
@@ -141,10 +96,10 @@ fn a_campaign_of_three_loads_gives_the_constant_of_the_command() {
         browser.wait_for(&format!("document.querySelector('.step.weigh') && {VEHICLES}"), PATIENCE);
         if index == 0 {
             select(&mut browser, "Known vehicle", "ardrone");
-            fill(&mut browser, "Vehicle ready to fly", "413");
+            fill(&mut browser, ".step input", "Vehicle ready to fly", "413");
         }
         let added_g = 1e3 * (load.mass_kg - LOADS[0].mass_kg);
-        fill(&mut browser, "Added mass", &format!("{added_g:.0}"));
+        fill(&mut browser, ".step input", "Added mass", &format!("{added_g:.0}"));
         click(&mut browser, "I am ready to hover");
         browser.wait_for("document.querySelector('.step.recording')", PATIENCE);
         browser.wait_for("document.querySelector('.step.judged .order')", PATIENCE);
