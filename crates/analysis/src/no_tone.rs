@@ -18,7 +18,10 @@ pub enum NoTone {
     /// The recording is silent.
     Silence,
     /// No series of lines resembles a rotor.
-    NoSeries,
+    NoSeries {
+        /// The shaft speeds that were compared, where something that is known of the rotor leaves others out.
+        only_rev_s: Option<(f64, f64)>,
+    },
     /// No stretch is steady for long enough.
     NoHover,
     /// The hover has no frame of the requested length with a tone.
@@ -55,7 +58,10 @@ impl fmt::Display for NoTone {
             Self::OutsideRecording => f.write_str("the recording has no sound between the chosen times; choose others with --from and --to"),
             Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover"),
             Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
-            Self::NoSeries => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
+            Self::NoSeries { only_rev_s: None } => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
+            Self::NoSeries { only_rev_s: Some((low, high)) } => {
+                write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; go nearer")
+            }
             Self::NoHover => f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off"),
             Self::NoFrame { window_s, hover_s } => {
                 write!(

@@ -104,7 +104,15 @@ fn noise_has_no_rotor_tone_and_ends_with_3() {
     }
     let table = hovertone(&["speed", "--blades", "2", text(&path)]).ends_with(3);
     assert!(table.stdout.contains("no rotor tone"), "{}", table.stdout);
-    assert!(table.stderr.contains("no rotor tone:"), "{}", table.stderr);
+    assert!(table.stderr.contains("no rotor tone: nothing sounds like a rotor"), "{}", table.stderr);
+    // where something said leaves speeds out, the answer is of the others only
+    for (said, heard) in [
+        (&["--vehicle", "ardrone"][..], "13 to 120 rev/s"),
+        (&["--blades", "2", "--band", "200:300"], "100 to 150 rev/s"),
+    ] {
+        let run = hovertone(&[&["speed", text(&path)], said].concat()).ends_with(3);
+        assert!(run.stderr.contains(&format!("no rotor is heard at {heard}; go nearer")), "{}", run.stderr);
+    }
 }
 
 #[test]

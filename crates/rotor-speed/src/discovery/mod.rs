@@ -128,7 +128,7 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
             passes.expect_more(passes_after_survey(config));
             found
         }
-        None => nothing(or_mains_hum(NoTone::NoSeries, survey), families),
+        None => nothing(or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s() }, survey), families),
     };
     let families = with_refined_line(passes, &surveyed, found.families, config)?;
     Ok(FoundSpeed { families, ..found })

@@ -2,7 +2,7 @@
 
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
-use crate::detection::or_mains_hum;
+use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
 use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, blades_of_tone, reading_at, search_range_rev_s};
@@ -146,7 +146,7 @@ pub(crate) fn candidates_from_survey(
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
             beliefs,
         }),
-        None => Err(Silence::because(or_mains_hum(NoTone::NoSeries, &surveyed.survey)).into()),
+        None => Err(Silence::because(or_mains_hum(no_series(&config.tone), &surveyed.survey)).into()),
     }
 }
 

@@ -4,10 +4,10 @@
 use super::rotors::heard_rotors;
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
-use crate::detection::{not_held_reason, or_mains_hum};
+use crate::detection::{no_series, not_held_reason, or_mains_hum};
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
+use hovertone_analysis::{Hover, Method, Reading, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 
 /// A candidate that is one rotor, or several.
@@ -37,7 +37,7 @@ pub(crate) fn decision_from_lines(
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     let restless_s = restless_s(hover, &surveyed.survey, &candidates.map);
     let is_lost = candidates.is_faint && lines.harmonic.steady_share(hover.length_s()) < config.ridge.steady_share_min;
-    let is_lost = is_lost.then(|| or_mains_hum(NoTone::NoSeries, &surveyed.survey));
+    let is_lost = is_lost.then(|| or_mains_hum(no_series(&config.tone), &surveyed.survey));
     if let Some(reason) = is_lost.or_else(|| not_held_reason(restless_s, hover, tone_hz, &config.hover)) {
         return Err(Silence { reason, hover: hover.clone(), warnings: lines.warnings }.into());
     }

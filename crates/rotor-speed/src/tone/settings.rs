@@ -69,6 +69,19 @@ impl ToneConfig {
         }
     }
 
+    /// The slowest and fastest shaft, where what is known of the rotor sets them.
+    pub(crate) fn known_rev_s(&self) -> Option<(f64, f64)> {
+        let usual = (RotorSpeed::from_rev_s(SLOWEST_REV_S), RotorSpeed::from_rev_s(FASTEST_REV_S));
+        let is_known = (self.speed_min, self.speed_max) != usual;
+        is_known.then(|| (self.speed_min.rev_s(), self.speed_max.rev_s()))
+    }
+
+    /// The same, or the shaft speeds of a given band.
+    pub(crate) fn narrowed_rev_s(&self) -> Option<(f64, f64)> {
+        let order = self.order.lines_per_turn();
+        self.band_hz.map(|(low_hz, high_hz)| (low_hz / order, high_hz / order)).or_else(|| self.known_rev_s())
+    }
+
     /// Whether a band is given that names the tone: it is narrower than an octave, so that it tells speeds apart.
     pub(crate) fn is_named_by_band(&self) -> bool {
         self.band_hz.is_some_and(|(low_hz, high_hz)| high_hz < OCTAVE * low_hz)
