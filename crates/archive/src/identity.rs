@@ -41,10 +41,8 @@ impl BatchIdentity {
         (!differences.is_empty()).then(|| differences.join("; "))
     }
 
-    /// As read from its text: a reader of JSON may round the last digit of a number, and both sides must be read alike.
     fn to_json(&self) -> Value {
-        let text = serde_json::to_string(self).unwrap_or_default();
-        serde_json::from_str(&text).unwrap_or_default()
+        serde_json::to_value(self).unwrap_or_default()
     }
 }
 
