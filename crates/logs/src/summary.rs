@@ -64,10 +64,15 @@ impl LogSummary {
         self.about_rotors().any(|(_, signal)| matches!(signal.signal.role, Some(SignalRole::RotorSpeed(_))))
     }
 
-    /// Lowest and highest time of all tables.
+    /// Lowest and highest time of the tables with two rows or more: the time of a single row may be that of another clock. Of all tables
+    /// where none has two.
     pub fn span_s(&self) -> Option<[f64; 2]> {
-        let spans = self.tables.iter().filter_map(|table| table.span_s);
-        spans.reduce(|[from_s, to_s], [next_from_s, next_to_s]| [from_s.min(next_from_s), to_s.max(next_to_s)])
+        let spans = |row_count_min| {
+            self.tables.iter().filter(move |table| table.row_count >= row_count_min).filter_map(|table| table.span_s)
+        };
+        let row_count_min = if spans(2).next().is_some() { 2 } else { 1 };
+        spans(row_count_min)
+            .reduce(|[from_s, to_s], [next_from_s, next_to_s]| [from_s.min(next_from_s), to_s.max(next_to_s)])
     }
 }
 

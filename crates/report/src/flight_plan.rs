@@ -16,9 +16,13 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
             "These loads also test F = C_f ω²: they show an intercept of 2 % of the force.".to_owned()
         }
         Some(ratio) => {
+            // rounded up, so that the named mass is enough
+            let added_g = (1e3 * wish.vehicle_mass_kg * (ratio - 1.0)).ceil();
             let [ratio, range] = compared([ratio, range]);
             format!(
-                "To test F = C_f ω², the vehicle with its heaviest load must weigh {ratio} times the vehicle with its lightest. Yours weighs {range} times."
+                "To test F = C_f ω², the vehicle with its heaviest load must weigh {ratio} times the vehicle with its lightest. Yours weighs {range} times.\n\
+                 If it can carry {added_g} g, plan with --added-mass-kg {}.",
+                added_g / 1e3
             )
         }
         None => "With these few trials, no range of loads tests F = C_f ω² to 2 % of the force.".to_owned(),

@@ -94,7 +94,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
                 "another rotor, or this one at a changing speed"
             }
             Some(remark) => remark.text(),
-            None if rotor.is_none() => "a tone that is no rotor's",
+            None if rotor.is_none() => "a tone, but probably no rotor",
             None => "another tone",
         };
         text += &format!("\n{}\n{}", kind_and_place(kind, family), readings_in_a_line(family));

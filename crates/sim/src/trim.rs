@@ -58,8 +58,9 @@ pub fn hover_trim(airframe: &Airframe, height_m: f64, battery_v: f64) -> Result<
         trim.thrust_n[k] = lift[k] * squares[k];
         trim.voltage_v[k] = airframe.motors[k].steady_voltage_v(trim.speed_rad_s[k]);
         if trim.voltage_v[k] > battery_v {
-            let must_be = "within the battery's voltage: the vehicle is too heavy to hover";
-            return Err(QuantityError { name: "hover voltage", value: trim.voltage_v[k], must_be });
+            let must_be = "within the battery's voltage: the vehicle is too heavy to hover (masses are in kilograms)";
+            let value = (1e3 * trim.voltage_v[k]).round() / 1e3;
+            return Err(QuantityError { name: "hover voltage", value, must_be });
         }
     }
     Ok(trim)

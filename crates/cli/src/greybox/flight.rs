@@ -143,11 +143,8 @@ fn without_loops(missing: &[MissingControl], path: &Path) -> Failure {
     hints.dedup();
     let lacks: Vec<String> =
         missing.iter().map(|missing| format!("{} lacks {}", missing.control_loop.name(), missing.what)).collect();
-    Failure::Usage {
-        what: format!("this log has no command beside the angle or rate that answers it: {}", lacks.join(", ")),
-        hint: hints.join("; "),
-        path: Some(path.to_owned()),
-    }
+    let what = format!("this log has no command beside the angle or rate that answers it: {}", lacks.join(", "));
+    Failure::failed(what, hints.join("; "), path)
 }
 
 fn speeds_rad_s(control: &LoggedControl) -> Option<[Vec<f64>; 4]> {
@@ -252,20 +249,15 @@ pub(crate) fn speeds_of(
 
 fn logged_observations(flown: &FlownLog, files: &FlightFiles) -> Result<Vec<SpeedObservation>, Failure> {
     let Some(speeds) = &flown.speeds_rad_s else {
-        let what = "this log has no speeds of four rotors, and there is no recording".to_owned();
-        let hint = "give the recording before the log, or a log with speed_1_rad_s to speed_4_rad_s".to_owned();
-        return Err(Failure::Usage { what, hint, path: Some(files.log.clone()) });
+        let what = "this log has no speeds of four rotors, and there is no recording";
+        let hint = "give the recording before the log, or a log with speed_1_rad_s to speed_4_rad_s";
+        return Err(Failure::failed(what, hint, &files.log));
     };
     let finite = speeds.iter().flatten().copied().filter(|speed| speed.is_finite());
     let (sum, count) = finite.fold((0.0, 0.0), |(sum, count), speed| (sum + speed, count + 1.0));
     let std_rad_s = LOGGED_STD_SHARE * sum / f64::max(count, 1.0);
     if std_rad_s <= 0.0 {
-        let what = "the rotors of this log do not turn".to_owned();
-        return Err(Failure::Usage {
-            what,
-            hint: "give the log of a flight".to_owned(),
-            path: Some(files.log.clone()),
-        });
+        return Err(Failure::failed("the rotors of this log do not turn", "give the log of a flight", &files.log));
     }
     let speeds = std::array::from_fn(|rotor| speeds[rotor].as_slice());
     Ok(observations_of_rows(&flown.log.time_s, speeds, std_rad_s))

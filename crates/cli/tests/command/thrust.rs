@@ -153,21 +153,26 @@ fn a_log_of_a_stand_is_fitted_without_a_flood_of_warnings() {
 #[test]
 fn a_plan_tells_before_flying() {
     let plan = |wanted: &str, more: &[&str]| {
-        let mut arguments =
-            vec!["fit", "--plan", "--mass-kg", "0.413", "--added-mass-kg", "0.1", "--wanted-share", wanted];
+        let mut arguments = vec!["fit", "--plan", "--mass-kg", "0.413", "--wanted-share", wanted];
         arguments.extend(more);
         hovertone(&arguments)
     };
-    let words = plan("0.025", &["--latitude-deg", "-20.3"]).ends_with(0).stdout;
+    let words = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", "0.1"]).ends_with(0).stdout;
     for word in ["loads", "trials", "s of hover", "k = 2", "rotors not separated"] {
         assert!(words.contains(word), "{words}");
     }
-    let unreachable = plan("0.005", &[]).ends_with(2).stderr;
+    // the load that it names tests the law
+    let added_kg = words.split("--added-mass-kg ").nth(1).unwrap().trim_end().trim_end_matches('.').to_owned();
+    let heavier = plan("0.025", &["--latitude-deg", "-20.3", "--added-mass-kg", &added_kg]).ends_with(0).stdout;
+    assert!(heavier.contains("These loads also test"), "{words}\n{heavier}");
+    let unreachable = plan("0.005", &["--added-mass-kg", "0.1"]).ends_with(2).stderr;
     assert!(
         unreachable.contains("rotors not separated") && unreachable.contains("--rotors-separated"),
         "{unreachable}"
     );
-    let apart = plan("0.01", &["--rotors-separated", "--latitude-deg", "-20.3", "--json"]).ends_with(0).stdout;
+    let apart = plan("0.01", &["--added-mass-kg", "0.1", "--rotors-separated", "--latitude-deg", "-20.3", "--json"])
+        .ends_with(0)
+        .stdout;
     let plan: Value = serde_json::from_str(&apart).unwrap();
     assert!(number(&plan, "/expanded_share") <= 0.01 && number(&plan, "/load_count") >= 3.0);
     hovertone(&["fit", "--plan"]).ends_with(2);

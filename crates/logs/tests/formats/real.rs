@@ -38,6 +38,9 @@ fn a_real_log_without_escs_has_no_rotor_speed() {
     let Some(bytes) = real("px4_sample_small.ulg") else { return };
     let log = log_summary(&bytes[..], &ColumnNames::default()).unwrap();
     assert!(!log.has_rotor_speed() && log.about_rotors().count() > 10);
+    // one entry of a table of its own is 1167 s later
+    let [from_s, to_s] = log.span_s().unwrap();
+    assert!((6.0..8.0).contains(&(to_s - from_s)), "{from_s} to {to_s} s");
 }
 
 #[test]
