@@ -123,8 +123,13 @@ impl Misuse {
         if name.starts_with('-') {
             return Self { what: format!("there is no flag {name}"), hint: nearest_flag(name, words) };
         }
-        if words.get(1).is_some_and(|command| command == "listen") {
-            return Self::of_recording_alone(name, words);
+        match words.get(1).and_then(|command| command.to_str()) {
+            Some("listen") => return Self::of_recording_alone(name, words),
+            Some("init") => {
+                let what = format!("\"{name}\": init takes recordings behind the mass that hovers in them");
+                return Self { what, hint: Some(format!("as in --mass 413g {name}")) };
+            }
+            _ => {}
         }
         Self { what: format!("\"{name}\" is one word too many"), hint: None }
     }
@@ -244,6 +249,10 @@ mod tests {
             (
                 "hovertone demo extra",
                 "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",
+            ),
+            (
+                "hovertone init hover.mp4",
+                "\"hover.mp4\": init takes recordings behind the mass that hovers in them (as in --mass 413g hover.mp4)",
             ),
             (
                 "hovertone listen hover.mp4",

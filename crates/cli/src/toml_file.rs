@@ -32,6 +32,10 @@ impl<'a> TomlFile<'a> {
             let what = format!("this file is not text, so it cannot be the {kind}");
             Failure::failed(what, format!("give the TOML file, not a {mistaken_for}"), path)
         })?;
+        if text.trim_start().starts_with('{') {
+            let what = format!("this file is JSON, so it cannot be the {kind}");
+            return Err(Failure::failed(what, "give the TOML file", path));
+        }
         Ok(Self { path, kind, see_example, text })
     }
 
@@ -50,10 +54,11 @@ impl<'a> TomlFile<'a> {
 fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let PlainFault { what, hint } = in_plain_words(error.message());
     let what = format!("the {} {what}", file.kind);
-    let hint = match hint {
-        Some(hint) if error.message().starts_with("unknown") => hint,
-        Some(hint) => format!("{hint}; {}", file.see_example),
-        None => file.see_example.to_owned(),
+    let hint = match (other_command(file), hint) {
+        (Some(command), _) => command.to_owned(),
+        (None, Some(hint)) if error.message().starts_with("unknown") => hint,
+        (None, Some(hint)) => format!("{hint}; {}", file.see_example),
+        (None, None) => file.see_example.to_owned(),
     };
     let Some(place) = error.span().map(|span| Place::of(span, &file.text)) else {
         return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
@@ -61,6 +66,16 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let what = format!("{what}\n{}", place.underlined());
     let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));
     Failure::Usage { what, hint, path: Some(path) }
+}
+
+/// The command that takes a file, where it is one of another kind: an experiment has loads, a scenario has manoeuvres.
+fn other_command(file: &TomlFile<'_>) -> Option<&'static str> {
+    let has = |section: &str| file.text.lines().any(|line| line.trim() == section);
+    match file.kind {
+        "scenario file" if has("[[load]]") => Some("this is an experiment file: give it to `hovertone identify`"),
+        "experiment file" if has("[[maneuver]]") => Some("this is a scenario file: give it to `hovertone simulate`"),
+        _ => None,
+    }
 }
 
 /// A position in a text, with line and column counted from 1.

@@ -1,18 +1,15 @@
 //! CSV text: a header, then rows, separated by commas, semicolons or tabs.
 
 use csv::StringRecord;
-use hovertone_logs::CsvCells;
+use hovertone_logs::{CsvCells, NoTable};
 
 /// An error in CSV text.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvError {
-    /// Nothing in it.
-    #[error("this file is empty, and a table is needed")]
-    Empty,
-    /// JSON.
-    #[error("this file is JSON, and a table is needed")]
-    Json,
+    /// Something else.
+    #[error(transparent)]
+    NoTable(#[from] NoTable),
     /// No CSV with a header.
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
@@ -42,7 +39,8 @@ impl CsvError {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::NotCsv(_) | Self::Empty | Self::Json => "give a CSV file whose first line names the columns",
+            Self::NoTable(what) => what.hint(),
+            Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::RaggedRow { .. } => {
                 "complete or remove the row; a decimal comma needs semicolons or quotes: 3,5 is two cells"
             }
@@ -62,12 +60,7 @@ impl<'a> CsvText<'a> {
     /// Opens a CSV.
     pub(crate) fn open(text: &'a str) -> Result<Self, CsvError> {
         let text = text.trim_start_matches('\u{feff}');
-        if text.trim().is_empty() {
-            return Err(CsvError::Empty);
-        }
-        if text.trim_start().starts_with(['{', '[']) {
-            return Err(CsvError::Json);
-        }
+        NoTable::check(text)?;
         let cells = CsvCells::of_text(text);
         let headers = reader(text, cells).headers()?.clone();
         Ok(Self { text, cells, headers })

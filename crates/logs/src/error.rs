@@ -1,6 +1,6 @@
 //! Errors in logs.
 
-use crate::LogFormat;
+use crate::{LogFormat, NoTable};
 use std::io;
 
 /// Why a log cannot be used.
@@ -40,12 +40,9 @@ pub enum LogError {
         /// The version that is read.
         known: &'static str,
     },
-    /// Nothing in the file.
-    #[error("this file is empty, and a table is needed")]
-    Empty,
-    /// JSON.
-    #[error("this file is JSON, and a table is needed")]
-    Json,
+    /// Something else where a table is needed.
+    #[error(transparent)]
+    NoTable(#[from] NoTable),
     /// No CSV with a header.
     #[error("this is no table with a header: {0}")]
     NotCsv(#[from] csv::Error),
@@ -147,7 +144,8 @@ impl LogError {
                 "let Betaflight log motors, gyro or, with bidirectional DShot, RPM (blackbox)"
             }
             Self::OtherVersion { .. } => "export the log as CSV with its own program (blackbox_decode)",
-            Self::Empty | Self::Json | Self::NotCsv(_) => "give a CSV file whose first line names the columns",
+            Self::NoTable(what) => what.hint(),
+            Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
             Self::NoTime { .. } => "name the unit, as in time_s or timestamp_us",
             Self::NoSignal { .. } => {

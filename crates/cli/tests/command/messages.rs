@@ -273,9 +273,14 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
         b"{\"thrust_constant_per_rotor_n_s2\": {\"value\": 1e-6}, \"rotor_count\": 1, \"methods\": {}}",
     );
     let (broken, sound) = (write("b.json", b"{\"a\": "), write("r.wav", &[255, 254, 0, 1]));
+    let experiment = write("e.toml", b"# mine\n[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n");
+    let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
     for (arguments, code, said) in [
         (vec!["fit", &json], 2, "this file is JSON, and a table is needed"),
         (vec!["fit", &empty], 2, "this file is empty, and a table is needed"),
+        (vec!["fit", &experiment], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["log", &scenario], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),
         (vec!["export", &results, "--into", &results], 2, "this JSON is no model of a simulator"),
         (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
         (vec!["export", &empty, "--to", "gazebo"], 1, "the file is empty"),
@@ -289,6 +294,18 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
             assert!(!run.stderr.contains(word), "{word}:\n{}", run.stderr);
         }
     }
+}
+
+#[test]
+fn an_experiment_and_a_scenario_are_told_from_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let (experiment, scenario) = (folder.path().join("e.toml"), folder.path().join("s.toml"));
+    fs::write(&experiment, "[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n").unwrap();
+    fs::write(&scenario, "duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n").unwrap();
+    let flown = hovertone(&["simulate", text(&experiment), "-o", text(&folder.path().join("out"))]).ends_with(2);
+    assert!(flown.stderr.contains("this is an experiment file: give it to `hovertone identify`"), "{}", flown.stderr);
+    let heard = hovertone(&["identify", text(&scenario)]).ends_with(2);
+    assert!(heard.stderr.contains("this is a scenario file: give it to `hovertone simulate`"), "{}", heard.stderr);
 }
 
 /// Both streams as a terminal shows them.

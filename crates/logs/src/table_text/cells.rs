@@ -1,6 +1,6 @@
 //! Separators and numbers of a CSV.
 
-use crate::LogError;
+use crate::{LogError, NoTable};
 use std::borrow::Cow;
 
 /// Most characters of a number whose digits, without the point, are a whole number that a float holds.
@@ -21,16 +21,11 @@ impl CsvCells {
     /// From the first bytes of a file.
     ///
     /// # Errors
-    /// No text, or JSON.
+    /// No text, or one that is no table.
     pub(super) fn of_head(head: &[u8]) -> Result<Self, LogError> {
         let text = text_of(head);
         let text = text.trim_start_matches('\u{feff}');
-        if text.trim().is_empty() {
-            return Err(LogError::Empty);
-        }
-        if text.trim_start().starts_with(['{', '[']) {
-            return Err(LogError::Json);
-        }
+        NoTable::check(text)?;
         Ok(Self::of_text(text))
     }
 

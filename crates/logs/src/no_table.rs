@@ -1,0 +1,75 @@
+//! A text that is something else where a table is needed.
+
+/// A text that is no table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoTable {
+    /// Nothing in it.
+    #[error("this file is empty, and a table is needed")]
+    Empty,
+    /// JSON.
+    #[error("this file is JSON, and a table is needed")]
+    Json,
+    /// TOML: an experiment or a scenario.
+    #[error("this file is TOML, and a table is needed")]
+    Toml,
+}
+
+impl NoTable {
+    /// Advice to the user.
+    pub fn hint(self) -> &'static str {
+        match self {
+            Self::Empty | Self::Json => "give a CSV file whose first line names the columns",
+            Self::Toml => {
+                "give a CSV file whose first line names the columns; `hovertone identify` takes an experiment file, `hovertone simulate` a scenario file"
+            }
+        }
+    }
+
+    /// Refuses a text whose beginning shows that it is no table.
+    ///
+    /// # Errors
+    /// What the text is instead.
+    pub fn check(text: &str) -> Result<(), Self> {
+        let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+        match lines.next() {
+            None if text.trim().is_empty() => Err(Self::Empty),
+            Some(line) if is_toml(line) => Err(Self::Toml),
+            Some(line) if line.starts_with(['{', '[']) => Err(Self::Json),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether a line is `[name]`, `[[name]]` or `name = value`.
+fn is_toml(line: &str) -> bool {
+    let is_key = |name: &str| {
+        let is_of_key = |letter: char| letter.is_ascii_alphanumeric() || "_-.".contains(letter);
+        name.starts_with(|letter: char| letter.is_ascii_alphabetic()) && name.chars().all(is_of_key)
+    };
+    let in_brackets = line.trim_start_matches('[').trim_end_matches(']');
+    let is_section = line.starts_with('[') && line.ends_with(']') && is_key(in_brackets.trim());
+    is_section || line.split_once('=').is_some_and(|(name, _)| is_key(name.trim()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_toml_and_nothing_are_no_tables() {
+        for (text, expected) in [
+            (" \n", Err(NoTable::Empty)),
+            ("{\"a\": 1}", Err(NoTable::Json)),
+            ("[1, 2]", Err(NoTable::Json)),
+            ("# a comment\n\n[vehicle]\nblades = 2\n", Err(NoTable::Toml)),
+            ("[[load]]", Err(NoTable::Toml)),
+            ("duration_s = 20.0\n", Err(NoTable::Toml)),
+            ("time_s,rotor1_rpm\n0,1\n", Ok(())),
+            ("Time (s);Thrust [N]\n", Ok(())),
+            ("# a comment alone\n", Ok(())),
+        ] {
+            assert_eq!(NoTable::check(text), expected, "{text}");
+        }
+    }
+}
