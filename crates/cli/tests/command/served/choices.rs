@@ -5,7 +5,10 @@ use super::{INPUT, PATIENCE, Served, click, stayed_at_home};
 use crate::chromium::Browser;
 use crate::testkit::write_wav;
 use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling, seeded};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// The buttons of the possible speeds that the microphone has.
+const CHOICES: &str = "[...document.querySelectorAll('[aria-label=\"Possible speeds\"] button')]";
 
 /// Writes tones at the multiples of 180 Hz in noise: two blades at 90 rev/s sound so, and three at 60 rev/s.
 fn write_tones_of_two_or_three_blades(path: &Path) {
@@ -16,19 +19,30 @@ fn write_tones_of_two_or_three_blades(path: &Path) {
     write_wav(path, &tones.samples_f32(), RATE_HZ);
 }
 
+/// The page in a browser whose microphone hears a file.
+struct OpenPage {
+    browser: Browser,
+    served: Served,
+    sound: PathBuf,
+}
+
+fn page_that_hears_tones(folder: &Path) -> Option<OpenPage> {
+    let sound = folder.join("tones.wav");
+    write_tones_of_two_or_three_blades(&sound);
+    let mut browser = hearing(&folder.join("profile"), &sound)?;
+    let served = Served::start();
+    open(&mut browser, &served);
+    Some(OpenPage { browser, served, sound })
+}
+
 #[test]
 fn a_person_decides_for_one_of_the_possible_speeds() {
-    const CHOICES: &str = "[...document.querySelectorAll('[aria-label=\"Possible speeds\"] button')]";
     let large_speed = |browser: &mut Browser| -> f64 {
         let words = browser.text("document.querySelector('.now strong').innerText");
         words.parse().unwrap_or_else(|_| panic!("{words} is no speed"))
     };
     let folder = tempfile::tempdir().unwrap();
-    let sound = folder.path().join("tones.wav");
-    write_tones_of_two_or_three_blades(&sound);
-    let Some(mut browser) = hearing(&folder.path().join("profile"), &sound) else { return };
-    let served = Served::start();
-    open(&mut browser, &served);
+    let Some(OpenPage { mut browser, served, .. }) = page_that_hears_tones(folder.path()) else { return };
     click(&mut browser, LISTEN);
     let offered = |blades: u32| format!("{CHOICES}.find((each) => each.innerText.includes(', {blades} blades,'))");
     browser
@@ -55,11 +69,7 @@ fn a_person_decides_for_one_of_the_possible_speeds() {
 #[test]
 fn a_person_decides_for_one_of_two_octaves() {
     let folder = tempfile::tempdir().unwrap();
-    let sound = folder.path().join("tones.wav");
-    write_tones_of_two_or_three_blades(&sound);
-    let Some(mut browser) = hearing(&folder.path().join("profile"), &sound) else { return };
-    let served = Served::start();
-    open(&mut browser, &served);
+    let Some(OpenPage { mut browser, served, sound }) = page_that_hears_tones(folder.path()) else { return };
     browser.choose(INPUT, &[&sound]);
     browser.wait_for("document.querySelector('.recording .nospeed')", PATIENCE);
     fill(&mut browser, "input", "Blades each", "2");
@@ -71,8 +81,8 @@ fn a_person_decides_for_one_of_two_octaves() {
 
     // the same of the microphone, by the same blades
     click(&mut browser, LISTEN);
-    let live = "[...document.querySelectorAll('[aria-label=\"Possible speeds\"] button')].find((each) => each.innerText.match(/(179|180)[.]/))";
-    browser.wait_for(live, PATIENCE);
+    let live = format!("{CHOICES}.find((each) => each.innerText.match(/(179|180)[.]/))");
+    browser.wait_for(&live, PATIENCE);
     browser.value(&format!("{live}.click()"));
     browser.wait_for("document.querySelector('.now.ok strong')?.innerText.match(/^(179|180)[.]/)", PATIENCE);
     stayed_at_home(&browser, &served);
