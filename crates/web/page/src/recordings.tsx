@@ -156,14 +156,15 @@ const CHOSEN_BAND = 1.25;
 /** The chosen reading says what the vehicle has; and where others differ from it by the speed alone, where the tone is. */
 function say(store: Store, recording: Recording, reading: Reading) {
   const { vehicle } = store.entries;
+  const blades = reading.blades ?? vehicle.blades;
   const gear = reading.gear_wheel ? { pinion: vehicle.gear?.pinion ?? 1, wheel: reading.gear_wheel } : vehicle.gear;
-  store.loads.setVehicle({ ...vehicle, blades: reading.blades ?? vehicle.blades, gear });
+  // another vehicle makes the page hear all recordings again
+  if (blades !== vehicle.blades || gear?.wheel !== vehicle.gear?.wheel) store.loads.setVehicle({ ...vehicle, blades, gear });
   const alike = recording.answer?.readings.filter((other) => other.meaning === reading.meaning) ?? [];
   if (alike.length > 1) {
     const toneHz = reading.order * reading.speed_rev_s;
-    return store.loads.setBand(recording, [toneHz / CHOSEN_BAND, toneHz * CHOSEN_BAND]);
-  }
-  if (store.loads.loadOf(recording) === undefined) store.hearing.hear(recording);
+    store.loads.setBand(recording, [toneHz / CHOSEN_BAND, toneHz * CHOSEN_BAND]);
+  } else if (store.loads.loadOf(recording) === undefined) store.hearing.hear(recording);
 }
 
 /** Advice for the command line is about its flags; here there are fields. */
