@@ -113,6 +113,7 @@ fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
     };
     let fundamental = significant(family.fundamental_hz, digits(family));
     let lines = match family.harmonics.len() {
+        0 => format!("faint lines at multiples of {fundamental} Hz"),
         1 if kind == Remark::SingleLine.text() => format!("{fundamental} Hz"),
         1 => format!("a {} at {fundamental} Hz", Remark::SingleLine.text()),
         _ => {
@@ -121,7 +122,9 @@ fn kind_and_place(kind: &str, family: &ToneFamily) -> String {
             format!("harmonics {} of {about}{fundamental} Hz", numbers_in_words(&family.harmonics))
         }
     };
-    format!("{kind}: {lines}, {:.0} dB over the noise, {time}", family.level_db)
+    let level =
+        if family.harmonics.is_empty() { String::new() } else { format!(", {:.0} dB over the noise", family.level_db) };
+    format!("{kind}: {lines}{level}, {time}")
 }
 
 /// "1–4, 6, 8".

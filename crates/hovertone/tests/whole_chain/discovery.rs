@@ -262,7 +262,7 @@ fn a_rotor_a_hum_and_beeps_are_three_families() {
     let found = tones_from_source(&mut source, &config, &discovery, &mut |_| {}).expect("an analysis");
     let near = |hz: f64| {
         let is_near = |family: &&hovertone::tones::ToneFamily| (family.fundamental_hz / hz - 1.0).abs() < 0.01;
-        found.families.iter().find(is_near).unwrap_or_else(|| panic!("no family near {hz} Hz"))
+        found.families.iter().find(is_near).unwrap_or_else(|| panic!("no family near {hz} Hz: {:#?}", found.families))
     };
     // the hum's lines lie near thirds and fifths of the shaft's, so that doubt is allowed, but not another first reading
     let speed = match answer(&found) {

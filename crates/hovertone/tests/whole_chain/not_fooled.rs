@@ -50,9 +50,10 @@ fn what_is_no_rotor_is_not_answered_with_a_speed() {
     let mut faults = Vec::new();
     for kind in &KINDS {
         let mut fooled = Vec::new();
-        for (name, config) in &asked {
-            for seed in 0..seeds() {
-                let analysis = analyse(kind.sound(seed, 8.0), config);
+        for seed in 0..seeds() {
+            let sound = kind.sound(seed, 8.0);
+            for (name, config) in &asked {
+                let analysis = analyse(sound.clone(), config);
                 if let Outcome::Ok(tone) = &analysis.outcome {
                     fooled.push(format!("{name}, seed {seed}: {:.1} rev/s", tone.speeds[0].speed.rev_s()));
                 }
@@ -94,14 +95,14 @@ fn beside_a_rotor_it_does_not_change_the_answer() {
     let (mut right, mut near, mut declined) = (0, 0, 0);
     // beside sounds that can be told from a rotor, and beside those that cannot: a note may lie at twice the speed of the rotor
     let (mut wrong, mut wrong_beside_notes) = (Vec::new(), Vec::new());
+    let hovers: Vec<Hover> = (0..seeds()).map(hover).collect();
     for kind in &KINDS {
         let mut heard = [0; 3];
-        for (index, below_db) in [20.0, 12.0, 6.0].into_iter().enumerate() {
-            for seed in 0..seeds() {
-                let Hover { truth_rev_s: truth, samples: rotor } = hover(seed);
+        for (seed, Hover { truth_rev_s: truth, samples: rotor }) in (0..).zip(&hovers) {
+            let other = kind.sound(seed + 50, 8.0);
+            for (index, below_db) in [20.0, 12.0, 6.0].into_iter().enumerate() {
                 let times = 10f32.powf(-below_db as f32 / 20.0);
-                let mixed: Vec<f32> =
-                    rotor.iter().zip(kind.sound(seed + 50, 8.0)).map(|(rotor, other)| rotor + times * other).collect();
+                let mixed: Vec<f32> = rotor.iter().zip(&other).map(|(rotor, other)| rotor + times * other).collect();
                 for (name, config) in [("blades 2", &config(2.0)), ("gear", &with_gear)] {
                     let analysis = analyse(mixed.clone(), config);
                     let Outcome::Ok(tone) = &analysis.outcome else {

@@ -1,13 +1,13 @@
 //! The speed of the rotor that the evidence hears where nothing is known of its tone.
 
-use super::{Discovery, FoundSpeed, config_for, speed_of};
+use super::{Discovery, config_for, speed_of};
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
 use crate::stages::{HeardRotor, Surveyed, at_ratio, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, reading_at, rule_out, search_range_rev_s};
-use hovertone_analysis::{Meaning, NoTone, Reading, SeenHarmonic, ToneFamily};
+use hovertone_analysis::{Meaning, NoTone, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::{Gear, Order, RotorSpeed, presets};
 
@@ -15,7 +15,7 @@ use hovertone_vehicle::{Gear, Order, RotorSpeed, presets};
 /// evidence. *Numeric.*
 pub(super) const SAME_LINE_SHARE: f64 = 0.01;
 
-/// Readings whose speeds differ by less are one reading: the evidence and the survey hear different parts of a recording. *Decision.*
+/// Readings whose speeds differ by less are one reading. *Decision.*
 const SAME_READING_SHARE: f64 = 0.05;
 
 /// A rotor that the evidence hears.
@@ -47,61 +47,65 @@ impl Believed {
         Ok(is_heard.then_some(Self { beliefs, readings, is_settled }))
     }
 
-    /// Whether a family of lines has one of the readings that are possible.
-    pub(super) fn has_lines_in(&self, family: &ToneFamily) -> bool {
-        self.readings.iter().any(|reading| reading_like(&family.readings, reading).is_some())
+    /// The frequency of which the lines of the most plausible reading are multiples: the shaft speed, or the blade pass where no other line is
+    /// heard.
+    pub(super) fn fundamental_hz(&self) -> f64 {
+        let first = &self.readings[0];
+        let common = self.beliefs.heard_orders().fold(0, gcd);
+        if common > 0 { f64::from(common) * first.speed.rev_s() } else { first.tone_hz }
     }
 
-    /// The speed of the rotor, whose lines are those of one of the families or of none. Without a rotor where its speed is not held.
+    /// The speed of the rotor.
     ///
     /// # Errors
     /// A source that fails.
     pub(super) fn speed(
-        self,
+        &self,
         passes: &mut Passes<'_>,
         surveyed: &Surveyed,
-        families: Vec<ToneFamily>,
         config: &Config,
-    ) -> Result<FoundSpeed, Error> {
+    ) -> Result<BelievedSpeed, Error> {
         let first = &self.readings[0];
         let found = config_for(config, first);
         let rotor = HeardRotor { speed_rev_s: first.speed.rev_s(), is_faint: self.beliefs.is_faint };
         let analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
-        let Some(speed) = speed_of(&analysis, &found) else {
-            return Ok(FoundSpeed { families, rotor: None, config: found, analysis, alternatives: Vec::new() });
-        };
         // the analysis knows the speed better
-        let ratio = speed.speed.rad_s() / first.speed.rad_s();
-        let ratio = if (ratio - 1.0).abs() < SAME_LINE_SHARE { ratio } else { 1.0 };
-        let readings: Vec<Reading> = self.readings.iter().map(|reading| at_ratio(reading, ratio)).collect();
-        let possible = readings.iter().filter(|reading| reading.plausibility > 0.0 && !self.is_settled);
-        let alternatives = possible.cloned().collect();
-        let own = families.iter().position(|family| self.has_lines_in(family));
-        let lines = own.map_or_else(|| self.family_of_lines(surveyed), |own| families[own].clone());
-        let family = ToneFamily { readings, is_settled: self.is_settled, ..lines };
-        let others = families.into_iter().enumerate().filter(|(index, _)| Some(*index) != own);
-        let families = std::iter::once(family).chain(others.map(|(_, family)| family)).collect();
-        Ok(FoundSpeed { families, rotor: Some(0), config: found, analysis, alternatives })
+        let ratio = speed_of(&analysis, &found).map(|it| it.speed.rad_s() / first.speed.rad_s());
+        let ratio = ratio.map(|ratio| if (ratio - 1.0).abs() < SAME_LINE_SHARE { ratio } else { 1.0 });
+        Ok(BelievedSpeed { config: found, analysis, ratio })
     }
 
-    /// The lines that the evidence hears, as a family.
-    fn family_of_lines(&self, surveyed: &Surveyed) -> ToneFamily {
-        let fundamental_hz = self.readings[0].tone_hz;
-        let line =
-            |(number, level_db): (u32, f64)| SeenHarmonic { number, hz: f64::from(number) * fundamental_hz, level_db };
-        let harmonics: Vec<SeenHarmonic> = self.beliefs.harmonics_db().into_iter().map(line).collect();
+    /// The readings that are possible, with their speeds times a ratio; none where one is settled.
+    pub(super) fn alternatives(&self, ratio: f64) -> Vec<Reading> {
+        let possible = self.readings.iter().filter(|reading| reading.plausibility > 0.0 && !self.is_settled);
+        possible.map(|reading| at_ratio(reading, ratio)).collect()
+    }
+
+    /// The family of the rotor's lines with its readings, all with their speeds times a ratio.
+    pub(super) fn family(&self, lines: ToneFamily, ratio: f64) -> ToneFamily {
+        let fundamental_hz = ratio * self.fundamental_hz();
+        let harmonic = |line: &SeenHarmonic| SeenHarmonic { hz: f64::from(line.number) * fundamental_hz, ..*line };
         ToneFamily {
             fundamental_hz,
-            spread_hz: None,
-            level_db: harmonics.iter().map(|line| line.level_db).fold(0.0, f64::max),
-            harmonics,
-            time_share: 1.0,
-            span: surveyed.heard(),
-            readings: self.readings.clone(),
-            is_settled: false,
-            remark: None,
+            harmonics: lines.harmonics.iter().map(harmonic).collect(),
+            readings: self.readings.iter().map(|reading| at_ratio(reading, ratio)).collect(),
+            is_settled: self.is_settled,
+            ..lines
         }
     }
+}
+
+/// What the analysis found of a rotor that the evidence hears.
+pub(super) struct BelievedSpeed {
+    /// Settings for its tone.
+    pub(super) config: Config,
+    pub(super) analysis: SpeedAnalysis,
+    /// The speed over that of the evidence; `None` where the speed is not held.
+    pub(super) ratio: Option<f64>,
+}
+
+fn gcd(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 /// The propellers that are possible: with the blades that are given, or any; and those of the vehicles that are known to have a gear.
@@ -181,11 +185,6 @@ fn reading_of_any(hypothesis: &Hypothesis, discovery: &Discovery) -> Option<Read
         None => (Order::from_blades(blades).ok()?, Meaning::BladePass { blades }),
     };
     Some(reading_of(hypothesis, order, meaning, &discovery.known))
-}
-
-/// A possible reading with the same number of blades and nearly the same speed.
-fn reading_like<'a>(readings: &'a [Reading], wanted: &Reading) -> Option<&'a Reading> {
-    readings.iter().find(|reading| reading.plausibility > 0.0 && is_like(reading, wanted))
 }
 
 /// Whether two readings have the same number of blades and nearly the same speed.

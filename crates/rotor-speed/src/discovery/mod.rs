@@ -10,7 +10,7 @@ use crate::pipeline::{passes_after_survey, passes_of_speed, speed_of_heard_rotor
 use crate::stages::{HeardRotor, Silence, Surveyed, at_ratio, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
 use crate::tone::{DiscoveryConfig, families_from_surveys, reading_at};
-use by_beliefs::{Believed, SAME_LINE_SHARE};
+use by_beliefs::{Believed, BelievedSpeed, SAME_LINE_SHARE};
 use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, Remark, SpeedAnalysis, SpeedEstimate, ToneFamily};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
@@ -31,7 +31,7 @@ pub struct Discovery {
     pub config: DiscoveryConfig,
     /// What is known of the vehicle.
     pub known: KnownRotor,
-    /// Whether all families are wanted, or only those up to the first that is a rotor's beyond doubt.
+    /// Whether all families are wanted, or only the rotor's.
     pub wants_all: bool,
 }
 
@@ -45,9 +45,9 @@ impl Discovery {
 /// The tone families of a recording, and its rotor's speed as far as the sound tells it.
 #[derive(Clone, Debug)]
 pub struct FoundSpeed {
-    /// All families, strongest first.
+    /// The rotor's family first, where there is one; then the others, strongest first, where they are wanted.
     pub families: Vec<ToneFamily>,
-    /// Which of them was taken for the rotor's, where one was.
+    /// Which of them is the rotor's, where one is.
     pub rotor: Option<usize>,
     /// Settings of the analysis with the tone that was found; those given where none was.
     pub config: Config,
@@ -92,46 +92,62 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     config.check()?;
     discovery.config.check()?;
     discovery.known.check()?;
-    let start_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
-    let window_s = discovery.config.detail_window_s;
-    let rows = RowSettings { window_s, hop_s: window_s, row_s: DETAIL_FRAMES * window_s, rows_max: DETAIL_ROWS_MAX };
-    let mut detail = RowsBuilder::new(passes.sample_rate_hz(), start_s, rows);
-    let surveyed = survey_from_source(passes, config, Some(&mut detail))?;
+    let mut detail = discovery.wants_all.then(|| {
+        let start_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
+        let window_s = discovery.config.detail_window_s;
+        let rows =
+            RowSettings { window_s, hop_s: window_s, row_s: DETAIL_FRAMES * window_s, rows_max: DETAIL_ROWS_MAX };
+        RowsBuilder::new(passes.sample_rate_hz(), start_s, rows)
+    });
+    let surveyed = survey_from_source(passes, config, detail.as_mut())?;
     let (survey, heard) = (&surveyed.survey, surveyed.heard);
-    let detail = Survey::of_rows(detail.finish(heard.to_s));
-    let nothing = |reason: NoTone, families: Vec<ToneFamily>| FoundSpeed {
-        families,
+    let detail = detail.map(|detail| Survey::of_rows(detail.finish(heard.to_s)));
+    let nothing = |reason: NoTone| FoundSpeed {
+        families: Vec::new(),
         rotor: None,
         config: config.clone(),
         analysis: Silence::because(reason).analysis(heard),
         alternatives: Vec::new(),
     };
     if let Err(Silence { reason, .. }) = surveyed.check(config) {
-        return Ok(nothing(reason, Vec::new()));
+        return Ok(nothing(reason));
     }
+    let believed = match Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery) {
+        Ok(believed) => believed,
+        Err(reason) => return Ok(nothing(reason)),
+    };
     let (fundamental_hz_min, fundamental_hz_max) =
         config.tone.band_hz.unwrap_or((discovery.config.fundamental_hz_min, discovery.config.fundamental_hz_max));
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
-    let believed = match Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery) {
-        Ok(believed) => believed,
-        Err(reason) => return Ok(nothing(reason, Vec::new())),
+    let families =
+        |rotor_hz: Option<f64>| families_from_surveys(survey, detail.as_ref(), rotor_hz, &discovery.known, &scanned);
+    let Some(believed) = believed else {
+        let reason = or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s() }, survey);
+        let families = with_refined_line(passes, &surveyed, families(None), config)?;
+        return Ok(FoundSpeed { families, ..nothing(reason) });
     };
-    let families = families_from_surveys(survey, &detail, &discovery.known, &scanned, &|family: &ToneFamily| {
-        !discovery.wants_all && believed.as_ref().is_some_and(|it| it.has_lines_in(family))
-    });
-    let found = match believed {
-        Some(believed) => {
-            let found = believed.speed(passes, &surveyed, families, config)?;
-            if found.rotor.is_some() {
-                return Ok(found);
-            }
+    let BelievedSpeed { config: found, analysis, ratio } = believed.speed(passes, &surveyed, config)?;
+    let Some(ratio) = ratio else {
+        let families = families(None);
+        if families.iter().take(1).any(is_single_line) {
             passes.expect_more(passes_after_survey(config));
-            found
         }
-        None => nothing(or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s() }, survey), families),
+        let families = with_refined_line(passes, &surveyed, families, config)?;
+        return Ok(FoundSpeed { families, rotor: None, config: found, analysis, alternatives: Vec::new() });
     };
-    let families = with_refined_line(passes, &surveyed, found.families, config)?;
-    Ok(FoundSpeed { families, ..found })
+    let mut families = families(Some(believed.fundamental_hz())).into_iter();
+    let family = families.next().map(|lines| believed.family(lines, ratio));
+    Ok(FoundSpeed {
+        rotor: family.is_some().then_some(0),
+        families: family.into_iter().chain(families).collect(),
+        config: found,
+        analysis,
+        alternatives: believed.alternatives(ratio),
+    })
+}
+
+fn is_single_line(family: &ToneFamily) -> bool {
+    family.remark == Some(Remark::SingleLine)
 }
 
 /// The families, where the first is a single line, with its frequency from all of the sound: as if it were a tone once a turn.
@@ -141,9 +157,7 @@ fn with_refined_line(
     mut families: Vec<ToneFamily>,
     config: &Config,
 ) -> Result<Vec<ToneFamily>, Error> {
-    let Some(line) = families.first_mut().filter(|family| family.remark == Some(Remark::SingleLine)) else {
-        return Ok(families);
-    };
+    let Some(line) = families.first_mut().filter(|family| is_single_line(family)) else { return Ok(families) };
     let Ok(once_a_turn) = Order::new(1.0) else { return Ok(families) };
     let speed = RotorSpeed::from_tone_hz(line.fundamental_hz, once_a_turn);
     let found = config_for(config, &reading_at(speed, once_a_turn, Meaning::GivenOrder));

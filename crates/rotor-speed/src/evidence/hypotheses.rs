@@ -39,15 +39,10 @@ pub(crate) struct Beliefs {
 }
 
 impl Beliefs {
-    /// Harmonics of the blade pass of the most probable rotor that stand out of the noise, with their levels over it in dB.
-    pub(crate) fn harmonics_db(&self) -> Vec<(u32, f64)> {
-        let first = self.hypotheses.iter().take(1).filter_map(|first| Some((first, first.lines.blades?)));
-        let lines = first
-            .flat_map(|(first, blades)| first.levels.shaft.iter().map(move |line| (line.order, blades, line.level_db)));
-        lines
-            .filter(|(order, blades, level_db)| order.is_multiple_of(*blades) && self.noise.is_below(*level_db))
-            .map(|(order, blades, level_db)| (order / blades, level_db - self.noise.mean_db))
-            .collect()
+    /// Orders of the most probable rotor whose lines stand out of the noise.
+    pub(crate) fn heard_orders(&self) -> impl Iterator<Item = u32> {
+        let lines = self.hypotheses.iter().take(1).flat_map(|first| &first.levels.shaft);
+        lines.filter(|line| self.noise.is_below(line.level_db)).map(|line| line.order)
     }
 
     /// Whether the most probable rotor is one of several, which turn at other speeds. Beside a faint one no other is heard.

@@ -47,10 +47,13 @@ pub(super) fn best_path(votes: &[Vec<f32>], range: Range<usize>, hops: &[usize],
 
 /// Raises the sums to those that are reached by a step of so many points, up or down, at a cost.
 fn reach_by_step(next: &mut [f32], sums: &[f32], step: usize, cost: f32) {
-    let up = next[step..].iter_mut().zip(sums);
-    up.for_each(|(to, from)| *to = to.max(from - cost));
-    let down = next.iter_mut().zip(&sums[step..]);
-    down.for_each(|(to, from)| *to = to.max(from - cost));
+    next[step..].iter_mut().zip(sums).for_each(|(to, from)| *to = larger(*to, from - cost));
+    next.iter_mut().zip(&sums[step..]).for_each(|(to, from)| *to = larger(*to, from - cost));
+}
+
+/// The larger of two numbers, in one instruction of a processor: [`f32::max`] also asks whether one is none.
+fn larger(a: f32, b: f32) -> f32 {
+    if b > a { b } else { a }
 }
 
 /// Largest step of a path over so many hops, in points of the grid.

@@ -12,23 +12,18 @@ pub struct DiscoveryConfig {
     pub fundamental_hz_max: f64,
     /// Rows of the survey that are scanned at most, evenly chosen: a long recording costs no more than half a minute.
     pub scan_rows_max: usize,
-    /// Families that are listed at most; a search for the rotor alone ends at the first that can be one.
+    /// Families that are listed at most.
     pub families_max: usize,
     /// A family must show a line this far over the floor to be listed. Rotors far off that part from each other show 6 dB.
     pub listed_db_min: f64,
-    /// Frame of the finer spectrum in which shaft lines of slow rotors are told apart: resolves 2 Hz.
+    /// Frame of the finer spectrum in which the frequency of a family is measured: resolves 2 Hz.
     pub detail_window_s: f64,
-    /// Families below this are read in the finer spectrum: there the survey's 5 Hz blur lines at sixths of the blade pass;
-    /// above, the wander of a rotor within a long frame blurs them more.
-    pub detail_below_hz: f64,
     /// A line is heard when it stands this far over the places between lines, in the mean over its rows. The mean of a
     /// second of noise stays below 3 dB in 99 % of all places.
     pub line_over_floor_db: f64,
     /// The mean level of the eight first lines, less that of the places between, that makes a row of the survey one in
     /// which a family is present. Noise reaches 2 dB.
     pub row_score_db_min: f64,
-    /// Lines between the harmonics are those of a slower shaft when at least this share of their places holds one.
-    pub between_share_min: f64,
     /// A reading below this is no longer shown as plausible.
     pub plausible_min: f64,
     /// How common propellers of 2, 3, 4, 5 and 6 blades are on multirotors, for where the sound does not tell: of 14 vehicles (those of the
@@ -61,10 +56,8 @@ impl Default for DiscoveryConfig {
             families_max: 6,
             listed_db_min: 5.0,
             detail_window_s: 0.5,
-            detail_below_hz: 250.0,
             line_over_floor_db: 4.0,
             row_score_db_min: 3.0,
-            between_share_min: 0.55,
             plausible_min: 0.002,
             blade_shares: [0.58, 0.26, 0.05, 0.05, 0.05],
             tip_mach_max: TIP_MACH_MAX,
@@ -86,7 +79,6 @@ impl DiscoveryConfig {
         check_range("scan_rows_max", self.scan_rows_max as f64, 4.0, 4096.0)?;
         check_range("families_max", self.families_max as f64, 1.0, 50.0)?;
         check_range("detail_window_s", self.detail_window_s, 0.1, 1.0)?;
-        check_range("detail_below_hz", self.detail_below_hz, 0.0, 1e5)?;
         check_range("plausible_min", self.plausible_min, 0.0, 0.5)?;
         check_range("gear_share", self.gear_share, 0.0, 1.0)?;
         check_range("deceived_share", self.deceived_share, 0.0, 0.5)

@@ -5,9 +5,13 @@ use crate::survey::Survey;
 use hovertone_analysis::Span;
 use hovertone_signal::peak::hann_peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
+use hovertone_signal::statistics::median;
 
 /// Levels are cut here, so that one line cannot outweigh a series. *Decision.*
 const LEVEL_DB_MAX: f32 = 60.0;
+
+/// Share of a normal distribution that is more than one standard deviation below its median. *Numeric.*
+const BELOW_ONE_STD: f64 = 0.1587;
 
 /// One stretch of sound.
 #[derive(Clone, Debug)]
@@ -23,6 +27,8 @@ pub(crate) struct LevelRow<'a> {
 pub(crate) struct LevelRows<'a> {
     pub(crate) rows: Vec<LevelRow<'a>>,
     pub(crate) bin_hz: f64,
+    /// Standard deviation of the levels of noise in a row.
+    pub(crate) noise_std_db: f64,
 }
 
 impl<'a> LevelRows<'a> {
@@ -36,7 +42,9 @@ impl<'a> LevelRows<'a> {
             level_db.iter_mut().for_each(|level| *level = level.min(LEVEL_DB_MAX));
             LevelRow { span: row.span, level_db, power: &row.power }
         });
-        Self { rows: rows.collect(), bin_hz: survey.bin_hz }
+        let rows: Vec<LevelRow<'_>> = rows.collect();
+        let noise_std_db = median(&rows.iter().map(LevelRow::noise_std_db).collect::<Vec<_>>()).unwrap_or_default();
+        Self { rows, bin_hz: survey.bin_hz, noise_std_db }
     }
 
     /// Highest frequency that the rows hold.
@@ -46,10 +54,18 @@ impl<'a> LevelRows<'a> {
 }
 
 impl LevelRow<'_> {
-    /// Highest level between two places, in bins; `None` beyond the spectrum.
-    pub(crate) fn highest_db(&self, first: f64, last: f64) -> Option<f64> {
-        let levels = self.level_db.get(first.round().max(0.0) as usize..=last.round().max(0.0) as usize)?;
-        Some(f64::from(levels.iter().copied().fold(f32::MIN, f32::max)))
+    /// Highest level of a bin and its neighbours; `None` beyond the spectrum.
+    pub(crate) fn level_near_db(&self, bin: isize) -> Option<f64> {
+        let first = usize::try_from(bin - 1).ok()?;
+        self.level_db.get(first..first + 3)?.iter().copied().reduce(f32::max).map(f64::from)
+    }
+
+    /// Standard deviation of the levels of noise, from those below the median: lines lie above.
+    fn noise_std_db(&self) -> f64 {
+        let mut levels = self.level_db.clone();
+        levels.sort_by(f32::total_cmp);
+        let at = |share: f64| levels.get((share * levels.len() as f64) as usize).copied().map_or(0.0, f64::from);
+        at(0.5) - at(BELOW_ONE_STD)
     }
 
     /// For every bin the highest level within a share of its frequency on either side.

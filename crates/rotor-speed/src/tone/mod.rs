@@ -6,8 +6,6 @@ mod comb;
 mod discovery_config;
 mod family;
 mod levels;
-mod pattern;
-mod profile;
 mod reading;
 mod series;
 mod settings;

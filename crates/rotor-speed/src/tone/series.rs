@@ -22,10 +22,14 @@ const PRESENT_SCORE_SHARE: f64 = 0.5;
 const REFINE_HALF_WIDTH_SHARE: f64 = 0.012;
 /// Peaks lower than this do not take part in the refinement of a fundamental. *Decision.*
 const REFINE_LEVEL_DB_MIN: f64 = 6.0;
+/// Lines of a series that are listed at most. *Numeric.*
+const LINES_MAX: u32 = 40;
+/// A line may lie this many bins beside its place. *Numeric.*
+const LINE_BINS: isize = 1;
+/// A line stands out of the noise by so many standard deviations: the highest of its places does by 1.5 on average. *Decision.*
+const LINE_STDS: f64 = 4.5;
 /// Fundamentals end at this share of the highest frequency: the last bins have no floor above them. *Numeric.*
 const HZ_MAX_SHARE: f64 = 0.9;
-/// Lines that are taken away after a family was found. *Numeric.*
-const MASKED_LINES: u32 = 40;
 /// Half width of what is taken away around each line, as a share. *Decision.*
 const MASK_HALF_WIDTH_SHARE: f64 = 0.025;
 /// The same in bins, at least. *Numeric.*
@@ -47,34 +51,29 @@ impl Series {
         if hz_max <= config.fundamental_hz_min || levels.rows.is_empty() {
             return None;
         }
-        let count = ((hz_max / config.fundamental_hz_min).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
-        let grid_hz: Vec<f64> =
-            (0..count).map(|i| config.fundamental_hz_min * (GRID_STEP_SHARE * i as f64).exp()).collect();
-        let weights = Weights::new();
-        let scores: Vec<Vec<f64>> = levels
-            .rows
-            .iter()
-            .map(|row| {
-                let widened = row.widened(GRID_STEP_SHARE / 2.0);
-                grid_hz.iter().map(|&hz| score_db(&widened, &weights, hz / levels.bin_hz)).collect()
-            })
-            .collect();
+        let grid_hz = grid_hz(config.fundamental_hz_min, hz_max);
+        let scores = scores_db(levels, &grid_hz);
         let leading = leading_place(&scores)?;
-        Self::followed(levels, &grid_hz, &scores, leading, config)
-    }
-
-    fn followed(
-        levels: &LevelRows<'_>,
-        grid_hz: &[f64],
-        scores: &[Vec<f64>],
-        leading: usize,
-        config: &DiscoveryConfig,
-    ) -> Option<Self> {
         let reach = (ROW_HALF_WIDTH_SHARE / GRID_STEP_SHARE) as usize;
         let window = leading.saturating_sub(reach)..(leading + reach + 1).min(grid_hz.len());
+        let windows: Vec<&[f64]> = scores.iter().map(|row| &row[window.clone()]).collect();
+        Self::followed(levels, &grid_hz[window], &windows, config)
+    }
+
+    /// The series near a fundamental that is known; in all rows where it scores enough in none.
+    pub(crate) fn near(levels: &LevelRows<'_>, hz: f64, config: &DiscoveryConfig) -> Self {
+        let grid_hz = grid_hz(hz * (1.0 - ROW_HALF_WIDTH_SHARE), hz * (1.0 + ROW_HALF_WIDTH_SHARE));
+        let scores = scores_db(levels, &grid_hz);
+        let windows: Vec<&[f64]> = scores.iter().map(Vec::as_slice).collect();
+        let everywhere = || Self { hz, row_hz: vec![Some(hz); levels.rows.len()] };
+        Self::followed(levels, &grid_hz, &windows, config).unwrap_or_else(everywhere)
+    }
+
+    /// The fundamental with the highest score in each row, where that is enough.
+    fn followed(levels: &LevelRows<'_>, grid_hz: &[f64], scores: &[&[f64]], config: &DiscoveryConfig) -> Option<Self> {
         let best: Vec<(usize, f64)> = scores
             .iter()
-            .filter_map(|row| window.clone().map(|i| (i, row[i])).max_by(|a, b| a.1.total_cmp(&b.1)))
+            .filter_map(|row| row.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1)))
             .collect();
         let (cubes, squares) =
             best.iter().map(|&(_, s)| s.max(0.0)).fold((0.0, 0.0), |(c, q), s| (c + s.powi(3), q + s.powi(2)));
@@ -95,6 +94,25 @@ impl Series {
     /// The same series with its fundamental multiplied.
     pub(crate) fn times(&self, factor: f64) -> Self {
         Self { hz: self.hz * factor, row_hz: self.row_hz.iter().map(|hz| hz.map(|hz| hz * factor)).collect() }
+    }
+
+    /// The lines that stand out of the noise, each with its level: the median over the rows that have the series.
+    pub(crate) fn heard_lines(&self, levels: &LevelRows<'_>, config: &DiscoveryConfig) -> Vec<(u32, f64)> {
+        let present: Vec<(&LevelRow<'_>, f64)> =
+            levels.rows.iter().zip(&self.row_hz).filter_map(|(row, hz)| Some((row, (*hz)?))).collect();
+        let noise_db = levels.noise_std_db / (present.len().max(1) as f64).sqrt();
+        let heard_db = config.line_over_floor_db.max(LINE_STDS * noise_db);
+        let line_db = |number: u32| {
+            let beside_db = |bins: isize| {
+                let level_db = |(row, hz): &(&LevelRow<'_>, f64)| {
+                    row.level_near_db((f64::from(number) * hz / levels.bin_hz).round() as isize + bins)
+                };
+                median(&present.iter().map(level_db).collect::<Option<Vec<f64>>>()?)
+            };
+            (-LINE_BINS..=LINE_BINS).filter_map(beside_db).reduce(f64::max)
+        };
+        let lines = (1..=LINES_MAX).filter_map(|number| Some((number, line_db(number)?)));
+        lines.filter(|line| line.1 >= heard_db).collect()
     }
 
     /// The same series in rows of another survey of the same sound.
@@ -126,19 +144,35 @@ impl Series {
         Some(Self { hz: median(&present)?, row_hz })
     }
 
-    /// Takes the lines of the series out of the rows, so that the next strongest shows.
-    pub(crate) fn take_out_of(&self, levels: &mut LevelRows<'_>) {
+    /// Takes lines of the series out of the rows, so that the next strongest shows.
+    pub(crate) fn take_out_of(&self, levels: &mut LevelRows<'_>, lines: &[(u32, f64)]) {
         let bin_hz = levels.bin_hz;
         for (row, hz) in levels.rows.iter_mut().zip(&self.row_hz) {
             // where it is not present, something of it may still sound
             let hz = hz.unwrap_or(self.hz);
-            for line in (1..=MASKED_LINES).map(f64::from) {
-                let place = line * hz / bin_hz;
+            for (number, _) in lines {
+                let place = f64::from(*number) * hz / bin_hz;
                 let half = (MASK_HALF_WIDTH_SHARE * place).max(MASK_HALF_WIDTH_BINS).min(hz / bin_hz / 3.0);
                 row.level_to_floor(place - half, place + half);
             }
         }
     }
+}
+
+/// Fundamentals from one to another, in equal steps of the logarithm.
+fn grid_hz(hz_min: f64, hz_max: f64) -> Vec<f64> {
+    let count = ((hz_max / hz_min).ln() / GRID_STEP_SHARE).ceil() as usize + 1;
+    (0..count).map(|i| hz_min * (GRID_STEP_SHARE * i as f64).exp()).collect()
+}
+
+/// The score of each fundamental in each row.
+fn scores_db(levels: &LevelRows<'_>, grid_hz: &[f64]) -> Vec<Vec<f64>> {
+    let weights = Weights::new();
+    let of_row = |row: &LevelRow<'_>| {
+        let widened = row.widened(GRID_STEP_SHARE / 2.0);
+        grid_hz.iter().map(|&hz| score_db(&widened, &weights, hz / levels.bin_hz)).collect()
+    };
+    levels.rows.iter().map(of_row).collect()
 }
 
 /// Orders at which a series has lines and where it has none, each with its share of the sum.
