@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the tests need beside the package.
-const NEEDED: &str = "maturin, mypy, pytest, numpy, pandas, pyarrow, matplotlib, tqdm, nbclient, ipykernel, ray[data], dask[dataframe], \
-     moto[server]";
+const NEEDED: &str = "maturin, mypy, pytest, pytest-xdist, numpy, pandas, pyarrow, matplotlib, tqdm, nbclient, ipykernel, ray[data], \
+     dask[dataframe], moto[server]";
 /// The number of tests in the last line of pytest: "82 passed in 60.1s".
 const PASSED: &str = " passed";
 
@@ -79,10 +79,14 @@ fn install(python: &Interpreter, package: &Path) -> Result<(), String> {
 
 /// Runs pytest, and refuses a run without tests.
 fn tested(python: &Interpreter, program: &Path, package: &Path) -> Result<(), String> {
-    let words = ["-m", "pytest", "-q", "--no-header", "--color=no", "--durations=5", "--pyargs", "hovertone", "tests"];
+    let shown = ["-m", "pytest", "-q", "--no-header", "--color=no", "--durations=5"];
+    // two files of tests at once, so that what one of them prepares is prepared once
+    let shared = ["-n", "2", "--dist", "loadfile"];
     let output = python
         .command()
-        .args(words)
+        .args(shown)
+        .args(shared)
+        .args(["--pyargs", "hovertone", "tests"])
         .env("HOVERTONE_PROGRAM", program)
         .current_dir(package)
         .output()

@@ -31,8 +31,13 @@ impl BatchIdentity {
     /// "in speeds".
     pub fn differences(&self, other: &Self, places: [&str; 2]) -> Option<String> {
         let (own, other) = (self.to_json(), other.to_json());
-        let mut differences = Vec::new();
-        differ("", [&own, &other], places, &mut differences);
+        let mut all = Vec::new();
+        differ("", [&own, &other], &mut all);
+        // what follows from an argument is not said beside it
+        let typed: Vec<&Difference> = all.iter().filter(|difference| difference.is_typed).collect();
+        let named = if typed.is_empty() { all.iter().collect() } else { typed };
+        let mut differences: Vec<String> = named.into_iter().map(|difference| difference.in_words(places)).collect();
+        differences.dedup();
         let more = differences.len().saturating_sub(DIFFERENCES_MAX);
         differences.truncate(DIFFERENCES_MAX);
         if more > 0 {
@@ -46,7 +51,46 @@ impl BatchIdentity {
     }
 }
 
-fn differ(name: &str, [own, other]: [&Value; 2], places: [&str; 2], differences: &mut Vec<String>) {
+/// Values that a person types, by the end of their place, and the names of their arguments.
+const TYPED: [(&str, &str); 13] = [
+    ("inputs", "inputs"),
+    ("list_from_stdin", "list"),
+    ("version", "version"),
+    ("channel", "channel"),
+    ("audio_track", "audio-track"),
+    ("tone.blades", "blades"),
+    ("known.blade_count", "blades"),
+    ("tone.band_hz", "band"),
+    ("span.from_s", "from"),
+    ("span.to_s", "to"),
+    ("known.rotor_count", "rotors"),
+    ("known.diameter_m", "diameter-m"),
+    ("known.mass_kg", "mass-kg"),
+];
+
+/// A value that differs.
+struct Difference {
+    /// Name of the argument, or place of the value.
+    name: String,
+    is_typed: bool,
+    values: [String; 2],
+}
+
+impl Difference {
+    fn of(place: &str, values: [&Value; 2]) -> Self {
+        let typed = TYPED.iter().find(|(end, _)| place.ends_with(end)).map(|(_, argument)| (*argument).to_owned());
+        let outer = ["settings.", "analysis.", "known."];
+        let inner = || outer.iter().fold(place, |name, outer| name.strip_prefix(outer).unwrap_or(name)).to_owned();
+        Self { is_typed: typed.is_some(), name: typed.unwrap_or_else(inner), values: values.map(shown) }
+    }
+
+    fn in_words(&self, places: [&str; 2]) -> String {
+        let [own, other] = &self.values;
+        format!("{}: {own} {}, {other} {}", self.name, places[0], places[1])
+    }
+}
+
+fn differ(name: &str, [own, other]: [&Value; 2], differences: &mut Vec<Difference>) {
     match (own, other) {
         (Value::Object(of_own), Value::Object(of_other)) => {
             let mut keys: Vec<&String> = of_own.keys().chain(of_other.keys()).collect();
@@ -54,15 +98,11 @@ fn differ(name: &str, [own, other]: [&Value; 2], places: [&str; 2], differences:
             keys.dedup();
             for key in keys {
                 let inner = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
-                differ(&inner, [value_of(of_own, key), value_of(of_other, key)], places, differences);
+                differ(&inner, [value_of(of_own, key), value_of(of_other, key)], differences);
             }
         }
         _ if own == other => {}
-        _ => {
-            let outer = ["settings.", "analysis.", "known."];
-            let name = outer.iter().fold(name, |name, outer| name.strip_prefix(outer).unwrap_or(name));
-            differences.push(format!("{name}: {} {}, {} {}", shown(own), places[0], shown(other), places[1]));
-        }
+        _ => differences.push(Difference::of(name, [own, other])),
     }
 }
 
@@ -115,9 +155,14 @@ mod tests {
         let here = BatchIdentity { inputs: vec!["A".to_owned(), "B".to_owned()], ..here };
         assert_eq!(
             there.differences(&here, ["there", "here"]).unwrap(),
-            "inputs: DIR there, A B here; channel: none there, 1 here; rotor_count: 4 there, 2 here; \
-             shaft_speed: rev_s_high 80, rev_s_low 20 there, none here"
+            "inputs: DIR there, A B here; channel: none there, 1 here; rotors: 4 there, 2 here"
         );
+        let there = identity(json!({"tone": {"blades": 2, "order": 2.0}, "search": {"known": {"blade_count": 2}}}));
+        let here = identity(json!({"tone": {"blades": 3, "order": 3.0}, "search": {"known": {"blade_count": 3}}}));
+        assert_eq!(there.differences(&here, ["there", "here"]).unwrap(), "blades: 2 there, 3 here");
+        let there = identity(json!({"tone": {"order": 69.0}}));
+        let here = identity(json!({"tone": {"order": 2.0}}));
+        assert_eq!(there.differences(&here, ["there", "here"]).unwrap(), "tone.order: 69.0 there, 2.0 here");
         let many = identity(json!({"a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1}));
         let words = many.differences(&identity(json!({})), ["there", "here"]).unwrap();
         assert!(words.ends_with("; d: 1 there, none here; and 2 more"), "{words}");

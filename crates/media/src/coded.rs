@@ -4,7 +4,7 @@ use std::io;
 
 use symphonia::core::units::TimeBase;
 
-use crate::container::Container;
+use crate::container::{Container, Sniffed};
 use crate::file_access::FileAccess;
 use crate::frames::Incidents;
 use crate::iso::TablePackets;
@@ -71,6 +71,21 @@ impl CodedSound {
             channel_count: track.channel_count,
         };
         Self::of_demuxer(file, container, &matroska.patches, u32::try_from(track.number).ok()?, format)
+    }
+
+    pub(crate) fn of_adts(file: &dyn FileAccess, sniffed: &Sniffed, track_id: u32) -> Option<Self> {
+        let description = sniffed.mpeg.as_ref()?.aac_config?.to_vec();
+        let reader = native::open_demuxer(file, sniffed.container, sniffed.base, &[]).ok()?;
+        let track = reader.tracks().iter().find(|track| track.id == track_id)?;
+        let parameters = native::audio_parameters(track)?;
+        let format = CodedFormat {
+            codec: aac_name(&description)?,
+            description,
+            sample_rate_hz: f64::from(parameters.sample_rate?),
+            channel_count: parameters.channels.as_ref()?.count(),
+        };
+        let time_base = track.time_base;
+        Some(Self { format, packets: PacketSource::of_demuxer(reader, track_id), time_base })
     }
 
     fn of_demuxer(

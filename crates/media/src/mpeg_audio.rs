@@ -13,6 +13,8 @@ const CHAIN_FRAMES: usize = 4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct MpegAudio {
     pub(crate) is_adts: bool,
+    /// AudioSpecificConfig (ISO/IEC 14496-3, 1.6.2.1) of what the header of an ADTS frame says.
+    pub(crate) aac_config: Option<[u8; 2]>,
     /// Layer 1, 2 or 3 of MPEG audio.
     pub(crate) layer: u8,
     pub(crate) sample_rate_hz: u32,
@@ -54,6 +56,7 @@ pub(crate) fn first_frame(head: &[u8]) -> Option<(usize, MpegAudio)> {
             let (total_frames, delay_and_padding) = first.info_tag(head.get(offset..offset + first.frame_bytes)?);
             let mpeg = MpegAudio {
                 is_adts: first.is_adts,
+                aac_config: first.aac_config,
                 layer: first.layer,
                 sample_rate_hz: first.sample_rate_hz,
                 total_frames,
@@ -68,6 +71,7 @@ pub(crate) fn first_frame(head: &[u8]) -> Option<(usize, MpegAudio)> {
 #[derive(Clone, Copy)]
 struct Frame {
     is_adts: bool,
+    aac_config: Option<[u8; 2]>,
     layer: u8,
     is_mpeg1: bool,
     is_mono: bool,
@@ -129,12 +133,14 @@ fn adts_frame(c: u8, d: u8, e: u8, f: u8) -> Option<Frame> {
         [96000, 88200, 64000, 48000, 44100, 32000, 24000, 22050, 16000, 12000, 11025, 8000, 7350];
     let frame_bytes = (usize::from(d & 3) << 11) | (usize::from(e) << 3) | usize::from(f >> 5);
     (frame_bytes > 7).then_some(())?;
+    let (object_type, rate, channels) = ((c >> 6) + 1, (c >> 2) & 0xf, ((c & 1) << 2) | (d >> 6));
     Some(Frame {
         is_adts: true,
+        aac_config: Some([(object_type << 3) | (rate >> 1), (rate << 7) | (channels << 3)]),
         layer: 0,
         is_mpeg1: false,
         is_mono: false,
-        sample_rate_hz: *RATES_HZ.get(usize::from((c >> 2) & 0xf))?,
+        sample_rate_hz: *RATES_HZ.get(usize::from(rate))?,
         frame_bytes,
         frame_samples: 1024,
     })
@@ -180,6 +186,7 @@ fn mpeg_frame(b: u8, c: u8, d: u8) -> Option<Frame> {
     let is_mono = d >> 6 == 3;
     (frame_bytes > 4).then_some(Frame {
         is_adts: false,
+        aac_config: None,
         layer,
         is_mpeg1,
         is_mono,

@@ -239,8 +239,13 @@ impl<'a> Tracks<'a> {
         let promised = track.map(|track| (track.delay, track.num_frames)).unwrap_or_default();
         // The trims of the demuxer are correct in Ogg; in MP3 they come from a guessed length.
         let has_gapless_packets = self.container == Container::Ogg;
-        let route =
-            Route::Demuxer { base: sniffed.base, patches: self.clipped.patches.clone(), track_id, has_gapless_packets };
+        let route = match self.decoded {
+            Some(decoded) => Route::Decoded(decoded.clone()),
+            None => {
+                let patches = self.clipped.patches.clone();
+                Route::Demuxer { base: sniffed.base, patches, track_id, has_gapless_packets }
+            }
+        };
         let settled = settle(self.file, Plan::new(self.container, codec, route));
         let Settled { mut plan, sample_rate_hz: rate, .. } = settled.map_err(|native| (native, codec.to_owned()))?;
         match (self.container, &sniffed.mpeg) {
@@ -251,7 +256,7 @@ impl<'a> Tracks<'a> {
                 plan.declared_s = kept_frames.map(|frames| frames as f64 / rate);
                 plan.declared_slack_s = PACKET_SLACK_S;
             }
-            (Container::Adts, Some(mpeg)) if mpeg.sample_rate_hz <= LIKELY_CORE_RATE_HZ => {
+            (Container::Adts, Some(mpeg)) if mpeg.sample_rate_hz <= LIKELY_CORE_RATE_HZ && self.decoded.is_none() => {
                 plan.warnings.push(MediaWarning::HalfRateAac { core_rate_hz: rate, is_certain: false });
             }
             (Container::Flac | Container::Aiff, _) => plan.declared_s = promised.1.map(|frames| frames as f64 / rate),
@@ -292,6 +297,9 @@ impl<'a> Tracks<'a> {
         match &self.list {
             List::Iso(movie) => CodedSound::of_iso(self.file, self.container, movie),
             List::Matroska(matroska) => CodedSound::of_matroska(self.file, self.container, matroska),
+            List::Native { sniffed, track_ids } if self.container == Container::Adts => {
+                CodedSound::of_adts(self.file, sniffed, *track_ids.first()?)
+            }
             _ => None,
         }
     }

@@ -23,8 +23,8 @@ fn ffmpeg(folder: &Path, words: &str) -> Option<()> {
     Some(())
 }
 
-/// Noise and a tone in six channels of AAC, two seconds long, in three containers; and the same packets decoded.
-fn surround(folder: &Path) -> Option<([PathBuf; 3], PathBuf)> {
+/// Noise and a tone in six channels of AAC, two seconds long, in three containers and in raw frames; and the same packets decoded.
+fn surround(folder: &Path) -> Option<([PathBuf; 4], PathBuf)> {
     let source = "-f lavfi -i sine=440:sample_rate=48000:duration=2 -f lavfi -i anoisesrc=r=48000:d=2:a=0.1:seed=1 \
                   -filter_complex [0][1]amix -ac 6 -c:a aac table.m4a";
     ffmpeg(folder, source)?;
@@ -33,7 +33,7 @@ fn surround(folder: &Path) -> Option<([PathBuf; 3], PathBuf)> {
     // raw frames have no edit list: the priming is decoded too, as a browser does
     ffmpeg(folder, "-i table.m4a -c copy raw.aac")?;
     ffmpeg(folder, "-i raw.aac -f f32le decoded.f32")?;
-    let files = ["table.m4a", "clusters.mkv", "pieces.mp4"].map(|name| folder.join(name));
+    let files = ["table.m4a", "clusters.mkv", "pieces.mp4", "raw.aac"].map(|name| folder.join(name));
     Some((files, folder.join("decoded.f32")))
 }
 

@@ -10,10 +10,11 @@ use std::process::Command;
 const SPEED_REV_S: f64 = 60.0;
 const HOVER_S: f64 = 10.0;
 
-/// AAC of six channels, which a browser decodes, in containers with and without a table of packets.
-const DECODED: [(&str, &[&str]); 3] = [
+/// AAC of six channels, which a browser decodes, in containers with and without a table of packets, and in raw frames.
+const DECODED: [(&str, &[&str]); 4] = [
     ("table.m4a", &["-ac", "6", "-c:a", "aac"]),
     ("clusters.mkv", &["-ac", "6", "-c:a", "aac"]),
+    ("raw.aac", &["-ac", "6", "-c:a", "aac"]),
     ("pieces.mp4", &["-ac", "6", "-c:a", "aac", "-movflags", "frag_keyframe+empty_moov", "-frag_duration", "1000000"]),
 ];
 /// Sound that neither hovertone nor Chromium decodes: another codec, and another kind of AAC.
