@@ -112,19 +112,19 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     if let Err(Silence { reason, .. }) = surveyed.check(config) {
         return Ok(nothing(reason));
     }
-    let believed = match Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery) {
-        Ok(believed) => believed,
-        Err(reason) => return Ok(nothing(reason)),
-    };
     let (fundamental_hz_min, fundamental_hz_max) =
         config.tone.band_hz.unwrap_or((discovery.config.fundamental_hz_min, discovery.config.fundamental_hz_max));
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
     let families =
         |rotor_hz: Option<f64>| families_from_surveys(survey, detail.as_ref(), rotor_hz, &discovery.known, &scanned);
-    let Some(believed) = believed else {
-        let reason = or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s() }, survey);
-        let families = with_refined_line(passes, &surveyed, families(None), config)?;
-        return Ok(FoundSpeed { families, ..nothing(reason) });
+    let no_series = || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s() }, survey);
+    let believed = Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery);
+    let believed = match believed.and_then(|believed| believed.ok_or_else(no_series)) {
+        Ok(believed) => believed,
+        Err(reason) => {
+            let families = with_refined_line(passes, &surveyed, families(None), config)?;
+            return Ok(FoundSpeed { families, ..nothing(reason) });
+        }
     };
     let BelievedSpeed { config: found, analysis, ratio } = believed.speed(passes, &surveyed, config)?;
     let Some(ratio) = ratio else {
