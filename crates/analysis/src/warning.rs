@@ -123,7 +123,7 @@ impl Warning {
                 "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
             }
             Self::RotorsNotApart { .. } => {
-                "use their mean speed, whose ± allows for it; if fewer rotors turn, give their number; to separate more of them, place the microphone nearer"
+                "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
             Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",

@@ -59,7 +59,7 @@ const TYPED: [(&str, &str); 13] = [
     ("channel", "channel"),
     ("audio_track", "audio-track"),
     ("tone.blades", "blades"),
-    ("known.blade_count", "blades"),
+    ("tone.order", "order"),
     ("tone.band_hz", "band"),
     ("span.from_s", "from"),
     ("span.to_s", "to"),

@@ -4,7 +4,7 @@ use crate::args::{ColumnName, LogArguments};
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, open_stream};
-use crate::outputs::{Outputs, written};
+use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
 use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
 use hovertone_report::{Notice, log_json, log_text, signal_headers};
@@ -60,8 +60,8 @@ pub(crate) fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure>
 /// The failure of a file that should be a log.
 fn failure_of(error: &LogError, path: &Path) -> Failure {
     match error {
-        // a file of another kind, such as a recording
-        LogError::UnknownFormat => Failure::failed(error.to_string(), error.hint(), path),
+        // a file of another kind
+        LogError::UnknownFormat if !is_recording(path) => Failure::failed(error.to_string(), error.hint(), path),
         _ => log_failure(error, path),
     }
 }
@@ -71,6 +71,11 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
     match error {
         LogError::Read(_) => Failure::failed(error.to_string(), error.hint(), path),
         LogError::Write(error) => Failure::cannot_write(error, path),
+        LogError::UnknownFormat if is_recording(path) => Failure::Usage {
+            what: "this is a recording, and a log is needed".to_owned(),
+            hint: "give the log of the flight; `hovertone speed` hears a recording".to_owned(),
+            path: Some(path.to_owned()),
+        },
         _ => Failure::Usage { what: error.to_string(), hint: error.hint().to_owned(), path: Some(path.to_owned()) },
     }
 }

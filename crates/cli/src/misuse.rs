@@ -39,6 +39,9 @@ pub(crate) fn failure_of(error: &clap::Error, words: &[OsString]) -> Option<Fail
     Some(Failure::usage(what, hint.unwrap_or_else(|| example_and_help(words, &flag_of(&name)))))
 }
 
+/// The place of an experiment file among the words of a command.
+const EXPERIMENT: &str = "EXPERIMENT.toml";
+
 struct Misuse {
     what: String,
     /// Absent where the help is the best advice.
@@ -61,7 +64,10 @@ impl Misuse {
                     true => format!("\"{value}\": there is no such value"),
                     false => format!("{name} {value}: there is no such value"),
                 },
-                hint: Some(format!("give one of: {known}")),
+                hint: Some(match nearest(&value, known.split(", ")) {
+                    Some(nearest) => format!("did you mean {nearest}? Give one of: {known}"),
+                    None => format!("give one of: {known}"),
+                }),
             },
             ErrorKind::ValueValidation => Self { what: format!("{name} {value}: {}", reason_of(error)), hint: None },
             ErrorKind::UnknownArgument => Self::of_unknown(&name, words),
@@ -72,8 +78,12 @@ impl Misuse {
                     let hint = Some("give it once".to_owned());
                     return Self { what: format!("{name} is given more than once"), hint };
                 }
-                let hint = Some("leave one of them out".to_owned());
-                Self { what: format!("{name} cannot be used with {other}"), hint }
+                let hint = if [&name, &other].iter().any(|place| place.contains(EXPERIMENT)) {
+                    "recordings without an experiment file need the mass before them, as in --mass 413g hover.mov"
+                } else {
+                    "leave one of them out"
+                };
+                Self { what: format!("{name} cannot be used with {other}"), hint: Some(hint.to_owned()) }
             }
             ErrorKind::MissingRequiredArgument => {
                 let arguments = match error.get(ContextKind::InvalidArg) {

@@ -108,7 +108,7 @@ pub(crate) fn refused(what: &str, hint: &str, place: &Path) -> Failure {
 const BEGINNING: u64 = 4096;
 
 /// Whether a file is there that begins as recordings do.
-fn is_recording(place: &Path) -> bool {
+pub(crate) fn is_recording(place: &Path) -> bool {
     if !fs::metadata(place).is_ok_and(|old| old.is_file()) {
         return false;
     }

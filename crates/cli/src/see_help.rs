@@ -36,7 +36,12 @@ fn example_of(command: &Command, flag: &str) -> Option<String> {
     // two spaces divide an example from its explanation
     let call = |line: &str| line.trim().split("  ").next().map(str::to_owned);
     let examples: Vec<String> = help.lines().skip_while(|line| *line != EXAMPLES).skip(1).filter_map(call).collect();
-    let with_flag = examples.iter().find(|example| example.split(' ').any(|word| word == flag));
+    let long = command
+        .get_arguments()
+        .find(|argument| argument.get_long().map(|long| format!("--{long}")).as_deref() == Some(flag));
+    let short = long.and_then(|argument| argument.get_short()).map(|short| format!("-{short}"));
+    let is_flag = |word: &str| word == flag || Some(word) == short.as_deref();
+    let with_flag = examples.iter().find(|example| example.split(' ').any(is_flag));
     with_flag.or_else(|| examples.first()).cloned()
 }
 
@@ -64,5 +69,8 @@ mod tests {
         let words = ["hovertone", "calibrate", "--true-hz"].map(OsString::from);
         let hint = example_and_help(&words, "--true-hz");
         assert_eq!(hint, "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`");
+        let words = ["hovertone", "log", "flight.ulg", "--signal", "esc_status"].map(OsString::from);
+        let hint = example_and_help(&words, "--output");
+        assert!(hint.contains("--signal esc_status -o speeds.csv"), "{hint}");
     }
 }

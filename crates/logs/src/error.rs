@@ -147,7 +147,7 @@ impl LogError {
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
-            Self::NoTime { .. } => "name the unit, as in time_s or timestamp_us",
+            Self::NoTime { .. } => "a log has a column of times with their unit, such as time_s or timestamp_us",
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
             }

@@ -27,7 +27,7 @@ pub(crate) struct GreyBoxArguments {
     /// The recording and the log of the flight; or the log alone, with the speeds of the rotors
     #[arg(required = true, num_args = 1..=2, value_names = ["RECORDING", "LOG"], value_parser = typed_path())]
     pub(crate) files: Vec<PathBuf>,
-    /// Vehicle whose numbers the fit starts from: one that can fly (see `hovertone simulate --help`)
+    /// Vehicle whose numbers the fit starts from: one of the flight model (see `hovertone simulate --help`)
     #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: String,
     /// Mass as flown, in kg or as 413g [default: the vehicle's]

@@ -3,9 +3,10 @@
 use super::{BAND_SHARE, MILLION};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
+use crate::vehicles::preset;
 use hovertone::calibration::{Judgement, KnownSpeed, Relation, SpeedCheck, check_against};
 use hovertone_report::{fixed, printable, signed, with_uncertainty};
-use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Order, RotorSpeed};
+use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, RotorSpeed};
 use serde_json::json;
 
 const SECONDS_PER_MINUTE: f64 = 60.0;
@@ -69,29 +70,36 @@ impl Comparison {
         }
     }
 
-    /// A question whether the known frequency is that of the shaft; empty where a speed is known.
-    fn shaft_in_words(&self) -> String {
-        match self.reference {
-            Reference::Speed { .. } => String::new(),
-            Reference::Tone { hz, .. } => {
-                format!(
-                    "If {hz} Hz is the speed of the shaft, give --tachometer-rpm {}. ",
-                    RotorSpeed::from_rev_s(hz).rpm()
-                )
-            }
-        }
-    }
-
     /// The band around the tone that the known speed and the given order mean.
     fn band(&self) -> String {
         let tone_hz = self.heard.speed.tone_hz(self.heard.order) / self.check.heard_over_known;
         format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
     }
 
-    /// Whether the known speed seems to be in turns per second, and not per minute.
-    fn is_known_in_turns_per_second(&self) -> bool {
-        let is_speed = matches!(self.reference, Reference::Speed { .. });
-        is_speed && (self.check.heard_over_known / SECONDS_PER_MINUTE - 1.0).abs() < BAND_SHARE
+    /// The known number that was probably meant, where the given one is that of something else: a question, and what to give.
+    fn slip(&self, arguments: &CalibrateArguments) -> Option<String> {
+        let is_ratio = |ratio: f64| (self.check.heard_over_known / ratio - 1.0).abs() < BAND_SHARE;
+        let order = self.heard.order.lines_per_turn();
+        match self.reference {
+            Reference::Speed { rpm, .. } if is_ratio(SECONDS_PER_MINUTE) => Some(format!(
+                "Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {}",
+                SECONDS_PER_MINUTE * rpm
+            )),
+            Reference::Speed { rpm, .. } => {
+                let gear = gear_of(arguments).filter(|gear| is_ratio(1.0 / gear.ratio()))?;
+                Some(format!(
+                    "Was the known speed that of the motor? Behind the gear {}:{} the rotor turns at --tachometer-rpm {:.1}",
+                    gear.pinion,
+                    gear.wheel,
+                    rpm / gear.ratio()
+                ))
+            }
+            Reference::Tone { hz, .. } if self.heard.is_rotor && order > 1.0 && is_ratio(order) => Some(format!(
+                "Was {hz} Hz the speed of the shaft? Then give --tachometer-rpm {}",
+                RotorSpeed::from_rev_s(hz).rpm()
+            )),
+            Reference::Tone { .. } => None,
+        }
     }
 
     /// The correction for the setting: on top of the one with which the recording was opened.
@@ -106,7 +114,7 @@ pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &Calibrat
     let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
     let mut text = format!("{}: known {known}, heard {heard} (± is k = 2){order}\n", printable(name));
     text += &order_in_words(comparison, arguments);
-    if comparison.check.relation != Relation::None && !comparison.is_known_in_turns_per_second() {
+    if comparison.check.relation != Relation::None && comparison.slip(arguments).is_none() {
         text += &clock_in_words(comparison, arguments);
     }
     text + &result_in_words(comparison, arguments.clock_ppm)
@@ -133,14 +141,27 @@ fn word(judgement: Judgement) -> &'static str {
     }
 }
 
+/// The gear between the motor and the rotor, as given or of the vehicle.
+fn gear_of(arguments: &CalibrateArguments) -> Option<Gear> {
+    let vehicle = arguments.tone.vehicle.as_deref().and_then(|name| preset(name).ok());
+    arguments.tone.gear.or_else(|| vehicle?.gear.map(|gear| gear.value))
+}
+
 fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> String {
     let Comparison { check, heard: HeardSpeed { order, is_rotor, .. }, .. } = comparison;
     let ratio = fixed(check.heard_over_known, 4);
+    let what = match comparison.reference {
+        Reference::Speed { .. } => "speed",
+        Reference::Tone { .. } => "frequency",
+    };
     match check.relation {
         Relation::Agrees if !is_rotor => String::new(),
         Relation::Agrees => format!("order: pass, it is {order}\n"),
+        _ if let Some(slip) = comparison.slip(arguments) => {
+            format!("order: fail. The heard {what} is {ratio} times the known {what}. {slip}\n")
+        }
         Relation::OtherOrder(fitting) if *is_rotor => {
-            format!("order: fail. The heard speed is {ratio} times the known speed")
+            format!("order: fail. The heard {what} is {ratio} times the known {what}")
                 + &other_order_in_words(comparison, fitting, arguments)
         }
         _ if !is_rotor => format!(
@@ -148,23 +169,15 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
              known frequency right? Was the file resampled or slowed down?\n"
         ),
         _ => format!(
-            "order: fail. The heard speed is {ratio} times the known speed. No other order of the tone gives this ratio, and no clock is off by \
+            "order: fail. The heard {what} is {ratio} times the known {what}. No other order of the tone gives this ratio, and no clock is off by \
              more than {CLOCK_PERCENT_MAX} %. Was another rotor heard? Was the file resampled or slowed down?\n"
         ),
     }
 }
 
-/// What may be wrong where another order fits: the unit of the known speed, or the order.
+/// What to give where another order fits.
 fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &CalibrateArguments) -> String {
     let order = comparison.heard.order;
-    if let Reference::Speed { rpm, .. } = comparison.reference
-        && comparison.is_known_in_turns_per_second()
-    {
-        let in_rpm = SECONDS_PER_MINUTE * rpm;
-        return format!(
-            ". Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {in_rpm}\n"
-        );
-    }
     let without_vehicle = if arguments.tone.vehicle.is_some() { "leave --vehicle out and " } else { "" };
     let as_blades = if fitting.lines_per_turn() <= BLADES_MAX && fitting.lines_per_turn().fract() == 0.0 {
         format!(" (for a blade pass --blades {fitting})")
@@ -172,9 +185,8 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
         String::new()
     };
     format!(
-        ", as if the order were {fitting} and not {order}. {}If {fitting} is right, {without_vehicle}give --order {fitting}{as_blades}, or in an \
+        ", as if the order were {fitting} and not {order}. If {fitting} is right, {without_vehicle}give --order {fitting}{as_blades}, or in an \
          experiment file [tone] order = {fitting}. If {order} is right, its tone lies in --band {}\n",
-        comparison.shaft_in_words(),
         comparison.band()
     )
 }

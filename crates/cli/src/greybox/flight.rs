@@ -65,10 +65,10 @@ impl GreyBoxVehicle {
             let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
             let list = known.join(", ");
             let hint = match nearest(name, known) {
-                Some(nearest) => format!("did you mean \"{nearest}\"? These can fly: {list}"),
-                None => format!("these can fly: {list}"),
+                Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
+                None => format!("the flight model knows {list}"),
             };
-            Failure::usage(format!("there is no vehicle \"{name}\" that can fly"), hint)
+            Failure::usage(format!("the flight model has no vehicle \"{name}\""), hint)
         };
         let parameters = find_flight_parameters(name).ok_or_else(unknown)?.clone();
         let preset = find_preset(name).ok_or_else(unknown)?;

@@ -71,10 +71,10 @@ fn failure_of(error: &ScenarioError, path: &Path) -> Failure {
             let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
             let list = known.join(", ");
             let hint = match nearest(name, known) {
-                Some(nearest) => format!("did you mean \"{nearest}\"? These can fly: {list}"),
-                None => format!("these can fly: {list}"),
+                Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
+                None => format!("the flight model knows {list}"),
             };
-            (format!("there is no vehicle preset \"{name}\" that can fly"), hint)
+            (format!("the flight model has no vehicle \"{name}\""), hint)
         }
         ScenarioError::Contradiction { what, hint } => (what.clone(), (*hint).to_owned()),
         ScenarioError::Missing { what, hint } => (format!("{what} is missing"), (*hint).to_owned()),

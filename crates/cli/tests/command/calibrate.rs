@@ -92,6 +92,31 @@ fn a_wrong_order_is_named_with_the_one_that_fits() {
     assert!(other.stdout.contains("No other order of the tone gives this ratio"), "{}", other.stdout);
 }
 
+#[test]
+fn a_known_number_of_another_part_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("bench.wav");
+    write_bench(&sound, 21_000.0, 0.0);
+    let shaft = hovertone(&["calibrate", text(&sound), "--vehicle", "crazyflie", "--true-hz", "350"]).ends_with(3);
+    assert!(
+        shaft.stdout.contains("Was 350 Hz the speed of the shaft? Then give --tachometer-rpm 21000"),
+        "{}",
+        shaft.stdout
+    );
+    assert!(!shaft.stdout.contains("clock"), "{}", shaft.stdout);
+    // 57.3 rev/s of the rotor, 69/8 times as fast the motor
+    let geared = folder.path().join("geared.wav");
+    write_hover(&geared, steady_hover("ardrone", RotorSpeed::from_rev_s(57.3), 6.0));
+    let motor =
+        hovertone(&["calibrate", text(&geared), "--vehicle", "ardrone", "--tachometer-rpm", "29653"]).ends_with(3);
+    assert!(
+        motor.stdout.contains("that of the motor? Behind the gear 8:69 the rotor turns at --tachometer-rpm 3438.0"),
+        "{}",
+        motor.stdout
+    );
+    assert!(!motor.stdout.contains("--order") && !motor.stdout.contains("clock"), "{}", motor.stdout);
+}
+
 /// A pure tone as a recorder takes it whose clock runs fast by `fast_ppm`: it counts more samples per second than the file says.
 fn write_tone(path: &Path, true_hz: f64, fast_ppm: f64, seconds: u32) {
     let spec = hound::WavSpec {

@@ -1,6 +1,6 @@
 //! `hovertone log`: what a log holds, and its signals as CSV.
 
-use crate::testkit::{hovertone, recordings, refused_with, text};
+use crate::testkit::{hovertone, recordings, refused_with, text, write_noise};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -76,6 +76,12 @@ fn what_has_no_meaning_is_refused_with_what_to_do() {
     }
     let other = hovertone(&["log", &archive]).ends_with(1).stderr;
     assert!(other.contains("neither a CSV nor a log of PX4") && other.contains("log.zip"), "{other}");
+    let sound = folder.path().join("hover.wav");
+    write_noise(&sound, 1.0);
+    refused_with(
+        &["log", text(&sound)],
+        &["this is a recording, and a log is needed", "`hovertone speed` hears a recording"],
+    );
     refused_with(&["log", &log, &log, "--signal", "table", "-o", "x.csv"], &["2 are given", "one log at a time"]);
     refused_with(&["log", &log, "--signal", "table"], &["--output"]);
 }

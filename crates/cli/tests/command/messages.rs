@@ -193,6 +193,15 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav: a mass cannot be negative"),
         ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
+        (
+            "speed a.wav --method maximum",
+            "error: --method maximum: there is no such value (hint: did you mean maximum_trace? Give one of: ",
+        ),
+        (
+            "identify --vehicle ardrone hover.mov",
+            "error: --vehicle cannot be used with [EXPERIMENT.toml] (hint: recordings without an experiment file need the mass before them, as in \
+             --mass 413g hover.mov)",
+        ),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),
         (
             "verify a.wav --log b.csv",
