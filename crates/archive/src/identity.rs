@@ -34,7 +34,10 @@ impl BatchIdentity {
         let mut all = Vec::new();
         differ("", [&own, &other], &mut all);
         // what follows from an argument is not said beside it
-        let typed: Vec<&Difference> = all.iter().filter(|difference| difference.is_typed).collect();
+        let mut typed: Vec<&Difference> = all.iter().filter(|difference| difference.is_typed).collect();
+        if typed.iter().any(|difference| difference.name == BLADES) {
+            typed.retain(|difference| difference.name != ORDER);
+        }
         let named = if typed.is_empty() { all.iter().collect() } else { typed };
         let mut differences: Vec<String> = named.into_iter().map(|difference| difference.in_words(places)).collect();
         differences.dedup();
@@ -51,6 +54,9 @@ impl BatchIdentity {
     }
 }
 
+/// The argument from which the order follows, and the order.
+const BLADES: &str = "blades";
+const ORDER: &str = "order";
 /// Values that a person types, by the end of their place, and the names of their arguments.
 const TYPED: [(&str, &str); 13] = [
     ("inputs", "inputs"),
@@ -58,8 +64,8 @@ const TYPED: [(&str, &str); 13] = [
     ("version", "version"),
     ("channel", "channel"),
     ("audio_track", "audio-track"),
-    ("tone.blades", "blades"),
-    ("tone.order", "order"),
+    ("tone.blades", BLADES),
+    ("tone.order", ORDER),
     ("tone.band_hz", "band"),
     ("span.from_s", "from"),
     ("span.to_s", "to"),
@@ -162,7 +168,7 @@ mod tests {
         assert_eq!(there.differences(&here, ["there", "here"]).unwrap(), "blades: 2 there, 3 here");
         let there = identity(json!({"tone": {"order": 69.0}}));
         let here = identity(json!({"tone": {"order": 2.0}}));
-        assert_eq!(there.differences(&here, ["there", "here"]).unwrap(), "tone.order: 69.0 there, 2.0 here");
+        assert_eq!(there.differences(&here, ["there", "here"]).unwrap(), "order: 69.0 there, 2.0 here");
         let many = identity(json!({"a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1}));
         let words = many.differences(&identity(json!({})), ["there", "here"]).unwrap();
         assert!(words.ends_with("; d: 1 there, none here; and 2 more"), "{words}");

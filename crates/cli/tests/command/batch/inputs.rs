@@ -85,12 +85,9 @@ fn another_list_from_stdin_is_refused() {
     batch_in(folder.path(), &["-"], "a/flight 1/1.wav\na/flight 0/0.wav\n").ends_with(0);
     assert_eq!(fs::read(&out).unwrap(), before, "the order of the names is free");
     let run = batch_in(folder.path(), &["-"], "a/flight 2/2.wav\n");
-    for words in [
-        "other recordings or settings",
-        "list_from_stdin: 2 names (SHA-256 ",
-        " in the folder, 1 name (SHA-256 ",
-        "--force",
-    ] {
+    for words in
+        ["other recordings or settings", "list: 2 names (SHA-256 ", " in the folder, 1 name (SHA-256 ", "--force"]
+    {
         assert!(run.code == 2 && run.stderr.contains(words), "{words}: {} {}", run.code, run.stderr);
     }
     assert_eq!(fs::read(&out).unwrap(), before);
