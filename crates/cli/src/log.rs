@@ -13,6 +13,8 @@ use std::path::Path;
 
 /// Name of a log in messages.
 pub(crate) const THE_LOG: &str = "the log";
+const IS_RECORDING: &str = "this is a recording, and a log is needed";
+const HINT_OF_RECORDING: &str = "give the log of the flight; `hovertone speed` hears a recording";
 const HINT_OF_LOSS: &str = "download the log again; what could be read of it was used";
 
 /// Lists all logs, or writes signals of one.
@@ -61,7 +63,8 @@ pub(crate) fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure>
 fn failure_of(error: &LogError, path: &Path) -> Failure {
     match error {
         // a file of another kind
-        LogError::UnknownFormat if !is_recording(path) => Failure::failed(error.to_string(), error.hint(), path),
+        LogError::UnknownFormat if is_recording(path) => Failure::failed(IS_RECORDING, HINT_OF_RECORDING, path),
+        LogError::UnknownFormat => Failure::failed(error.to_string(), error.hint(), path),
         _ => log_failure(error, path),
     }
 }
@@ -72,8 +75,8 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
         LogError::Read(_) => Failure::failed(error.to_string(), error.hint(), path),
         LogError::Write(error) => Failure::cannot_write(error, path),
         LogError::UnknownFormat if is_recording(path) => Failure::Usage {
-            what: "this is a recording, and a log is needed".to_owned(),
-            hint: "give the log of the flight; `hovertone speed` hears a recording".to_owned(),
+            what: IS_RECORDING.to_owned(),
+            hint: HINT_OF_RECORDING.to_owned(),
             path: Some(path.to_owned()),
         },
         _ => Failure::Usage { what: error.to_string(), hint: error.hint().to_owned(), path: Some(path.to_owned()) },

@@ -83,20 +83,20 @@ impl Comparison {
         match self.reference {
             Reference::Speed { rpm, .. } if is_ratio(SECONDS_PER_MINUTE) => Some(format!(
                 "Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {}",
-                SECONDS_PER_MINUTE * rpm
+                to_tenths(SECONDS_PER_MINUTE * rpm)
             )),
             Reference::Speed { rpm, .. } => {
                 let gear = gear_of(arguments).filter(|gear| is_ratio(1.0 / gear.ratio()))?;
                 Some(format!(
-                    "Was the known speed that of the motor? Behind the gear {}:{} the rotor turns at --tachometer-rpm {:.1}",
+                    "Was the known speed that of the motor? Behind the gear {}:{} the rotor turns at --tachometer-rpm {}",
                     gear.pinion,
                     gear.wheel,
-                    rpm / gear.ratio()
+                    to_tenths(rpm / gear.ratio())
                 ))
             }
             Reference::Tone { hz, .. } if self.heard.is_rotor && order > 1.0 && is_ratio(order) => Some(format!(
                 "Was {hz} Hz the speed of the shaft? Then give --tachometer-rpm {}",
-                RotorSpeed::from_rev_s(hz).rpm()
+                to_tenths(RotorSpeed::from_rev_s(hz).rpm())
             )),
             Reference::Tone { .. } => None,
         }
@@ -139,6 +139,11 @@ fn word(judgement: Judgement) -> &'static str {
         Judgement::Fails => "fail",
         Judgement::Undecided => "not decided",
     }
+}
+
+/// A number to be typed, without the digits of binary fractions.
+fn to_tenths(value: f64) -> f64 {
+    (10.0 * value).round() / 10.0
 }
 
 /// The gear between the motor and the rotor, as given or of the vehicle.

@@ -31,7 +31,7 @@ const CASES: [(&str, i32, &str); 47] = [
     ("vehicles --add nowhere.toml", 1, "nowhere.toml"),
     ("log nowhere.ulg", 1, "nowhere.ulg"),
     ("log empty", 1, "a folder"),
-    ("log a.wav", 1, "neither a CSV"),
+    ("log a.wav", 1, "this is a recording, and a log is needed"),
     ("motor nowhere.ulg", 1, "nowhere.ulg"),
     ("motor a.wav", 3, ""),
     ("verify a.wav nowhere.ulg", 1, "nowhere.ulg"),
