@@ -7,7 +7,7 @@ use crate::outputs::Outputs;
 use crate::own_vehicles::{file_to_add, own_vehicles, place, vehicles_in};
 use crate::terminal::Terminal;
 use hovertone_report::{printable, vehicles_json, vehicles_text};
-use hovertone_vehicle::{Vehicle, find_preset, presets};
+use hovertone_vehicle::{Vehicle, find_preset, flight_presets, presets};
 use std::fs;
 use std::path::Path;
 
@@ -70,6 +70,17 @@ fn add(path: &Path, terminal: &mut Terminal) -> Result<Ending, Failure> {
 /// The presets and the vehicles of the user.
 pub(crate) fn known_vehicles() -> Result<Vec<Vehicle>, Failure> {
     Ok(presets().iter().chain(own_vehicles()?).cloned().collect())
+}
+
+/// What is wrong with a name that the flight model does not know, and the hint.
+pub(crate) fn not_in_flight_model(name: &str) -> (String, String) {
+    let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
+    let list = known.join(", ");
+    let hint = match nearest(name, known) {
+        Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
+        None => format!("the flight model knows {list}"),
+    };
+    (format!("the flight model has no vehicle \"{name}\""), hint)
 }
 
 /// The vehicle of a name, or a failure with the nearest name as a hint.

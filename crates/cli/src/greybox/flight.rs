@@ -4,9 +4,9 @@ use super::shown;
 use crate::failure::Failure;
 use crate::inputs::open_stream;
 use crate::log::{THE_LOG, log_failure};
-use crate::nearest::nearest;
 use crate::progress::Progress;
 use crate::recording::{Hearing, lines_of};
+use crate::vehicles::not_in_flight_model;
 use hovertone_dynamics::{
     ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, HeardLines, LineOrders,
     LoopInputs, MotorVolts, SoundConfig, SpeedObservation, SpeedPrediction, grey_box_from_sound, grey_box_from_speeds,
@@ -15,8 +15,7 @@ use hovertone_dynamics::{
 use hovertone_logs::{ColumnNames, LoggedControl, MissingControl, RateAxes, control_from_log};
 use hovertone_report::Notice;
 use hovertone_vehicle::{
-    FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, find_flight_parameters,
-    find_preset, flight_presets,
+    FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, find_flight_parameters, find_preset,
 };
 use std::path::{Path, PathBuf};
 
@@ -62,13 +61,8 @@ impl GreyBoxVehicle {
     /// A vehicle that can fly.
     pub(crate) fn find(name: &str, mass_kg: Option<f64>) -> Result<Self, Failure> {
         let unknown = || {
-            let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
-            let list = known.join(", ");
-            let hint = match nearest(name, known) {
-                Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
-                None => format!("the flight model knows {list}"),
-            };
-            Failure::usage(format!("the flight model has no vehicle \"{name}\""), hint)
+            let (what, hint) = not_in_flight_model(name);
+            Failure::usage(what, hint)
         };
         let parameters = find_flight_parameters(name).ok_or_else(unknown)?.clone();
         let preset = find_preset(name).ok_or_else(unknown)?;

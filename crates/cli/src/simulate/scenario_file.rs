@@ -2,10 +2,9 @@
 
 use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
-use crate::nearest::nearest;
 use crate::toml_file::TomlFile;
+use crate::vehicles::not_in_flight_model;
 use hovertone_sim::scenario::{Scenario, ScenarioError, ScenarioFile};
-use hovertone_vehicle::flight_presets;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -67,15 +66,7 @@ impl ScenarioSource {
 
 fn failure_of(error: &ScenarioError, path: &Path) -> Failure {
     let (what, hint) = match error {
-        ScenarioError::UnknownPreset { name } => {
-            let known: Vec<&str> = flight_presets().iter().map(|vehicle| vehicle.id).collect();
-            let list = known.join(", ");
-            let hint = match nearest(name, known) {
-                Some(nearest) => format!("did you mean \"{nearest}\"? The flight model knows {list}"),
-                None => format!("the flight model knows {list}"),
-            };
-            (format!("the flight model has no vehicle \"{name}\""), hint)
-        }
+        ScenarioError::UnknownPreset { name } => not_in_flight_model(name),
         ScenarioError::Contradiction { what, hint } => (what.clone(), (*hint).to_owned()),
         ScenarioError::Missing { what, hint } => (format!("{what} is missing"), (*hint).to_owned()),
         _ => (error.to_string(), SEE_EXAMPLE.to_owned()),
