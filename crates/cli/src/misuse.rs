@@ -242,7 +242,7 @@ mod tests {
                 "hovertone speed a.wav --mass-kg heavy",
                 "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
-            ("hovertone completions tcsh", "\"tcsh\": there is no such value (give one of: bash, "),
+            ("hovertone completions tcsh", "\"tcsh\": there is no such value (did you mean zsh? Give one of: bash, "),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
             ("hovertone speeed a.wav", "there is no command \"speeed\" (did you mean speed?)"),
