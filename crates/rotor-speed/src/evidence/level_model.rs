@@ -153,6 +153,11 @@ impl<'a> LevelModel<'a> {
         self.evidence_nats(&levels.over_flat_floor(), lines)
     }
 
+    /// The same of the gear mesh alone; 0 where none is followed.
+    pub(super) fn flat_mesh_nats(&mut self, levels: &RotorLevels, lines: &RotorLines) -> f64 {
+        lines.mesh_order.map_or(0.0, |_| self.shaft_nats(&levels.over_flat_floor().mesh, 1))
+    }
+
     /// The evidence where the lines scatter as much.
     fn nats_of_scatter(&self, scatter: &Scatter, lines: &LinesOfClasses, below: &[Line], blades: u32) -> f64 {
         let shares = f64::from(LAST_HARMONICS.len() as u32).ln();

@@ -2,14 +2,12 @@
 //!
 //! The labelling of each frame is one of all permutations of the tracks; the best sequence of them (Viterbi) keeps each rotor's
 //! speed continuous and its lines as loud, against each other, as they were: loudness is what tells rotors apart that have
-//! come out of a crossing.
+//! come out of a crossing. How probable it is that two rotors changed places all the same is part of the answer.
 
 use super::pace::Pace;
 
 /// Standard deviation of the speed of a rotor from the one that its last speed and slopes predict, as a share of the speed. *Decision.*
 const STEP_STD_SHARE: f64 = 0.0008;
-/// The same, where its lines are not apart from those of another rotor. *Decision.*
-const STEP_STD_SHARE_CLOSE: f64 = 0.0025;
 /// Cost of a step up to which it is its square, in nats. A wider one costs less than its square, because rotors jump in a gust. With a tenth,
 /// levels that rise and fall move rotors between names; with ten times, rotors 0.1 % apart lose each other. *Decision.*
 const STEP_COST: f64 = 100.0;
@@ -25,8 +23,30 @@ const LEVEL_WEIGHT: f64 = 0.1;
 const LEVEL_S: f64 = 1.5;
 /// Largest number of times that the levels of the rotors, and then the rotors by their levels, are found. *Numeric.*
 const PASSES: usize = 4;
+/// Less probable exchanges of two rotors change no mean by what its uncertainty would show. *Numeric.*
+const MEETING_CHANCE_MIN: f64 = 1e-6;
 /// More rotors than this have too many permutations: they keep their tracks. *Numeric.*
 const ROTORS_MAX: usize = 4;
+
+/// Sum of the levels of a line, and of their weights.
+type LevelSum = (f64, f64);
+
+/// Which track each rotor is in each frame, and where that is in doubt.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Labelling {
+    /// The track of each rotor: `tracks[frame][rotor]`.
+    pub(super) tracks: Vec<Vec<usize>>,
+    pub(super) meetings: Vec<Meeting>,
+}
+
+/// A frame before which two rotors may have changed places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Meeting {
+    pub(super) frame: usize,
+    pub(super) rotors: (usize, usize),
+    /// Probability that they did.
+    pub(super) chance: f64,
+}
 
 /// One track in one frame.
 #[derive(Clone, Debug, Default)]
@@ -48,16 +68,23 @@ pub(super) struct Identity {
 }
 
 impl Identity {
-    /// For each frame, the track of each rotor: `labelling[frame][rotor]`.
-    pub(super) fn labelled(&mut self, tracks: &[Vec<TrackFrame>], frame_s: f64, pace: Pace) -> Vec<Vec<usize>> {
+    /// For each frame, the track of each rotor. Two tracks that are closer than `resolution_rev_s` may lie there in place of each other.
+    pub(super) fn labelled(
+        &mut self,
+        tracks: &[Vec<TrackFrame>],
+        frame_s: f64,
+        pace: Pace,
+        resolution_rev_s: f64,
+    ) -> Labelling {
         let count = tracks.len();
         let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
         let unchanged: Vec<usize> = (0..count).collect();
         if frames == 0 {
-            return Vec::new();
+            return Labelling::default();
         }
         let labellings =
             Labellings::new(if (2..=ROTORS_MAX).contains(&count) { permutations(count) } else { vec![unchanged] });
+        let steps = Steps { frame_s, pace, resolution_rev_s };
         let mut path = vec![0; frames];
         for pass in 0..PASSES {
             let templates = if pass == 0 && !self.known.is_empty() {
@@ -65,20 +92,50 @@ impl Identity {
             } else {
                 self.templates(tracks, &labellings.all, &path, frame_s, pass == 0)
             };
-            let before =
-                std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &templates, frame_s, pace));
+            let before = std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &templates, &steps));
             // the next pass would expect the same levels
             if pass > 0 && path == before {
                 break;
             }
         }
         let labelled: Vec<Vec<usize>> = path.iter().map(|&place| labellings.all[place].clone()).collect();
+        let meetings = self.meetings(tracks, &labelled, &steps);
         let templates = self.templates(tracks, &labellings.all, &path, frame_s, false);
         if let (Some(last), Some(known)) = (labelled.last(), templates.last()) {
             self.last = last.iter().map(|&track| tracks[track][frames - 1].clone()).collect();
             self.known = known.clone();
         }
-        labelled
+        Labelling { tracks: labelled, meetings }
+    }
+
+    /// Where two rotors may have changed places: the odds are those of their two steps, and of the levels of their lines before and after.
+    fn meetings(&self, tracks: &[Vec<TrackFrame>], labelled: &[Vec<usize>], steps: &Steps) -> Vec<Meeting> {
+        let each: Vec<usize> = (0..labelled.len()).collect();
+        let frame_s = steps.frame_s;
+        let levels = self.level_sums(tracks, labelled, &each, frame_s, (-frame_s / LEVEL_S).exp());
+        let rotors_in = |frame: usize| labelled[frame].iter().map(|&track| &tracks[track][frame]).collect::<Vec<_>>();
+        let mut meetings = Vec::new();
+        let mut before: Vec<&TrackFrame> = self.last.iter().collect();
+        for frame in 0..labelled.len() {
+            let now = rotors_in(frame);
+            let costs = steps.costs(&before, &now);
+            for (a, own) in costs.iter().enumerate() {
+                for b in a + 1..costs.len() {
+                    let of_steps = own[b] + costs[b][a] - own[a] - costs[b][b];
+                    let of_levels = frame.checked_sub(1).map_or(0.0, |before| {
+                        let (before, after) = &levels[before];
+                        level_cost_of_exchange((&before[a], &before[b]), (&after[a], &after[b]), frame_s)
+                    });
+                    // a cost is twice the logarithm of the odds
+                    let chance = 1.0 / (1.0 + ((of_steps + of_levels) / 2.0).exp());
+                    if chance > MEETING_CHANCE_MIN {
+                        meetings.push(Meeting { frame, rotors: (a, b), chance });
+                    }
+                }
+            }
+            before = now;
+        }
+        meetings
     }
 
     /// The levels that each rotor is expected at in each frame: those of its frames before and after, the nearest counting most;
@@ -92,6 +149,23 @@ impl Identity {
         is_first: bool,
     ) -> Vec<Vec<Vec<Option<f64>>>> {
         let keep = if is_first { 1.0 } else { (-frame_s / LEVEL_S).exp() };
+        let both = self.level_sums(tracks, labellings, path, frame_s, keep).into_iter();
+        let of_rotor = |(before, after): (&Vec<LevelSum>, &Vec<LevelSum>)| {
+            let sums = before.iter().zip(after).map(|(a, b)| (a.0 + keep * b.0, a.1 + keep * b.1));
+            sums.map(|(sum, weight)| (weight > 0.0).then(|| sum / weight)).collect()
+        };
+        both.map(|(before, after)| before.iter().zip(&after).map(of_rotor).collect()).collect()
+    }
+
+    /// For each frame, the levels of each rotor's lines up to this frame and after it, the nearest counting most.
+    fn level_sums(
+        &self,
+        tracks: &[Vec<TrackFrame>],
+        labellings: &[Vec<usize>],
+        path: &[usize],
+        frame_s: f64,
+        keep: f64,
+    ) -> Vec<(Vec<Vec<LevelSum>>, Vec<Vec<LevelSum>>)> {
         let lines = tracks.first().and_then(|track| track.first()).map_or(0, |frame| frame.levels.len());
         let nothing = vec![vec![(0.0, 0.0); lines]; tracks.len()];
         let mut from_before = nothing.clone();
@@ -103,7 +177,7 @@ impl Identity {
                 }
             }
         }
-        let swept = |sums: &mut Vec<Vec<(f64, f64)>>, frame: usize| {
+        let swept = |sums: &mut Vec<Vec<LevelSum>>, frame: usize| {
             for (rotor, sums) in sums.iter_mut().enumerate() {
                 let levels = &tracks[labellings[path[frame]][rotor]][frame].levels;
                 for (sum, level) in sums.iter_mut().zip(levels) {
@@ -111,24 +185,25 @@ impl Identity {
                 }
             }
         };
-        let forward: Vec<_> = (0..path.len())
+        let before: Vec<_> = (0..path.len())
             .map(|frame| {
                 swept(&mut from_before, frame);
                 from_before.clone()
             })
             .collect();
         let mut from_after = nothing;
-        let mut templates: Vec<Vec<Vec<Option<f64>>>> = Vec::with_capacity(path.len());
-        for frame in (0..path.len()).rev() {
-            let both = forward[frame].iter().zip(&from_after).map(|(before, after)| {
-                let sums = before.iter().zip(after).map(|(a, b)| (a.0 + keep * b.0, a.1 + keep * b.1));
-                sums.map(|(sum, weight)| (weight > 0.0).then(|| sum / weight)).collect()
-            });
-            templates.push(both.collect());
-            swept(&mut from_after, frame);
-        }
-        templates.reverse();
-        templates
+        let mut both: Vec<_> = before
+            .into_iter()
+            .enumerate()
+            .rev()
+            .map(|(frame, before)| {
+                let after = from_after.clone();
+                swept(&mut from_after, frame);
+                (before, after)
+            })
+            .collect();
+        both.reverse();
+        both
     }
 
     fn best_sequence(
@@ -136,8 +211,7 @@ impl Identity {
         tracks: &[Vec<TrackFrame>],
         labellings: &Labellings,
         templates: &[Vec<Vec<Option<f64>>>],
-        frame_s: f64,
-        pace: Pace,
+        steps: &Steps,
     ) -> Vec<usize> {
         let frame_of = |frame: usize| -> Vec<&TrackFrame> { tracks.iter().map(|track| &track[frame]).collect() };
         let mut total: Vec<f64> = vec![0.0; labellings.all.len()];
@@ -145,7 +219,7 @@ impl Identity {
         for (frame, templates) in templates.iter().enumerate() {
             let now = frame_of(frame);
             let before = if frame == 0 { self.last.iter().collect() } else { frame_of(frame - 1) };
-            let steps = step_costs(&before, &now, frame_s, pace).concat();
+            let steps = steps.costs(&before, &now).concat();
             let level_costs: Vec<Vec<f64>> = templates
                 .iter()
                 .map(|template| now.iter().map(|track| level_cost(track, template)).collect())
@@ -213,34 +287,42 @@ impl Labellings {
     }
 }
 
-/// What it costs each rotor of one frame to be each track of the next. Where rotors bob, that is by how it moves against the others: what
-/// they share changes by more from frame to frame than they are apart.
-fn step_costs(before: &[&TrackFrame], now: &[&TrackFrame], frame_s: f64, pace: Pace) -> Vec<Vec<f64>> {
-    let shared = |value: fn(&TrackFrame) -> f64, frames: &[&TrackFrame]| match pace {
-        Pace::Steady => 0.0,
-        Pace::Bobbing => frames.iter().map(|frame| value(frame)).sum::<f64>() / frames.len() as f64,
-    };
-    let shared_step = shared(|frame| frame.speed_rev_s, now) - shared(|frame| frame.speed_rev_s, before);
-    let slope = |frame: &TrackFrame, all: &[&TrackFrame]| {
-        let own = frame.slope_rev_s2 - shared(|frame| frame.slope_rev_s2, all);
-        let slope_rev_s2_max = SLOPE_SHARE_S_MAX * frame.speed_rev_s;
-        own.clamp(-slope_rev_s2_max, slope_rev_s2_max)
-    };
-    before
-        .iter()
-        .map(|from| {
-            now.iter()
-                .map(|to| {
-                    let own_step = frame_s * (slope(from, before) + slope(to, now)) / 2.0;
-                    let expected = from.speed_rev_s + shared_step + own_step;
-                    let is_close = from.is_close() || to.is_close();
-                    let std_share = if is_close { STEP_STD_SHARE_CLOSE } else { STEP_STD_SHARE };
-                    let deviation = (to.speed_rev_s / expected - 1.0) / std_share;
-                    STEP_COST * (deviation.powi(2) / STEP_COST).ln_1p()
-                })
-                .collect()
-        })
-        .collect()
+/// How rotors go from one frame to the next.
+struct Steps {
+    frame_s: f64,
+    pace: Pace,
+    resolution_rev_s: f64,
+}
+
+impl Steps {
+    /// What it costs each rotor of one frame to be each track of the next. Where rotors bob, that is by how it moves against the others: what
+    /// they share changes by more from frame to frame than they are apart.
+    fn costs(&self, before: &[&TrackFrame], now: &[&TrackFrame]) -> Vec<Vec<f64>> {
+        let shared = |value: fn(&TrackFrame) -> f64, frames: &[&TrackFrame]| match self.pace {
+            Pace::Steady => 0.0,
+            Pace::Bobbing => frames.iter().map(|frame| value(frame)).sum::<f64>() / frames.len() as f64,
+        };
+        let shared_step = shared(|frame| frame.speed_rev_s, now) - shared(|frame| frame.speed_rev_s, before);
+        let slope = |frame: &TrackFrame, all: &[&TrackFrame]| {
+            let own = frame.slope_rev_s2 - shared(|frame| frame.slope_rev_s2, all);
+            let slope_rev_s2_max = SLOPE_SHARE_S_MAX * frame.speed_rev_s;
+            own.clamp(-slope_rev_s2_max, slope_rev_s2_max)
+        };
+        before
+            .iter()
+            .map(|from| {
+                now.iter()
+                    .map(|to| {
+                        let own_step = self.frame_s * (slope(from, before) + slope(to, now)) / 2.0;
+                        let expected = from.speed_rev_s + shared_step + own_step;
+                        let std_rev_s = (STEP_STD_SHARE * expected).hypot(self.resolution_rev_s);
+                        let deviation = (to.speed_rev_s - expected) / std_rev_s;
+                        STEP_COST * (deviation.powi(2) / STEP_COST).ln_1p()
+                    })
+                    .collect()
+            })
+            .collect()
+    }
 }
 
 fn level_cost(frame: &TrackFrame, template: &[Option<f64>]) -> f64 {
@@ -252,11 +334,18 @@ fn level_cost(frame: &TrackFrame, template: &[Option<f64>]) -> f64 {
     LEVEL_WEIGHT * costs.sum::<f64>()
 }
 
-impl TrackFrame {
-    /// Whether half of its lines are not apart from another rotor's.
-    fn is_close(&self) -> bool {
-        !self.levels.is_empty() && 2 * self.levels.iter().filter(|level| level.is_none()).count() > self.levels.len()
-    }
+/// What it costs more that two rotors have changed places than that they have not, by the levels of their lines on either side. The mean
+/// level over [`LEVEL_S`] scatters by [`LEVEL_STD`].
+fn level_cost_of_exchange(before: (&[LevelSum], &[LevelSum]), after: (&[LevelSum], &[LevelSum]), frame_s: f64) -> f64 {
+    let cost = |a: LevelSum, b: LevelSum| {
+        let variance = |sum: LevelSum| LEVEL_STD.powi(2) * (LEVEL_S / (sum.1 * frame_s)).max(1.0);
+        (a.0 / a.1 - b.0 / b.1).powi(2) / (variance(a) + variance(b))
+    };
+    let lines = before.0.iter().zip(before.1).zip(after.0.iter().zip(after.1));
+    lines
+        .filter(|((a, b), (c, d))| [a, b, c, d].iter().all(|sum| sum.1 > 0.0))
+        .map(|((&a, &b), (&c, &d))| cost(a, d) + cost(b, c) - cost(a, c) - cost(b, d))
+        .sum()
 }
 
 fn permutations(count: usize) -> Vec<Vec<usize>> {
@@ -298,14 +387,14 @@ mod tests {
             })
             .collect();
         let mut identity = Identity::default();
-        let labelled = identity.labelled(&tracks, 0.04, Pace::Steady);
+        let labelled = identity.labelled(&tracks, 0.04, Pace::Steady, 0.0).tracks;
         assert!(labelled[..10].iter().all(|labelling| labelling == &labelled[0]));
         assert!(labelled[10..].iter().all(|labelling| labelling == &labelled[10]));
         assert_eq!(labelled[0][0], labelled[10][1]);
         assert_eq!(labelled[0][2], labelled[10][2]);
         // what comes next keeps the names, whatever the order of the tracks
         let turned: Vec<Vec<TrackFrame>> = [2, 0, 1].iter().map(|&track| tracks[track][10..].to_vec()).collect();
-        let next = identity.labelled(&turned, 0.04, Pace::Steady);
+        let next = identity.labelled(&turned, 0.04, Pace::Steady, 0.0).tracks;
         let of_before = |rotor: usize| tracks[labelled[29][rotor]][29].speed_rev_s;
         assert!((0..3).all(|rotor| turned[next[0][rotor]][0].speed_rev_s == of_before(rotor)));
     }
@@ -319,7 +408,7 @@ mod tests {
             .enumerate()
             .map(|(rotor, speed_rev_s)| (0..200).map(|index| frame(speed_rev_s, loud(rotor, index))).collect())
             .collect();
-        let labelled = Identity::default().labelled(&tracks, 0.04, Pace::Steady);
+        let labelled = Identity::default().labelled(&tracks, 0.04, Pace::Steady, 0.0).tracks;
         assert!(labelled.iter().all(|labelling| labelling == &labelled[0]));
     }
 
@@ -334,13 +423,13 @@ mod tests {
             })
             .collect();
         let mut identity = Identity::default();
-        let labelled = identity.labelled(&tracks, 0.04, Pace::Bobbing);
+        let labelled = identity.labelled(&tracks, 0.04, Pace::Bobbing, 0.0).tracks;
         let rotor = |place: usize, index: usize| (labelled[index][place] + index) % 3;
         assert!((0..3).all(|place| (0..40).all(|index| rotor(place, index) == rotor(place, 0))));
         // and where they are steady again, from where they were
         let steady =
             |track: usize| vec![TrackFrame { speed_rev_s: tracks[track][39].speed_rev_s, ..TrackFrame::default() }; 5];
-        let next = identity.labelled(&[steady(2), steady(0), steady(1)], 0.04, Pace::Steady);
+        let next = identity.labelled(&[steady(2), steady(0), steady(1)], 0.04, Pace::Steady, 0.0).tracks;
         assert!((0..3).all(|place| [2, 0, 1][next[4][place]] == labelled[39][place]));
     }
 

@@ -11,6 +11,7 @@ mod atoms;
 mod chunk;
 mod grid;
 mod hearing;
+mod histories;
 mod identity;
 mod line_weights;
 mod mixture;
@@ -34,11 +35,12 @@ use crate::harmonic::{
 };
 use atoms::{ChannelAtoms, atoms_of};
 use chunk::{HeardRotor, band_of_tracks, resolution_rev_s, rotors_of_chunk, rough_tracks};
+use histories::Histories;
 use hovertone_analysis::Span;
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::median;
-use identity::{Identity, TrackFrame};
+use identity::{Identity, Labelling, TrackFrame};
 use pace::Pace;
 use spectra::FRAME_TICKS;
 use std::ops::RangeInclusive;
@@ -85,6 +87,7 @@ pub(crate) struct RotorTracer {
     steady_resolution_rev_s: f64,
     planner: ComplexPlanner,
     identity: Identity,
+    histories: Histories,
     rough: std::vec::IntoIter<RoughChunk>,
     tracks: RotorTracks,
 }
@@ -129,6 +132,8 @@ pub(crate) struct RotorTrack {
     pub(crate) merged: Vec<Span>,
     /// When it is not heard, and no other rotor hides it: then it may be anywhere.
     pub(crate) lost: Vec<Span>,
+    /// Standard uncertainty of its mean speed, because it may have changed places with a rotor that it met.
+    pub(crate) exchange_std_rev_s: f64,
 }
 
 impl RotorTrack {
@@ -199,6 +204,7 @@ impl RotorTracer {
             steady_resolution_rev_s,
             planner: ComplexPlanner::new(),
             identity: Identity::default(),
+            histories: Histories::of(rough.count),
             tracks: RotorTracks {
                 rotors: vec![rotor; rough.count],
                 resolution_rev_s: steady_resolution_rev_s,
@@ -259,10 +265,16 @@ impl ChunkListener for RotorTracer {
         let heard = rotors_of_chunk(chunk, &self.atoms, &rough, &mut self.planner);
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
-        let labelling = self.identity.labelled(&frames, frame_s, rough.pace);
+        let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
+        let Labelling { tracks: labelling, meetings } =
+            self.identity.labelled(&frames, frame_s, rough.pace, resolution_rev_s);
+        let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
+        let speeds: Vec<Vec<f64>> = (0..heard.len())
+            .map(|rotor| (0..labelling.len()).map(|frame| of(rotor, frame).speed_rev_s).collect())
+            .collect();
+        self.histories.take(&speeds, &meetings);
         let limits_rev_s = self.limits_rev_s;
         let place = |rotor: &HeardRotor| ChunkPlace { start_s, tick_s, line_count: rotor.line_count, limits_rev_s };
-        let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
         self.tracks.resolution_rev_s = self.tracks.resolution_rev_s.max(resolution_rev_s);
         let blocks: Vec<Vec<HarmonicBlock>> =
             heard.iter().map(|rotor| self.blocks_of(rotor, &place(rotor), resolution_rev_s)).collect();
@@ -276,11 +288,10 @@ impl ChunkListener for RotorTracer {
         // frames as short as rotors that bob ask for make all lines wide
         let are_wide = rough.pace == Pace::Bobbing || median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);
         let apart_rev_s = if are_wide { WIDE_LINE_FACTOR * resolution_rev_s } else { resolution_rev_s };
-        let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
         let is_close = |rotor: usize, other: usize, frame: usize| {
             (of(other, frame).speed_rev_s - of(rotor, frame).speed_rev_s).abs() < apart_rev_s
         };
-        for (rotor, RotorTrack { track, merged, lost }) in self.tracks.rotors.iter_mut().enumerate() {
+        for (rotor, RotorTrack { track, merged, lost, .. }) in self.tracks.rotors.iter_mut().enumerate() {
             // of two in one place the first stands for both
             let hidden: Vec<bool> =
                 (0..labelling.len()).map(|frame| (0..rotor).any(|other| is_close(rotor, other, frame))).collect();
@@ -328,8 +339,9 @@ impl ChunkListener for RotorTracer {
 
     /// The rotors, in no order.
     fn finish(mut self) -> RotorTracks {
-        for rotor in &mut self.tracks.rotors {
+        for (rotor, exchange_std_rev_s) in self.tracks.rotors.iter_mut().zip(self.histories.stds_rev_s()) {
             rotor.track = std::mem::take(&mut rotor.track).finished();
+            rotor.exchange_std_rev_s = exchange_std_rev_s;
         }
         self.tracks
     }

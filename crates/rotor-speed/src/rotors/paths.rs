@@ -44,7 +44,7 @@ pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, chunk: &Ch
         .iter()
         .map(|track| track.iter().map(|&speed_rev_s| TrackFrame { speed_rev_s, ..TrackFrame::default() }).collect())
         .collect();
-    let labelling = Identity::default().labelled(&frames, frame_s, pace);
+    let labelling = Identity::default().labelled(&frames, frame_s, pace, 0.0).tracks;
     (0..speeds_rev_s.len())
         .filter_map(|rotor| {
             path_through(labelling.iter().enumerate().map(|(frame, labels)| speeds_rev_s[labels[rotor]][frame]), chunk)

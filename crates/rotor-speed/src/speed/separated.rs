@@ -76,8 +76,9 @@ impl RotorTracks {
             .filter_map(|rotor| {
                 let mut speed = rotor.track.speed_in(None, order)?;
                 let doubt_rev_s = self.doubt_share(rotor, None) * unknown_rotor_rev_s;
-                speed.std_uncertainty_rev_s =
-                    speed.std_uncertainty_rev_s.map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()));
+                speed.std_uncertainty_rev_s = speed
+                    .std_uncertainty_rev_s
+                    .map(|std| std.hypot(doubt_rev_s).hypot(self.bobbing_std_rev_s()).hypot(rotor.exchange_std_rev_s));
                 let mut track = rotor.track.points_in(None, order);
                 for point in &mut track {
                     if rotor.lost.iter().any(|span| span.contains(point.time_s)) {
