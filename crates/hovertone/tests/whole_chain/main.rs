@@ -6,6 +6,7 @@
 mod condition;
 mod discovery;
 mod exam;
+mod geared_flights;
 mod hover;
 mod hover_of_flights;
 mod known_vehicle;

@@ -126,7 +126,11 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
             return Ok(FoundSpeed { families, ..nothing(reason) });
         }
     };
-    let BelievedSpeed { config: found, analysis, ratio } = believed.speed(passes, &surveyed, config)?;
+    let BelievedSpeed { config: found, mut analysis, ratio } = believed.speed(passes, &surveyed, config)?;
+    if let Outcome::NoRotorTone { reason: reason @ NoTone::NoSeries { .. } } = &mut analysis.outcome {
+        // the range around the believed speed is our own, not the caller's
+        *reason = no_series();
+    }
     let Some(ratio) = ratio else {
         let families = families(None);
         if families.iter().take(1).any(is_single_line) {

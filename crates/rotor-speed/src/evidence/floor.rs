@@ -39,11 +39,14 @@ impl Floor {
         coming.by_ref().take(self.half).for_each(|&value| self.add(value));
         (0..power.len().div_ceil(self.stride))
             .map(|middle| {
-                if let Some(&value) = coming.next() {
-                    self.add(value);
-                }
-                if middle > self.half {
-                    self.drop_first();
+                let first = if middle > self.half { self.window.pop_front() } else { None };
+                match (first, coming.next()) {
+                    (Some(first), Some(&value)) => self.replace(first, value),
+                    (None, Some(&value)) => self.add(value),
+                    (Some(first), None) => {
+                        self.sorted.remove(self.place_of(first));
+                    }
+                    (None, None) => {}
                 }
                 self.sorted[self.sorted.len() / 2]
             })
@@ -62,9 +65,16 @@ impl Floor {
         self.sorted.insert(self.place_of(value), value);
     }
 
-    fn drop_first(&mut self) {
-        if let Some(value) = self.window.pop_front() {
-            self.sorted.remove(self.place_of(value));
+    /// The same as dropping the first value and adding another: only the values between the two move.
+    fn replace(&mut self, first: f64, value: f64) {
+        self.window.push_back(value);
+        let (from, to) = (self.place_of(first), self.place_of(value));
+        if from < to {
+            self.sorted.copy_within(from + 1..to, from);
+            self.sorted[to - 1] = value;
+        } else {
+            self.sorted.copy_within(to..from, to + 1);
+            self.sorted[to] = value;
         }
     }
 

@@ -4,6 +4,8 @@
 //! speed continuous and its lines as loud, against each other, as they were: loudness is what tells rotors apart that have
 //! come out of a crossing. How probable it is that two rotors changed places all the same is part of the answer.
 
+use super::labellings::{Labellings, UNCHANGED};
+use super::loudness::{Levels, Sides, level_cost, sides_of_frames};
 use super::pace::Pace;
 
 /// Standard deviation of the speed of a rotor from the one that its last speed and slopes predict, as a share of the speed. *Decision.*
@@ -13,23 +15,10 @@ const STEP_STD_SHARE: f64 = 0.0008;
 const STEP_COST: f64 = 100.0;
 /// Largest slope that is believed, as a share of the speed in a second. *Decision.*
 const SLOPE_SHARE_S_MAX: f64 = 0.1;
-/// Standard deviation of the level of a line, in nepers. *Decision.*
-const LEVEL_STD: f64 = 0.35;
-/// Largest cost of the level of one line, in nats. *Decision.*
-const LEVEL_COST_MAX: f64 = 9.0;
-/// Weight of the levels beside the speeds: neighbouring frames hear nearly the same sound. *Decision.*
-const LEVEL_WEIGHT: f64 = 0.1;
-/// Levels drift over this time. *Decision.*
-const LEVEL_S: f64 = 1.5;
 /// Largest number of times that the levels of the rotors, and then the rotors by their levels, are found. *Numeric.*
 const PASSES: usize = 4;
 /// Less probable exchanges of two rotors change no mean by what its uncertainty would show. *Numeric.*
 const MEETING_CHANCE_MIN: f64 = 1e-6;
-/// More rotors than this have too many permutations: they keep their tracks. *Numeric.*
-const ROTORS_MAX: usize = 4;
-
-/// Sum of the levels of a line, and of their weights.
-type LevelSum = (f64, f64);
 
 /// Which track each rotor is in each frame, and where that is in doubt.
 #[derive(Clone, Debug, Default)]
@@ -78,54 +67,52 @@ impl Identity {
     ) -> Labelling {
         let count = tracks.len();
         let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
-        let unchanged: Vec<usize> = (0..count).collect();
         if frames == 0 {
             return Labelling::default();
         }
-        let labellings =
-            Labellings::new(if (2..=ROTORS_MAX).contains(&count) { permutations(count) } else { vec![unchanged] });
+        let labellings = Labellings::of(count);
         let steps = Steps { frame_s, pace, resolution_rev_s };
-        let mut path = vec![0; frames];
+        let mut path = vec![UNCHANGED; frames];
+        let rotors_of = |path: &[usize]| -> Vec<Vec<&TrackFrame>> {
+            let of_frame = |(frame, &place): (usize, &usize)| {
+                labellings.all[place].iter().map(|&track| &tracks[track][frame]).collect()
+            };
+            path.iter().enumerate().map(of_frame).collect()
+        };
         for pass in 0..PASSES {
-            let templates = if pass == 0 && !self.known.is_empty() {
+            let expected: Vec<Vec<Vec<Option<f64>>>> = if pass == 0 && !self.known.is_empty() {
                 vec![self.known.clone(); frames]
             } else {
-                self.templates(tracks, &labellings.all, &path, frame_s, pass == 0)
+                self.sides(&rotors_of(&path), frame_s, pass > 0).iter().map(Sides::expected).collect()
             };
-            let before = std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &templates, &steps));
+            let before = std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &expected, &steps));
             // the next pass would expect the same levels
             if pass > 0 && path == before {
                 break;
             }
         }
-        let labelled: Vec<Vec<usize>> = path.iter().map(|&place| labellings.all[place].clone()).collect();
-        let meetings = self.meetings(tracks, &labelled, &steps);
-        let templates = self.templates(tracks, &labellings.all, &path, frame_s, false);
-        if let (Some(last), Some(known)) = (labelled.last(), templates.last()) {
-            self.last = last.iter().map(|&track| tracks[track][frames - 1].clone()).collect();
-            self.known = known.clone();
+        let rotors = rotors_of(&path);
+        let meetings = self.meetings(&rotors, &steps);
+        let known = self.sides(&rotors, frame_s, true).last().map(Sides::expected);
+        if let (Some(last), Some(known)) = (rotors.last(), known) {
+            self.last = last.iter().map(|&frame| frame.clone()).collect();
+            self.known = known;
         }
+        let labelled = path.iter().map(|&place| labellings.all[place].clone()).collect();
         Labelling { tracks: labelled, meetings }
     }
 
     /// Where two rotors may have changed places: the odds are those of their two steps, and of the levels of their lines before and after.
-    fn meetings(&self, tracks: &[Vec<TrackFrame>], labelled: &[Vec<usize>], steps: &Steps) -> Vec<Meeting> {
-        let each: Vec<usize> = (0..labelled.len()).collect();
-        let frame_s = steps.frame_s;
-        let levels = self.level_sums(tracks, labelled, &each, frame_s, (-frame_s / LEVEL_S).exp());
-        let rotors_in = |frame: usize| labelled[frame].iter().map(|&track| &tracks[track][frame]).collect::<Vec<_>>();
+    fn meetings(&self, rotors: &[Vec<&TrackFrame>], steps: &Steps) -> Vec<Meeting> {
+        let sides = self.sides(rotors, steps.frame_s, true);
         let mut meetings = Vec::new();
         let mut before: Vec<&TrackFrame> = self.last.iter().collect();
-        for frame in 0..labelled.len() {
-            let now = rotors_in(frame);
-            let costs = steps.costs(&before, &now);
+        for (frame, now) in rotors.iter().enumerate() {
+            let costs = steps.costs(&before, now);
             for (a, own) in costs.iter().enumerate() {
                 for b in a + 1..costs.len() {
                     let of_steps = own[b] + costs[b][a] - own[a] - costs[b][b];
-                    let of_levels = frame.checked_sub(1).map_or(0.0, |before| {
-                        let (before, after) = &levels[before];
-                        level_cost_of_exchange((&before[a], &before[b]), (&after[a], &after[b]), frame_s)
-                    });
+                    let of_levels = frame.checked_sub(1).map_or(0.0, |before| sides[before].cost_of_exchange(a, b));
                     // a cost is twice the logarithm of the odds
                     let chance = 1.0 / (1.0 + ((of_steps + of_levels) / 2.0).exp());
                     if chance > MEETING_CHANCE_MIN {
@@ -133,97 +120,36 @@ impl Identity {
                     }
                 }
             }
-            before = now;
+            before.clone_from(now);
         }
         meetings
     }
 
-    /// The levels that each rotor is expected at in each frame: those of its frames before and after, the nearest counting most;
-    /// at first, those of its whole track. `templates[frame][rotor][line]`.
-    fn templates(
-        &self,
-        tracks: &[Vec<TrackFrame>],
-        labellings: &[Vec<usize>],
-        path: &[usize],
-        frame_s: f64,
-        is_first: bool,
-    ) -> Vec<Vec<Vec<Option<f64>>>> {
-        let keep = if is_first { 1.0 } else { (-frame_s / LEVEL_S).exp() };
-        let both = self.level_sums(tracks, labellings, path, frame_s, keep).into_iter();
-        let of_rotor = |(before, after): (&Vec<LevelSum>, &Vec<LevelSum>)| {
-            let sums = before.iter().zip(after).map(|(a, b)| (a.0 + keep * b.0, a.1 + keep * b.1));
-            sums.map(|(sum, weight)| (weight > 0.0).then(|| sum / weight)).collect()
-        };
-        both.map(|(before, after)| before.iter().zip(&after).map(of_rotor).collect()).collect()
-    }
-
-    /// For each frame, the levels of each rotor's lines up to this frame and after it, the nearest counting most.
-    fn level_sums(
-        &self,
-        tracks: &[Vec<TrackFrame>],
-        labellings: &[Vec<usize>],
-        path: &[usize],
-        frame_s: f64,
-        keep: f64,
-    ) -> Vec<(Vec<Vec<LevelSum>>, Vec<Vec<LevelSum>>)> {
-        let lines = tracks.first().and_then(|track| track.first()).map_or(0, |frame| frame.levels.len());
-        let nothing = vec![vec![(0.0, 0.0); lines]; tracks.len()];
-        let mut from_before = nothing.clone();
-        for (sums, known) in from_before.iter_mut().zip(&self.known) {
-            for (sum, level) in sums.iter_mut().zip(known) {
-                if let Some(level) = level {
-                    let weight = LEVEL_S / frame_s;
-                    *sum = (weight * level, weight);
-                }
-            }
-        }
-        let swept = |sums: &mut Vec<Vec<LevelSum>>, frame: usize| {
-            for (rotor, sums) in sums.iter_mut().enumerate() {
-                let levels = &tracks[labellings[path[frame]][rotor]][frame].levels;
-                for (sum, level) in sums.iter_mut().zip(levels) {
-                    *sum = (keep * sum.0 + level.unwrap_or(0.0), keep * sum.1 + f64::from(u8::from(level.is_some())));
-                }
-            }
-        };
-        let before: Vec<_> = (0..path.len())
-            .map(|frame| {
-                swept(&mut from_before, frame);
-                from_before.clone()
-            })
-            .collect();
-        let mut from_after = nothing;
-        let mut both: Vec<_> = before
-            .into_iter()
-            .enumerate()
-            .rev()
-            .map(|(frame, before)| {
-                let after = from_after.clone();
-                swept(&mut from_after, frame);
-                (before, after)
-            })
-            .collect();
-        both.reverse();
-        both
+    /// The levels of the rotors before and after each frame; at first, those of whole tracks.
+    fn sides(&self, rotors: &[Vec<&TrackFrame>], frame_s: f64, drift: bool) -> Vec<Sides> {
+        let levels: Vec<Vec<&Levels>> =
+            rotors.iter().map(|rotors| rotors.iter().map(|rotor| &*rotor.levels).collect()).collect();
+        sides_of_frames(&levels, &self.known, frame_s, drift)
     }
 
     fn best_sequence(
         &self,
         tracks: &[Vec<TrackFrame>],
         labellings: &Labellings,
-        templates: &[Vec<Vec<Option<f64>>>],
+        expected: &[Vec<Vec<Option<f64>>>],
         steps: &Steps,
     ) -> Vec<usize> {
         let frame_of = |frame: usize| -> Vec<&TrackFrame> { tracks.iter().map(|track| &track[frame]).collect() };
         let mut total: Vec<f64> = vec![0.0; labellings.all.len()];
-        let mut origins: Vec<Vec<usize>> = Vec::with_capacity(templates.len());
-        for (frame, templates) in templates.iter().enumerate() {
+        let mut origins: Vec<Vec<usize>> = Vec::with_capacity(expected.len());
+        for (frame, expected) in expected.iter().enumerate() {
             let now = frame_of(frame);
             let before = if frame == 0 { self.last.iter().collect() } else { frame_of(frame - 1) };
-            let steps = steps.costs(&before, &now).concat();
-            let level_costs: Vec<Vec<f64>> = templates
+            let level_costs: Vec<Vec<f64>> = expected
                 .iter()
-                .map(|template| now.iter().map(|track| level_cost(track, template)).collect())
+                .map(|expected| now.iter().map(|it| level_cost(&it.levels, expected, steps.frame_s)).collect())
                 .collect();
+            let steps = steps.costs(&before, &now).concat();
             let levels = labellings.costs(&level_costs);
             let mut origin = vec![0; labellings.all.len()];
             let mut next = vec![0.0; labellings.all.len()];
@@ -251,39 +177,6 @@ impl Identity {
         }
         path.reverse();
         path
-    }
-}
-
-/// The labelling in which each rotor is the track of its own number. *Numeric.*
-const UNCHANGED: usize = 0;
-
-/// All labellings of the tracks of a frame.
-struct Labellings {
-    /// The track of each rotor. The first is [`UNCHANGED`].
-    all: Vec<Vec<usize>>,
-    /// For each labelling of a frame, each of the frame before, and each rotor: its step among those of all tracks to all tracks.
-    steps: Vec<usize>,
-}
-
-impl Labellings {
-    fn new(all: Vec<Vec<usize>>) -> Self {
-        let count = all[UNCHANGED].len();
-        let step = move |(from, to): (&usize, &usize)| from * count + to;
-        let steps_to = |to: &Vec<usize>| all.iter().flat_map(|from| from.iter().zip(to).map(step)).collect::<Vec<_>>();
-        Self { steps: all.iter().flat_map(steps_to).collect(), all }
-    }
-
-    /// The cost of a change from a labelling to another one, where `steps` are the costs of each track to each track.
-    fn cost_of_change(&self, from: usize, to: usize, steps: &[f64]) -> f64 {
-        let count = self.all[UNCHANGED].len();
-        let first = (to * self.all.len() + from) * count;
-        self.steps[first..first + count].iter().map(|&step| steps[step]).sum()
-    }
-
-    /// The cost of each labelling, where `costs` are those of each rotor to be each track.
-    fn costs(&self, costs: &[Vec<f64>]) -> Vec<f64> {
-        let cost = |labelling: &Vec<usize>| labelling.iter().zip(costs).map(|(&track, costs)| costs[track]).sum();
-        self.all.iter().map(cost).collect()
     }
 }
 
@@ -323,44 +216,6 @@ impl Steps {
             })
             .collect()
     }
-}
-
-fn level_cost(frame: &TrackFrame, template: &[Option<f64>]) -> f64 {
-    let costs = frame
-        .levels
-        .iter()
-        .zip(template)
-        .filter_map(|(level, wanted)| Some((((*level)? - (*wanted)?) / LEVEL_STD).powi(2).min(LEVEL_COST_MAX)));
-    LEVEL_WEIGHT * costs.sum::<f64>()
-}
-
-/// What it costs more that two rotors have changed places than that they have not, by the levels of their lines on either side. The mean
-/// level over [`LEVEL_S`] scatters by [`LEVEL_STD`].
-fn level_cost_of_exchange(before: (&[LevelSum], &[LevelSum]), after: (&[LevelSum], &[LevelSum]), frame_s: f64) -> f64 {
-    let cost = |a: LevelSum, b: LevelSum| {
-        let variance = |sum: LevelSum| LEVEL_STD.powi(2) * (LEVEL_S / (sum.1 * frame_s)).max(1.0);
-        (a.0 / a.1 - b.0 / b.1).powi(2) / (variance(a) + variance(b))
-    };
-    let lines = before.0.iter().zip(before.1).zip(after.0.iter().zip(after.1));
-    lines
-        .filter(|((a, b), (c, d))| [a, b, c, d].iter().all(|sum| sum.1 > 0.0))
-        .map(|((&a, &b), (&c, &d))| cost(a, d) + cost(b, c) - cost(a, c) - cost(b, d))
-        .sum()
-}
-
-fn permutations(count: usize) -> Vec<Vec<usize>> {
-    if count == 0 {
-        return vec![Vec::new()];
-    }
-    let shorter = permutations(count - 1);
-    let with_last_at = |place: usize| {
-        shorter.iter().map(move |shorter| {
-            let mut longer = shorter.clone();
-            longer.insert(place, count - 1);
-            longer
-        })
-    };
-    (0..count).rev().flat_map(with_last_at).collect()
 }
 
 #[cfg(test)]
@@ -431,13 +286,5 @@ mod tests {
             |track: usize| vec![TrackFrame { speed_rev_s: tracks[track][39].speed_rev_s, ..TrackFrame::default() }; 5];
         let next = identity.labelled(&[steady(2), steady(0), steady(1)], 0.04, Pace::Steady, 0.0).tracks;
         assert!((0..3).all(|place| [2, 0, 1][next[4][place]] == labelled[39][place]));
-    }
-
-    #[test]
-    fn permutations_are_all_there_once() {
-        let all = permutations(4);
-        assert_eq!((all.len(), &all[0]), (24, &vec![0, 1, 2, 3]));
-        let distinct: std::collections::BTreeSet<_> = all.iter().collect();
-        assert_eq!(distinct.len(), 24);
     }
 }
