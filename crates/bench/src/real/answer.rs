@@ -58,6 +58,8 @@ pub(super) struct Answer {
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct ToldRotor {
     pub(super) speed_rev_s: f64,
+    #[serde(default)]
+    pub(super) combined_std_uncertainty_rev_s: Option<f64>,
 }
 
 /// One reading of a tone.

@@ -1,12 +1,14 @@
 //! The separated rotors of an answer against the truth, and four rotors against their exact truth.
 
-use super::answer::{Answer, Status};
+use super::answer::{Answer, Status, ToldRotor};
 use super::cases::Truth;
 use super::judgement::Expected;
 use serde::{Deserialize, Serialize};
 
 /// Largest error of a mean, a mean square or a rotor that counts as told.
 const TOLD_SHARE: f64 = 0.003;
+/// Rotors whose means are at least so far apart, as a share, can be told apart: those of the clips that are said to be 1 % apart are.
+const APART_SHARE: f64 = 0.009;
 /// A rotor this share outside the range of all is none of them.
 const OUTSIDE_SHARE: f64 = 0.02;
 /// Tolerance of a rotor where the truth states none.
@@ -21,6 +23,11 @@ pub(super) struct ExactRotors {
     pub(super) is_within_2u: bool,
     /// Is each rotor told, and no other?
     pub(super) is_each_told: bool,
+    /// Are the means of no two rotors close to each other?
+    pub(super) are_apart: bool,
+    /// Of the rotors that are told, where all are: those within twice their uncertainty.
+    pub(super) rotors_within_2u: usize,
+    pub(super) rotors_told: usize,
 }
 
 /// The separated rotors of one answer.
@@ -41,15 +48,23 @@ impl ExactRotors {
         let is_told = |told: f64, truth: f64| (told / truth - 1.0).abs() < TOLD_SHARE;
         let square = answer.mean_square_rad2_s2.unwrap_or((std::f64::consts::TAU * speed_rev_s).powi(2));
         let std_rev_s = answer.combined_std_uncertainty_rev_s.unwrap_or(0.0);
-        let mut told: Vec<f64> = answer.rotors.iter().map(|rotor| rotor.speed_rev_s).collect();
+        let mut told = answer.rotors.clone();
         let mut truth = exact.means_rev_s.clone();
-        told.sort_by(f64::total_cmp);
+        told.sort_by(|a, b| a.speed_rev_s.total_cmp(&b.speed_rev_s));
         truth.sort_by(f64::total_cmp);
+        let are_all = told.len() == truth.len();
+        let pairs = || told.iter().zip(&truth).filter(|_| are_all);
+        let is_within = |(rotor, truth): &(&ToldRotor, &f64)| {
+            (rotor.speed_rev_s - **truth).abs() <= 2.0 * rotor.combined_std_uncertainty_rev_s.unwrap_or(0.0)
+        };
         Some(Self {
             is_mean_told: is_told(speed_rev_s, exact.mean_rev_s()),
             is_mean_square_told: is_told(square, exact.mean_square_rad2_s2),
             is_within_2u: (speed_rev_s - exact.mean_rev_s()).abs() <= 2.0 * std_rev_s,
-            is_each_told: told.len() == truth.len() && told.iter().zip(&truth).all(|(a, b)| is_told(*a, *b)),
+            is_each_told: are_all && pairs().all(|(rotor, truth)| is_told(rotor.speed_rev_s, *truth)),
+            are_apart: truth.windows(2).all(|pair| pair[1] / pair[0] - 1.0 >= APART_SHARE),
+            rotors_within_2u: pairs().filter(is_within).count(),
+            rotors_told: pairs().count(),
         })
     }
 }
@@ -80,7 +95,6 @@ impl RotorCount {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::real::answer::ToldRotor;
     use crate::real::truth_track::TruthTrack;
 
     fn answer(speed_rev_s: f64, rotors: &[f64]) -> Answer {
@@ -88,7 +102,10 @@ mod tests {
             status: Status::Ok,
             speed_rev_s: Some(speed_rev_s),
             combined_std_uncertainty_rev_s: Some(0.05),
-            rotors: rotors.iter().map(|&speed_rev_s| ToldRotor { speed_rev_s }).collect(),
+            rotors: rotors
+                .iter()
+                .map(|&speed_rev_s| ToldRotor { speed_rev_s, combined_std_uncertainty_rev_s: Some(0.08) })
+                .collect(),
             ..Answer::default()
         }
     }
@@ -104,6 +121,7 @@ mod tests {
         };
         let (exact, count) = of(&answer(100.02, &[110.1, 90.1]));
         assert!(exact.is_mean_told && exact.is_within_2u && exact.is_each_told);
+        assert_eq!((exact.are_apart, exact.rotors_within_2u, exact.rotors_told), (true, 2, 2));
         // ⟨n⟩² is 1 % less than ⟨n²⟩ here
         assert!(!exact.is_mean_square_told);
         assert_eq!(count, Some(RotorCount { good: 2, told: 2, outside: 0 }));
