@@ -311,7 +311,10 @@ mod tests {
             ..Truth::default()
         };
         let track = TruthTrack::of_text("time_s,a\n0,90\n1,92\n");
-        let answer = Answer { rotors: vec![ToldRotor { speed_rev_s: 91.0 }], ..told(91.05, 0.0) };
+        let answer = Answer {
+            rotors: vec![ToldRotor { speed_rev_s: 91.0, combined_std_uncertainty_rev_s: None }],
+            ..told(91.05, 0.0)
+        };
         let words = flags("--blades 2");
         assert_eq!(Expected::of(&truth, &words, &answer, Some(&track)).verdict(&answer), Verdict::Right);
         let off = told(91.4, 0.01);
