@@ -14,7 +14,7 @@ use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
-use hovertone_report::{Notice, SpeedRecord, warning_count, weighed_json, weighed_text};
+use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
     BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, check_not_negative,
     check_positive, is_swamped,
@@ -37,6 +37,9 @@ struct Plan {
     rotors_std_share: f64,
 }
 
+/// What stands in place of a mass where no recording has a speed.
+const NO_MASS: &str = "no mass: no speed was heard\n";
+
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
@@ -58,14 +61,14 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     }
     let warnings: Vec<Notice> = weighed.iter().filter_map(WeighedHover::warning).map(|it| Notice::from(&it)).collect();
     let about: Vec<&SpeedRecord> = records.iter().collect();
-    terminal.warning_count(warning_count(&about) + warnings.len());
+    terminal.warning_count(warnings.len());
     warnings.iter().for_each(|warning| terminal.warning(warning, ""));
-    terminal.notes(&about);
+    terminal.counted_notes(&about);
     if arguments.json {
         let document = weighed_json(weighed.as_ref(), &warnings, &records).map_err(Failure::internal)?;
         terminal.data(&document)?;
-    } else if let Some(weighed) = &weighed {
-        terminal.text(&weighed_text(weighed))?;
+    } else {
+        terminal.text(&weighed.as_ref().map_or_else(|| NO_MASS.to_owned(), weighed_text))?;
     }
     Ok(ending_of(&records))
 }

@@ -76,12 +76,10 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| {
             format!("a rotor at {} rev/s", significant(heard.speed.rev_s(), DIGITS))
         }),
+        (None, _) if found.families.is_empty() => "no rotor tone, and no other tone".to_owned(),
         (None, _) => "no rotor tone".to_owned(),
     };
     text += &format!("{verdict}\n");
-    if found.families.is_empty() {
-        text += "\nno tone stands out\n";
-    }
     if let Some(family) = rotor.and_then(|rotor| found.families.get(rotor)) {
         text += &format!("\n{}\n{}", kind_and_place("rotor", family), readings_table(family, width));
     }

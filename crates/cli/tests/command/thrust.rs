@@ -273,6 +273,9 @@ fn results_are_exported_compared_and_weigh_a_payload() {
     let nothing = ["weigh", text(&noise), "--constant", text(&results), "--json"];
     let nothing: Value = serde_json::from_str(&hovertone(&nothing).ends_with(3).stdout).unwrap();
     assert!(nothing["mass_kg"].is_null() && nothing["recordings"][0]["reason"].is_string(), "{nothing}");
+    let nothing = hovertone(&["weigh", text(&noise), "--constant", text(&results)]).ends_with(3);
+    assert_eq!(nothing.stdout, "no mass: no speed was heard\n");
+    assert!(nothing.stderr.starts_with("1 recording without a speed\n"), "{}", nothing.stderr);
     let words = hovertone(&["weigh", text(&laden), "--constant", text(&results)]).ends_with(0).stdout;
     assert!(words.contains("payload: ") && words.contains(" g"), "{words}");
     for (flag, value) in [("--mass-std-kg", "nan"), ("--mass-std-kg", "-1"), ("--mass-kg", "nan")] {
