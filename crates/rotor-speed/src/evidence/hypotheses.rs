@@ -7,7 +7,7 @@ use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::own_lines::OwnPropeller;
 use super::presence::Presence;
 use super::rotor_lines::RotorLines;
-use super::search::{Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
+use super::search::{GRID_STEP, Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
@@ -36,6 +36,8 @@ pub(crate) struct Beliefs {
     noise: NoiseLevel,
     /// Whether only long frames hear the rotor.
     pub(crate) is_faint: bool,
+    /// Evidence for the gear mesh of the most probable rotor alone, in nats; 0 where none is followed.
+    mesh_nats: f64,
 }
 
 impl Beliefs {
@@ -53,6 +55,20 @@ impl Beliefs {
             let propeller = OwnPropeller { blades, prior: &config.levels };
             let nats = companion_nats(looks, &first.speeds_rev_s, &propeller);
             nats.is_some_and(|nats| nats >= config.companion_nats_min)
+        })
+    }
+
+    /// Where the lines are without which the most probable rotor would not be heard: those of its gear mesh, or of its blade pass. Beside a mesh
+    /// that is heard for sure, the propeller is not needed. A path that noise at the mesh draws may be a step beside the propeller's.
+    pub(crate) fn telling_hz(&self, config: &EvidenceConfig) -> impl Iterator<Item = RangeInclusive<f64>> {
+        let is_mesh_sure = self.mesh_nats >= config.levels_nats_min;
+        self.hypotheses.iter().take(1).flat_map(move |first| {
+            let RotorLines { blades, mesh_order } = first.lines;
+            let step = if mesh_order.is_some() { GRID_STEP } else { 0.0 };
+            let around = |hz: f64, share: f64| hz * (1.0 - share)..=hz * (1.0 + share);
+            let blade_pass = blades.filter(|_| !is_mesh_sure).map(|blades| f64::from(blades) * first.hover_rev_s);
+            let mesh = mesh_order.map(|order| order * first.hover_rev_s);
+            mesh.map(|hz| around(hz, 0.0)).into_iter().chain(blade_pass.map(|hz| around(hz, step)))
         })
     }
 
@@ -151,7 +167,9 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
             look.hypotheses.into_iter().map(move |it| Hypothesis { nats: it.nats + look.share_nats, ..it })
         })
         .collect();
-    (!hypotheses.is_empty()).then(|| Beliefs { hypotheses: with_beliefs(hypotheses), noise, is_faint: false })
+    let hypotheses = with_beliefs(hypotheses);
+    let mesh_nats = presence.mesh_nats(hypotheses.first()?);
+    Some(Beliefs { hypotheses, noise, is_faint: false, mesh_nats })
 }
 
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.

@@ -27,8 +27,13 @@ impl<'a> Presence<'a> {
         hypotheses.first().zip(best).is_some_and(|(first, best)| {
             best.votes_nats >= config.votes_nats_min
                 && self.least_nats(first, LevelModel::flat_nats) >= config.levels_nats_min
-                && self.least_nats(first, LevelModel::flat_mesh_nats) >= 0.0
+                && self.mesh_nats(first) >= 0.0
         })
+    }
+
+    /// The evidence for the gear mesh alone; 0 where none is followed.
+    pub(super) fn mesh_nats(&mut self, hypothesis: &Hypothesis) -> f64 {
+        self.least_nats(hypothesis, LevelModel::flat_mesh_nats)
     }
 
     /// The evidence of lines over the local floor, in the look that has the least: what the floor hides is no evidence that a rotor sounds.

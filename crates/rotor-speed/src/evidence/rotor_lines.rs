@@ -27,11 +27,6 @@ impl RotorLines {
         if self.mesh_order.is_some() { MESH_HZ_MAX } else { HZ_MAX }
     }
 
-    /// Order of the first line that is followed.
-    pub(crate) fn first_order(&self) -> Option<f64> {
-        self.mesh_order.or(self.blades.map(f64::from))
-    }
-
     /// Those of the tone that is followed, with the blades where they are known beside a gear.
     pub(crate) fn of_tone(tone: &ToneConfig) -> Self {
         match blades_of_tone(tone) {

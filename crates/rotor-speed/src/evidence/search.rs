@@ -8,7 +8,7 @@ use hovertone_signal::statistics::{mean, median};
 use std::ops::{Range, RangeInclusive};
 
 /// Step of the logarithm of the speeds of the search: half the width of a line of a frame at the highest frequency. *Numeric.*
-const GRID_STEP: f64 = 1e-3;
+pub(super) const GRID_STEP: f64 = 1e-3;
 /// Ratio of the ends of a window of speeds in which the best path is looked for: a rotor keeps within it in hover. *Decision.*
 const WINDOW_RATIO: f64 = 1.6;
 /// Ratio of the starts of neighbouring windows; they overlap, so that each path is well inside of one. *Numeric.*

@@ -7,6 +7,7 @@ use crate::evidence::{Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines,
 use crate::survey::{MainsHum, RowsBuilder, Survey, SurveyBuilder};
 use hovertone_analysis::{NoTone, Span};
 use hovertone_signal::passes::{Passes, Piece};
+use std::ops::RangeInclusive;
 
 /// A survey of a recording, with the span that it covers.
 #[derive(Debug)]
@@ -32,11 +33,10 @@ impl Surveyed {
         let levels_nats_min = if config.tone.is_named_by_band() { 0.0 } else { config.evidence.levels_nats_min };
         let evidence = EvidenceConfig { levels_nats_min, ..config.evidence };
         let heard = beliefs_from_looks(&self.looks, wanted, &evidence);
-        let first = heard.as_ref().and_then(|beliefs| beliefs.hypotheses.first());
         // above the frequencies that were searched for hum, a line may happen to be at a multiple
-        let line_hz = first.and_then(|first| Some(first.lines.first_order()? * first.hover_rev_s));
-        let line_hz = line_hz.filter(|&line_hz| line_hz <= self.survey.fine_hz_max);
-        let holds = |hum: &&MainsHum| line_hz.is_some_and(|line_hz| hum.holds(line_hz));
+        let lines_hz = || heard.iter().flat_map(|beliefs| beliefs.telling_hz(&evidence));
+        let is_searched = |line_hz: &RangeInclusive<f64>| *line_hz.end() <= self.survey.fine_hz_max;
+        let holds = |hum: &&MainsHum| lines_hz().filter(is_searched).any(|line_hz| hum.holds(&line_hz));
         match self.survey.hum.as_ref().filter(holds) {
             Some(hum) => Err(NoTone::MainsHum { mains_hz: hum.mains_hz }),
             None => Ok(heard),

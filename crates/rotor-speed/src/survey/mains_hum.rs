@@ -3,6 +3,7 @@
 use crate::survey::Rows;
 use hovertone_signal::peak::peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
+use std::ops::RangeInclusive;
 
 /// Frequencies of the electric grids of the world, Hz. *Physics.*
 const GRIDS_HZ: [f64; 2] = [50.0, 60.0];
@@ -61,11 +62,13 @@ impl MainsHum {
         }
     }
 
-    /// Whether a frequency is that of a line of the hum.
-    pub(crate) fn holds(&self, line_hz: f64) -> bool {
-        let multiple = (line_hz / self.mains_hz).round().max(1.0);
-        let off_hz = (line_hz - multiple * self.mains_hz).abs();
-        off_hz <= OWN_SHARE * line_hz + OWN_HZ
+    /// Whether a line of the hum is at a frequency that is known to lie in a range.
+    pub(crate) fn holds(&self, line_hz: &RangeInclusive<f64>) -> bool {
+        let (low_hz, high_hz) = (*line_hz.start(), *line_hz.end());
+        let middle_hz = (low_hz + high_hz) / 2.0;
+        let multiple_hz = (middle_hz / self.mains_hz).round().max(1.0) * self.mains_hz;
+        let off_hz = (multiple_hz - multiple_hz.clamp(low_hz, high_hz)).abs();
+        off_hz <= OWN_SHARE * middle_hz + OWN_HZ
     }
 
     /// The lowest line of the hum in a band.
