@@ -72,9 +72,12 @@ pub(crate) fn rotors_from_hover(
 
 /// The tracks without those whose own lines are not heard: the lines that a rotor shares with no other one, in short and long frames together. Long
 /// frames resolve rotors that are close. A rotor that has no such line stays, because nothing can be said of it. The most doubtful one goes
-/// first: its lines may hide those of others.
+/// first: its lines may hide those of others. Behind a gear, propellers may be inaudible: then all rotors stay. But where one is heard, those of
+/// the others are, too: what has none is a side line of a mesh, which the motor's turns make.
 fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> RotorTracks {
-    let Some(blades) = blades_of_tone(&config.tone) else { return tracks };
+    let of_tone = blades_of_tone(&config.tone);
+    let Some(blades) = of_tone.or(config.tone.blades) else { return tracks };
+    let nats_min = config.evidence.own_lines_nats_min;
     let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
     let mut seen = [&surveyed.looks.short, &surveyed.looks.long]
         .map(|look| SeenRotors::new(look.within(&hover.spans_s()), &tracks));
@@ -83,9 +86,13 @@ fn without_unheard(mut tracks: RotorTracks, surveyed: &Surveyed, hover: &Hover, 
             let nats = seen.iter().filter_map(|seen| seen.own_nats(rotor, &propeller));
             nats.reduce(|short, long| short + long)
         };
-        let all = (0..tracks.rotors.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?)));
-        match all.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some((rotor, nats)) if nats < config.evidence.own_lines_nats_min => {
+        let all: Vec<(usize, f64)> =
+            (0..tracks.rotors.len()).filter_map(|rotor| Some((rotor, own_nats(rotor)?))).collect();
+        if of_tone.is_none() && all.iter().all(|(_, nats)| *nats < nats_min) {
+            return tracks;
+        }
+        match all.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
+            Some((rotor, nats)) if nats < nats_min => {
                 tracks.rotors[rotor].track.blocks.clear();
                 seen.iter_mut().for_each(|seen| seen.speeds_rev_s[rotor] = None);
             }
