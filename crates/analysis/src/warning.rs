@@ -106,9 +106,7 @@ impl Warning {
             Self::HarmonicLeftOut { harmonic: 1, .. } => {
                 "the speed comes from the other harmonics; --band narrows the search"
             }
-            Self::HarmonicLeftOut { .. } => {
-                "the speed comes from the other harmonics; --harmonics 1 uses the first one only"
-            }
+            Self::HarmonicLeftOut { .. } => "the speed comes from the other harmonics",
             Self::BandCutByCodec { .. } => {
                 "record without compression, or at a higher bit rate, to use the harmonics above"
             }
@@ -123,7 +121,7 @@ impl Warning {
                 "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number; to separate more, place the microphone nearer"
+                "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
             Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",

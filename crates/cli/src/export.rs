@@ -163,7 +163,9 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
 fn refuse_number(path: &Path) -> Result<(), Failure> {
     let number = path.to_str().filter(|text| text.parse::<f64>().is_ok() && !path.exists());
     number.map_or(Ok(()), |number| {
-        let hint = format!("of a number, `hovertone weigh` takes --constant-n-s2 {number}");
+        let hint = format!(
+            "`hovertone weigh --constant-n-s2 {number} --vehicle NAME` weighs with a number: the constant of the whole vehicle"
+        );
         Err(Failure::usage(format!("{number} is a number, and the file results.json is needed here"), hint))
     })
 }

@@ -179,14 +179,11 @@ fn fitted_table(
 
 /// A notice where several rotors seem to make the forces, which count as the forces of one.
 fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<Notice> {
-    let several = table.rotors_in_header.filter(|count| *count > 1);
+    let several = table.rotor_count.filter(|count| *count > 1);
     let text = match several {
         _ if plan.is_count_given => return None,
         Some(count) => {
-            format!(
-                "the column \"{}\" names {count} rotors, and its forces count as the forces of one",
-                table.force_column
-            )
+            format!("the table names {count} rotors, and its forces count as the forces of one")
         }
         None if is_weighed => "the masses count as if one rotor carried them".to_owned(),
         None => return None,
@@ -213,16 +210,28 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
 
 /// The failure of rows whose scatter tells no uncertainty, with what was done to them.
 fn without_scatter(reason: NoScatter, group: &StandGroup, table: &StandTable, path: &Path) -> Failure {
-    let rows = match reason {
-        NoScatter::Computed => "give the measured rows",
-        _ => "measure more rows",
+    let (rows, count) = match reason {
+        NoScatter::TooFewPoints { count } => {
+            let of = if group.name.is_empty() { "table" } else { "group" };
+            ("measure more rows", format!(", and the {of} has {count}"))
+        }
+        _ => ("give the measured rows", String::new()),
+    };
+    let are_split = !count.is_empty() && table.groups.len() > 1;
+    let together = if are_split {
+        format!(
+            "the columns with words split the table into {} groups, each with a fit of its own: remove these columns to fit all rows together; else ",
+            table.groups.len()
+        )
+    } else {
+        String::new()
     };
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
     let notes: String = table.notes.iter().map(|note| format!("; {note}")).collect();
     Failure::Usage {
-        what: format!("{group}{reason}{notes}"),
+        what: format!("{group}{reason}{count}{notes}"),
         hint: format!(
-            "{rows}, or state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g)"
+            "{together}{rows}, or state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g)"
         ),
         path: Some(path.to_owned()),
     }

@@ -6,6 +6,7 @@ use crate::output_file::{OutputFile, is_left_by_run};
 use crate::outputs::{Outputs, refuse_dash, refused, write_whole};
 use crate::rights::CLOSED_FOLDER;
 use crate::temporary_file::BeingWritten;
+use hovertone_report::printable;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -44,6 +45,13 @@ impl OutputFolder {
         let list = FileList::of(path, content.run);
         let folder = Self { path: path.to_owned(), outputs, list, being_written: OnceLock::new() };
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
+            if let Some(input) = folder.outputs.input_in(path) {
+                let what = format!(
+                    "this folder holds {}, which is read: nothing was written",
+                    printable(&input.display().to_string())
+                );
+                return Err(refused(&what, "choose a folder for the results, as in -o results", path));
+            }
             let what = format!(
                 "this folder has files that no earlier run for the same {} wrote: nothing was written",
                 content.name

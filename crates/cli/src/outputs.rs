@@ -70,6 +70,13 @@ impl Outputs {
         OutputFile::create(place)
     }
 
+    /// An input that lies in a folder.
+    pub(crate) fn input_in(&self, folder: &Path) -> Option<&Path> {
+        let folder = folder.canonicalize().ok()?;
+        let is_inside = |input: &&Path| input.canonicalize().is_ok_and(|input| input.starts_with(&folder));
+        self.inputs.iter().map(PathBuf::as_path).find(is_inside)
+    }
+
     /// Refuses an output that is an input, also with --force: the recording would be lost.
     pub(crate) fn refuse_input(&self, place: &Path) -> Result<(), Failure> {
         if !self.inputs.iter().any(|input| is_same_file(input, place)) {

@@ -20,17 +20,17 @@ pub(crate) struct TomlFile<'a> {
 }
 
 impl<'a> TomlFile<'a> {
-    /// Reads a file of the given kind; `mistaken_for` is a kind of file that users often give instead.
+    /// Reads a file of the given kind; `if_recording` says what to do with a recording, which users often give instead.
     pub(crate) fn read(
         path: &'a Path,
         kind: &'static str,
-        mistaken_for: &str,
+        if_recording: &str,
         see_example: &'static str,
     ) -> Result<Self, Failure> {
         let bytes = read_bytes(path, &format!("the {kind}"))?;
         let text = String::from_utf8(bytes).map_err(|_| {
             let what = format!("this file is not text, so it cannot be the {kind}");
-            Failure::failed(what, format!("give the TOML file, not a {mistaken_for}"), path)
+            Failure::failed(what, if_recording, path)
         })?;
         if text.trim_start().starts_with('{') {
             let what = format!("this file is JSON, so it cannot be the {kind}");

@@ -88,7 +88,7 @@ pub(crate) fn mass_words(mass_kg: f64) -> String {
 }
 
 fn is_mass(word: &str) -> bool {
-    mass_kg_from_text(word).is_ok() || word.parse::<f64>().is_ok()
+    typed_mass_kg(word).is_some()
 }
 
 fn starts_as_number(text: &str) -> bool {

@@ -42,7 +42,12 @@ impl ExperimentSource {
 
     /// Reads and resolves an experiment file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
-        let toml = TomlFile::read(path, KIND, "recording", SEE_EXAMPLE)?;
+        let toml = TomlFile::read(
+            path,
+            KIND,
+            "to hear recordings, write their mass before them, as in --mass 413g hover.mov",
+            SEE_EXAMPLE,
+        )?;
         Self::of_text(&toml.text, path.to_owned())
     }
 

@@ -182,8 +182,9 @@ fn results_go_into_a_new_folder_or_one_of_results() {
         &["has files that no earlier run", "-o DIR", "--force"],
     );
     assert_eq!(fs::read_dir(&thesis).unwrap().count(), 1);
-    // the folder of the experiment itself is not empty either
-    refused_with(&["identify", text(&experiment), "-o", text(folder.path())], &["has files that no earlier run"]);
+    // the folder of the experiment itself is no place for results
+    let own = ["identify", text(&experiment), "-o", text(folder.path())];
+    refused_with(&own, &["this folder holds ", "which is read", "-o results"]);
     let out = folder.path().join("out");
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
     let listed = checked_list(&out);

@@ -122,4 +122,25 @@ fn forces_of_several_rotors_are_noticed() {
         assert!(alone.contains(words) && alone.contains("--rotors") != words.is_empty(), "{force}: {alone}");
         assert!(!said(&["--rotors", "4"]).contains("--rotors"), "{force}");
     }
+    // a table of this project has the number in a column of its own
+    fs::write(&path, "force_n,rotors_running,rpm\n4.05,4,3610\n4.35,4,3742\n4.53,4,3825\n").unwrap();
+    let said = hovertone(&["fit", text(&path)]).ends_with(0).stderr;
+    assert!(said.contains("the table names 4 rotors") && said.contains("give --rotors 4"), "{said}");
+}
+
+#[test]
+fn groups_of_one_row_are_said_to_be_groups() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("loads.csv");
+    fs::write(&path, "load,mass_g,rpm\nlight,413,3610\nheavier,444,3742\nheavy,462,3825\n").unwrap();
+    refused_with(&["fit", text(&path)], &["the group has 1", "into 3 groups", "remove these columns"]);
+}
+
+#[test]
+fn a_mass_with_a_wrong_unit_is_a_mass_and_no_file() {
+    refused_with(&["identify", "--vehicle", "ardrone", "--mass", "0.444g", "hover.wav"], &["--mass 0.444g: ", "mass"]);
+    refused_with(
+        &["weigh", "hover.wav", "--constant", "2.83e-5"],
+        &["--constant-n-s2 2.83e-5 --vehicle", "whole vehicle"],
+    );
 }

@@ -59,6 +59,9 @@ pub struct StandGroup {
     pub rows: Vec<StandRow>,
 }
 
+/// Header of the column of this project's tables that holds the number of rotors.
+const ROTORS_RUNNING: &str = "rotors_running";
+
 /// A row and the name of its group.
 struct GroupedRow {
     group: String,
@@ -74,8 +77,8 @@ pub struct StandTable {
     pub speed_column: String,
     /// Header of the column with the force.
     pub force_column: String,
-    /// Number of rotors that this header names, as in `thrust_g_4rotors`.
-    pub rotors_in_header: Option<u32>,
+    /// Number of rotors that this header names, as in `thrust_g_4rotors`, or that the column `rotors_running` has in all rows.
+    pub rotor_count: Option<u32>,
     /// Notes about rows that were left out or turned round.
     pub notes: Vec<String>,
 }
@@ -162,9 +165,17 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
         groups,
         speed_column: speed.header.clone(),
         force_column: force.header.clone(),
-        rotors_in_header: rotors_in(&force.header),
+        rotor_count: rotors_in(&force.header).or_else(|| rotors_running(&columns, &records)),
         notes,
     })
+}
+
+/// The number of rotors in all rows, as this project's own tables of loads have it.
+fn rotors_running(columns: &[Column], records: &[StringRecord]) -> Option<u32> {
+    let column = columns.iter().find(|column| column.header == ROTORS_RUNNING)?;
+    let mut counts = records.iter().map(|record| record.get(column.index)?.trim().parse::<u32>().ok());
+    let first = counts.next()??;
+    counts.all(|count| count == Some(first)).then_some(first)
 }
 
 /// The column of a quantity with most numbers other than zero: a missing optical tachometer leaves a column of zeros.
