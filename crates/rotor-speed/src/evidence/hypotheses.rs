@@ -58,8 +58,8 @@ impl Beliefs {
         })
     }
 
-    /// Where the lines are without which the most probable rotor would not be heard: those of its gear mesh, or of its blade pass. Beside a mesh
-    /// that is heard for sure, the propeller is not needed. A path that noise at the mesh draws may be a step beside the propeller's.
+    /// Where the lines are without which the most probable rotor would not be heard: of its gear mesh, and of its blade pass. Beside a mesh that is
+    /// heard for sure, the propeller is not needed. Noise at the mesh may draw the path one step aside from the propeller.
     pub(crate) fn telling_hz(&self, config: &EvidenceConfig) -> impl Iterator<Item = RangeInclusive<f64>> {
         let is_mesh_sure = self.mesh_nats >= config.levels_nats_min;
         self.hypotheses.iter().take(1).flat_map(move |first| {

@@ -1,7 +1,7 @@
 //! Where two rotors meet, nobody hears whether they pass each other or turn back → how far off the mean speed of each may be.
 //!
-//! Many histories are drawn: in each, every two rotors that meet change places with the probability that [`Identity`] gives. The means of the rotors
-//! of each history, and of those that are reported, are put in the order of speed. Their rms differences are the uncertainties of the reported ones.
+//! Many histories are drawn: in each, every two rotors that meet change places with the probability that [`Identity`] gives. The means of a
+//! history and the reported means are each put in the order of speed. The rms difference at each place is the uncertainty of the reported mean.
 //!
 //! [`Identity`]: super::identity::Identity
 

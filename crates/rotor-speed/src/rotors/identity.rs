@@ -102,7 +102,7 @@ impl Identity {
         Labelling { tracks: labelled, meetings }
     }
 
-    /// Where two rotors may have changed places: the odds are those of their two steps, and of the levels of their lines before and after.
+    /// Where two rotors may have changed places. Their two steps, and the levels of their lines before and after, give the odds.
     fn meetings(&self, rotors: &[Vec<&TrackFrame>], steps: &Steps) -> Vec<Meeting> {
         let sides = self.sides(rotors, steps.frame_s, true);
         let mut meetings = Vec::new();
@@ -110,7 +110,7 @@ impl Identity {
         for (frame, now) in rotors.iter().enumerate() {
             let costs = steps.costs(&before, now);
             for (a, own) in costs.iter().enumerate() {
-                for b in a + 1..costs.len() {
+                for b in a + 1..costs.len().min(now.len()) {
                     let of_steps = own[b] + costs[b][a] - own[a] - costs[b][b];
                     let of_levels = frame.checked_sub(1).map_or(0.0, |before| sides[before].cost_of_exchange(a, b));
                     // a cost is twice the logarithm of the odds
