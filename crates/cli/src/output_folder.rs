@@ -50,7 +50,7 @@ impl OutputFolder {
                     "this folder holds {}, which is read: nothing was written",
                     printable(&input.display().to_string())
                 );
-                return Err(refused(&what, "choose a folder for the results, as in -o results", path));
+                return Err(refused(&what, "choose another folder for the results, as in -o results", path));
             }
             let what = format!(
                 "this folder has files that no earlier run for the same {} wrote: nothing was written",
