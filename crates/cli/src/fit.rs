@@ -210,28 +210,25 @@ fn check_tips_of(group: &StandGroup, path: &Path, plan: &Plan) -> Result<(), Fai
 
 /// The failure of rows whose scatter tells no uncertainty, with what was done to them.
 fn without_scatter(reason: NoScatter, group: &StandGroup, table: &StandTable, path: &Path) -> Failure {
-    let (rows, count) = match reason {
+    let (count, rows) = match reason {
         NoScatter::TooFewPoints { count } => {
             let of = if group.name.is_empty() { "table" } else { "group" };
-            ("measure more rows", format!(", and the {of} has {count}"))
+            let together = match table.groups.len() {
+                ..=1 => String::new(),
+                groups => format!(
+                    "the columns with words split the table into {groups} groups, each with a fit of its own: remove these columns to fit all rows together; else "
+                ),
+            };
+            (format!(", and the {of} has {count}"), together + "measure more rows")
         }
-        _ => ("give the measured rows", String::new()),
-    };
-    let are_split = !count.is_empty() && table.groups.len() > 1;
-    let together = if are_split {
-        format!(
-            "the columns with words split the table into {} groups, each with a fit of its own: remove these columns to fit all rows together; else ",
-            table.groups.len()
-        )
-    } else {
-        String::new()
+        _ => (String::new(), "give the measured rows".to_owned()),
     };
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
     let notes: String = table.notes.iter().map(|note| format!("; {note}")).collect();
     Failure::Usage {
         what: format!("{group}{reason}{count}{notes}"),
         hint: format!(
-            "{together}{rows}, or state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g)"
+            "{rows}, or state the standard uncertainty of each force in a column of its own (thrust_std_n, mass_std_g)"
         ),
         path: Some(path.to_owned()),
     }

@@ -4,7 +4,7 @@ use crate::args::LabelArguments;
 use crate::failure::Failure;
 use crate::progress::{Progress, Share};
 use crate::recording::{Heard, Hearing, Job};
-use crate::toml_file::TomlFile;
+use crate::toml_file::{NO_RECORDING, TomlFile};
 use hovertone::rotors::{
     ArrayError, MicrophoneArray, MicrophoneLines, MicrophonesConfig, PlacedRotor, labels_from_microphones,
     microphone_lines_from_source,
@@ -65,8 +65,7 @@ pub(crate) fn resolve(
         let what = "microphones give names to several rotors, and only one is heard";
         return Err(refused(what.to_owned(), "give their number, as in --rotors 4"));
     }
-    let file: MicrophonesFile =
-        TomlFile::read(path, "file of microphones", "give the TOML file, not a recording", SEE_EXAMPLE)?.parse()?;
+    let file: MicrophonesFile = TomlFile::read(path, "file of microphones", NO_RECORDING, SEE_EXAMPLE)?.parse()?;
     let defaults = MicrophonesConfig::default();
     let config = MicrophonesConfig {
         position_std_m: file.position_std_m.unwrap_or(defaults.position_std_m),

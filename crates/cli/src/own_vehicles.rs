@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files::home;
-use crate::toml_file::TomlFile;
+use crate::toml_file::{NO_RECORDING, TomlFile};
 use hovertone_vehicle::{OwnVehicle, OwnVehicleError, Vehicle, find_preset};
 use std::collections::BTreeMap;
 use std::env;
@@ -29,7 +29,7 @@ pub(crate) fn own_vehicles() -> Result<&'static [Vehicle], Failure> {
         return Ok(vehicles);
     }
     let read = match place().filter(|place| place.exists()) {
-        Some(place) => vehicles_in(&TomlFile::read(&place, KIND, "give the TOML file, not a recording", SEE_EXAMPLE)?)?,
+        Some(place) => vehicles_in(&TomlFile::read(&place, KIND, NO_RECORDING, SEE_EXAMPLE)?)?,
         None => Vec::new(),
     };
     Ok(OWN.get_or_init(|| read))
@@ -60,5 +60,5 @@ pub(crate) fn vehicles_in(file: &TomlFile<'_>) -> Result<Vec<Vehicle>, Failure> 
 
 /// Reads a file of vehicles that the user wants to keep.
 pub(crate) fn file_to_add(path: &std::path::Path) -> Result<TomlFile<'_>, Failure> {
-    TomlFile::read(path, KIND, "give the TOML file, not a recording", SEE_EXAMPLE)
+    TomlFile::read(path, KIND, NO_RECORDING, SEE_EXAMPLE)
 }

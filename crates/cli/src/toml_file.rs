@@ -7,6 +7,9 @@ use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+/// What to do with a recording where the command hears none.
+pub(crate) const NO_RECORDING: &str = "give the TOML file, not a recording";
+
 /// A file that was read but not parsed.
 pub(crate) struct TomlFile<'a> {
     /// Path of the file.

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
-use crate::toml_file::TomlFile;
+use crate::toml_file::{NO_RECORDING, TomlFile};
 use crate::vehicles::not_in_flight_model;
 use hovertone_sim::scenario::{Scenario, ScenarioError, ScenarioFile};
 use std::collections::BTreeMap;
@@ -28,7 +28,7 @@ pub(crate) struct ScenarioSource {
 impl ScenarioSource {
     /// Reads and resolves a scenario file; `seed` replaces its own seed.
     pub(crate) fn read(path: &Path, seed: Option<u64>) -> Result<Self, Failure> {
-        let toml = TomlFile::read(path, "scenario file", "give the TOML file, not a recording", SEE_EXAMPLE)?;
+        let toml = TomlFile::read(path, "scenario file", NO_RECORDING, SEE_EXAMPLE)?;
         let mut file: ScenarioFile = toml.parse()?;
         file.seed = seed.unwrap_or(file.seed);
         let folder = path.parent().unwrap_or(Path::new(""));

@@ -92,8 +92,9 @@ impl Identity {
             }
         }
         let rotors = rotors_of(&path);
-        let meetings = self.meetings(&rotors, &steps);
-        let known = self.sides(&rotors, frame_s, true).last().map(Sides::expected);
+        let sides = self.sides(&rotors, frame_s, true);
+        let meetings = self.meetings(&rotors, &sides, &steps);
+        let known = sides.last().map(Sides::expected);
         if let (Some(last), Some(known)) = (rotors.last(), known) {
             self.last = last.iter().map(|&frame| frame.clone()).collect();
             self.known = known;
@@ -103,8 +104,7 @@ impl Identity {
     }
 
     /// Where two rotors may have changed places. Their two steps, and the levels of their lines before and after, give the odds.
-    fn meetings(&self, rotors: &[Vec<&TrackFrame>], steps: &Steps) -> Vec<Meeting> {
-        let sides = self.sides(rotors, steps.frame_s, true);
+    fn meetings(&self, rotors: &[Vec<&TrackFrame>], sides: &[Sides], steps: &Steps) -> Vec<Meeting> {
         let mut meetings = Vec::new();
         let mut before: Vec<&TrackFrame> = self.last.iter().collect();
         for (frame, now) in rotors.iter().enumerate() {

@@ -83,8 +83,7 @@ pub(super) fn sides_of_frames(
             Sides { before: before.clone(), after: Vec::new(), keep, frame_s }
         })
         .collect();
-    let mut after: Vec<Vec<LevelMean>> =
-        levels.last().map(|rotors| means(&vec![&[] as &Levels; rotors.len()])).unwrap_or_default();
+    let mut after = vec![Vec::new(); levels.last().map_or(0, Vec::len)];
     for (sides, rotors) in sides.iter_mut().zip(levels).rev() {
         sides.after.clone_from(&after);
         after = and(means(rotors), &after);
@@ -95,13 +94,10 @@ pub(super) fn sides_of_frames(
 impl Sides {
     /// The levels at which each rotor is expected in the frame: `levels[rotor][line]`.
     pub(super) fn expected(&self) -> Vec<Vec<Option<f64>>> {
-        let none = [].as_slice();
-        self.before
-            .iter()
-            .enumerate()
-            .map(|(rotor, before)| {
-                let after = self.after.get(rotor).map_or(none, Vec::as_slice).iter().copied();
-                let after = after.chain(std::iter::repeat(LevelMean::default()));
+        let rotors = self.before.iter().zip(&self.after);
+        rotors
+            .map(|(before, after)| {
+                let after = after.iter().copied().chain(std::iter::repeat(LevelMean::default()));
                 before.iter().zip(after).map(|(before, after)| before.and(self.keep, after).level()).collect()
             })
             .collect()
