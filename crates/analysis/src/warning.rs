@@ -74,6 +74,13 @@ pub enum Warning {
         /// Standard deviation of the speeds of the others about their mean, as a share, that the ± contains.
         spread_share: f64,
     },
+    /// The lines are far more probable for a rotor that something known leaves out.
+    FitsElsewhere {
+        /// Blades of that rotor.
+        blades: u32,
+        /// Its shaft speed.
+        speed_rev_s: f64,
+    },
     /// The ridge jumps between lines.
     SeveralLines {
         /// Relative standard deviation of the ridge.
@@ -95,6 +102,7 @@ impl Warning {
             Self::BandCutByCodec { .. }
             | Self::OtherSteadySpeed { .. }
             | Self::HoverShorterThanSample { .. }
+            | Self::FitsElsewhere { .. }
             | Self::ManyGaps { .. } => false,
         }
     }
@@ -124,6 +132,9 @@ impl Warning {
                 "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
+            Self::FitsElsewhere { .. } => {
+                "check what was given of the rotor: the vehicle, the blades, the diameter, the mass or the band"
+            }
             Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",
         }
     }
@@ -176,6 +187,10 @@ impl fmt::Display for Warning {
                 f,
                 "the number of rotors is not known; for the ±, hovertone assumes that their speeds differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
+            ),
+            Self::FitsElsewhere { blades, speed_rev_s } => write!(
+                f,
+                "by its lines alone, the rotor more probably has {blades} blades and turns at {speed_rev_s:.1} rev/s (odds of more than 99 to 1)"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(

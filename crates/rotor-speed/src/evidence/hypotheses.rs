@@ -21,7 +21,7 @@ const OTHER_VOTES_SHARE_MIN: f64 = 0.8;
 const HOVER_WIDTH_SHARE: f64 = 0.024;
 /// Slowest shaft whose lines stand apart in a frame of 0.1 s, rev/s. The lines of a slower comb lie so close that they meet those of anything.
 /// So a slower rotor is heard only where the diameter, the vehicle or the band says that it may be there. *Decision.*
-const RESOLVED_REV_S: f64 = 30.0;
+pub(super) const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
 /// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
@@ -33,7 +33,9 @@ pub(crate) struct Beliefs {
     /// All hypotheses that are possible, most probable first; at least one.
     pub(crate) hypotheses: Vec<Hypothesis>,
     /// The noise between the lines.
-    noise: NoiseLevel,
+    pub(super) noise: NoiseLevel,
+    /// The same in long frames, where they were looked at.
+    pub(super) long_noise: Option<NoiseLevel>,
     /// Whether only long frames hear the rotor.
     pub(crate) is_faint: bool,
     /// Evidence for the gear mesh of the most probable rotor alone, in nats; 0 where none is followed.
@@ -92,7 +94,7 @@ pub(crate) struct Hypothesis {
     /// Lines of the rotor.
     pub(crate) lines: RotorLines,
     /// Speed in each short frame.
-    speeds_rev_s: Vec<f64>,
+    pub(super) speeds_rev_s: Vec<f64>,
     /// Mean speed along the path.
     pub(crate) speed_rev_s: f64,
     /// The speed near which the path is longest: that of the hover.
@@ -169,7 +171,7 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
         .collect();
     let hypotheses = with_beliefs(hypotheses);
     let mesh_nats = presence.mesh_nats(hypotheses.first()?);
-    Some(Beliefs { hypotheses, noise, is_faint: false, mesh_nats })
+    Some(Beliefs { hypotheses, noise, long_noise, is_faint: false, mesh_nats })
 }
 
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
@@ -377,7 +379,7 @@ fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
 
 /// Logarithm of the prior of a speed: by the thrust coefficient of the hover where mass, rotors and diameter are known, else slow shafts are
 /// rare; and by the distance from the range of speeds of a known vehicle.
-fn nats_of_vehicle(speed_rev_s: f64, known: &KnownRotor, config: &EvidenceConfig) -> f64 {
+pub(super) fn nats_of_vehicle(speed_rev_s: f64, known: &KnownRotor, config: &EvidenceConfig) -> f64 {
     let prior = &config.levels;
     let deviations = match known.hover_thrust_coefficient(speed_rev_s, AIR_KG_M3) {
         Some(coefficient) => (coefficient / prior.thrust_coefficient).ln() / prior.thrust_coefficient_std,

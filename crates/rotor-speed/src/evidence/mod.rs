@@ -17,7 +17,8 @@
 //! 6. *Second look* (`second_look`): the levels along the same paths in frames of 0.4 s. The nats of a hypothesis are the mean of both looks:
 //!    they are at the same lines, so that their sum would count each level twice.
 //! 7. *Companions* (`companions`): whether other rotors of the vehicle have lines of their own, beside one or beside all that were separated.
-//! 8. *Near a speed* (`near_speed`): the same at a speed that is known, for an exam.
+//! 8. *Elsewhere* (`elsewhere`): whether a rotor that something known leaves out has lines that are far more probable.
+//! 9. *Near a speed* (`near_speed`): the same at a speed that is known, for an exam.
 //!
 //! A rotor is heard where the median of the votes over the frames is at least 1.4 nats, each look has 4.6 nats of levels over a flat floor (0
 //! in a band narrower than an octave), its lines stand apart in a frame (from 30 rev/s on, unless it is known to be slow), and no path that
@@ -28,6 +29,7 @@
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
 
 mod companions;
+mod elsewhere;
 mod excess;
 mod floor;
 mod hypotheses;
@@ -47,6 +49,7 @@ mod settings;
 mod votes;
 
 pub(crate) use companions::nats_beside;
+pub(crate) use elsewhere::{AnyPropeller, OtherRotor};
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub use level_model::OrderLevel;

@@ -4,9 +4,11 @@ use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
-use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
-use crate::tone::{CombMap, blades_of_tone, reading_at, search_range_rev_s};
-use hovertone_analysis::{Hover, Meaning, NoTone, Reading, Span, WeighedSpeed};
+use crate::evidence::{
+    AIR_KG_M3, AnyPropeller, Beliefs, Hypothesis, OtherRotor, RotorLines, WantedPropeller, WantedRotor,
+};
+use crate::tone::{BLADES, CombMap, DiscoveryConfig, ToneConfig, blades_of_tone, reading_at, search_range_rev_s};
+use hovertone_analysis::{Hover, Meaning, NoTone, Reading, Span, Warning, WeighedSpeed};
 use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
@@ -26,6 +28,8 @@ pub(crate) struct Candidates {
     pub(crate) leading_rev_s: f64,
     /// The beliefs in its speeds; `None` where the speed was found before.
     beliefs: Option<Beliefs>,
+    /// A rotor that something known leaves out, whose lines are far more probable.
+    better: Option<OtherRotor>,
     /// Whether several rotors are heard, where their number is not known.
     pub(crate) are_several: bool,
     /// Whether only long frames hear the rotor: then it must keep its phase.
@@ -48,6 +52,7 @@ impl Candidates {
             map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
             leading_rev_s: speed_rev_s,
             beliefs: None,
+            better: None,
             are_several: false,
             is_faint,
         })
@@ -80,6 +85,11 @@ impl Candidates {
                 possible.iter().map(reading).collect()
             }
         }
+    }
+
+    /// What the lines say against what is known.
+    pub(crate) fn warning(&self) -> Option<Warning> {
+        self.better.map(|OtherRotor { blades, speed_rev_s }| Warning::FitsElsewhere { blades, speed_rev_s })
     }
 
     /// The chosen speed and its runner-up.
@@ -144,6 +154,7 @@ pub(crate) fn candidates_from_survey(
             leading_rev_s,
             is_faint: beliefs.as_ref().is_some_and(|beliefs| beliefs.is_faint),
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
+            better: better_elsewhere(surveyed, beliefs.as_ref(), config),
             beliefs,
         }),
         None => Err(Silence::because(or_mains_hum(no_series(&config.tone), &surveyed.survey)).into()),
@@ -153,6 +164,15 @@ pub(crate) fn candidates_from_survey(
 /// Whether other rotors are heard beside the most probable one.
 fn are_several(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) -> bool {
     beliefs.is_some_and(|beliefs| beliefs.are_several(&surveyed.looks, &config.evidence))
+}
+
+/// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one.
+fn better_elsewhere(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) -> Option<OtherRotor> {
+    let any = AnyPropeller {
+        blade_shares: BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares).collect(),
+        speeds_rev_s: ToneConfig::usual_rev_s(),
+    };
+    beliefs?.better_elsewhere(&surveyed.looks, &any, &config.evidence)
 }
 
 /// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.

@@ -31,7 +31,7 @@ pub(crate) fn decision_from_lines(
     candidates: &Candidates,
     hover: &Hover,
     speed_rev_s: f64,
-    lines: Lines,
+    mut lines: Lines,
     config: &Config,
 ) -> Result<Decision, Stop> {
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
@@ -46,5 +46,6 @@ pub(crate) fn decision_from_lines(
         if wants_rotors { heard_rotors(passes, surveyed, hover, speed_rev_s, config)? } else { RotorTracks::default() };
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(config);
+    lines.warnings.extend(candidates.warning());
     Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed() })
 }
