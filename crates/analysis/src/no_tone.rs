@@ -1,5 +1,6 @@
 //! Reasons why no rotor tone was found.
 
+use crate::OtherRotor;
 use serde::Serialize;
 use std::fmt;
 
@@ -21,6 +22,8 @@ pub enum NoTone {
     NoSeries {
         /// The shaft speeds that were compared, where something that is known of the rotor leaves others out.
         only_rev_s: Option<(f64, f64)>,
+        /// What is heard where nothing is known.
+        instead: Option<OtherRotor>,
     },
     /// No stretch is steady for long enough.
     NoHover,
@@ -58,8 +61,18 @@ impl fmt::Display for NoTone {
             Self::OutsideRecording => f.write_str("the recording has no sound between the chosen times; choose others with --from and --to"),
             Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover"),
             Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
-            Self::NoSeries { only_rev_s: None } => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
-            Self::NoSeries { only_rev_s: Some((low, high)) } => {
+            Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
+                match only_rev_s {
+                    Some((low, high)) => write!(f, "no such rotor is heard at {low:.0} to {high:.0} rev/s")?,
+                    None => f.write_str("no such rotor is heard")?,
+                }
+                write!(
+                    f,
+                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; check what was given: the vehicle, the blades, the gear or the band"
+                )
+            }
+            Self::NoSeries { only_rev_s: None, .. } => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
+            Self::NoSeries { only_rev_s: Some((low, high)), .. } => {
                 write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; go nearer")
             }
             Self::NoHover => f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off"),

@@ -1,5 +1,6 @@
 //! Warnings about a speed, each with a hint. They are values; nothing here prints.
 
+use crate::OtherRotor;
 use serde::Serialize;
 use std::fmt;
 
@@ -75,12 +76,7 @@ pub enum Warning {
         spread_share: f64,
     },
     /// The lines are far more probable for a rotor that something known leaves out.
-    FitsElsewhere {
-        /// Blades of that rotor.
-        blades: u32,
-        /// Its shaft speed.
-        speed_rev_s: f64,
-    },
+    FitsElsewhere(OtherRotor),
     /// The ridge jumps between lines.
     SeveralLines {
         /// Relative standard deviation of the ridge.
@@ -102,7 +98,7 @@ impl Warning {
             Self::BandCutByCodec { .. }
             | Self::OtherSteadySpeed { .. }
             | Self::HoverShorterThanSample { .. }
-            | Self::FitsElsewhere { .. }
+            | Self::FitsElsewhere(_)
             | Self::ManyGaps { .. } => false,
         }
     }
@@ -132,7 +128,7 @@ impl Warning {
                 "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
-            Self::FitsElsewhere { .. } => {
+            Self::FitsElsewhere(_) => {
                 "check what was given of the rotor: the vehicle, the blades, the diameter, the mass or the band"
             }
             Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",
@@ -188,7 +184,7 @@ impl fmt::Display for Warning {
                 "the number of rotors is not known; for the ±, hovertone assumes that their speeds differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
-            Self::FitsElsewhere { blades, speed_rev_s } => write!(
+            Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "by its lines alone, the rotor more probably has {blades} blades and turns at {speed_rev_s:.1} rev/s (odds of more than 99 to 1)"
             ),

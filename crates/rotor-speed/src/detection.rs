@@ -4,7 +4,7 @@ use crate::hover::HoverConfig;
 use crate::survey::Survey;
 use crate::tone::ToneConfig;
 use hovertone_analysis::{
-    CutReason, Hover, Method, NoTone, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, Warning,
+    CutReason, Hover, Method, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, Warning,
 };
 use hovertone_signal::statistics::mean;
 
@@ -41,14 +41,16 @@ pub(crate) fn not_held_reason(restless_s: f64, hover: &Hover, tone_hz: f64, conf
 }
 
 /// Nothing sounds like a rotor with that tone.
-pub(crate) fn no_series(tone: &ToneConfig) -> NoTone {
-    NoTone::NoSeries { only_rev_s: tone.narrowed_rev_s() }
+pub(crate) fn no_series(tone: &ToneConfig, instead: Option<OtherRotor>) -> NoTone {
+    NoTone::NoSeries { only_rev_s: tone.narrowed_rev_s(), instead }
 }
 
 /// The reason as it is said where mains hum was taken out before: then the hum is what was heard.
 pub(crate) fn or_mains_hum(reason: NoTone, survey: &Survey) -> NoTone {
     match (&survey.hum, &reason) {
-        (Some(hum), NoTone::NoSeries { .. } | NoTone::NoHover) => NoTone::MainsHum { mains_hz: hum.mains_hz },
+        (Some(hum), NoTone::NoSeries { instead: None, .. } | NoTone::NoHover) => {
+            NoTone::MainsHum { mains_hz: hum.mains_hz }
+        }
         _ => reason,
     }
 }

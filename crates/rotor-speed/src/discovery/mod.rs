@@ -117,7 +117,7 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
     let families =
         |rotor_hz: Option<f64>| families_from_surveys(survey, detail.as_ref(), rotor_hz, &discovery.known, &scanned);
-    let no_series = || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s() }, survey);
+    let no_series = || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s(), instead: None }, survey);
     let believed = Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery);
     let believed = match believed.and_then(|believed| believed.ok_or_else(no_series)) {
         Ok(believed) => believed,

@@ -49,7 +49,6 @@ mod settings;
 mod votes;
 
 pub(crate) use companions::nats_beside;
-pub(crate) use elsewhere::{AnyPropeller, OtherRotor};
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{AIR_KG_M3, Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub use level_model::OrderLevel;

@@ -4,11 +4,9 @@ use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
-use crate::evidence::{
-    AIR_KG_M3, AnyPropeller, Beliefs, Hypothesis, OtherRotor, RotorLines, WantedPropeller, WantedRotor,
-};
+use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::tone::{BLADES, CombMap, DiscoveryConfig, ToneConfig, blades_of_tone, reading_at, search_range_rev_s};
-use hovertone_analysis::{Hover, Meaning, NoTone, Reading, Span, Warning, WeighedSpeed};
+use hovertone_analysis::{Hover, Meaning, NoTone, OtherRotor, Reading, Span, Warning, WeighedSpeed};
 use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
@@ -89,7 +87,7 @@ impl Candidates {
 
     /// What the lines say against what is known.
     pub(crate) fn warning(&self) -> Option<Warning> {
-        self.better.map(|OtherRotor { blades, speed_rev_s }| Warning::FitsElsewhere { blades, speed_rev_s })
+        self.better.map(Warning::FitsElsewhere)
     }
 
     /// The chosen speed and its runner-up.
@@ -154,10 +152,15 @@ pub(crate) fn candidates_from_survey(
             leading_rev_s,
             is_faint: beliefs.as_ref().is_some_and(|beliefs| beliefs.is_faint),
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
-            better: better_elsewhere(surveyed, beliefs.as_ref(), config),
+            better: beliefs.as_ref().and_then(|beliefs| {
+                beliefs.better_elsewhere(&surveyed.looks, &any_rotor(sample_rate_hz), &config.evidence)
+            }),
             beliefs,
         }),
-        None => Err(Silence::because(or_mains_hum(no_series(&config.tone), &surveyed.survey)).into()),
+        None => {
+            let instead = heard_instead(surveyed, sample_rate_hz, config);
+            Err(Silence::because(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey)).into())
+        }
     }
 }
 
@@ -166,13 +169,23 @@ fn are_several(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) 
     beliefs.is_some_and(|beliefs| beliefs.are_several(&surveyed.looks, &config.evidence))
 }
 
-/// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one.
-fn better_elsewhere(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) -> Option<OtherRotor> {
-    let any = AnyPropeller {
-        blade_shares: BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares).collect(),
-        speeds_rev_s: ToneConfig::usual_rev_s(),
-    };
-    beliefs?.better_elsewhere(&surveyed.looks, &any, &config.evidence)
+/// The rotor that is heard where nothing is known. `None` where none is, or only a faint one.
+fn heard_instead(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<OtherRotor> {
+    let blind = Config { tone: ToneConfig { band_hz: None, ..config.tone.clone() }, ..config.clone() };
+    let beliefs = surveyed.beliefs(&any_rotor(sample_rate_hz), &blind).ok()?.filter(|beliefs| !beliefs.is_faint)?;
+    let first = beliefs.hypotheses.first()?;
+    Some(OtherRotor { blades: first.lines.blades?, speed_rev_s: first.hover_rev_s })
+}
+
+/// Any rotor without a gear.
+fn any_rotor(sample_rate_hz: f64) -> WantedRotor {
+    let shares = BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares);
+    let propellers = shares.filter_map(|(blades, share)| {
+        let tone = ToneConfig::of_order(Order::from_blades(blades).ok()?);
+        let speeds_rev_s = search_range_rev_s(&tone, sample_rate_hz).ok()?;
+        Some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
+    });
+    WantedRotor { propellers: propellers.collect(), known: KnownRotor::default(), may_be_slow: false }
 }
 
 /// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.

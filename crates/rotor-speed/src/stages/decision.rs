@@ -37,7 +37,7 @@ pub(crate) fn decision_from_lines(
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     let restless_s = restless_s(hover, &surveyed.survey, &candidates.map);
     let is_lost = candidates.is_faint && lines.harmonic.steady_share(hover.length_s()) < config.ridge.steady_share_min;
-    let is_lost = is_lost.then(|| or_mains_hum(no_series(&config.tone), &surveyed.survey));
+    let is_lost = is_lost.then(|| or_mains_hum(no_series(&config.tone, None), &surveyed.survey));
     if let Some(reason) = is_lost.or_else(|| not_held_reason(restless_s, hover, tone_hz, &config.hover)) {
         return Err(Silence { reason, hover: hover.clone(), warnings: lines.warnings }.into());
     }

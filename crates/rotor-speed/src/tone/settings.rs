@@ -5,7 +5,6 @@ use hovertone_vehicle::{
     check_range,
 };
 use serde::Serialize;
-use std::ops::RangeInclusive;
 
 /// Half width of a found band, as a share. *Decision.*
 const BAND_HALF_WIDTH_SHARE: f64 = 0.08;
@@ -68,11 +67,6 @@ impl ToneConfig {
             speed_max: RotorSpeed::from_rev_s(known.rev_s_high * KNOWN_RANGE_MARGIN),
             ..self
         }
-    }
-
-    /// The slowest and fastest shaft that is looked for where nothing is known.
-    pub(crate) fn usual_rev_s() -> RangeInclusive<f64> {
-        SLOWEST_REV_S..=FASTEST_REV_S
     }
 
     /// The slowest and fastest shaft, where what is known of the rotor sets them.
