@@ -120,9 +120,9 @@ pub mod sound {
 /// ```
 pub mod speed {
     pub use hovertone_analysis::{
-        Band, Cut, CutReason, HarmonicSpeed, Hover, Method, NoTone, Outcome, Peak, Ridge, RidgeFrame, RotorEstimate,
-        RotorTone, RotorsHeard, RotorsHeardCounts, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, TrackPoint,
-        UncertaintySource, UncertaintyTerm, Warning,
+        Band, Cut, CutReason, HarmonicSpeed, Hover, Method, NoTone, OtherRotor, Outcome, Peak, Ridge, RidgeFrame,
+        RotorEstimate, RotorTone, RotorsHeard, RotorsHeardCounts, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate,
+        TrackPoint, UncertaintySource, UncertaintyTerm, Warning,
     };
     pub use hovertone_rotor_speed::{
         BudgetConfig, ComparedSpeed, Config, Error, EvidenceNear, HoverConfig, HoverPart, HoverRotors, LinesNear,

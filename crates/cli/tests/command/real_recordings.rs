@@ -31,6 +31,22 @@ fn bench_recordings_of_a_propeller_have_the_known_speeds() {
 }
 
 #[test]
+fn a_wrong_number_of_blades_or_another_vehicle_is_said() {
+    let Some(folder) = recordings("crazyflie-propeller") else { return };
+    for file in files_in(&folder, ".wav") {
+        let stderr_of = |flags: &[&str]| hovertone(&[&["speed", text(&file)], flags].concat()).stderr;
+        for blades in ["3", "4"] {
+            let stderr = stderr_of(&["--blades", blades]);
+            assert!(stderr.contains("the rotor more probably has 2 blades and turns at"), "{blades}: {stderr}");
+        }
+        let stderr = stderr_of(&["--vehicle", "ardrone"]);
+        assert!(stderr.contains("but one with 2 blades may turn at"), "{stderr}");
+        let stderr = stderr_of(&["--vehicle", "crazyflie"]);
+        assert!(!stderr.contains("blades"), "{stderr}");
+    }
+}
+
+#[test]
 fn a_chosen_span_of_the_motor_step_has_its_speed() {
     let Some(folder) = recordings("motor-step") else { return };
     let run = speed(&files_in(&folder, ".wav"), &["--from", "14", "--to", "17"]).ends_with(0);

@@ -1,7 +1,8 @@
 //! Rotors of a vehicle whose mass, diameter and number of rotors are known: there the evidence of all orders decides the octave.
 use crate::testkit::{analyse, config, hears_nothing, rotor, sound, tone, unlike_blades};
-use hovertone::speed::{Config, Outcome};
+use hovertone::speed::{Config, NoTone, OtherRotor, Outcome, SpeedAnalysis, Warning};
 use hovertone::tones::KnownRotor;
+use hovertone::vehicle::RotorSpeed;
 use std::f64::consts::TAU;
 
 const SPEED_REV_S: f64 = 86.0;
@@ -94,6 +95,41 @@ fn a_slow_rotor_is_not_told_at_twice_its_speed() {
         if let Outcome::Ok(found) = &analysis.outcome {
             let speed_rev_s = found.speeds[0].speed.rev_s();
             assert!((speed_rev_s / 26.0 - 1.0).abs() < 0.02, "{seed}: {speed_rev_s}");
+        }
+    }
+}
+
+/// The rotor that is heard and that the settings leave out, where one is said.
+fn left_out(analysis: &SpeedAnalysis) -> Option<OtherRotor> {
+    match &analysis.outcome {
+        Outcome::NoRotorTone { reason: NoTone::NoSeries { instead, .. } } => *instead,
+        _ => analysis.warnings.iter().find_map(|it| if let Warning::FitsElsewhere(it) = it { Some(*it) } else { None }),
+    }
+}
+
+#[test]
+fn a_rotor_that_the_settings_leave_out_is_said() {
+    let lines = unlike_blades(&[0.05, 0.04, 0.03, 0.025, 0.02, 0.015]);
+    let with = |blades: f64, change: fn(&mut Config)| {
+        let mut config = Config { all_methods: false, ..config(blades) };
+        change(&mut config);
+        config
+    };
+    let other_blades = with(3.0, |_| ());
+    let of_other_vehicle = with(2.0, |config| {
+        config.tone.speed_min = RotorSpeed::from_rev_s(200.0);
+        config.tone.speed_max = RotorSpeed::from_rev_s(400.0);
+    });
+    let in_other_band = with(2.0, |config| config.tone.band_hz = Some((400.0, 500.0)));
+    for seed in 0..4 {
+        assert_eq!(left_out(&analyse(flight(&lines, seed), &with(2.0, |_| ()))), None, "{seed}");
+        for (index, wrong) in [&other_blades, &of_other_vehicle, &in_other_band].into_iter().enumerate() {
+            let other = left_out(&analyse(flight(&lines, seed), wrong));
+            let other = other.unwrap_or_else(|| panic!("{seed}, {index}: nothing is said"));
+            assert_eq!(other.blades, 2, "{seed}, {index}");
+            assert!((other.speed_rev_s / SPEED_REV_S - 1.0).abs() < 0.01, "{seed}, {index}: {}", other.speed_rev_s);
+            let of_noise = left_out(&analyse(sound(&[], LENGTH_S, 0.05, seed), wrong));
+            assert_eq!(of_noise, None, "{seed}, {index}");
         }
     }
 }

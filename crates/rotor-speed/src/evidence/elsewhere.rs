@@ -4,11 +4,33 @@ use super::excess::Looks;
 use super::hypotheses::{Beliefs, RESOLVED_REV_S, WantedPropeller, WantedRotor, nats_of_vehicle};
 use super::level_model::LevelModel;
 use super::levels::levels_of_lines;
-use super::search::FACTORS;
 use super::second_look::path_in_long_frames;
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
 use hovertone_analysis::OtherRotor;
+
+/// Blade passes over that of the path that was found: the lines of a rotor are about those of another at such a ratio. *Decision.*
+const RATIOS: [(u32, u32); 19] = [
+    (1, 1),
+    (2, 1),
+    (3, 1),
+    (4, 1),
+    (5, 1),
+    (1, 2),
+    (3, 2),
+    (5, 2),
+    (1, 3),
+    (2, 3),
+    (4, 3),
+    (5, 3),
+    (1, 4),
+    (3, 4),
+    (5, 4),
+    (1, 5),
+    (2, 5),
+    (3, 5),
+    (4, 5),
+];
 
 impl Beliefs {
     /// The rotor with the most probable lines among `any` that are possible, at a simple ratio of the path that was found. `None` where the first
@@ -44,8 +66,9 @@ impl Beliefs {
         let mut best: Option<(f64, OtherRotor)> = None;
         for propeller in &any.propellers {
             let Some(blades) = propeller.lines.blades else { continue };
-            for factor in FACTORS {
-                let speed_rev_s = factor * first.hover_rev_s * f64::from(own_blades) / f64::from(blades);
+            for (over, under) in RATIOS {
+                let ratio = f64::from(over * own_blades) / f64::from(under * blades);
+                let speed_rev_s = ratio * first.hover_rev_s;
                 let is_possible = propeller.speeds_rev_s.contains(&speed_rev_s) && speed_rev_s >= RESOLVED_REV_S;
                 if is_possible {
                     let nats = nats_of(propeller, speed_rev_s);

@@ -14,7 +14,7 @@ const WINDOW_RATIO: f64 = 1.6;
 /// Ratio of the starts of neighbouring windows; they overlap, so that each path is well inside of one. *Numeric.*
 const WINDOW_STEP_RATIO: f64 = 1.25;
 /// Speeds of the hypotheses over the speed of each path: octaves, and families of three. *Decision.*
-pub(super) const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
+const FACTORS: [f64; 10] = [1.0, 0.5, 2.0, 1.0 / 3.0, 3.0, 0.25, 4.0, 2.0 / 3.0, 1.5, 4.0 / 3.0];
 /// Largest difference of the logarithms of a speed and of an octave or family of another that is the same rotor's. *Numeric.*
 const RELATED: f64 = 0.05;
 /// An octave down, none, and one up. *Physics.*
