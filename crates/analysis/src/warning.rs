@@ -75,6 +75,8 @@ pub enum Warning {
         /// Standard deviation of the speeds of the others about their mean, as a share, that the ± contains.
         spread_share: f64,
     },
+    /// Another rotor of the vehicle is heard, at a speed of its own, where one alone is said to turn.
+    OtherRotorsHeard,
     /// The lines are far more probable for a rotor that something known leaves out.
     FitsElsewhere(OtherRotor),
     /// The ridge jumps between lines.
@@ -98,6 +100,7 @@ impl Warning {
             Self::BandCutByCodec { .. }
             | Self::OtherSteadySpeed { .. }
             | Self::HoverShorterThanSample { .. }
+            | Self::OtherRotorsHeard
             | Self::FitsElsewhere(_)
             | Self::ManyGaps { .. } => false,
         }
@@ -128,6 +131,9 @@ impl Warning {
                 "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
+            Self::OtherRotorsHeard => {
+                "if several rotors turn, leave --rotors 1 out; if not, record away from other machines"
+            }
             Self::FitsElsewhere(_) => {
                 "check what was given of the rotor: the vehicle, the blades, the diameter, the mass or the band"
             }
@@ -184,6 +190,7 @@ impl fmt::Display for Warning {
                 "the number of rotors is not known; for the ±, hovertone assumes that their speeds differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
+            Self::OtherRotorsHeard => f.write_str("other rotors are heard beside the one that is said to turn alone"),
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
                 "by its lines alone, the rotor more probably has {blades} blades and turns at {speed_rev_s:.1} rev/s (odds of more than 99 to 1)"

@@ -12,7 +12,7 @@ use hovertone::motors::{
 use hovertone::rotors::SpinUp;
 use hovertone::sound::{LineFrequency, Passes, line_frequency};
 use hovertone::speed::{Config, NoTone, passes_of_speed};
-use hovertone::tones::{FoundSpeed, tones_from_passes};
+use hovertone::tones::{Meaning, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
 use hovertone_media::Recording;
 use hovertone_report::{Notice, SpeedRecord};
@@ -109,31 +109,44 @@ pub(crate) fn motor_in(
     let mut share = progress.recording();
     let mut on_progress = progress_of(&recording, |done| share.show(done));
     let planned = passes_of_speed(&job.config) + PASSES_OF_MOTOR;
-    let motor = Passes::planned(&mut recording, planned, &mut on_progress)
+    let (motor, guess) = Passes::planned(&mut recording, planned, &mut on_progress)
         .map_err(hovertone::speed::Error::from)
         .and_then(|mut passes| motor_of_passes(&mut passes, job, commands))
         .map_err(|error| error.to_string())?;
-    Ok(SoundOfMotor { motor, notices: notices_of(&recording) })
+    Ok(SoundOfMotor { motor, notices: notices_of(&recording).into_iter().chain(guess).collect() })
 }
 
+/// The motor, and what is said of blades that were guessed.
 fn motor_of_passes(
     passes: &mut Passes<'_>,
     job: &Job,
     commands: Option<HeardCommands<'_>>,
-) -> Result<Result<HeardMotor, NoTone>, hovertone::speed::Error> {
-    let (level, config) = match job.discovery {
+) -> Result<(Result<HeardMotor, NoTone>, Option<Notice>), hovertone::speed::Error> {
+    let (level, config, guess) = match job.discovery {
         Some(discovery) => {
-            let FoundSpeed { config, analysis, .. } = tones_from_passes(passes, &job.config, &discovery)?;
-            (level_of_analysis(&analysis), config)
+            let found = tones_from_passes(passes, &job.config, &discovery)?;
+            let meaning = found.reading().map(|reading| reading.meaning);
+            let guess = meaning.filter(|_| discovery.known.blade_count.is_none()).and_then(guess_in_words);
+            (level_of_analysis(&found.analysis), found.config, guess)
         }
-        None => (level_of_rotors(passes, &job.config)?, job.config.clone()),
+        None => (level_of_rotors(passes, &job.config)?, job.config.clone(), None),
     };
     let speed_rev_s = match level {
         Ok(speed_rev_s) => speed_rev_s,
-        Err(reason) => return Ok(Err(reason)),
+        Err(reason) => return Ok((Err(reason), None)),
     };
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
-    motor_from_sound(passes, &HeardTone { tone: &config.tone, speed_rev_s, span_s }, commands).map(Ok)
+    let motor = motor_from_sound(passes, &HeardTone { tone: &config.tone, speed_rev_s, span_s }, commands)?;
+    Ok((Ok(motor), guess))
+}
+
+/// That the number of blades is a guess. `None` where it was not needed.
+fn guess_in_words(meaning: Meaning) -> Option<Notice> {
+    let blades = meaning.blades().filter(|_| meaning.gear().is_none())?;
+    let what = format!(
+        "the number of blades is not known: the speeds are those of a propeller with {blades} blades, which the sound suggests"
+    );
+    Some(Notice::new(what, "count the blades and give --blades N; the time constants are the same for any number"))
 }
 
 /// The lines of all rotors of a recording, in a range of shaft speeds.

@@ -28,6 +28,8 @@ pub(crate) struct Candidates {
     beliefs: Option<Beliefs>,
     /// A rotor that something known leaves out, whose lines are far more probable.
     better: Option<OtherRotor>,
+    /// Whether other rotors are heard, though one alone is said to turn.
+    others: bool,
     /// Whether several rotors are heard, where their number is not known.
     pub(crate) are_several: bool,
     /// Whether only long frames hear the rotor: then it must keep its phase.
@@ -51,6 +53,7 @@ impl Candidates {
             leading_rev_s: speed_rev_s,
             beliefs: None,
             better: None,
+            others: false,
             are_several: false,
             is_faint,
         })
@@ -86,8 +89,8 @@ impl Candidates {
     }
 
     /// What the lines say against what is known.
-    pub(crate) fn warning(&self) -> Option<Warning> {
-        self.better.map(Warning::FitsElsewhere)
+    pub(crate) fn warnings(&self) -> impl Iterator<Item = Warning> {
+        self.better.map(Warning::FitsElsewhere).into_iter().chain(self.others.then_some(Warning::OtherRotorsHeard))
     }
 
     /// The chosen speed and its runner-up.
@@ -152,6 +155,9 @@ pub(crate) fn candidates_from_survey(
             leading_rev_s,
             is_faint: beliefs.as_ref().is_some_and(|beliefs| beliefs.is_faint),
             are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
+            others: config.rotors.is_count_known
+                && config.rotors.count == 1
+                && are_several(surveyed, beliefs.as_ref(), config),
             better: beliefs.as_ref().and_then(|beliefs| {
                 beliefs.better_elsewhere(&surveyed.looks, &any_rotor(sample_rate_hz), &config.evidence)
             }),

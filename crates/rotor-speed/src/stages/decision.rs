@@ -46,6 +46,6 @@ pub(crate) fn decision_from_lines(
         if wants_rotors { heard_rotors(passes, surveyed, hover, speed_rev_s, config)? } else { RotorTracks::default() };
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(config);
-    lines.warnings.extend(candidates.warning());
+    lines.warnings.extend(candidates.warnings());
     Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed() })
 }
