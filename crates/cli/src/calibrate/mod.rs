@@ -12,7 +12,7 @@ use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words};
 use hovertone::calibration::Judgement;
-use hovertone::speed::Config;
+use hovertone::speed::{Config, SpeedAnalysis, Warning};
 use hovertone::tones::Discovery;
 use hovertone_report::{Notice, SpeedRecord, warning_count};
 use hovertone_vehicle::{Order, RotorSpeed, check_range};
@@ -25,6 +25,10 @@ const BAND_SHARE: f64 = 0.025;
 const TACHOMETER_RPM: RangeInclusive<f64> = 60.0..=90_000.0;
 /// Tones of recordings, Hz: up to half the largest sample rate of recorders.
 const TRUE_HZ: RangeInclusive<f64> = 1.0..=192_000.0;
+/// Status where nothing is compared, because several rotors are heard.
+const SEVERAL_ROTORS: &str = "several_rotors";
+const SEVERAL_IN_WORDS: &str = "not decided: several rotors are heard, each at its own speed, and the known speed is that of one; record one \
+                                rotor that runs alone";
 const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 
 /// The meaning of the arguments.
@@ -98,6 +102,16 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Heard {
     let mut records = records_of(jobs, hearing, progress);
     let ending = ending_of(&records);
     let record = records.pop();
+    if record.as_ref().and_then(SpeedRecord::analysis).is_some_and(hears_several) {
+        return Heard {
+            speed: None,
+            status: SEVERAL_ROTORS,
+            reason: Some(SEVERAL_IN_WORDS.to_owned()),
+            notices: Vec::new(),
+            record: None,
+            ending: ending.max(Ending::Incomplete),
+        };
+    }
     let speed = record.as_ref().and_then(|record| {
         let speed = record.speed()?;
         let std_rev_s = speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s);
@@ -111,6 +125,11 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Heard {
         record,
         ending,
     }
+}
+
+/// Whether other rotors are heard beside the one that is measured.
+fn hears_several(analysis: &SpeedAnalysis) -> bool {
+    analysis.warnings.contains(&Warning::OtherRotorsHeard)
 }
 
 /// The frequency of a line, as the speed of a shaft with one line per turn.

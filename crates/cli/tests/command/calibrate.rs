@@ -223,6 +223,27 @@ fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
 }
 
 #[test]
+fn four_rotors_check_no_clock() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("flight.wav");
+    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rpm(21_000.0), 4.0);
+    for (rotor, share) in settings.rotors.iter_mut().zip([0.98, 0.995, 1.0, 1.02]) {
+        rotor.mean_speed = RotorSpeed::from_rpm(21_000.0 * share);
+    }
+    write_hover(&sound, settings);
+    for said in [&["--blades", "2"][..], &["--vehicle", "crazyflie"], &["--blades", "2", "--band", "690:710"]] {
+        let run = calibrated(&sound, said).ends_with(3);
+        assert!(
+            run.stderr.contains("not decided: several rotors are heard") && run.stdout.is_empty(),
+            "{}",
+            run.stderr
+        );
+        let line = calibrated(&sound, &[said, &["--json"]].concat()).ends_with(3).json_lines().remove(0);
+        assert_eq!((&line["status"], &line["passes"]), (&"several_rotors".into(), &serde_json::Value::Null));
+    }
+}
+
+#[test]
 fn what_is_no_known_speed_is_refused() {
     refused_with(&["calibrate", "a.wav", "--tachometer-rpm", "fast"], &["--tachometer-rpm fast", "a number is needed"]);
     refused_with(&["calibrate", "a.wav", "--true-hz", "-1"], &["true_hz"]);
