@@ -33,7 +33,6 @@ fn bench_recordings_of_a_propeller_have_the_known_speeds() {
 #[test]
 fn a_wrong_number_of_blades_or_another_vehicle_is_said() {
     let Some(folder) = recordings("crazyflie-propeller") else { return };
-    let mut of_other_vehicle = 0;
     for file in files_in(&folder, ".wav") {
         let stderr_of = |flags: &[&str]| hovertone(&[&["speed", text(&file)], flags].concat()).stderr;
         for blades in ["3", "4"] {
@@ -41,12 +40,12 @@ fn a_wrong_number_of_blades_or_another_vehicle_is_said() {
             assert!(stderr.contains("the rotor more probably has 2 blades and turns at"), "{blades}: {stderr}");
         }
         let other = hovertone(&["speed", text(&file), "--vehicle", "ardrone"]).ends_with(3);
-        of_other_vehicle += usize::from(other.stderr.contains("but one with 2 blades may turn at"));
+        // in two of the seven, other lines pass for a gear mesh, at several speeds
+        let is_said = ["but one with 2 blades may turn at", "the rotor more probably has 2 blades"];
+        assert!(is_said.iter().any(|words| other.stderr.contains(words)), "{}", other.stderr);
         let stderr = stderr_of(&["--vehicle", "crazyflie"]);
         assert!(!stderr.contains("blades"), "{stderr}");
     }
-    // in one of the seven, other lines pass for a gear mesh: three speeds remain possible
-    assert!(of_other_vehicle >= 6, "{of_other_vehicle}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Rotors that something known leaves out, though their lines are far more probable: with other blades, or at another speed.
 
 use super::excess::Looks;
-use super::hypotheses::{Beliefs, RESOLVED_REV_S, WantedPropeller, WantedRotor, nats_of_vehicle};
+use super::hypotheses::{Beliefs, RESOLVED_REV_S, WantedPropeller, WantedRotor, nats_of_vehicle, odds_nats};
 use super::level_model::LevelModel;
 use super::levels::levels_of_lines;
 use super::second_look::path_in_long_frames;
@@ -78,7 +78,6 @@ impl Beliefs {
                 }
             }
         }
-        let odds_nats_min = (config.belief_min / (1.0 - config.belief_min)).ln();
-        best.filter(|(nats, _)| nats - own_nats >= odds_nats_min).map(|(_, other)| other)
+        best.filter(|(nats, _)| nats - own_nats >= odds_nats(config.belief_min)).map(|(_, other)| other)
     }
 }

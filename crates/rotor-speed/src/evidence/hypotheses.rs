@@ -122,6 +122,11 @@ impl Hypothesis {
     pub(crate) fn is_of_same_vehicle(&self, speed_rev_s: f64) -> bool {
         (self.speed_rev_s / speed_rev_s).ln().abs() < ROTORS_APART
     }
+
+    /// Whether its lines are more probable than those of another one, at odds of `belief_min`.
+    pub(crate) fn is_better_than(&self, other: &Self, belief_min: f64) -> bool {
+        self.levels_nats - other.levels_nats >= odds_nats(belief_min)
+    }
 }
 
 /// What a rotor is asked for.
@@ -295,6 +300,11 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
         propeller.search = last;
     }
     Some(Look { noise, of_propellers })
+}
+
+/// Logarithm of the odds of a belief.
+pub(super) fn odds_nats(belief: f64) -> f64 {
+    (belief / (1.0 - belief)).ln()
 }
 
 /// Whether the lines of the most probable hypothesis stand apart.

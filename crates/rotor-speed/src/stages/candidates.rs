@@ -148,39 +148,53 @@ pub(crate) fn candidates_from_survey(
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     surveyed.check(config)?;
     let beliefs = beliefs_of(surveyed, search_rev_s.clone(), config).map_err(Silence::because)?;
-    let leading_rev_s = beliefs.as_ref().and_then(Beliefs::hover_rev_s);
-    match leading_rev_s {
-        Some(leading_rev_s) => Ok(Candidates {
-            map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
-            leading_rev_s,
-            is_faint: beliefs.as_ref().is_some_and(|beliefs| beliefs.is_faint),
-            are_several: !config.rotors.is_count_known && are_several(surveyed, beliefs.as_ref(), config),
-            others: config.rotors.is_count_known
-                && config.rotors.count == 1
-                && are_several(surveyed, beliefs.as_ref(), config),
-            better: beliefs.as_ref().and_then(|beliefs| {
-                beliefs.better_elsewhere(&surveyed.looks, &any_rotor(sample_rate_hz), &config.evidence)
-            }),
-            beliefs,
-        }),
-        None => {
-            let instead = heard_instead(surveyed, sample_rate_hz, config);
-            Err(Silence::because(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey)).into())
-        }
-    }
+    let Some((beliefs, leading_rev_s)) = beliefs.and_then(|beliefs| beliefs.hover_rev_s().map(|it| (beliefs, it)))
+    else {
+        let instead =
+            blind_beliefs(surveyed, sample_rate_hz, config).and_then(|beliefs| rotor_of(beliefs.hypotheses.first()?));
+        return Err(Silence::because(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey)).into());
+    };
+    let wants_count = !config.rotors.is_count_known;
+    let are_several =
+        (wants_count || config.rotors.count == 1) && beliefs.are_several(&surveyed.looks, &config.evidence);
+    Ok(Candidates {
+        map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
+        leading_rev_s,
+        is_faint: beliefs.is_faint,
+        are_several: are_several && wants_count,
+        others: are_several && !wants_count,
+        better: better_elsewhere(surveyed, &beliefs, sample_rate_hz, config),
+        beliefs: Some(beliefs),
+    })
 }
 
-/// Whether other rotors are heard beside the most probable one.
-fn are_several(surveyed: &Surveyed, beliefs: Option<&Beliefs>, config: &Config) -> bool {
-    beliefs.is_some_and(|beliefs| beliefs.are_several(&surveyed.looks, &config.evidence))
-}
-
-/// The rotor that is heard where nothing is known. `None` where none is, or only a faint one.
-fn heard_instead(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<OtherRotor> {
-    let blind = Config { tone: ToneConfig { band_hz: None, ..config.tone.clone() }, ..config.clone() };
-    let beliefs = surveyed.beliefs(&any_rotor(sample_rate_hz), &blind).ok()?.filter(|beliefs| !beliefs.is_faint)?;
+/// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one. Behind a gear it is looked for where
+/// several speeds are possible: other lines may pass for those of a mesh.
+fn better_elsewhere(
+    surveyed: &Surveyed,
+    beliefs: &Beliefs,
+    sample_rate_hz: f64,
+    config: &Config,
+) -> Option<OtherRotor> {
+    let belief_min = config.evidence.belief_min;
     let first = beliefs.hypotheses.first()?;
-    Some(OtherRotor { blades: first.lines.blades?, speed_rev_s: first.hover_rev_s })
+    if first.lines.mesh_order.is_none() {
+        return beliefs.better_elsewhere(&surveyed.looks, &any_rotor(sample_rate_hz), &config.evidence);
+    }
+    let is_open = beliefs.possible(belief_min).len() > 1;
+    let other = is_open.then(|| blind_beliefs(surveyed, sample_rate_hz, config)).flatten()?;
+    let better = other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?;
+    rotor_of(better)
+}
+
+/// The beliefs where nothing is known. `None` where no rotor is heard, or only a faint one.
+fn blind_beliefs(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<Beliefs> {
+    let blind = Config { tone: ToneConfig { band_hz: None, ..config.tone.clone() }, ..config.clone() };
+    surveyed.beliefs(&any_rotor(sample_rate_hz), &blind).ok()?.filter(|beliefs| !beliefs.is_faint)
+}
+
+fn rotor_of(hypothesis: &Hypothesis) -> Option<OtherRotor> {
+    Some(OtherRotor { blades: hypothesis.lines.blades?, speed_rev_s: hypothesis.hover_rev_s })
 }
 
 /// Any rotor without a gear.
