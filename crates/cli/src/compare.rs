@@ -5,7 +5,7 @@ use crate::export::identified;
 use crate::failure::{Ending, Failure};
 use crate::inputs::read_text;
 use crate::terminal::Terminal;
-use hovertone_exchange::{SimulatorModel, model_from_text};
+use hovertone_exchange::{ModelError, SimulatorModel, model_from_text};
 use hovertone_report::{ComparedModel, models_json, models_text};
 use std::path::Path;
 
@@ -28,6 +28,13 @@ fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
 /// Reads the model of a simulator.
 pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
     let text = read_text(path, "the model")?;
-    let hint = "`hovertone compare --help` lists the files that it reads";
-    model_from_text(&text).map_err(|error| Failure::failed(error.to_string(), hint, path))
+    model_from_text(&text).map_err(|error| {
+        let hint = match error {
+            ModelError::NoExport => {
+                "give the model of a simulator; the constant of each results.json stands in its report.html"
+            }
+            _ => "`hovertone export --help` lists the simulators",
+        };
+        Failure::failed(error.to_string(), hint, path)
+    })
 }

@@ -142,6 +142,11 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
     refuse_number(path)?;
     let text = read_text(path, "the results")?;
     identified_from_results(&text, group).map_err(|error| match error {
+        _ if model_from_text(&text).is_ok() => Failure::Usage {
+            what: "this is a model of a simulator, and the results are needed first".to_owned(),
+            hint: "give results.json of `hovertone identify`, then the models".to_owned(),
+            path: Some(path.to_owned()),
+        },
         ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
             what: error.to_string(),
             hint: "give --group NAME".to_owned(),

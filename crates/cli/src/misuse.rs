@@ -172,8 +172,17 @@ fn nearest_flag(name: &str, words: &[OsString]) -> Option<String> {
     let command = typed_command(words)?;
     let flags: Vec<String> =
         command.get_arguments().filter_map(|flag| Some(format!("--{}", flag.get_long()?))).collect();
-    let nearest = nearest(name, flags.iter().map(String::as_str))?;
-    Some(format!("did you mean {nearest}?"))
+    let nearest = only_flag_of_unit(name, &flags)
+        .or_else(|| nearest(name.trim_start_matches('-'), flags.iter().map(|flag| flag.trim_start_matches('-'))))?;
+    Some(format!("did you mean --{}?", nearest.trim_start_matches('-')))
+}
+
+/// The flag whose value has the unit of the typed flag, such as rpm, where only one has it.
+fn only_flag_of_unit<'a>(name: &str, flags: &'a [String]) -> Option<&'a str> {
+    let (_, unit) = name.rsplit_once('-').filter(|(before, _)| !before.trim_matches('-').is_empty())?;
+    let mut of_unit = flags.iter().filter(|flag| flag.rsplit_once('-').is_some_and(|(_, of)| of == unit));
+    let only = of_unit.next()?;
+    of_unit.next().is_none().then_some(only)
 }
 
 /// Why a value is refused.
@@ -243,6 +252,12 @@ mod tests {
                 "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
             ),
             ("hovertone completions tcsh", "\"tcsh\": there is no such value (did you mean zsh? Give one of: bash, "),
+            (
+                "hovertone calibrate a.wav --true-rpm 3600",
+                "there is no flag --true-rpm (did you mean --tachometer-rpm?)",
+            ),
+            ("hovertone speed a.wav --blade 2", "there is no flag --blade (did you mean --blades?)"),
+            ("hovertone weigh a.wav --added 0.1", "there is no flag --added (as in `hovertone weigh "),
             ("hovertone speed a.wav --forc", "there is no flag --forc (did you mean --force?)"),
             ("hovertone spead a.wav", "there is no command \"spead\" (did you mean speed?)"),
             ("hovertone speeed a.wav", "there is no command \"speeed\" (did you mean speed?)"),

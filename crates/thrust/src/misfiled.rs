@@ -62,6 +62,30 @@ fn far_trials(load: &HeardLoad<'_>, trials: &[TrialSquare<'_>]) -> Vec<ThrustWar
     trials.iter().filter(is_far).map(warning).collect()
 }
 
+/// The rows of two masses, of which the heavier turned slower by the largest share, more than hovers of one mass differ. `points` are hovers with
+/// a weighed mass.
+pub(crate) fn exchanged_rows(points: &[ForcePoint]) -> Option<ThrustWarning> {
+    let mut sorted: Vec<&ForcePoint> = points.iter().collect();
+    sorted.sort_by(|a, b| a.force_n.total_cmp(&b.force_n));
+    let masses: Vec<&[&ForcePoint]> =
+        sorted.chunk_by(|a, b| b.force_n <= a.force_n * (1.0 + EQUAL_FORCES_SHARE)).collect();
+    let speed = |rows: &[&ForcePoint]| {
+        median(&rows.iter().map(|row| row.speed_square_rad2_s2.sqrt()).collect::<Vec<_>>()).unwrap_or_default()
+    };
+    let names = |rows: &[&ForcePoint]| rows.iter().map(|row| row.name.clone()).collect();
+    let mut slower: Option<(f64, ThrustWarning)> = None;
+    for (at, heavy) in masses.iter().enumerate() {
+        for light in &masses[..at] {
+            let share = 1.0 - speed(heavy) / speed(light);
+            if share > ALIKE_SHARE_MAX && slower.as_ref().is_none_or(|(most, _)| share > *most) {
+                slower =
+                    Some((share, ThrustWarning::HeavierRowsTurnedSlower { heavy: names(heavy), light: names(light) }));
+            }
+        }
+    }
+    slower.map(|(_, warning)| warning)
+}
+
 /// The pair of hovers whose heavier load turned slower by the largest share. Repeated trials show how much is chance; without them a
 /// difference counts that trials of one load do not have.
 fn exchanged_loads(campaign: &Campaign<'_>) -> Option<ThrustWarning> {

@@ -69,6 +69,13 @@ pub enum ThrustWarning {
         /// Name of the lighter load.
         light: String,
     },
+    /// The rotors turned slower in the rows of the heavier of two masses.
+    HeavierRowsTurnedSlower {
+        /// Names of the rows of the heavier mass.
+        heavy: Vec<String>,
+        /// Names of the rows of the lighter mass.
+        light: Vec<String>,
+    },
     /// A load that is far from the mass of the known vehicle.
     MassFarFromKnown {
         /// Name of the load.
@@ -163,6 +170,9 @@ impl ThrustWarning {
             Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale, the propellers",
             Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
                 "are masses exchanged? Check them, and which recording belongs to which load"
+            }
+            Self::HeavierRowsTurnedSlower { .. } => {
+                "are masses exchanged? Check them, and which speeds belong to which mass"
             }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
                 "is it filed under the right load? If it is, check it with `hovertone speed`"
@@ -340,6 +350,12 @@ impl fmt::Display for ThrustWarning {
             Self::HeavierTurnedSlower { heavy, light } => {
                 write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
             }
+            Self::HeavierRowsTurnedSlower { heavy, light } => write!(
+                f,
+                "the rotors turned slower with the heavier mass ({}) than with the lighter ({})",
+                first_names(heavy),
+                first_names(light)
+            ),
             Self::MassFarFromKnown { load, mass_kg, known_kg } => write!(
                 f,
                 "load \"{load}\" weighs {}, {} times as much as the named vehicle, {}",
@@ -349,7 +365,7 @@ impl fmt::Display for ThrustWarning {
             ),
             Self::RowsDoNotFit { names, are_left_out } => {
                 write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
-                if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { Ok(()) }
+                if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { f.write_str("; they are used all the same") }
             }
             Self::TrialLeftOut { load, recording } => {
                 write!(f, "{recording} of load \"{load}\" is left out: its constant is more than twice or less than half that of the other trials")

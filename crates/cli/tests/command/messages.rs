@@ -281,6 +281,7 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
         "r.json",
         b"{\"thrust_constant_per_rotor_n_s2\": {\"value\": 1e-6}, \"rotor_count\": 1, \"methods\": {}}",
     );
+    let model = write("m.sdf", b"<motorConstant>7.07e-06</motorConstant>");
     let (broken, sound) = (write("b.json", b"{\"a\": "), write("r.wav", &[255, 254, 0, 1]));
     let experiment = write("e.toml", b"# mine\n[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n");
     let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
@@ -291,6 +292,8 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
         (vec!["log", &scenario], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
         (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),
         (vec!["export", &results, "--into", &results], 2, "this JSON is no model of a simulator"),
+        (vec!["compare", &results, &results], 1, "this JSON is no model of a simulator"),
+        (vec!["compare", &model, &results], 2, "this is a model of a simulator, and the results are needed first"),
         (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
         (vec!["export", &empty, "--to", "gazebo"], 1, "the file is empty"),
         (vec!["export", &broken, "--to", "gazebo"], 1, "the file ends too early, on line 1"),

@@ -15,7 +15,7 @@ use crate::air::{ThrustCoefficients, figure_of_merit, is_plausible_merit, thrust
 use crate::budget::{UncertaintyBudget, budget_of_fit};
 use crate::campaign::{Campaign, GrossTrial, HeardLoad, trial_bootstrap, whole_vehicle_factor};
 use crate::drift::drifts;
-use crate::misfiled::misfiled;
+use crate::misfiled::{exchanged_rows, misfiled};
 use crate::outline::{LoadOutline, too_alike, warnings_of_masses, warnings_of_recordings};
 use crate::settings::ThrustSettings;
 use crate::speeds::{LoadSpeeds, TrialSpeeds};
@@ -257,12 +257,15 @@ fn warnings_of(
     warnings.extend(misfiled(campaign));
     warnings.extend(warnings_of_recordings(&outlines_of(loads, campaign)));
     let are_split = campaign.are_split || are_split_points(&campaign.points);
-    // a range that would be wide enough for misfiled trials tells nothing about the loads
     let is_contradicted = warnings.iter().any(ThrustWarning::is_of_misfiled);
     let of_range = fit.map(|fit| range_warnings(&campaign.points, fit, are_split)).unwrap_or_default();
-    let tells = |warning: &ThrustWarning| !is_contradicted || !matches!(warning, ThrustWarning::NarrowLoadRange(_));
-    warnings.extend(of_range.into_iter().filter(tells));
+    warnings.extend(of_range.into_iter().filter(|warning| tells(warning, is_contradicted)));
     warnings
+}
+
+/// Whether a warning about the range of loads means anything: a range that would be wide enough for misfiled loads tells nothing.
+fn tells(warning: &ThrustWarning, is_contradicted: bool) -> bool {
+    !is_contradicted || !matches!(warning, ThrustWarning::NarrowLoadRange(_))
 }
 
 /// All loads, with the number of their trials that are used.
@@ -325,7 +328,11 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
             .filter(|warning| !matches!(warning, ThrustWarning::RowsDoNotFit { names, .. } if names.is_empty()))
             .collect()
     };
-    warnings.extend(range_warnings(points, fit, are_split_points(points)));
+    let exchanged = gravity_m_s2.and_then(|_| exchanged_rows(points));
+    let is_contradicted = exchanged.is_some();
+    warnings.extend(exchanged);
+    let of_range = range_warnings(points, fit, are_split_points(points));
+    warnings.extend(of_range.into_iter().filter(|warning| tells(warning, is_contradicted)));
     warnings
 }
 
