@@ -137,6 +137,7 @@ fn motor_of_passes(
     };
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     let motor = motor_from_sound(passes, &HeardTone { tone: &config.tone, speed_rev_s, span_s }, commands)?;
+    let guess = guess.filter(|_| motor.model.is_some());
     Ok((Ok(motor), guess))
 }
 

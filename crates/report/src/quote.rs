@@ -28,7 +28,7 @@ impl Verdict {
         let heard = table.loads.iter().filter(|load| load.speed.is_some()).count();
         if !table.loads.iter().any(|load| load.fits.is_some()) {
             let why = match heard {
-                0 | 1 => "there is no second load to compare with",
+                0 | 1 => "there is no second load with a speed to compare with",
                 _ => {
                     "each load has one recording, which does not show how much the speed differs from flight to flight"
                 }

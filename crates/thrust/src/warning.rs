@@ -374,7 +374,7 @@ impl fmt::Display for ThrustWarning {
                 "half of the constants are more than twice or less than half the others, and nothing shows which half is right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
-            Self::SingleLoad => f.write_str("there is only one load, so the law cannot be tested"),
+            Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
             Self::OneRecordingEach { load_count: 1 } => {
                 f.write_str("there is one usable recording: the ± does not contain how much the speed differs from flight to flight")
             }

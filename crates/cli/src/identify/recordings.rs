@@ -3,7 +3,7 @@
 use super::ExperimentSource;
 use crate::copies::refuse_copies;
 use crate::failure::Failure;
-use crate::files::{files_of, home_expanded};
+use crate::files::{files_of, home_expanded, is_pattern};
 use crate::inputs::{STDIN, is_stdin, recording_of_stdin};
 use crate::recording::{Job, Requests};
 use crate::recording_files::{RecordingGroup, groups_below, groups_in};
@@ -74,6 +74,7 @@ pub(super) fn found_recordings<'a>(
         return Err(Failure::failed("there is no such folder", hint, root));
     }
     let (mut jobs, mut missing): (Vec<LoadJob>, Vec<Missing<'_>>) = (Vec::new(), Vec::new());
+    let mut named: Vec<(&str, &str)> = Vec::new();
     for load in &source.experiment.loads {
         for recording in &load.recordings {
             let name = recording.file();
@@ -104,11 +105,14 @@ pub(super) fn found_recordings<'a>(
                     sha256: None,
                     samples: None,
                 };
+                // a pattern may hold a file that is named as well; two equal names are refused as copies are
                 let is_known = |known: &LoadJob| known.load == load.name && known.job.path == job.path;
-                if !jobs.iter().any(is_known) {
+                let is_named_again = !is_pattern(name) && named.contains(&(load.name.as_str(), name));
+                if is_named_again || !jobs.iter().any(is_known) {
                     jobs.push(LoadJob { job, load: load.name.clone(), log: log.clone() });
                 }
             }
+            named.push((load.name.as_str(), name));
         }
     }
     Ok(FoundRecordings { jobs, missing })

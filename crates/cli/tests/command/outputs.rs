@@ -324,10 +324,14 @@ fn a_recording_counts_once() {
         fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
         refused_with(&["identify", text(&experiment)], &words);
     }
-    // one file under one name in two loads
-    let loads = load("one", 0.0, "a.wav") + &load("two", 0.05, "a.wav");
-    fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
-    refused_with(&["identify", text(&experiment)], &["a.wav is given twice, and it can belong to one load only"]);
+    // one file under one name in two loads, and twice in one
+    for loads in [load("one", 0.0, "a.wav") + &load("two", 0.05, "a.wav"), load("one", 0.0, "a.wav\", \"a.wav")] {
+        fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
+        refused_with(&["identify", text(&experiment)], &["a.wav is given twice, and it counts once"]);
+    }
+    // a pattern may hold a file that is named as well
+    fs::write(&experiment, format!("{vehicle}{}", load("one", 0.0, "a.*\", \"a.wav"))).unwrap();
+    hovertone(&["identify", "--check", text(&experiment)]).ends_with(0);
     let weigh = ["weigh", text(&first), text(&second), "--constant-n-s2", "2.831e-5", "--vehicle", "ardrone"];
     refused_with(&weigh, &words[..3]);
 }
