@@ -155,7 +155,6 @@ impl Browser {
     }
 
     /// Waits until an expression, or what it promises, is true in the page.
-    #[cfg(feature = "page")]
     pub(crate) fn wait_for(&mut self, expression: &str, patience: Duration) {
         let start = std::time::Instant::now();
         while self.value(&format!("(async () => Boolean(await ({expression})))()")) != true {
