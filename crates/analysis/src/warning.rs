@@ -69,6 +69,8 @@ pub enum Warning {
         of: u32,
         /// Whether the mean of all rotors is still known.
         has_mean: bool,
+        /// Whether their number was not given.
+        is_assumed: bool,
     },
     /// The number of rotors is not known, so that the line of one may stand for several.
     RotorCountUnknown {
@@ -176,14 +178,16 @@ impl fmt::Display for Warning {
                 write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)
             }
             Self::FewFrames { frame_count } => write!(f, "a sample has only {frame_count} frames"),
-            Self::RotorsNotApart { resolved: 0, of, has_mean: true } => {
-                write!(f, "the speeds of the {of} rotors are too close to separate them: they are heard as a group")
-            }
-            Self::RotorsNotApart { resolved: 0, of, .. } => {
-                write!(f, "the {of} rotors could not be separated: one tone is used for all of them")
-            }
-            Self::RotorsNotApart { resolved, of, .. } => {
-                write!(f, "only {resolved} of the {of} rotors could be separated")
+            Self::RotorsNotApart { resolved, of, has_mean, is_assumed } => {
+                match (resolved, has_mean) {
+                    (0, true) => write!(
+                        f,
+                        "the speeds of the {of} rotors are too close to separate them: they are heard as a group"
+                    ),
+                    (0, false) => write!(f, "the {of} rotors could not be separated: one tone is used for all of them"),
+                    _ => write!(f, "only {resolved} of the {of} rotors could be separated"),
+                }?;
+                if *is_assumed { write!(f, " (no number of rotors was given: {of} are assumed)") } else { Ok(()) }
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,

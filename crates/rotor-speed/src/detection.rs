@@ -78,10 +78,20 @@ pub(crate) fn warning_of_samples(samples: &[SampleSpeeds]) -> Option<Warning> {
 }
 
 /// Whether all rotors that there are were told apart.
-pub(crate) fn warning_of_rotors(rotors: &[RotorEstimate], speeds: &[SpeedEstimate], count: u32) -> Option<Warning> {
+pub(crate) fn warning_of_rotors(
+    rotors: &[RotorEstimate],
+    speeds: &[SpeedEstimate],
+    count: u32,
+    is_assumed: bool,
+) -> Option<Warning> {
     let resolved = rotors.len();
     let has_mean = speeds.iter().any(|speed| speed.method == Method::Separated);
-    (count > 1 && resolved < count as usize).then_some(Warning::RotorsNotApart { resolved, of: count, has_mean })
+    (count > 1 && resolved < count as usize).then_some(Warning::RotorsNotApart {
+        resolved,
+        of: count,
+        has_mean,
+        is_assumed,
+    })
 }
 
 /// What the ridges say against the speed.

@@ -1,11 +1,12 @@
 //! Stage 2: survey → candidate shaft speeds that may explain its lines.
 
+use super::left_out::{better_elsewhere, heard_instead};
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
 use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
-use crate::tone::{BLADES, CombMap, DiscoveryConfig, ToneConfig, blades_of_tone, reading_at, search_range_rev_s};
+use crate::tone::{CombMap, blades_of_tone, reading_at, search_range_rev_s};
 use hovertone_analysis::{Hover, Meaning, NoTone, OtherRotor, Reading, Span, Warning, WeighedSpeed};
 use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
@@ -150,8 +151,7 @@ pub(crate) fn candidates_from_survey(
     let beliefs = beliefs_of(surveyed, search_rev_s.clone(), config).map_err(Silence::because)?;
     let Some((beliefs, leading_rev_s)) = beliefs.and_then(|beliefs| beliefs.hover_rev_s().map(|it| (beliefs, it)))
     else {
-        let instead =
-            blind_beliefs(surveyed, sample_rate_hz, config).and_then(|beliefs| rotor_of(beliefs.hypotheses.first()?));
+        let instead = heard_instead(surveyed, sample_rate_hz, config);
         return Err(Silence::because(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey)).into());
     };
     let wants_count = !config.rotors.is_count_known;
@@ -163,49 +163,9 @@ pub(crate) fn candidates_from_survey(
         is_faint: beliefs.is_faint,
         are_several: are_several && wants_count,
         others: are_several && !wants_count,
-        better: better_elsewhere(surveyed, &beliefs, sample_rate_hz, config),
+        better: better_elsewhere(surveyed, &beliefs, &search_rev_s, sample_rate_hz, config),
         beliefs: Some(beliefs),
     })
-}
-
-/// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one. Behind a gear it is looked for where
-/// several speeds are possible: other lines may pass for those of a mesh.
-fn better_elsewhere(
-    surveyed: &Surveyed,
-    beliefs: &Beliefs,
-    sample_rate_hz: f64,
-    config: &Config,
-) -> Option<OtherRotor> {
-    let belief_min = config.evidence.belief_min;
-    let first = beliefs.hypotheses.first()?;
-    if first.lines.mesh_order.is_none() {
-        return beliefs.better_elsewhere(&surveyed.looks, &any_rotor(sample_rate_hz), &config.evidence);
-    }
-    let is_open = beliefs.possible(belief_min).len() > 1;
-    let other = is_open.then(|| blind_beliefs(surveyed, sample_rate_hz, config)).flatten()?;
-    let better = other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?;
-    rotor_of(better)
-}
-
-/// The beliefs where nothing is known. `None` where no rotor is heard, or only a faint one.
-fn blind_beliefs(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<Beliefs> {
-    let blind = Config { tone: ToneConfig { band_hz: None, ..config.tone.clone() }, ..config.clone() };
-    surveyed.beliefs(&any_rotor(sample_rate_hz), &blind).ok()?.filter(|beliefs| !beliefs.is_faint)
-}
-
-fn rotor_of(hypothesis: &Hypothesis) -> Option<OtherRotor> {
-    Some(OtherRotor { blades: hypothesis.lines.blades?, speed_rev_s: hypothesis.hover_rev_s })
-}
-
-/// Any rotor without a gear.
-fn any_rotor(sample_rate_hz: f64) -> WantedRotor {
-    let shares = BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares);
-    let propellers = shares.filter_map(|(blades, share)| {
-        let tone = ToneConfig::of_order(Order::from_blades(blades).ok()?);
-        let speeds_rev_s = search_range_rev_s(&tone, sample_rate_hz).ok()?;
-        Some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
-    });
-    WantedRotor { propellers: propellers.collect(), known: KnownRotor::default(), may_be_slow: false }
 }
 
 /// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.

@@ -5,6 +5,7 @@
 mod candidates;
 mod decision;
 mod hover;
+mod left_out;
 mod lines;
 mod rotors;
 mod speeds;

@@ -52,7 +52,12 @@ pub(crate) fn speeds_from_decision(
         warnings.retain(|warning| !matches!(warning, Warning::SeveralLines { .. }));
     }
     let wants_rotors = config.methods().any(|method| method == Method::Separated);
-    warnings.extend(warning_of_rotors(&rotors, &speeds, if wants_rotors { config.rotors.count } else { 1 }));
+    warnings.extend(warning_of_rotors(
+        &rotors,
+        &speeds,
+        if wants_rotors { config.rotors.count } else { 1 },
+        !config.rotors.is_count_known,
+    ));
     let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;
     let track = match tracks.into_iter().find(|track| track.method == config.method) {
         Some(track) => track.points,
