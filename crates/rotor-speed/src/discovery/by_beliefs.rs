@@ -39,7 +39,7 @@ impl Believed {
         discovery: &Discovery,
     ) -> Result<Option<Self>, NoTone> {
         let propellers = propellers(sample_rate_hz, config, discovery);
-        let wanted = WantedRotor { propellers, known: discovery.known, may_be_slow: false };
+        let wanted = WantedRotor { propellers, known: discovery.known, may_be_slow: false, where_unknown: Vec::new() };
         let Some(beliefs) = surveyed.beliefs(&wanted, config)? else { return Ok(None) };
         let readings = readings_of(&beliefs, discovery);
         let is_heard = readings.first().is_some_and(|first| first.plausibility > 0.0);

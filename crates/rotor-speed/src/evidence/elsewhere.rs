@@ -1,15 +1,15 @@
 //! Rotors that something known leaves out, though their lines are far more probable: with other blades, or at another speed.
 
 use super::excess::{Excess, Looks};
-use super::hypotheses::{Beliefs, RESOLVED_REV_S, WantedPropeller, WantedRotor, nats_of_vehicle, odds_nats};
+use super::hypotheses::{Hypothesis, RESOLVED_REV_S, WantedPropeller, WantedRotor, nats_of_vehicle, odds_nats};
 use super::level_model::LevelModel;
-use super::levels::{NoiseLevel, levels_of_lines};
+use super::levels::levels_of_lines;
 use super::rotor_lines::RotorLines;
 use super::second_look::path_in_long_frames;
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
 use hovertone_analysis::OtherRotor;
-use std::ops::RangeInclusive;
+use hovertone_vehicle::KnownRotor;
 
 /// The lines of a rotor are about those of another, whose blade pass is at the ratio of two numbers up to this … *Decision.*
 const RATIO_PARTS: u32 = 3;
@@ -17,17 +17,13 @@ const RATIO_PARTS: u32 = 3;
 const RATIO_PARTS_OF_NARROWED: u32 = 5;
 
 /// The path of a rotor in frames of one length.
-struct PathInLook<'a> {
+struct PathInLook<'a, 'b> {
     look: &'a Excess,
     speeds_rev_s: Vec<f64>,
-    model: LevelModel<'a>,
+    model: &'a mut LevelModel<'b>,
 }
 
-impl<'a> PathInLook<'a> {
-    fn new(look: &'a Excess, speeds_rev_s: Vec<f64>, noise: NoiseLevel, config: &'a EvidenceConfig) -> Self {
-        Self { look, speeds_rev_s, model: LevelModel::of_speeds(noise, &config.levels) }
-    }
-
+impl PathInLook<'_, '_> {
     /// The evidence of the lines at a multiple of the path.
     fn nats(&mut self, lines: &RotorLines, ratio: f64) -> f64 {
         let speeds_rev_s: Vec<f64> = self.speeds_rev_s.iter().map(|speed_rev_s| ratio * speed_rev_s).collect();
@@ -35,60 +31,65 @@ impl<'a> PathInLook<'a> {
     }
 }
 
-impl Beliefs {
-    /// The rotor with the most probable lines among `any` that are possible, at a simple ratio of the path that was found in `searched_rev_s`. `None`
-    /// where the first hypothesis is as probable, at odds below `belief_min`; and where a gear mesh is followed or the rotor is faint. The short look
-    /// alone refutes what is less probable there, because each comparison costs half a millisecond.
-    ///
-    /// Measured (`docs/decisions/0019-one-evidence.md`): none in 106 real and 96 semi-real cases with the right blades; with 3 or 4 blades in place of 2,
-    /// one in most benches. Flights seldom show the lines of the shaft, which tell the blades.
-    pub(crate) fn better_elsewhere(
-        &self,
-        looks: &Looks,
-        any: &WantedRotor,
-        searched_rev_s: &RangeInclusive<f64>,
-        config: &EvidenceConfig,
-    ) -> Option<OtherRotor> {
-        let first = self.hypotheses.first().filter(|first| first.lines.mesh_order.is_none() && !self.is_faint)?;
-        let own_blades = first.lines.blades?;
-        let own = any.propellers.iter().find(|propeller| propeller.lines == first.lines);
-        let rarest = any.propellers.iter().map(|propeller| propeller.share).fold(1.0, f64::min);
-        let prior_nats = |share: f64, speed_rev_s: f64| share.ln() + nats_of_vehicle(speed_rev_s, &any.known, config);
-        let own_prior_nats = prior_nats(own.map_or(rarest, |own| own.share), first.hover_rev_s);
+/// The rotor with the most probable lines among those that are wanted where nothing is known, at a simple ratio of the path of the most probable
+/// hypothesis. `None` where that one is as probable, at odds below `belief_min`, and where a gear mesh is followed. The short look alone refutes what
+/// is less probable there, because each comparison costs a third of a millisecond.
+///
+/// - `models`: those of the short and of the long look.
+///
+/// Measured (`docs/decisions/0019-one-evidence.md`): none in 106 real and 96 semi-real cases with the right blades; with 3 or 4 blades in place of 2,
+/// one in most benches. Flights seldom show the lines of the shaft, which tell the blades.
+pub(super) fn better_elsewhere(
+    first: &Hypothesis,
+    looks: &Looks,
+    wanted: &WantedRotor,
+    models: [&mut LevelModel<'_>; 2],
+    config: &EvidenceConfig,
+) -> Option<OtherRotor> {
+    let own_blades = first.lines.blades.filter(|_| first.lines.mesh_order.is_none())?;
+    let any = &wanted.where_unknown;
+    let searched_rev_s = &wanted.propellers.first()?.speeds_rev_s;
+    let own = any.iter().find(|propeller| propeller.lines == first.lines);
+    let rarest = any.iter().map(|propeller| propeller.share).fold(1.0, f64::min);
+    let prior_nats =
+        |share: f64, speed_rev_s: f64| share.ln() + nats_of_vehicle(speed_rev_s, &KnownRotor::default(), config);
+    let own_prior_nats = prior_nats(own.map_or(rarest, |own| own.share), first.hover_rev_s);
 
-        let mut short = PathInLook::new(&looks.short, first.speeds_rev_s.clone(), self.noise, config);
-        let own_nats = short.nats(&first.lines, 1.0);
-        let is_narrowed = own.is_none_or(|own| own.speeds_rev_s != *searched_rev_s);
-        let parts = || 1..=if is_narrowed { RATIO_PARTS_OF_NARROWED } else { RATIO_PARTS };
-        let mut better: Vec<(f64, &WantedPropeller, f64)> = Vec::new();
-        for propeller in &any.propellers {
-            let Some(blades) = propeller.lines.blades else { continue };
-            let is_compared = |speed_rev_s: f64| blades == own_blades && searched_rev_s.contains(&speed_rev_s);
-            for (over, under) in parts().flat_map(|over| parts().map(move |under| (over, under))) {
-                let ratio = f64::from(over * own_blades) / f64::from(under * blades);
-                let speed_rev_s = ratio * first.hover_rev_s;
-                let is_possible = propeller.speeds_rev_s.contains(&speed_rev_s) && speed_rev_s >= RESOLVED_REV_S;
-                if is_possible && !is_compared(speed_rev_s) && (over == 1 || over != under) {
-                    let more_nats = short.nats(&propeller.lines, ratio) - own_nats;
-                    if more_nats + prior_nats(propeller.share, speed_rev_s) > own_prior_nats {
-                        better.push((more_nats, propeller, ratio));
-                    }
+    let [short, long] = models;
+    let mut short = PathInLook { look: &looks.short, speeds_rev_s: first.speeds_rev_s.clone(), model: short };
+    let own_nats = short.nats(&first.lines, 1.0);
+    let is_narrowed = own.is_none_or(|own| own.speeds_rev_s != *searched_rev_s);
+    let parts = || 1..=if is_narrowed { RATIO_PARTS_OF_NARROWED } else { RATIO_PARTS };
+    let mut better: Vec<(f64, &WantedPropeller, f64)> = Vec::new();
+    for propeller in any {
+        let Some(blades) = propeller.lines.blades else { continue };
+        let is_compared = |speed_rev_s: f64| blades == own_blades && searched_rev_s.contains(&speed_rev_s);
+        for (over, under) in parts().flat_map(|over| parts().map(move |under| (over, under))) {
+            let ratio = f64::from(over * own_blades) / f64::from(under * blades);
+            let speed_rev_s = ratio * first.hover_rev_s;
+            let is_possible = propeller.speeds_rev_s.contains(&speed_rev_s) && speed_rev_s >= RESOLVED_REV_S;
+            if is_possible && !is_compared(speed_rev_s) && (over == 1 || over != under) {
+                let more_nats = short.nats(&propeller.lines, ratio) - own_nats;
+                if more_nats + prior_nats(propeller.share, speed_rev_s) > own_prior_nats {
+                    better.push((more_nats, propeller, ratio));
                 }
             }
         }
-
-        let long_rev_s =
-            (!better.is_empty()).then(|| path_in_long_frames(looks, &first.speeds_rev_s, &VoteTable::of(&first.lines)));
-        let mut long = PathInLook::new(&looks.long, long_rev_s??, self.long_noise?, config);
-        let own_nats = long.nats(&first.lines, 1.0);
-        // the mean of the looks, as of all hypotheses, with how common such a rotor is
-        let odds = better.into_iter().filter_map(|(short_nats, propeller, ratio)| {
-            let speed_rev_s = ratio * first.hover_rev_s;
-            let levels_nats = 0.5 * (short_nats + long.nats(&propeller.lines, ratio) - own_nats);
-            let nats = levels_nats + prior_nats(propeller.share, speed_rev_s) - own_prior_nats;
-            Some((nats, OtherRotor { blades: propeller.lines.blades?, speed_rev_s }))
-        });
-        let best = odds.max_by(|(a, _), (b, _)| a.total_cmp(b));
-        best.filter(|(nats, _)| *nats >= odds_nats(config.belief_min)).map(|(_, other)| other)
     }
+    if better.is_empty() {
+        return None;
+    }
+
+    let speeds_rev_s = path_in_long_frames(looks, &first.speeds_rev_s, &VoteTable::of(&first.lines))?;
+    let mut long = PathInLook { look: &looks.long, speeds_rev_s, model: long };
+    let own_nats = long.nats(&first.lines, 1.0);
+    // the mean of the looks, as of all hypotheses, with how common such a rotor is
+    let odds = better.into_iter().filter_map(|(short_nats, propeller, ratio)| {
+        let speed_rev_s = ratio * first.hover_rev_s;
+        let levels_nats = 0.5 * (short_nats + long.nats(&propeller.lines, ratio) - own_nats);
+        let nats = levels_nats + prior_nats(propeller.share, speed_rev_s) - own_prior_nats;
+        Some((nats, OtherRotor { blades: propeller.lines.blades?, speed_rev_s }))
+    });
+    let best = odds.max_by(|(a, _), (b, _)| a.total_cmp(b));
+    best.filter(|(nats, _)| *nats >= odds_nats(config.belief_min)).map(|(_, other)| other)
 }

@@ -1,6 +1,7 @@
 //! Hypotheses: speeds and numbers of blades, and the belief in each.
 
 use super::companions::companion_nats;
+use super::elsewhere::better_elsewhere;
 use super::excess::{Excess, Looks};
 use super::level_model::{LevelModel, RotorLevels};
 use super::levels::{NoiseLevel, levels_of_lines, noise_level};
@@ -11,6 +12,7 @@ use super::search::{GRID_STEP, Multiple, ROTORS_APART, Search, VOTES_NATS_APART,
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
+use hovertone_analysis::OtherRotor;
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
@@ -33,13 +35,13 @@ pub(crate) struct Beliefs {
     /// All hypotheses that are possible, most probable first; at least one.
     pub(crate) hypotheses: Vec<Hypothesis>,
     /// The noise between the lines.
-    pub(super) noise: NoiseLevel,
-    /// The same in long frames, where they were looked at.
-    pub(super) long_noise: Option<NoiseLevel>,
+    noise: NoiseLevel,
     /// Whether only long frames hear the rotor.
     pub(crate) is_faint: bool,
     /// Evidence for the gear mesh of the most probable rotor alone, in nats; 0 where none is followed.
     mesh_nats: f64,
+    /// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one.
+    pub(crate) better: Option<OtherRotor>,
 }
 
 impl Beliefs {
@@ -138,6 +140,8 @@ pub(crate) struct WantedRotor {
     pub(crate) known: KnownRotor,
     /// Whether something that is known says that the rotor may be slow.
     pub(crate) may_be_slow: bool,
+    /// The propellers that would be possible if nothing were known; none where the answer is not compared with these.
+    pub(crate) where_unknown: Vec<WantedPropeller>,
 }
 
 /// A propeller that is possible, with its gear.
@@ -162,9 +166,9 @@ pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &E
 }
 
 fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
-    let Look { noise, mut of_propellers } = look_at(&looks.short, wanted, config)?;
-    let long_noise = look_again(looks, &mut of_propellers, config);
-    let mut presence = Presence::new(noise, long_noise, &config.levels);
+    let Look { noise, mut of_propellers, mut model } = look_at(&looks.short, wanted, config)?;
+    let mut again = look_again(looks, &mut of_propellers, config);
+    let mut presence = Presence::new(noise, again.as_ref().map(|(noise, _)| *noise), &config.levels);
     let is_possible = |look: &OfPropeller| wanted.may_be_slow || is_resolved(&look.hypotheses);
     let heard =
         of_propellers.into_iter().filter(|look| is_possible(look) && presence.is_heard(&look.hypotheses, config));
@@ -176,7 +180,10 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
         .collect();
     let hypotheses = with_beliefs(hypotheses);
     let mesh_nats = presence.mesh_nats(hypotheses.first()?);
-    Some(Beliefs { hypotheses, noise, long_noise, is_faint: false, mesh_nats })
+    let better = again
+        .as_mut()
+        .and_then(|(_, long)| better_elsewhere(hypotheses.first()?, looks, wanted, [&mut model, long], config));
+    Some(Beliefs { hypotheses, noise, is_faint: false, mesh_nats, better })
 }
 
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.
@@ -191,9 +198,13 @@ fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool 
     jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
 }
 
-/// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames; `None` where they
-/// show none.
-fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &EvidenceConfig) -> Option<NoiseLevel> {
+/// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames with its model; `None`
+/// where they show none.
+fn look_again<'a>(
+    looks: &Looks,
+    of_propellers: &mut [OfPropeller],
+    config: &'a EvidenceConfig,
+) -> Option<(NoiseLevel, LevelModel<'a>)> {
     let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
     for look in &*of_propellers {
         let table = VoteTable::of(&look.lines);
@@ -228,12 +239,14 @@ fn look_again(looks: &Looks, of_propellers: &mut [OfPropeller], config: &Evidenc
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
-    Some(noise)
+    Some((noise, model))
 }
 
 /// What frames of one length show.
-struct Look {
+struct Look<'a> {
     noise: NoiseLevel,
+    /// The model that told the speeds apart.
+    model: LevelModel<'a>,
     /// The hypotheses with each of the propellers that are heard.
     of_propellers: Vec<OfPropeller>,
 }
@@ -254,7 +267,7 @@ struct OfPropeller {
 ///
 /// The path with the most votes of all may be that of a slow comb, whose dense lines cover the wide lines of several rotors. Therefore each
 /// octave has its path, and the levels decide among them. The noise is what the paths that explain most leave between their lines.
-fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Look> {
+fn look_at<'a>(excess: &Excess, wanted: &WantedRotor, config: &'a EvidenceConfig) -> Option<Look<'a>> {
     let noises_of = |search: &Search| -> Vec<NoiseLevel> {
         search.speeds_of_paths().filter_map(|speeds_rev_s| noise_level(excess, &speeds_rev_s)).collect()
     };
@@ -299,7 +312,7 @@ fn look_at(excess: &Excess, wanted: &WantedRotor, config: &EvidenceConfig) -> Op
     if let Some(propeller) = of_propellers.last_mut() {
         propeller.search = last;
     }
-    Some(Look { noise, of_propellers })
+    Some(Look { noise, model, of_propellers })
 }
 
 /// Logarithm of the odds of a belief.

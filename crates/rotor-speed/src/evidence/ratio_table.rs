@@ -7,9 +7,9 @@ use hovertone_vehicle::LineLevels;
 /// Mean levels of a line that the tables hold, dB, in steps of 1 dB. *Numeric.*
 const LINE_DB: std::ops::RangeInclusive<i32> = -45..=95;
 /// Steps of a measured level to a dB. *Numeric.*
-const STEPS_PER_DB: f64 = 8.0;
+const STEPS_PER_DB: f64 = 16.0;
 /// Number of these steps: to 90 dB. *Numeric.*
-const MEASURED_STEPS: usize = 961;
+const MEASURED_STEPS: usize = 1921;
 /// Deviations of a line from its mean level over which the tables are integrated, in standard deviations. *Numeric.*
 const DEVIATIONS: [f64; 13] = [-3.0, -2.5, -2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
 /// Range of levels that a line of something else may have, dB. *Decision.*

@@ -1,6 +1,6 @@
 //! Stage 2: survey → candidate shaft speeds that may explain its lines.
 
-use super::left_out::{better_elsewhere, heard_instead};
+use super::left_out::{any_propellers, better_without_gear, heard_instead};
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
@@ -148,7 +148,8 @@ pub(crate) fn candidates_from_survey(
 ) -> Result<Candidates, Stop> {
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     surveyed.check(config)?;
-    let beliefs = beliefs_of(surveyed, search_rev_s.clone(), config).map_err(Silence::because)?;
+    let where_unknown = any_propellers(sample_rate_hz);
+    let beliefs = beliefs_of(surveyed, search_rev_s.clone(), where_unknown, config).map_err(Silence::because)?;
     let Some((beliefs, leading_rev_s)) = beliefs.and_then(|beliefs| beliefs.hover_rev_s().map(|it| (beliefs, it)))
     else {
         let instead = heard_instead(surveyed, sample_rate_hz, config);
@@ -163,22 +164,25 @@ pub(crate) fn candidates_from_survey(
         is_faint: beliefs.is_faint,
         are_several: are_several && wants_count,
         others: are_several && !wants_count,
-        better: better_elsewhere(surveyed, &beliefs, &search_rev_s, sample_rate_hz, config),
+        better: beliefs.better.or_else(|| better_without_gear(surveyed, &beliefs, sample_rate_hz, config)),
         beliefs: Some(beliefs),
     })
 }
 
-/// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.
+/// The beliefs in the speeds of a rotor with the tone of the settings, compared with the propellers that are possible where nothing is known. `None`
+/// where no rotor is heard.
 ///
 /// # Errors
 /// Mains hum.
 pub(crate) fn beliefs_of(
     surveyed: &Surveyed,
     speeds_rev_s: RangeInclusive<f64>,
+    where_unknown: Vec<WantedPropeller>,
     config: &Config,
 ) -> Result<Option<Beliefs>, NoTone> {
     let propeller = WantedPropeller { lines: RotorLines::of_tone(&config.tone), share: 1.0, speeds_rev_s };
     let may_be_slow =
         config.tone.is_named_by_band() || config.known.diameter_m.is_some() || config.known.shaft_speed.is_some();
-    surveyed.beliefs(&WantedRotor { propellers: vec![propeller], known: config.known, may_be_slow }, config)
+    let wanted = WantedRotor { propellers: vec![propeller], known: config.known, may_be_slow, where_unknown };
+    surveyed.beliefs(&wanted, config)
 }

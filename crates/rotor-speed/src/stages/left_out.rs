@@ -6,27 +6,20 @@ use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRo
 use crate::tone::{BLADES, DiscoveryConfig, ToneConfig, search_range_rev_s};
 use hovertone_analysis::OtherRotor;
 use hovertone_vehicle::{KnownRotor, Order};
-use std::ops::RangeInclusive;
 
-/// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one. Behind a gear it is looked for where
-/// several speeds are possible: other lines may pass for those of a mesh.
-pub(super) fn better_elsewhere(
+/// Behind a gear, the rotor without one whose lines are far more probable than those of the most probable one. It is looked for where several speeds are
+/// possible: other lines may pass for those of a mesh.
+pub(super) fn better_without_gear(
     surveyed: &Surveyed,
     beliefs: &Beliefs,
-    searched_rev_s: &RangeInclusive<f64>,
     sample_rate_hz: f64,
     config: &Config,
 ) -> Option<OtherRotor> {
     let belief_min = config.evidence.belief_min;
-    let first = beliefs.hypotheses.first()?;
-    if first.lines.mesh_order.is_none() {
-        let any = any_rotor(sample_rate_hz);
-        return beliefs.better_elsewhere(&surveyed.looks, &any, searched_rev_s, &config.evidence);
-    }
+    let first = beliefs.hypotheses.first().filter(|first| first.lines.mesh_order.is_some())?;
     let is_open = beliefs.possible(belief_min).len() > 1;
     let other = is_open.then(|| blind_beliefs(surveyed, sample_rate_hz, config)).flatten()?;
-    let better = other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?;
-    rotor_of(better)
+    rotor_of(other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?)
 }
 
 /// The rotor that is heard where nothing is known. `None` where none is.
@@ -37,20 +30,26 @@ pub(super) fn heard_instead(surveyed: &Surveyed, sample_rate_hz: f64, config: &C
 /// The beliefs where nothing is known. `None` where no rotor is heard, or only a faint one.
 fn blind_beliefs(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<Beliefs> {
     let blind = Config { tone: ToneConfig { band_hz: None, ..config.tone.clone() }, ..config.clone() };
-    surveyed.beliefs(&any_rotor(sample_rate_hz), &blind).ok()?.filter(|beliefs| !beliefs.is_faint)
+    let any = WantedRotor {
+        propellers: any_propellers(sample_rate_hz),
+        known: KnownRotor::default(),
+        may_be_slow: false,
+        where_unknown: Vec::new(),
+    };
+    surveyed.beliefs(&any, &blind).ok()?.filter(|beliefs| !beliefs.is_faint)
 }
 
 fn rotor_of(hypothesis: &Hypothesis) -> Option<OtherRotor> {
     Some(OtherRotor { blades: hypothesis.lines.blades?, speed_rev_s: hypothesis.hover_rev_s })
 }
 
-/// Any rotor without a gear.
-fn any_rotor(sample_rate_hz: f64) -> WantedRotor {
+/// The propellers that are possible where nothing is known, without a gear.
+pub(super) fn any_propellers(sample_rate_hz: f64) -> Vec<WantedPropeller> {
     let shares = BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares);
-    let propellers = shares.filter_map(|(blades, share)| {
+    let propeller = |(blades, share)| {
         let tone = ToneConfig::of_order(Order::from_blades(blades).ok()?);
         let speeds_rev_s = search_range_rev_s(&tone, sample_rate_hz).ok()?;
         Some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
-    });
-    WantedRotor { propellers: propellers.collect(), known: KnownRotor::default(), may_be_slow: false }
+    };
+    shares.filter_map(propeller).collect()
 }
