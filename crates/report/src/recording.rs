@@ -192,17 +192,40 @@ impl SpeedRecord {
                     }
                     .to_owned(),
                 ),
-                Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(
-                    "several rotor speeds explain this sound; give the diameter of the propellers (--diameter-m), the mass (--mass-kg) and the \
-                     number of rotors (--rotors): they rule out speeds that cannot carry the vehicle"
+                Outcome::Ok(_) if self.is_setting_missing("/tone/blades") => Some(
+                    "several rotor speeds explain this sound; count the blades, and give --blades N too: the blade pass shows the speed"
                         .to_owned(),
                 ),
+                Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
+                    "several rotor speeds explain this sound; give {}: they rule out speeds that cannot carry the vehicle",
+                    self.missing_facts()
+                )),
                 Outcome::Ok(_) => Some(
                     "several rotor speeds explain this sound, and more than one of them can carry the vehicle; check the diameter of the \
                      propellers and the vehicle, or place the microphone nearer"
                         .to_owned(),
                 ),
             },
+        }
+    }
+
+    fn is_setting_missing(&self, place: &str) -> bool {
+        self.settings.pointer(place).is_none_or(Value::is_null)
+    }
+
+    /// Those of diameter, mass and number of rotors that are not known.
+    fn missing_facts(&self) -> String {
+        let facts = [
+            ("/known/diameter_m", "the diameter of the propellers (--diameter-m)"),
+            ("/known/mass_kg", "the mass (--mass-kg)"),
+            ("/known/rotor_count", "the number of rotors (--rotors)"),
+        ];
+        let missing: Vec<&str> =
+            facts.iter().filter(|(place, _)| self.is_setting_missing(place)).map(|(_, words)| *words).collect();
+        match missing.split_last() {
+            Some((last, [])) => (*last).to_owned(),
+            Some((last, others)) => format!("{} and {last}", others.join(", ")),
+            None => facts.map(|(_, words)| words).join(", "),
         }
     }
 

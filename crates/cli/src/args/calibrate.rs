@@ -14,7 +14,7 @@ it is not decided. A tachometer that shows whole revolutions per minute leaves Â
 decides the order, but a clock only if --clock-ppm is above 80.
 
 Examples:
-  hovertone calibrate --vehicle crazyflie --tachometer-rpm 20850 crazyflie-propeller/44000.wav
+  hovertone calibrate --vehicle crazyflie --rotors 1 --tachometer-rpm 20850 bench.wav
   hovertone calibrate --true-hz 1000 tone.wav";
 
 /// The recorder's clock and the order of the tone, checked against one known speed: pass, fail or not decided, with the correction

@@ -1,6 +1,6 @@
 //! A heard speed against the known one, in words and as JSON.
 
-use super::{BAND_SHARE, MILLION, SEVERAL_ROTORS};
+use super::{AMBIGUOUS, BAND_SHARE, MILLION, SEVERAL_ROTORS};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
 use crate::vehicles::preset;
@@ -273,7 +273,7 @@ pub(super) fn as_json(
         "passes": match judgement {
             Some(Judgement::Passes) => Some(true),
             Some(Judgement::Undecided) => None,
-            None if status == SEVERAL_ROTORS => None,
+            None if [SEVERAL_ROTORS, AMBIGUOUS].contains(&status) => None,
             Some(Judgement::Fails) | None => Some(false),
         },
         "order": heard.map(|heard| heard.order.lines_per_turn()),

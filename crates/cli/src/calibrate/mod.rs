@@ -25,9 +25,11 @@ const BAND_SHARE: f64 = 0.025;
 const TACHOMETER_RPM: RangeInclusive<f64> = 60.0..=90_000.0;
 /// Tones of recordings, Hz: up to half the largest sample rate of recorders.
 const TRUE_HZ: RangeInclusive<f64> = 1.0..=192_000.0;
+/// Status where several speeds are possible.
+const AMBIGUOUS: &str = "ambiguous";
 /// Status where nothing is compared, because several rotors are heard.
 const SEVERAL_ROTORS: &str = "several_rotors";
-const SEVERAL_IN_WORDS: &str = "not decided: several rotors are heard, each at its own speed, and the known speed is that of one; record one \
+const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, and the known speed is that of one; record one \
                                 rotor that runs alone";
 const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 
@@ -66,7 +68,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
     let hearing = Hearing::of(&arguments.hearing);
     let heard = match plan.line_band_hz.clone() {
         Some(band_hz) => heard_line(job, hearing, band_hz, &progress)?,
-        None => heard_rotor(&jobs, hearing, &progress),
+        None => heard_rotor(&jobs, hearing, plan.reference, &progress),
     };
     progress.finish();
     let comparison = heard.speed.map(|speed| Comparison::of(speed, plan.reference)).transpose()?;
@@ -98,19 +100,31 @@ fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut 
 }
 
 /// The speed of a rotor, as `hovertone speed` hears it.
-fn heard_rotor(jobs: &[Job], hearing: Hearing, progress: &Progress) -> Heard {
+fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &Progress) -> Heard {
     let mut records = records_of(jobs, hearing, progress);
     let ending = ending_of(&records);
     let record = records.pop();
+    let undecided = |status: &'static str, why: String| Heard {
+        speed: None,
+        status,
+        reason: Some(format!("not decided: {why}")),
+        notices: Vec::new(),
+        record: None,
+        ending: ending.max(Ending::Incomplete),
+    };
     if record.as_ref().and_then(SpeedRecord::analysis).is_some_and(hears_several) {
-        return Heard {
-            speed: None,
-            status: SEVERAL_ROTORS,
-            reason: Some(SEVERAL_IN_WORDS.to_owned()),
-            notices: Vec::new(),
-            record: None,
-            ending: ending.max(Ending::Incomplete),
+        return undecided(SEVERAL_ROTORS, SEVERAL_IN_WORDS.to_owned());
+    }
+    if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
+        let known_hz = match reference {
+            Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(record.order),
+            Reference::Tone { hz, .. } => hz,
         };
+        let (low_hz, high_hz) = ((1.0 - BAND_SHARE) * known_hz, (1.0 + BAND_SHARE) * known_hz);
+        let why = format!(
+            "several rotor speeds explain this sound; if the known speed is right, its tone lies in --band {low_hz:.0}:{high_hz:.0}"
+        );
+        return undecided(AMBIGUOUS, why);
     }
     let speed = record.as_ref().and_then(|record| {
         let speed = record.speed()?;

@@ -95,6 +95,9 @@ fn lay_out(folder: &Path) {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         path
     };
+    let mut bench = steady_hover("crazyflie", RotorSpeed::from_rpm(20_850.0), 3.0);
+    bench.rotors.truncate(1);
+    write_hover(&file("bench.wav"), bench);
     for name in ["hover.mp4", "hover.mov", "ardrone/1.mov", "demo/no_hull/trial_1.wav"] {
         write_hover(&file(name), hover(0.413, 3.0, 1));
     }

@@ -4,11 +4,16 @@ use hovertone::sound::Signal;
 use hovertone::speed::{Config, Method, Outcome, SpeedAnalysis, ToneConfig, speed_from_source};
 use hovertone_sim::paper::LOADS;
 use hovertone_sim::scenario::{ScenarioFile, ScenarioRun, SpreadSection};
-use hovertone_vehicle::Order;
+use hovertone_vehicle::{Order, ShaftSpeedRange};
 use std::collections::BTreeMap;
 
 /// A flight, as heard; and the true mean of ω² of a rotor, rad²/s².
 fn heard(file: &ScenarioFile) -> (SpeedAnalysis, f64) {
+    heard_within(file, None)
+}
+
+/// The same, where the rotor is looked for in a range of speeds.
+fn heard_within(file: &ScenarioFile, range: Option<ShaftSpeedRange>) -> (SpeedAnalysis, f64) {
     let scenario = file.resolve(&BTreeMap::new()).unwrap();
     let sample_rate_hz = f64::from(scenario.sound.sample_rate_hz);
     let mut run = ScenarioRun::new(scenario).unwrap();
@@ -17,7 +22,10 @@ fn heard(file: &ScenarioFile) -> (SpeedAnalysis, f64) {
     let truth = run.finish(&mut channels).flight.mean_sum_of_squares_rad2_s2 / 4.0;
     let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
     tone.blades = Some(2);
-    let mut config = Config::for_tone(tone);
+    let mut config = Config::for_tone(match &range {
+        Some(range) => tone.within(range),
+        None => tone,
+    });
     config.rotors.count = 4;
     config.method = Method::Separated;
     let mut signal = Signal::new(channels.swap_remove(0), sample_rate_hz);
@@ -51,5 +59,20 @@ fn side_lines_of_the_mesh_are_no_rotors() {
         let speed = tone.speeds[0].speed;
         assert!((speed.rad_s() / truth.sqrt() - 1.0).abs() < 0.003, "{seed}: {} rev/s", speed.rev_s());
         assert!(tone.rotors.len() <= 1, "{seed}: {} rotors", tone.rotors.len());
+    }
+}
+
+#[test]
+fn twice_the_speed_at_the_end_of_the_range_hides_no_rotor() {
+    // 20 to 80 rev/s, searched to 120 rev/s, and the rotors at 60.2 rev/s: a path along the end has the blade pass, and beside it no mesh
+    let text = "duration_s = 12.0\n[vehicle]\npreset = \"ardrone\"\nmass_kg = 0.413\n[[microphone]]\nposition_m = [-2.5, 1.0, 1.5]\n\
+                [[maneuver]]\nkind = \"hover\"\nduration_s = 12.0\n";
+    for seed in [2, 6, 12] {
+        let range = ShaftSpeedRange { rev_s_low: 20.0, rev_s_high: 80.0 };
+        let (analysis, truth) = heard_within(&ScenarioFile { seed, ..toml::from_str(text).unwrap() }, Some(range));
+        let Outcome::Ok(tone) = &analysis.outcome else { panic!("{seed}: no speed") };
+        let speed = tone.speeds[0].speed;
+        assert!((speed.rad_s() / truth.sqrt() - 1.0).abs() < 1e-4, "{seed}: {} rev/s", speed.rev_s());
+        assert!(tone.alternatives.is_empty(), "{seed}");
     }
 }

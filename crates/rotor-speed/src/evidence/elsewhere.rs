@@ -90,6 +90,10 @@ pub(super) fn better_elsewhere(
         let nats = levels_nats + prior_nats(propeller.share, speed_rev_s) - own_prior_nats;
         Some((nats, OtherRotor { blades: propeller.lines.blades?, speed_rev_s }))
     });
-    let best = odds.max_by(|(a, _), (b, _)| a.total_cmp(b));
-    best.filter(|(nats, _)| *nats >= odds_nats(config.belief_min)).map(|(_, other)| other)
+    let far_better = odds.filter(|(nats, _)| *nats >= odds_nats(config.belief_min));
+    // of several, one with the blades that are known: the speed alone is wrong then
+    let has_own_blades = |other: &OtherRotor| other.blades == own_blades;
+    far_better
+        .max_by(|(a, one), (b, other)| has_own_blades(one).cmp(&has_own_blades(other)).then(a.total_cmp(b)))
+        .map(|(_, other)| other)
 }

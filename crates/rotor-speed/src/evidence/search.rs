@@ -62,7 +62,12 @@ impl Search {
         let places = VotePlaces::new(&grid.speeds_rev_s, &table, excess.bin_hz, bins);
         let votes = votes_of_frames(&excess.frames, &table, &places);
         let hops = excess.hops();
-        let paths = grid.windows().into_iter().map(|window| best_path(&votes, window, &hops, GRID_STEP)).collect();
+        let mut paths: Vec<Vec<usize>> =
+            grid.windows().into_iter().map(|window| best_path(&votes, window, &hops, GRID_STEP)).collect();
+        // the speed of a path along an end of the grid is outside of it
+        if paths.iter().any(|path| !grid.is_at_end(path)) {
+            paths.retain(|path| !grid.is_at_end(path));
+        }
         Some(Self { grid, votes, paths })
     }
 
@@ -154,6 +159,13 @@ impl SpeedGrid {
         let starts = (0..).step_by(step);
         let last = points.saturating_sub(width).div_ceil(step);
         starts.take(last + 1).map(|start| start..(start + width).min(points)).collect()
+    }
+
+    /// Whether most of a path is at an end of the grid.
+    fn is_at_end(&self, path: &[usize]) -> bool {
+        let last = self.speeds_rev_s.len().saturating_sub(1);
+        let at_end = path.iter().filter(|&&point| point == 0 || point == last).count();
+        2 * at_end > path.len()
     }
 
     /// The speeds along a path.
