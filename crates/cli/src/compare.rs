@@ -1,7 +1,7 @@
 //! `hovertone compare`: models of simulators against the measured constant.
 
 use crate::args::CompareArguments;
-use crate::export::identified;
+use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
 use crate::inputs::read_text;
 use crate::terminal::Terminal;
@@ -12,6 +12,7 @@ use std::path::Path;
 /// Reads all models and prints them beside the results.
 pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let heard = identified(&arguments.results, arguments.of.group.as_deref())?;
+    say_doubts(&heard, &arguments.results, terminal);
     let models: Vec<ComparedModel> = arguments.models.iter().map(|path| model_of(path)).collect::<Result<_, _>>()?;
     if arguments.json {
         terminal.data(&models_json(&models, &heard).map_err(Failure::internal)?)?;

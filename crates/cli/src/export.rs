@@ -10,19 +10,22 @@ use hovertone_exchange::{
     ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
     updated_model,
 };
-use hovertone_report::{Notice, printable};
+use hovertone_report::{Notice, fixed, printable};
 use hovertone_vehicle::{check_diameter, check_positive, check_range};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// Masses that differ by less are of one vehicle.
 const MASS_SHARE: f64 = 0.02;
+/// A new constant over the old one: what another propeller or air does.
+const LIKELY_CHANGE: RangeInclusive<f64> = 0.5..=2.0;
 /// Densities of air: from the highest mountain in summer to a pole in winter.
 const AIR_DENSITY_KG_M3: RangeInclusive<f64> = 0.3..=1.8;
 
 /// Writes or prints the lines.
 pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let rotor = resolve(arguments)?;
+    say_doubts(&rotor, &arguments.results, terminal);
     let Some(format) = arguments.to else {
         return match &arguments.into {
             Some(model) => change(model, &rotor, arguments, terminal),
@@ -80,6 +83,11 @@ fn change(
     terminal.data(&difference(model, place, &updated.changes))?;
     terminal.flush()?;
     terminal.say(&written(place));
+    let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
+    if !LIKELY_CHANGE.contains(&ratio) {
+        let text = format!("the constant of the model is {} times as large as before", fixed(ratio, 2));
+        terminal.warning(&Notice::new(text, "are the results and the model of one vehicle, and the units right?"), "");
+    }
     if let Some((theirs_kg, heard_kg)) =
         before.mass_kg.zip(rotor.mass_kg).filter(|(theirs, heard)| !are_alike(*theirs, *heard))
     {
@@ -89,6 +97,14 @@ fn change(
         terminal.warning(&Notice::new(text, "set the mass of the model, which was not changed"), "");
     }
     Ok(Ending::Done)
+}
+
+/// Says what weakens the constant of results.
+pub(crate) fn say_doubts(rotor: &IdentifiedRotor, results: &Path, terminal: &mut Terminal) {
+    terminal.warning_count_of(rotor.doubts.len(), Some(&results.display().to_string()));
+    for doubt in &rotor.doubts {
+        terminal.warning(&Notice::new(&doubt.text, &doubt.hint), "");
+    }
 }
 
 /// Whether two masses may be of one vehicle, with the rounding of a scale.

@@ -2,7 +2,7 @@
 
 use crate::args::WeighArguments;
 use crate::copies::refuse_copies;
-use crate::export::identified;
+use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
@@ -42,7 +42,7 @@ const NO_MASS: &str = "no mass: no speed was heard\n";
 
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let plan = resolve(arguments)?;
+    let plan = resolve(arguments, terminal)?;
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
@@ -123,10 +123,13 @@ impl Plan {
     }
 }
 
-fn resolve(arguments: &WeighArguments) -> Result<Plan, Failure> {
+fn resolve(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Plan, Failure> {
     let results =
         arguments.constant.as_deref().map(|path| identified(path, arguments.of.group.as_deref())).transpose()?;
     let results = results.as_ref();
+    if let Some((rotor, path)) = results.zip(arguments.constant.as_deref()) {
+        say_doubts(rotor, path, terminal);
+    }
     check(arguments)?;
     check_vehicle(arguments, results)?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };

@@ -40,8 +40,28 @@ pub struct IdentifiedRotor {
     pub method: Option<String>,
     /// Standard deviation of the speed from trial to trial, as a share.
     pub trial_std_share: Option<f64>,
+    /// Warnings about the constant.
+    pub doubts: Vec<Doubt>,
     /// Source of the numbers, for a comment.
     pub origin: String,
+}
+
+/// A warning of results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Doubt {
+    /// The problem.
+    pub text: String,
+    /// The advice; empty without one.
+    pub hint: String,
+}
+
+impl Doubt {
+    /// From a line of results: `text (hint: advice)`.
+    fn from_line(line: &str) -> Self {
+        let parts = line.strip_suffix(')').and_then(|line| line.rsplit_once(" (hint: "));
+        let (text, hint) = parts.unwrap_or((line, ""));
+        Self { text: text.to_owned(), hint: hint.to_owned() }
+    }
 }
 
 /// The tone of a rotor, with all settings that are needed to find it again.
@@ -214,13 +234,20 @@ pub fn identified_from_results(text: &str, group: Option<&str>) -> Result<Identi
         tone: results.pointer("/settings/experiment/config/tone").and_then(|tone| HeardTone::deserialize(tone).ok()),
         method: text("/method").map(str::to_owned),
         trial_std_share: trial_std_share(&results),
+        doubts: doubts(&results),
         origin: format!(
             "hovertone {} from {file} (sha256 {}){}",
             text("/version").unwrap_or("?"),
             sha256.chars().take(12).collect::<String>(),
             text("/method").map_or(String::new(), |method| format!(", method: {method}{}", heard_as_a_group(&results)))
-        ),
+        ) + &doubts(&results).iter().map(|doubt| format!("; warning: {}", doubt.text)).collect::<String>(),
     })
+}
+
+/// The warnings of `identify`, or the notices of `fit`.
+fn doubts(results: &Value) -> Vec<Doubt> {
+    let lines = results.get("warnings").or_else(|| results.get("notices")).and_then(Value::as_array);
+    lines.into_iter().flatten().filter_map(Value::as_str).map(Doubt::from_line).collect()
 }
 
 /// What happens to rotors that cannot be separated.

@@ -13,7 +13,7 @@ mod thrust_stand;
 mod units;
 
 pub use csv_text::CsvError;
-pub use identified::{HeardTone, IdentifiedRotor, ResultsError, identified_from_results};
+pub use identified::{Doubt, HeardTone, IdentifiedRotor, ResultsError, identified_from_results};
 pub use simulator::{
     ChangedLine, ModelError, SimulatorFormat, SimulatorModel, UpdatedModel, export_text, model_from_text, updated_model,
 };
