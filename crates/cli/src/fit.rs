@@ -10,12 +10,12 @@ use crate::terminal::Terminal;
 use hovertone::thrust::regression::FitError;
 use hovertone::thrust::{
     ForcePoint, Gravity, NoScatter, PlanError, PlanWish, PointNoise, ThrustCoefficients, ThrustSettings, ThrustWarning,
-    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, row_drifts, square_law_fit,
+    TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, least_tip_mach, row_drifts, square_law_fit,
     torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
-use hovertone_vehicle::{Estimate, KnownRotor, QuantityError, RotorSpeed, check_tips};
+use hovertone_vehicle::{Estimate, KnownRotor, QuantityError, RotorSpeed, TIP_MACH_MAX, check_tips};
 use std::path::Path;
 
 /// Most multirotors safely carry a quarter of their mass.
@@ -151,6 +151,17 @@ fn fitted_table(
             .filter(|both| !both.is_plausible)
             .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
     );
+    let fastest_rad_s = group.rows.iter().map(|row| row.speed_rad_s).fold(0.0, f64::max);
+    let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
+    let too_strong = (coefficients.is_none() && tip_mach > TIP_MACH_MAX).then(|| {
+        let text = format!(
+            "no propeller has such a thrust at such a speed: its tips would be at Mach {tip_mach:.2} or faster"
+        );
+        Notice::new(
+            text,
+            "check the units of the forces and of the speeds, and give the number of rotors with --rotors",
+        )
+    });
     let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
     let stated = points.iter().filter(has_std).count();
     if is_stated && stated < points.len() {
@@ -172,7 +183,7 @@ fn fitted_table(
         propeller_diameter_m: plan.diameter_m,
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
-        notices: notes.chain(warnings.iter().map(Notice::from)).collect(),
+        notices: notes.chain(too_strong).chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })
 }

@@ -7,6 +7,7 @@ use crate::nearest::nearest;
 use crate::see_help::{example_and_help, typed_command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
+use hovertone_report::printable;
 use std::error::Error as _;
 use std::ffi::OsString;
 use std::num::{ParseFloatError, ParseIntError};
@@ -96,8 +97,10 @@ impl Misuse {
                 Self { what: format!("{name} has too many or too few values"), hint: None }
             }
             ErrorKind::InvalidUtf8 => {
-                let hint = Some("only names of files may have other letters".to_owned());
-                Self { what: "a word of the command is no text in UTF-8".to_owned(), hint }
+                let word = words.iter().find(|word| word.to_str().is_none()).map(|word| word.to_string_lossy());
+                let what = format!("\"{}\": this word is no text in UTF-8", printable(&word.unwrap_or_default()));
+                let hint = "if it is the name of a file, rename the file, or give the folder that holds it".to_owned();
+                Self { what, hint: Some(hint) }
             }
             _ => Self { what: first_line(error), hint: None },
         }

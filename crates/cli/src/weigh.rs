@@ -127,9 +127,6 @@ fn resolve(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Plan, 
     let results =
         arguments.constant.as_deref().map(|path| identified(path, arguments.of.group.as_deref())).transpose()?;
     let results = results.as_ref();
-    if let Some((rotor, path)) = results.zip(arguments.constant.as_deref()) {
-        say_doubts(rotor, path, terminal);
-    }
     check(arguments)?;
     check_vehicle(arguments, results)?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };
@@ -174,6 +171,9 @@ fn resolve(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Plan, 
     check_stds(&scale)?;
     scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
+    if let Some((rotor, path)) = results.zip(arguments.constant.as_deref()) {
+        say_doubts(rotor, path, terminal);
+    }
     Ok(Plan { scale, config, method_of_constant, rotors_std_share })
 }
 

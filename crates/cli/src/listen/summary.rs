@@ -3,6 +3,9 @@
 use hovertone::live::{LiveSpeed, LiveStatus};
 use hovertone_report::{fixed, with_uncertainty};
 
+/// Speeds of one hover differ by no more than this factor. *Decision.*
+const ONE_HOVER_FACTOR: f64 = 1.1;
+
 /// Sums over the live speeds, which come at equal distances in time.
 #[derive(Debug, Default)]
 pub(crate) struct LiveSummary {
@@ -12,6 +15,8 @@ pub(crate) struct LiveSummary {
     listening_count: usize,
     sum_rev_s: f64,
     sum_std_rev_s: f64,
+    /// Slowest and fastest.
+    range_rev_s: Option<(f64, f64)>,
     end_s: f64,
 }
 
@@ -24,6 +29,8 @@ impl LiveSummary {
                 self.settled_count += 1;
                 self.sum_rev_s += speed_rev_s;
                 self.sum_std_rev_s += std_rev_s;
+                let (slowest, fastest) = self.range_rev_s.unwrap_or((speed_rev_s, speed_rev_s));
+                self.range_rev_s = Some((slowest.min(speed_rev_s), fastest.max(speed_rev_s)));
             }
             (LiveStatus::Ambiguous, ..) => self.ambiguous_count += 1,
             (LiveStatus::Listening, ..) => self.listening_count += 1,
@@ -41,10 +48,17 @@ impl LiveSummary {
         }
         let end_s = fixed(self.end_s, 1);
         let part_s = |count: usize| fixed(count as f64 / self.count as f64 * self.end_s, 1);
-        let mean = (self.settled_count > 0).then(|| {
+        let mean = self.range_rev_s.map(|(slowest_rev_s, fastest_rev_s)| {
+            let heard_s = part_s(self.settled_count);
+            if fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s {
+                let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
+                return format!(
+                    "no mean: the speed changed between {slowest} and {fastest} rev/s, in {heard_s} s of {end_s} s"
+                );
+            }
             let count = self.settled_count as f64;
             let mean = with_uncertainty(self.sum_rev_s / count, Some(self.sum_std_rev_s / count));
-            format!("mean: {mean} rev/s (k = 2), from {} s of {end_s} s", part_s(self.settled_count))
+            format!("mean: {mean} rev/s (k = 2), from {heard_s} s of {end_s} s")
         });
         let mut words = match mean {
             Some(mean) => mean,
@@ -85,6 +99,8 @@ mod tests {
     fn the_mean_is_over_the_time_that_had_one_speed() {
         let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words().unwrap();
         assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), from 0.2 s of 0.4 s\n");
+        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s, in 0.3 s of 0.3 s\n";
+        assert_eq!(summary_of(&[Some(52.8), Some(91.8), Some(70.0)]).in_words().unwrap(), changed);
         assert_eq!(summary_of(&[None; 20]).in_words().unwrap(), "no speed was heard in 2.0 s\n");
         assert_eq!(summary_of(&[]).in_words(), None);
     }

@@ -1,7 +1,7 @@
 //! What the messages look like: one line each, the file first, counts that agree with their nouns, names that cannot move the cursor.
 
 use crate::identify::write_experiment;
-use crate::testkit::{Run, hovertone, steady_hover, text, write_hover};
+use crate::testkit::{Run, hovertone, hovertone_with, steady_hover, text, write_hover};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
 
@@ -357,4 +357,17 @@ fn a_law_without_most_of_the_probability_is_not_preferred() {
     let said = hovertone(&["fit", text(&table)]).ends_with(0).stdout;
     assert!(!said.contains("(preferred)"), "{said}");
     assert!(said.contains("no law is preferred: none is clearly the most probable; C_f is that of F = C ω²"), "{said}");
+}
+
+/// A name that is no text is shown as well as it can be.
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_no_text_is_shown() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let odd = OsStr::from_bytes(b"bad\xff.wav");
+    let run = hovertone_with(&["init", "--mass", "413g"], |command| command.arg(odd)).ends_with(2);
+    for words in ["bad\u{fffd}.wav", "this word is no text in UTF-8", "rename the file"] {
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
 }

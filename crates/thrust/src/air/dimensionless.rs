@@ -1,13 +1,16 @@
 //! Dimensionless thrust coefficients, figure of merit and torque constant of one rotor.
 
 use crate::regression::{FitPoint, proportional_fit};
-use hovertone_vehicle::{RotorSpeed, THRUST_COEFFICIENT};
+use hovertone_vehicle::{RotorSpeed, SOUND_M_S, THRUST_COEFFICIENT};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 /// Plausible figures of merit. The best rotors of helicopters reach 0.8, and momentum theory allows less than 1. The smallest
 /// brushed motors have 0.15 with their electrical power. *Physics.*
 const FIGURE_OF_MERIT: std::ops::RangeInclusive<f64> = 0.05..=0.85;
+
+/// Density of air at sea level and 20 °C, kg/m³. *Physics.*
+const AIR_KG_M3: f64 = 1.2;
 
 /// The thrust coefficient C_T of one rotor, in both conventions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -34,6 +37,13 @@ impl ThrustCoefficients {
             is_plausible: THRUST_COEFFICIENT.contains(&propeller),
         }
     }
+}
+
+/// Least Mach number of the tips of a propeller with this thrust constant, N s², at this speed: that of the smallest one, with the largest C_T, in
+/// air of 1.2 kg/m³. `M = D ω / (2 a)`, where `D⁴ = C_f (2π)² / (ρ C_T)`.
+pub fn least_tip_mach(thrust_constant_n_s2: f64, speed: RotorSpeed) -> f64 {
+    let diameter_m = (thrust_constant_n_s2 * TAU.powi(2) / (AIR_KG_M3 * THRUST_COEFFICIENT.end())).powf(0.25);
+    diameter_m * speed.rad_s() / (2.0 * SOUND_M_S)
 }
 
 /// Figure of merit: the ideal power of momentum theory, T √(T/(2 ρ A)), over the real power. With the power of the shaft it describes
