@@ -63,12 +63,19 @@ impl fmt::Display for NoTone {
             Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
             Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
                 match only_rev_s {
+                    Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
+                        return write!(
+                            f,
+                            "the tone that was given is not heard, but a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s; \
+                             give --blades {blades} in place of the vehicle, the gear or the order"
+                        );
+                    }
                     Some((low, high)) => write!(f, "no such rotor is heard at {low:.0} to {high:.0} rev/s")?,
                     None => f.write_str("no such rotor is heard")?,
                 }
                 write!(
                     f,
-                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; check what was given: the vehicle, the blades, the gear or the band"
+                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; check the given facts: the vehicle, the blades, the gear or the band"
                 )
             }
             Self::NoSeries { only_rev_s: None, .. } => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
@@ -98,5 +105,22 @@ impl fmt::Display for NoTone {
                  record without compression, or follow a tone of lower order"
             ),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_heard_instead_is_named_with_what_to_do() {
+        let said = |only_rev_s| {
+            let instead = Some(OtherRotor { blades: 2, speed_rev_s: 60.2 });
+            NoTone::NoSeries { only_rev_s, instead }.to_string()
+        };
+        assert!(said(Some((13.0, 120.0))).contains("give --blades 2 in place of the vehicle"));
+        let other = said(Some((200.0, 400.0)));
+        assert!(other.starts_with("no such rotor is heard at 200 to 400 rev/s, but one with 2 blades"), "{other}");
+        assert!(said(None).starts_with("no such rotor is heard, but one with 2 blades may turn at 60.2 rev/s"));
     }
 }

@@ -137,7 +137,7 @@ impl Warning {
                 "if several rotors turn, leave --rotors 1 out; if not, record away from other machines"
             }
             Self::FitsElsewhere(_) => {
-                "check what was given of the rotor: the vehicle, the blades, the diameter, the mass or the band"
+                "check the given facts: the vehicle, the blades, the diameter, the mass or the band"
             }
             Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",
         }

@@ -151,17 +151,7 @@ fn fitted_table(
             .filter(|both| !both.is_plausible)
             .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
     );
-    let fastest_rad_s = group.rows.iter().map(|row| row.speed_rad_s).fold(0.0, f64::max);
-    let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
-    let too_strong = (coefficients.is_none() && tip_mach > TIP_MACH_MAX).then(|| {
-        let text = format!(
-            "no propeller has such a thrust at such a speed: its tips would be at Mach {tip_mach:.2} or faster"
-        );
-        Notice::new(
-            text,
-            "check the units of the forces and of the speeds, and give the number of rotors with --rotors",
-        )
-    });
+    let too_strong = too_strong_notice(group, per_rotor).filter(|_| coefficients.is_none());
     let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
     let stated = points.iter().filter(has_std).count();
     if is_stated && stated < points.len() {
@@ -204,6 +194,16 @@ fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<No
         text,
         format!("give --rotors {count} for the constant of one rotor; --rotors 1 if one rotor is right"),
     ))
+}
+
+/// Says that no propeller has such a thrust.
+fn too_strong_notice(group: &StandGroup, per_rotor: Estimate) -> Option<Notice> {
+    let fastest_rad_s = group.rows.iter().map(|row| row.speed_rad_s).fold(0.0, f64::max);
+    let tip_mach = least_tip_mach(per_rotor.value, RotorSpeed::from_rad_s(fastest_rad_s));
+    let text =
+        format!("no propeller has such a thrust at such a speed: its tips would be at Mach {tip_mach:.2} or faster");
+    let hint = "check the units of the forces and of the speeds, and give the number of rotors with --rotors";
+    (tip_mach > TIP_MACH_MAX).then(|| Notice::new(text, hint))
 }
 
 /// Refuses the diameter of the arguments where the blade tips of a row would be faster than any multirotor's.

@@ -145,7 +145,7 @@ fn motor_of_passes(
 fn guess_in_words(meaning: Meaning) -> Option<Notice> {
     let blades = meaning.blades().filter(|_| meaning.gear().is_none())?;
     let what = format!(
-        "the number of blades is not known: the speeds are those of a propeller with {blades} blades, which the sound suggests"
+        "the number of blades is not known: the speeds belong to a propeller with {blades} blades, which the sound suggests"
     );
     Some(Notice::new(what, "count the blades and give --blades N; the time constants are the same for any number"))
 }

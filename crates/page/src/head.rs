@@ -64,7 +64,6 @@ mod tests {
             ThrustWarning::TrialFarFromOthers { load: name(), recording: recording(), thrust_share: -123.0 },
             ThrustWarning::TrialsDiffer { load: name(), least: recording(), most: recording(), thrust_share: 123.0 },
             ThrustWarning::HeavierTurnedSlower { heavy: name(), light: name() },
-            ThrustWarning::HeavierRowsTurnedSlower { heavy: names(), light: names() },
             ThrustWarning::MassFarFromKnown { load: name(), mass_kg: 12_345.678, known_kg: 0.001 },
             ThrustWarning::RowsDoNotFit { names: names(), are_left_out: true },
             ThrustWarning::TrialLeftOut { load: name(), recording: recording() },

@@ -3,7 +3,7 @@
 use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, HeardLoad};
 use crate::square_law::{ForcePoint, PointNoise, is_off_by_a_factor};
 use crate::statistics::{COVERAGE_FACTOR, median};
-use crate::warning::ThrustWarning;
+use crate::warning::{ThrustWarning, first_names};
 use crate::weighing::ALIKE_SHARE_MAX;
 
 /// Fewest trials of a load among which one can be called far from the others. *Decision.*
@@ -72,14 +72,13 @@ pub(crate) fn exchanged_rows(points: &[ForcePoint]) -> Option<ThrustWarning> {
     let speed = |rows: &[&ForcePoint]| {
         median(&rows.iter().map(|row| row.speed_square_rad2_s2.sqrt()).collect::<Vec<_>>()).unwrap_or_default()
     };
-    let names = |rows: &[&ForcePoint]| rows.iter().map(|row| row.name.clone()).collect();
+    let names = |rows: &[&ForcePoint]| first_names(&rows.iter().map(|row| row.name.clone()).collect::<Vec<String>>());
     let mut slower: Option<(f64, ThrustWarning)> = None;
     for (at, heavy) in masses.iter().enumerate() {
         for light in &masses[..at] {
             let share = 1.0 - speed(heavy) / speed(light);
             if share > ALIKE_SHARE_MAX && slower.as_ref().is_none_or(|(most, _)| share > *most) {
-                slower =
-                    Some((share, ThrustWarning::HeavierRowsTurnedSlower { heavy: names(heavy), light: names(light) }));
+                slower = Some((share, ThrustWarning::HeavierTurnedSlower { heavy: names(heavy), light: names(light) }));
             }
         }
     }

@@ -64,17 +64,10 @@ pub enum ThrustWarning {
     },
     /// The rotors turned slower under the heavier of two loads.
     HeavierTurnedSlower {
-        /// Name of the heavier load.
+        /// Name of the heavier load, or of its rows.
         heavy: String,
-        /// Name of the lighter load.
+        /// Name of the lighter load, or of its rows.
         light: String,
-    },
-    /// The rotors turned slower in the rows of the heavier of two masses.
-    HeavierRowsTurnedSlower {
-        /// Names of the rows of the heavier mass.
-        heavy: Vec<String>,
-        /// Names of the rows of the lighter mass.
-        light: Vec<String>,
     },
     /// A load that is far from the mass of the known vehicle.
     MassFarFromKnown {
@@ -170,9 +163,6 @@ impl ThrustWarning {
             Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale, the propellers",
             Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
                 "are masses exchanged? Check them, and which recording belongs to which load"
-            }
-            Self::HeavierRowsTurnedSlower { .. } => {
-                "are masses exchanged? Check them, and which speeds belong to which mass"
             }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
                 "is it filed under the right load? If it is, check it with `hovertone speed`"
@@ -295,7 +285,7 @@ pub fn compared(ratios: [f64; 2]) -> [String; 2] {
 }
 
 /// The first names of a list.
-fn first_names(names: &[String]) -> String {
+pub(crate) fn first_names(names: &[String]) -> String {
     let more = if names.len() > NAMES_MAX { ", …" } else { "" };
     names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ") + more
 }
@@ -350,12 +340,6 @@ impl fmt::Display for ThrustWarning {
             Self::HeavierTurnedSlower { heavy, light } => {
                 write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
             }
-            Self::HeavierRowsTurnedSlower { heavy, light } => write!(
-                f,
-                "the rotors turned slower with the heavier mass ({}) than with the lighter ({})",
-                first_names(heavy),
-                first_names(light)
-            ),
             Self::MassFarFromKnown { load, mass_kg, known_kg } => write!(
                 f,
                 "load \"{load}\" weighs {}, {} times as much as the named vehicle, {}",
@@ -365,7 +349,7 @@ impl fmt::Display for ThrustWarning {
             ),
             Self::RowsDoNotFit { names, are_left_out } => {
                 write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
-                if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { f.write_str("; they are used all the same") }
+                if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { f.write_str("; they are used too") }
             }
             Self::TrialLeftOut { load, recording } => {
                 write!(f, "{recording} of load \"{load}\" is left out: its constant is more than twice or less than half that of the other trials")

@@ -126,3 +126,16 @@ fn exports_of_xml_have_one_root() {
         assert_eq!(document.root_element().tag_name().name(), root);
     }
 }
+
+#[test]
+fn a_constant_that_changes_by_more_than_a_factor_of_two_is_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let model = folder.path().join("iris.sdf");
+    let said = |constant: &str| {
+        fs::write(&model, IRIS.replace("5.84e-06", constant)).unwrap();
+        export(&results, &["--into", text(&model)]).ends_with(0).stderr
+    };
+    assert!(!said("5.84e-06").contains("as large as before"));
+    assert!(said("5.84e-08").contains("as large as before (hint: are the results and the model of one vehicle"));
+}

@@ -307,3 +307,18 @@ fn a_constant_is_no_thrust() {
     fs::write(&table, rows).unwrap();
     refused_with(&["fit", text(&table)], &["no column holds a thrust", "thrust_constant_total_n_s2"]);
 }
+
+#[test]
+fn a_thrust_that_no_propeller_has_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = |rows: &str| {
+        let table = folder.path().join("table.csv");
+        fs::write(&table, rows).unwrap();
+        hovertone(&["fit", text(&table)]).ends_with(0).stderr
+    };
+    // 5 N at 8000 rpm, and the same in gram-force under the name of newtons
+    let words = "no propeller has such a thrust at such a speed";
+    assert!(!run("rpm,thrust_n\n4000,1.26\n6000,2.81\n8000,5.01\n").contains(words));
+    let gram_force = run("rpm,thrust_n\n4000,128\n6000,287\n8000,511\n");
+    assert!(gram_force.contains(words) && gram_force.contains("check the units"), "{gram_force}");
+}

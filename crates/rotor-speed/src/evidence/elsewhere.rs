@@ -1,9 +1,10 @@
 //! Rotors that something known leaves out, though their lines are far more probable: with other blades, or at another speed.
 
 use super::excess::{Excess, Looks};
-use super::hypotheses::{Hypothesis, RESOLVED_REV_S, WantedPropeller, WantedRotor, nats_of_vehicle, odds_nats};
+use super::hypotheses::{Hypothesis, RESOLVED_REV_S, WantedPropeller, WantedRotor};
 use super::level_model::LevelModel;
 use super::levels::levels_of_lines;
+use super::prior::{nats_of_vehicle, odds_nats};
 use super::rotor_lines::RotorLines;
 use super::second_look::path_in_long_frames;
 use super::settings::EvidenceConfig;

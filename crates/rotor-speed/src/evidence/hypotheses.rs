@@ -7,6 +7,7 @@ use super::level_model::{LevelModel, RotorLevels};
 use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::own_lines::OwnPropeller;
 use super::presence::Presence;
+use super::prior::{nats_of_vehicle, odds_nats};
 use super::rotor_lines::RotorLines;
 use super::search::{GRID_STEP, Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
 use super::second_look::{SecondLook, path_in_long_frames};
@@ -26,9 +27,6 @@ const HOVER_WIDTH_SHARE: f64 = 0.024;
 pub(super) const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
-/// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
-pub(crate) const AIR_KG_M3: f64 = 1.2;
-
 /// The beliefs that a recording gives rise to, where a rotor is heard.
 #[derive(Clone, Debug)]
 pub(crate) struct Beliefs {
@@ -315,11 +313,6 @@ fn look_at<'a>(excess: &Excess, wanted: &WantedRotor, config: &'a EvidenceConfig
     Some(Look { noise, model, of_propellers })
 }
 
-/// Logarithm of the odds of a belief.
-pub(super) fn odds_nats(belief: f64) -> f64 {
-    (belief / (1.0 - belief)).ln()
-}
-
 /// Whether the lines of the most probable hypothesis stand apart.
 fn is_resolved(hypotheses: &[Hypothesis]) -> bool {
     hypotheses.first().is_some_and(|first| first.speed_rev_s >= RESOLVED_REV_S)
@@ -398,18 +391,4 @@ fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
     hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
     hypotheses
-}
-
-/// Logarithm of the prior of a speed: by the thrust coefficient of the hover where mass, rotors and diameter are known, else slow shafts are
-/// rare; and by the distance from the range of speeds of a known vehicle.
-pub(super) fn nats_of_vehicle(speed_rev_s: f64, known: &KnownRotor, config: &EvidenceConfig) -> f64 {
-    let prior = &config.levels;
-    let deviations = match known.hover_thrust_coefficient(speed_rev_s, AIR_KG_M3) {
-        Some(coefficient) => (coefficient / prior.thrust_coefficient).ln() / prior.thrust_coefficient_std,
-        None => (speed_rev_s / prior.slow_rev_s).ln().min(0.0) / prior.slow_std,
-    };
-    let outside = known.shaft_speed.map_or(0.0, |range| {
-        (range.rev_s_low / speed_rev_s).ln().max(0.0) + (speed_rev_s / range.rev_s_high).ln().max(0.0)
-    });
-    -0.5 * (deviations.powi(2) + (outside / prior.range_std).powi(2))
 }

@@ -7,8 +7,8 @@ use crate::tone::{BLADES, DiscoveryConfig, ToneConfig, search_range_rev_s};
 use hovertone_analysis::OtherRotor;
 use hovertone_vehicle::{KnownRotor, Order};
 
-/// Behind a gear, the rotor without one whose lines are far more probable than those of the most probable one. It is looked for where several speeds are
-/// possible: other lines may pass for those of a mesh.
+/// Behind a gear, the rotor without one whose lines are far more probable than those of the most probable one. It is looked for where several
+/// speeds are possible: other lines may pass for those of a mesh.
 pub(super) fn better_without_gear(
     surveyed: &Surveyed,
     beliefs: &Beliefs,
