@@ -56,6 +56,9 @@ pub(super) fn better_elsewhere(
         |share: f64, speed_rev_s: f64| share.ln() + nats_of_vehicle(speed_rev_s, &KnownRotor::default(), config);
     let own_prior_nats = prior_nats(own.map_or(rarest, |own| own.share), first.hover_rev_s);
 
+    // facts about the vehicle may have outweighed the lines
+    let KnownRotor { diameter_m, mass_kg, shaft_speed, .. } = wanted.known;
+    let has_prior = diameter_m.zip(mass_kg).is_some() || shaft_speed.is_some();
     let [short, long] = models;
     let mut short = PathInLook { look: &looks.short, speeds_rev_s: first.speeds_rev_s.clone(), model: short };
     let own_nats = short.nats(&first.lines, 1.0);
@@ -64,7 +67,8 @@ pub(super) fn better_elsewhere(
     let mut better: Vec<(f64, &WantedPropeller, f64)> = Vec::new();
     for propeller in any {
         let Some(blades) = propeller.lines.blades else { continue };
-        let is_compared = |speed_rev_s: f64| blades == own_blades && searched_rev_s.contains(&speed_rev_s);
+        let is_compared =
+            |speed_rev_s: f64| !has_prior && blades == own_blades && searched_rev_s.contains(&speed_rev_s);
         for (over, under) in parts().flat_map(|over| parts().map(move |under| (over, under))) {
             let ratio = f64::from(over * own_blades) / f64::from(under * blades);
             let speed_rev_s = ratio * first.hover_rev_s;
