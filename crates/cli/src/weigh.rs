@@ -42,7 +42,12 @@ const NO_MASS: &str = "no mass: no speed was heard\n";
 
 /// Analyses all recordings and weighs.
 pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let plan = resolve(arguments, terminal)?;
+    let results =
+        arguments.constant.as_deref().map(|path| identified(path, arguments.of.group.as_deref())).transpose()?;
+    let plan = resolve(arguments, results.as_ref())?;
+    if let Some((rotor, path)) = results.as_ref().zip(arguments.constant.as_deref()) {
+        say_doubts(rotor, path, terminal);
+    }
     let mut jobs = jobs_of(&arguments.files, &plan.config, None, Requests::default())?;
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
@@ -123,10 +128,7 @@ impl Plan {
     }
 }
 
-fn resolve(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Plan, Failure> {
-    let results =
-        arguments.constant.as_deref().map(|path| identified(path, arguments.of.group.as_deref())).transpose()?;
-    let results = results.as_ref();
+fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Plan, Failure> {
     check(arguments)?;
     check_vehicle(arguments, results)?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };
@@ -171,9 +173,6 @@ fn resolve(arguments: &WeighArguments, terminal: &mut Terminal) -> Result<Plan, 
     check_stds(&scale)?;
     scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
-    if let Some((rotor, path)) = results.zip(arguments.constant.as_deref()) {
-        say_doubts(rotor, path, terminal);
-    }
     Ok(Plan { scale, config, method_of_constant, rotors_std_share })
 }
 

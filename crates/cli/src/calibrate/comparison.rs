@@ -1,6 +1,6 @@
 //! A heard speed against the known one, in words and as JSON.
 
-use super::{AMBIGUOUS, BAND_SHARE, MILLION, SEVERAL_ROTORS};
+use super::{AMBIGUOUS, BAND_SHARE, MILLION, SEVERAL_ROTORS, band_around};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
 use crate::vehicles::preset;
@@ -73,7 +73,7 @@ impl Comparison {
     /// The band around the tone that the known speed and the given order mean.
     fn band(&self) -> String {
         let tone_hz = self.heard.speed.tone_hz(self.heard.order) / self.check.heard_over_known;
-        format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
+        band_around(tone_hz)
     }
 
     /// The known number that was probably meant, where the given one is that of something else: a question, and what to give.

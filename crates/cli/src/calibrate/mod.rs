@@ -120,9 +120,9 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
             Reference::Speed { rpm, .. } => RotorSpeed::from_rpm(rpm).tone_hz(record.order),
             Reference::Tone { hz, .. } => hz,
         };
-        let (low_hz, high_hz) = ((1.0 - BAND_SHARE) * known_hz, (1.0 + BAND_SHARE) * known_hz);
         let why = format!(
-            "several rotor speeds explain this sound; if the known speed is right, its tone lies in --band {low_hz:.0}:{high_hz:.0}"
+            "several rotor speeds explain this sound; if the known speed is right, its tone lies in --band {}",
+            band_around(known_hz)
         );
         return undecided(AMBIGUOUS, why);
     }
@@ -139,6 +139,11 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
         record,
         ending,
     }
+}
+
+/// The band around a tone, as it is typed.
+fn band_around(tone_hz: f64) -> String {
+    format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
 }
 
 /// Whether other rotors are heard beside the one that is measured.
