@@ -2,7 +2,7 @@
 
 use crate::contradiction::HOVER_REV_S_MIN;
 use crate::{
-    ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, SOUND_M_S,
+    AIR_KG_M3, ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, SOUND_M_S,
     ShaftSpeedRange, THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range,
 };
 use serde::Serialize;
@@ -13,8 +13,6 @@ use std::ops::RangeInclusive;
 const MASS_KG_ALLOWED: RangeInclusive<f64> = 1e-3..=1e4;
 /// Numbers of rotors that are accepted as a prior. *Decision.*
 const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=64.0;
-/// Density of the air at sea level and 20 °C, kg/m³. *Physics.*
-const AIR_DENSITY_KG_M3: f64 = 1.2;
 
 /// Facts about a vehicle that exclude some shaft speeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -54,7 +52,7 @@ impl KnownRotor {
     /// Shaft speed of a hover at a thrust coefficient, rev/s.
     fn hover_rev_s(mass_kg: f64, diameter_m: f64, rotors: f64, coefficient: f64) -> f64 {
         let thrust_n = mass_kg * GRAVITY_STANDARD_M_S2 / rotors;
-        (thrust_n / (AIR_DENSITY_KG_M3 * coefficient * diameter_m.powi(4))).sqrt()
+        (thrust_n / (AIR_KG_M3 * coefficient * diameter_m.powi(4))).sqrt()
     }
 
     /// Checks that propellers of this diameter carry this mass with a possible thrust coefficient, neither with tips above

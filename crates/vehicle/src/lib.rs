@@ -17,7 +17,7 @@ mod said;
 mod speed;
 mod vehicle;
 
-pub use constants::{GRAVITY_STANDARD_M_S2, SOUND_M_S};
+pub use constants::{AIR_KG_M3, GRAVITY_STANDARD_M_S2, SOUND_M_S};
 pub use contradiction::{Contradiction, TIP_MACH_MAX, check_tips};
 pub use estimate::{Ending, Estimate};
 pub use flight::{

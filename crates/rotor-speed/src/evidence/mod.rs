@@ -57,6 +57,5 @@ pub use levels::NoiseLevel;
 pub use near_speed::LinesNear;
 pub(crate) use near_speed::lines_near;
 pub(crate) use own_lines::{OwnPropeller, loudness_db, own_lines_nats};
-pub(crate) use prior::AIR_KG_M3;
 pub(crate) use rotor_lines::RotorLines;
 pub use settings::EvidenceConfig;

@@ -1,10 +1,7 @@
 //! The prior of a speed by what is known of the vehicle, in nats; and odds.
 
 use super::settings::EvidenceConfig;
-use hovertone_vehicle::KnownRotor;
-
-/// Density of air in the prior of the thrust coefficient, kg/m³. *Decision.*
-pub(crate) const AIR_KG_M3: f64 = 1.2;
+use hovertone_vehicle::{AIR_KG_M3, KnownRotor};
 
 /// Logarithm of the odds of a belief.
 pub(super) fn odds_nats(belief: f64) -> f64 {

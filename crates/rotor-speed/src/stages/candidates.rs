@@ -5,10 +5,10 @@ use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
-use crate::evidence::{AIR_KG_M3, Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
+use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, blades_of_tone, reading_at, search_range_rev_s};
 use hovertone_analysis::{Hover, Meaning, NoTone, OtherRotor, Reading, Span, Warning, WeighedSpeed};
-use hovertone_vehicle::{KnownRotor, Order, RotorSpeed};
+use hovertone_vehicle::{AIR_KG_M3, KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
 /// A rotor that was heard before.

@@ -1,16 +1,13 @@
 //! Dimensionless thrust coefficients, figure of merit and torque constant of one rotor.
 
 use crate::regression::{FitPoint, proportional_fit};
-use hovertone_vehicle::{RotorSpeed, SOUND_M_S, THRUST_COEFFICIENT};
+use hovertone_vehicle::{AIR_KG_M3, RotorSpeed, SOUND_M_S, THRUST_COEFFICIENT};
 use serde::Serialize;
 use std::f64::consts::{PI, TAU};
 
 /// Plausible figures of merit. The best rotors of helicopters reach 0.8, and momentum theory allows less than 1. The smallest
 /// brushed motors have 0.15 with their electrical power. *Physics.*
 const FIGURE_OF_MERIT: std::ops::RangeInclusive<f64> = 0.05..=0.85;
-
-/// Density of air at sea level and 20 °C, kg/m³. *Physics.*
-const AIR_KG_M3: f64 = 1.2;
 
 /// The thrust coefficient C_T of one rotor, in both conventions.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
