@@ -12,6 +12,12 @@ use std::sync::Arc;
 const SHORT_S: f64 = 0.1;
 /// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s. *Decision.*
 const LONG_S: f64 = 0.4;
+/// Width of the running median that is the floor of a short frame, Hz: wider than several lines of a small rotor's comb, narrower than the slope
+/// of noise. *Decision.*
+const SHORT_FLOOR_HZ: f64 = 120.0;
+/// The same of a long frame, whose lines are narrower. An echo makes waves in the spectrum of noise, and a wider floor would leave their crests as
+/// lines. *Decision.*
+const LONG_FLOOR_HZ: f64 = 45.0;
 /// Step between short frames, s. *Numeric.*
 const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*
@@ -171,8 +177,8 @@ impl ExcessBuilder {
     /// The sections in frames of both lengths. Each section is freed once it is in frames.
     pub(crate) fn finish(self) -> Looks {
         let section_samples = self.section_samples();
-        let mut short = Frames::new(&self, SHORT_S, HOP_S);
-        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S);
+        let mut short = Frames::new(&self, SHORT_S, HOP_S, SHORT_FLOOR_HZ);
+        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S, LONG_FLOOR_HZ);
         let mut next = None;
         for Section { index, samples } in self.sections {
             let start_s = self.start_s + (index * section_samples) as f64 / self.sample_rate_hz;
@@ -199,11 +205,11 @@ struct Frames {
 }
 
 impl Frames {
-    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64) -> Self {
+    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64, floor_hz: f64) -> Self {
         let stft = Stft::<f32>::new(sound.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         Self {
             bins: (sound.hz_max / stft.bin_hz()) as usize,
-            floor: Floor::of_bins(stft.bin_hz()),
+            floor: Floor::of_width(floor_hz, stft.bin_hz()),
             rounding_power: sound.rounding.line_power(),
             floors: FloorSums::default(),
             levels: LevelTable::new(),

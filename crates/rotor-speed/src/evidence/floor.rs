@@ -3,9 +3,6 @@
 use std::collections::VecDeque;
 use std::f64::consts::LN_10;
 
-/// Width of the running median of the floor, Hz: wider than several lines of a small rotor's comb, narrower than the slope of noise.
-/// *Decision.*
-const FLOOR_HZ: f64 = 120.0;
 /// Number of values of which a median is taken. More bins within the width share their noise. *Numeric.*
 const VALUES: f64 = 48.0;
 
@@ -20,9 +17,9 @@ pub(super) struct Floor {
 }
 
 impl Floor {
-    /// For frames whose bins are `bin_hz` apart.
-    pub(super) fn of_bins(bin_hz: f64) -> Self {
-        let bins = FLOOR_HZ / bin_hz;
+    /// A median over `width_hz`, for frames whose bins are `bin_hz` apart.
+    pub(super) fn of_width(width_hz: f64, bin_hz: f64) -> Self {
+        let bins = width_hz / bin_hz;
         let stride = ((bins / VALUES) as usize).max(1);
         Self::of_values(stride, (bins / stride as f64 / 2.0) as usize)
     }
@@ -154,10 +151,10 @@ mod tests {
     #[test]
     fn a_median_has_as_many_values_in_frames_of_any_length() {
         for bin_hz in [2.5, 0.625] {
-            let floor = Floor::of_bins(bin_hz);
+            let floor = Floor::of_width(120.0, bin_hz);
             assert!((46..=50).contains(&(2 * floor.half)), "{bin_hz}: {}", floor.half);
         }
-        assert!(Floor::of_bins(1.0).of(&[]).is_empty());
+        assert!(Floor::of_width(120.0, 1.0).of(&[]).is_empty());
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(crate) struct Kind {
 /// Rms of every sound before it is mixed.
 pub(crate) const RMS: f64 = 0.1;
 
-pub(crate) const KINDS: [Kind; 14] = [
+pub(crate) const KINDS: [Kind; 15] = [
     Kind { name: "mains hum", make: electric::mains_hum },
     Kind { name: "mains hum in noise", make: electric::mains_hum_in_noise },
     Kind { name: "transformer", make: electric::transformer },
@@ -36,6 +36,7 @@ pub(crate) const KINDS: [Kind; 14] = [
     Kind { name: "helicopter", make: machines::helicopter },
     Kind { name: "engine", make: machines::engine },
     Kind { name: "wind", make: weather::wind },
+    Kind { name: "noise with an echo", make: weather::echo },
     Kind { name: "impulses", make: weather::impulses },
 ];
 

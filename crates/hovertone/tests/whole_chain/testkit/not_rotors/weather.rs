@@ -1,4 +1,4 @@
-//! Wind at the microphone, knocks and crackle.
+//! Wind at the microphone, noise with an echo, knocks and crackle.
 
 use super::{Dice, add, add_at, red_noise, resonated, sample_count};
 
@@ -13,6 +13,16 @@ pub(super) fn wind(dice: &mut Dice, length_s: f64) -> Vec<f64> {
     let gusts = red_noise(dice, 0.4, length_s);
     let gust_rms = (gusts.iter().map(|x| x * x).sum::<f64>() / gusts.len() as f64).sqrt();
     samples.iter().zip(&gusts).map(|(x, gust)| x * (1.0 + gust / gust_rms).abs()).collect()
+}
+
+/// Noise that comes again from a wall or the ground: its spectrum has crests at multiples of one frequency, as a rotor has lines.
+pub(super) fn echo(dice: &mut Dice, length_s: f64) -> Vec<f64> {
+    let corner_hz = dice.between(200.0, 4000.0);
+    let mut samples = red_noise(dice, corner_hz, length_s);
+    let heard = samples.clone();
+    let share = dice.between(0.5, 0.9);
+    add_at(&mut samples, dice.between(0.002, 0.012), &heard.iter().map(|x| share * x).collect::<Vec<f64>>());
+    samples
 }
 
 /// Clicks and knocks, in some at a steady rate.
