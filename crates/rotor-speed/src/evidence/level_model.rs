@@ -153,6 +153,11 @@ impl<'a> LevelModel<'a> {
         self.evidence_nats(&levels.over_flat_floor(), lines)
     }
 
+    /// The same of the propeller alone; 0 where none is followed.
+    pub(super) fn flat_propeller_nats(&mut self, levels: &RotorLevels, lines: &RotorLines) -> f64 {
+        lines.blades.map_or(0.0, |blades| self.shaft_nats(&levels.over_flat_floor().shaft, blades))
+    }
+
     /// The same of the gear mesh alone; 0 where none is followed.
     pub(super) fn flat_mesh_nats(&mut self, levels: &RotorLevels, lines: &RotorLines) -> f64 {
         lines.mesh_order.map_or(0.0, |_| self.shaft_nats(&levels.over_flat_floor().mesh, 1))
