@@ -2,6 +2,7 @@
 
 use super::floor::{Floor, FloorShape, FloorSums};
 use super::level_table::{Level, LevelTable};
+use super::near_floor::{NearFloor, levels_over};
 use super::rounding::Rounding;
 use hovertone_signal::spectrogram::{Stft, Window};
 use std::f64::consts::{LN_2, PI};
@@ -12,12 +13,6 @@ use std::sync::Arc;
 const SHORT_S: f64 = 0.1;
 /// Length of a long frame, s. Steady rotors, and several at once, are clearest in 0.4 s. *Decision.*
 const LONG_S: f64 = 0.4;
-/// Width of the running median that is the floor of a short frame, Hz: wider than several lines of a small rotor's comb, narrower than the slope
-/// of noise. *Decision.*
-const SHORT_FLOOR_HZ: f64 = 120.0;
-/// The same of a long frame, whose lines are narrower. An echo makes waves in the spectrum of noise, and a wider floor would leave their crests as
-/// lines. *Decision.*
-const LONG_FLOOR_HZ: f64 = 45.0;
 /// Step between short frames, s. *Numeric.*
 const HOP_S: f64 = 0.05;
 /// Steps between short frames to a step between long ones. *Numeric.*
@@ -63,6 +58,8 @@ pub(crate) struct Excess {
     pub(crate) frames: Vec<ExcessFrame>,
     /// The floor of the whole recording.
     pub(super) floor: Arc<FloorShape>,
+    /// The same of the near floor.
+    near_floor: Arc<FloorShape>,
 }
 
 /// One frame.
@@ -72,6 +69,8 @@ pub(crate) struct ExcessFrame {
     pub(crate) centre_s: f64,
     /// Power over the floor of each bin, as a [`Level`]. Shared, because part of the frames are looked at again.
     pub(super) levels: Arc<[Level]>,
+    /// The near floor over the floor, in steps of a level, see [`NearFloor`].
+    near_floor: Arc<[i8]>,
     mean_power: f64,
 }
 
@@ -83,9 +82,10 @@ impl Excess {
         let frame = |index: u32| ExcessFrame {
             centre_s: hop_s * f64::from(index),
             levels: Arc::clone(&levels),
+            near_floor: Arc::default(),
             mean_power: 1.0,
         };
-        Self { bin_hz, frames: (0..frames).map(frame).collect(), floor: Arc::default() }
+        Self { bin_hz, frames: (0..frames).map(frame).collect(), ..Self::default() }
     }
 }
 
@@ -94,7 +94,18 @@ impl Excess {
     pub(crate) fn within(&self, spans_s: &[Range<f64>]) -> Self {
         let is_within = |frame: &&ExcessFrame| spans_s.iter().any(|span_s| span_s.contains(&frame.centre_s));
         let frames = self.frames.iter().filter(is_within).cloned().collect();
-        Self { bin_hz: self.bin_hz, frames, floor: Arc::clone(&self.floor) }
+        let [floor, near_floor] = [&self.floor, &self.near_floor].map(Arc::clone);
+        Self { bin_hz: self.bin_hz, frames, floor, near_floor }
+    }
+
+    /// The same frames over the near floor. An echo makes waves in the spectrum of noise; the wide floor leaves their crests as lines.
+    pub(super) fn over_near_floor(&self) -> Self {
+        let over = |frame: &ExcessFrame| ExcessFrame {
+            levels: levels_over(&frame.levels, &frame.near_floor, self.bin_hz),
+            ..frame.clone()
+        };
+        let floor = Arc::clone(&self.near_floor);
+        Self { frames: self.frames.iter().map(over).collect(), floor, ..self.clone() }
     }
 
     /// Resolution of a frame, Hz.
@@ -177,8 +188,8 @@ impl ExcessBuilder {
     /// The sections in frames of both lengths. Each section is freed once it is in frames.
     pub(crate) fn finish(self) -> Looks {
         let section_samples = self.section_samples();
-        let mut short = Frames::new(&self, SHORT_S, HOP_S, SHORT_FLOOR_HZ);
-        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S, LONG_FLOOR_HZ);
+        let mut short = Frames::new(&self, SHORT_S, HOP_S);
+        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S);
         let mut next = None;
         for Section { index, samples } in self.sections {
             let start_s = self.start_s + (index * section_samples) as f64 / self.sample_rate_hz;
@@ -200,18 +211,22 @@ struct Frames {
     /// Power of a line that rounding makes.
     rounding_power: f64,
     floors: FloorSums,
+    near_floor: NearFloor,
+    near_floors: FloorSums,
     levels: LevelTable,
     frames: Vec<ExcessFrame>,
 }
 
 impl Frames {
-    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64, floor_hz: f64) -> Self {
+    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64) -> Self {
         let stft = Stft::<f32>::new(sound.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         Self {
             bins: (sound.hz_max / stft.bin_hz()) as usize,
-            floor: Floor::of_width(floor_hz, stft.bin_hz()),
+            floor: Floor::of_bins(stft.bin_hz()),
             rounding_power: sound.rounding.line_power(),
             floors: FloorSums::default(),
+            near_floor: NearFloor::of_bins(stft.bin_hz()),
+            near_floors: FloorSums::default(),
             levels: LevelTable::new(),
             frames: Vec::new(),
             stft,
@@ -220,7 +235,7 @@ impl Frames {
 
     /// Takes in a section. Where it does not follow the last one, its start is given.
     fn push(&mut self, samples: &[f32], start_s: Option<f64>) {
-        let Self { stft, bins, floor, rounding_power, floors, levels, frames } = self;
+        let Self { stft, bins, floor, rounding_power, floors, near_floor, near_floors, levels, frames } = self;
         if let Some(start_s) = start_s {
             stft.restart(start_s);
         }
@@ -231,9 +246,12 @@ impl Frames {
             let power = &frame.power[..frame.power.len().min(*bins)];
             let under = floor.of(power);
             floors.add(&under, added, bin_hz);
+            let near = near_floor.of(power);
+            near_floors.add_points(&near, added);
             let excess = over_floor(power, &under, added);
             let levels = excess.into_iter().map(|excess| levels.of(excess)).collect();
-            frames.push(ExcessFrame { centre_s: frame.centre_s, levels, mean_power });
+            let near_floor = near_floor.over(&near, &under, added);
+            frames.push(ExcessFrame { centre_s: frame.centre_s, levels, near_floor, mean_power });
         });
     }
 
@@ -242,7 +260,8 @@ impl Frames {
         let bin_hz = self.stft.bin_hz();
         let mut frames = self.frames;
         drop_rests(&mut frames);
-        Excess { bin_hz, frames, floor: Arc::new(self.floors.shape()) }
+        let [floor, near_floor] = [self.floors, self.near_floors].map(|floors| Arc::new(floors.shape()));
+        Excess { bin_hz, frames, floor, near_floor }
     }
 }
 

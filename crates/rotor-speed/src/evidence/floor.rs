@@ -3,6 +3,9 @@
 use std::collections::VecDeque;
 use std::f64::consts::LN_10;
 
+/// Width of the running median of the floor, Hz: wider than several lines of a small rotor's comb, narrower than the slope of noise.
+/// *Decision.*
+const FLOOR_HZ: f64 = 120.0;
 /// Number of values of which a median is taken. More bins within the width share their noise. *Numeric.*
 const VALUES: f64 = 48.0;
 
@@ -17,9 +20,9 @@ pub(super) struct Floor {
 }
 
 impl Floor {
-    /// A median over `width_hz`, for frames whose bins are `bin_hz` apart.
-    pub(super) fn of_width(width_hz: f64, bin_hz: f64) -> Self {
-        let bins = width_hz / bin_hz;
+    /// For frames whose bins are `bin_hz` apart.
+    pub(super) fn of_bins(bin_hz: f64) -> Self {
+        let bins = FLOOR_HZ / bin_hz;
         let stride = ((bins / VALUES) as usize).max(1);
         Self::of_values(stride, (bins / stride as f64 / 2.0) as usize)
     }
@@ -82,7 +85,12 @@ impl Floor {
 }
 
 /// Step of the frequencies at which the shape of the floor is kept, Hz: the floor is a median over a wider band. *Numeric.*
-const SHAPE_HZ: f64 = 20.0;
+pub(super) const SHAPE_HZ: f64 = 20.0;
+
+/// The bin at a point of the shape of the floor.
+pub(super) fn bin_at(point: usize, bin_hz: f64) -> usize {
+    (point as f64 * SHAPE_HZ / bin_hz).round() as usize
+}
 
 /// Sums of the floors of frames, from which the shape of the floor comes.
 #[derive(Default)]
@@ -95,11 +103,15 @@ pub(super) struct FloorSums {
 impl FloorSums {
     /// Takes in the floor of each bin of a frame.
     pub(super) fn add(&mut self, floors: &[f64], added: f64, bin_hz: f64) {
-        let bin = |point: usize| (point as f64 * SHAPE_HZ / bin_hz).round() as usize;
-        self.nats.resize((0..).take_while(|&point| bin(point) < floors.len()).count(), 0.0);
-        for (point, sum) in self.nats.iter_mut().enumerate() {
-            *sum += (floors[bin(point)] + added).ln();
-        }
+        let bins = (0..).map(|point| bin_at(point, bin_hz));
+        let points: Vec<f64> = bins.map_while(|bin| floors.get(bin).copied()).collect();
+        self.add_points(&points, added);
+    }
+
+    /// Takes in the floor of a frame every [`SHAPE_HZ`].
+    pub(super) fn add_points(&mut self, floors: &[f64], added: f64) {
+        self.nats.resize(floors.len(), 0.0);
+        self.nats.iter_mut().zip(floors).for_each(|(sum, floor)| *sum += (floor + added).ln());
         self.frames += 1;
     }
 
@@ -151,10 +163,10 @@ mod tests {
     #[test]
     fn a_median_has_as_many_values_in_frames_of_any_length() {
         for bin_hz in [2.5, 0.625] {
-            let floor = Floor::of_width(120.0, bin_hz);
+            let floor = Floor::of_bins(bin_hz);
             assert!((46..=50).contains(&(2 * floor.half)), "{bin_hz}: {}", floor.half);
         }
-        assert!(Floor::of_width(120.0, 1.0).of(&[]).is_empty());
+        assert!(Floor::of_bins(1.0).of(&[]).is_empty());
     }
 
     #[test]

@@ -157,7 +157,7 @@ pub(crate) struct WantedPropeller {
 /// no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     beliefs_of(looks, wanted, config).or_else(|| {
-        let of_long_frames = Looks { short: looks.long.clone(), long: Excess::default() };
+        let of_long_frames = Looks { short: looks.long.over_near_floor(), long: Excess::default() };
         let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
         Some(Beliefs { is_faint: true, ..beliefs_of(&of_long_frames, wanted, &of_any_votes)? })
     })
@@ -203,6 +203,7 @@ fn look_again<'a>(
     of_propellers: &mut [OfPropeller],
     config: &'a EvidenceConfig,
 ) -> Option<(NoiseLevel, LevelModel<'a>)> {
+    let near = looks.long.over_near_floor();
     let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
     for look in &*of_propellers {
         let table = VoteTable::of(&look.lines);
@@ -220,7 +221,7 @@ fn look_again<'a>(
         let along = |it: &Hypothesis| {
             let (of, path) = paths.iter().find(|(other, _)| other.path == it.path)?;
             let speeds_rev_s: Vec<f64> = path.iter().map(|speed_rev_s| it.factor / of.factor * speed_rev_s).collect();
-            SecondLook::along(&looks.long, &speeds_rev_s, &look.lines)
+            SecondLook::along([&near, &looks.long], &speeds_rev_s, &look.lines)
         };
         seen.push(look.hypotheses.iter().map(along).collect());
     }

@@ -5,7 +5,7 @@ pub(super) type Level = u8;
 /// Lowest level that is told, dB. *Numeric.*
 pub(super) const LEVEL_DB_MIN: f64 = -30.0;
 /// Steps of levels to a dB. *Numeric.*
-const LEVELS_PER_DB: f64 = 2.8;
+pub(super) const LEVELS_PER_DB: f64 = 2.8;
 /// Number of levels: from −30 to 60 dB. *Numeric.*
 pub(super) const LEVELS: usize = 253;
 

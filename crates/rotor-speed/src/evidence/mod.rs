@@ -36,6 +36,7 @@ mod hypotheses;
 mod level_model;
 mod level_table;
 mod levels;
+mod near_floor;
 mod near_speed;
 mod own_lines;
 mod path;

@@ -23,9 +23,13 @@ pub(super) struct SecondLook {
 }
 
 impl SecondLook {
-    /// Looks along a path. `None` without a band.
-    pub(super) fn along(long: &Excess, speeds_rev_s: &[f64], lines: &RotorLines) -> Option<Self> {
-        Some(Self { levels: levels_of_lines(long, speeds_rev_s, lines), noise: noise_level(long, speeds_rev_s)? })
+    /// Looks along a path: at the lines of a propeller over the near floor, and at those of a gear mesh over the wide one, which holds the lines of
+    /// all rotors. `None` without a band.
+    pub(super) fn along([near, wide]: [&Excess; 2], speeds_rev_s: &[f64], lines: &RotorLines) -> Option<Self> {
+        let of_mesh = RotorLines { blades: None, ..*lines };
+        let mesh = levels_of_lines(wide, speeds_rev_s, &of_mesh).mesh;
+        let levels = RotorLevels { mesh, ..levels_of_lines(near, speeds_rev_s, lines) };
+        Some(Self { levels, noise: noise_level(near, speeds_rev_s)? })
     }
 }
 
