@@ -58,9 +58,15 @@ pub enum NoTone {
 impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OutsideRecording => f.write_str("the recording has no sound between the chosen times; choose others with --from and --to"),
-            Self::TooShort { heard_s } => write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover"),
-            Self::Silence => f.write_str("the recording is silent; check the microphone, or choose another track or channel with --audio-track and --channel"),
+            Self::OutsideRecording => {
+                f.write_str("the recording has no sound between the chosen times; choose others with --from and --to")
+            }
+            Self::TooShort { heard_s } => {
+                write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover")
+            }
+            Self::Silence => f.write_str(
+                "the recording is silent; check the microphone, or choose another audio track or channel of it",
+            ),
             Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
                 match only_rev_s {
                     Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
@@ -78,11 +84,15 @@ impl fmt::Display for NoTone {
                     ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; check the given facts: the vehicle, the blades, the gear or the band"
                 )
             }
-            Self::NoSeries { only_rev_s: None, .. } => f.write_str("nothing sounds like a rotor; place the microphone nearer"),
+            Self::NoSeries { only_rev_s: None, .. } => {
+                f.write_str("nothing sounds like a rotor; place the microphone nearer")
+            }
             Self::NoSeries { only_rev_s: Some((low, high)), .. } => {
                 write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; go nearer")
             }
-            Self::NoHover => f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off"),
+            Self::NoHover => {
+                f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off")
+            }
             Self::NoFrame { window_s, hover_s } => {
                 write!(
                     f,

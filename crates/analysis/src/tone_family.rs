@@ -7,6 +7,8 @@ use std::fmt;
 
 /// Largest relative difference between the speeds of rotors of one vehicle. Measured flights have up to 22 %. *Physics.*
 const SAME_VEHICLE_SHARE: f64 = 0.25;
+/// Meshes of the rotors of one vehicle lie this near a multiple of the mean of all. *Decision.*
+const SAME_MESH_SHARE: f64 = 0.04;
 
 /// A line of a family.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -53,6 +55,8 @@ pub enum Remark {
     Brief,
     /// It has a single line.
     SingleLine,
+    /// It is the gear mesh of the rotors that are heard.
+    GearMesh,
 }
 
 impl Remark {
@@ -62,6 +66,7 @@ impl Remark {
             Self::NearMains => "mains hum (?)",
             Self::Brief => "short tone (a beep or a call?)",
             Self::SingleLine => "single line",
+            Self::GearMesh => "gear mesh of the rotors",
         }
     }
 }
@@ -72,6 +77,15 @@ impl ToneFamily {
         let tone_hz = |family: &Self| family.readings.first().map_or(family.fundamental_hz, |reading| reading.tone_hz);
         let pairs = [(self.fundamental_hz, other.fundamental_hz), (tone_hz(self), tone_hz(other))];
         pairs.into_iter().any(|(a, b)| (a / b - 1.0).abs() < SAME_VEHICLE_SHARE)
+    }
+
+    /// Whether this is the gear mesh of the rotors of another family, or one of its harmonics. Only where the gear is known.
+    pub fn is_gear_mesh_of(&self, rotor: &Self) -> bool {
+        let mesh_hz = |reading: &Reading| Some(f64::from(reading.meaning.gear()?.wheel) * reading.speed.rev_s());
+        rotor.readings.first().and_then(mesh_hz).is_some_and(|mesh_hz| {
+            let ratio = self.fundamental_hz / mesh_hz;
+            ratio > 0.5 && (ratio / ratio.round() - 1.0).abs() < SAME_MESH_SHARE
+        })
     }
 }
 

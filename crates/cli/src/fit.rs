@@ -94,6 +94,7 @@ fn table_failure(error: &TableError, path: &Path) -> Failure {
     let hint = match error {
         TableError::NoColumn { .. } => "`hovertone fit --help` lists the headers that hovertone knows",
         TableError::Csv(error) => error.hint(),
+        TableError::HeaderAlone => "give a row for each measurement, below the header",
         TableError::NoRow => "check that the speed is not 0 in all rows: the tachometer may not have been connected",
         _ => "correct the cell, or remove the row",
     };

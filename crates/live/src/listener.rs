@@ -197,8 +197,11 @@ impl Listener {
         self.heard.as_ref().filter(|_| self.is_following()).map_or(&[], |heard| &heard.rotors_rev_s)
     }
 
-    /// Why the last review heard no rotor.
-    pub fn reason(&self) -> Option<&NoTone> {
-        self.reason.as_ref()
+    /// Why the last review heard no rotor, or why its speed is doubtful; empty where all is well.
+    pub fn remark(&self) -> String {
+        match self.heard.as_ref().filter(|_| self.is_following()) {
+            Some(heard) => heard.doubts.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
+            None => self.reason.as_ref().map_or_else(String::new, ToString::to_string),
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::follower::SpeedAt;
 use crate::octave::PossibleSpeed;
 use crate::settings::LiveConfig;
-use hovertone_analysis::{NoTone, Outcome, Reading, RotorTone, Span, SpeedAnalysis, TrackPoint};
+use hovertone_analysis::{NoTone, Outcome, Reading, RotorTone, Span, SpeedAnalysis, TrackPoint, Warning};
 use hovertone_rotor_speed::{Config, Error, FoundSpeed, blades_known, speed_from_source, tones_from_source};
 use hovertone_signal::Signal;
 
@@ -25,6 +25,8 @@ pub(crate) struct HeardRotors {
     pub(crate) speed_rev_s: f64,
     /// The speeds that were compared, this one first.
     pub(crate) compared: Vec<PossibleSpeed>,
+    /// Warnings that the speed may not be that of the rotor.
+    pub(crate) doubts: Vec<Warning>,
     /// The settings with the tone that was found.
     pub(crate) config: Config,
     hover: Vec<Span>,
@@ -41,6 +43,7 @@ impl HeardRotors {
             compared: compared(&tone, alternatives, speed_rev_s, &config),
             rotors_rev_s: tone.rotors.iter().map(|rotor| rotor.speed.speed.rev_s()).collect(),
             std_uncertainty_rev_s: speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s)?,
+            doubts: Vec::new(),
             config,
             hover,
             track: tone.track,
@@ -100,14 +103,17 @@ pub(crate) fn review(sound: &mut Signal, config: &LiveConfig) -> Result<Reviewed
         }
         None => (speed_from_source(sound, &config.analysis, &mut |_| {})?, Vec::new(), config.analysis.clone()),
     };
-    let SpeedAnalysis { hover, outcome, .. } = analysis;
+    let SpeedAnalysis { hover, outcome, mut warnings, .. } = analysis;
     Ok(match outcome {
         Outcome::NoRotorTone { reason } => Reviewed::NotHeard(reason),
         Outcome::Ok(mut tone) => {
             let own = std::mem::take(&mut tone.alternatives);
             let alternatives = if alternatives.is_empty() { own } else { alternatives };
             match HeardRotors::of(tone, hover.segments, &alternatives, config) {
-                Some(heard) => Reviewed::Heard(Box::new(heard)),
+                Some(heard) => {
+                    warnings.retain(|warning| matches!(warning, Warning::FitsElsewhere(_) | Warning::OtherRotorsHeard));
+                    Reviewed::Heard(Box::new(HeardRotors { doubts: warnings, ..heard }))
+                }
                 None => Reviewed::NotHeard(NoTone::NoHover),
             }
         }

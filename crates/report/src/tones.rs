@@ -87,7 +87,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     for (_, family) in others {
         let is_near = rotor.and_then(|rotor| found.families.get(rotor)).is_some_and(|rotor| family.is_near(rotor));
         let kind = match family.remark {
-            Some(Remark::NearMains) => Remark::NearMains.text(),
+            Some(remark @ (Remark::NearMains | Remark::GearMesh)) => remark.text(),
             _ if is_near && possible_readings(family).next().is_some() => {
                 "another rotor, or this one at a changing speed"
             }
@@ -95,7 +95,8 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
             None if rotor.is_none() => "a tone, but probably no rotor",
             None => "another tone",
         };
-        text += &format!("\n{}\n{}", kind_and_place(kind, family), readings_in_a_line(family));
+        let readings = if family.remark == Some(Remark::GearMesh) { String::new() } else { readings_in_a_line(family) };
+        text += &format!("\n{}\n{readings}", kind_and_place(kind, family));
     }
     text
 }

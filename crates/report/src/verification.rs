@@ -70,8 +70,12 @@ fn verdict_in_words(found: &Verification) -> String {
     match failed_check(found) {
         None => {
             let percent = percent_of(found);
-            let right = if found.is_offset_told { "order and clock are right" } else { "the order is right" };
-            format!("passed: {right}; heard speeds differ by {percent} %")
+            match found.is_offset_told {
+                true => format!("passed: order and clock are right; heard speeds differ by {percent} %"),
+                false => format!(
+                    "passed: the order is right; heard speeds differ by {percent} %; the clocks are not compared, so the log may be of another flight"
+                ),
+            }
         }
         Some(Notice { text, hint }) => format!("failed: {text}; {hint}"),
     }

@@ -93,11 +93,11 @@ impl Ear {
     }
 
     fn told(&self, heard: &[LiveSpeed]) -> Told {
-        let reason = self.listener.reason().map_or_else(String::new, ToString::to_string);
+        let remark = self.listener.remark();
         let told = |speed: &LiveSpeed| ToldSpeed {
             speed: *speed,
             words: live_words(speed),
-            status_words: live_status_in_words(speed.status, &reason),
+            status_words: live_status_in_words(speed.status, &remark),
         };
         let possible = self.listener.possible();
         Told {

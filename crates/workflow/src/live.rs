@@ -11,14 +11,14 @@ pub fn live_words(speed: &LiveSpeed) -> Option<LiveWords> {
     Some(live_speed_in_words(RotorSpeed::from_rev_s(speed_rev_s), std_rev_s))
 }
 
-/// The status of a live speed in words, empty where all is well; `reason` says why the last review heard no rotor.
-pub fn live_status_in_words(status: LiveStatus, reason: &str) -> String {
+/// The status of a live speed in words, empty where all is well; `remark` is that of the listener.
+pub fn live_status_in_words(status: LiveStatus, remark: &str) -> String {
     match status {
-        LiveStatus::Ok => String::new(),
+        LiveStatus::Ok => remark.to_owned(),
         LiveStatus::Ambiguous => "several speeds are possible".to_owned(),
         LiveStatus::Listening => "listening".to_owned(),
-        LiveStatus::NoRotorTone if reason.is_empty() => "no rotor tone".to_owned(),
-        LiveStatus::NoRotorTone => format!("no rotor tone: {reason}"),
+        LiveStatus::NoRotorTone if remark.is_empty() => "no rotor tone".to_owned(),
+        LiveStatus::NoRotorTone => format!("no rotor tone: {remark}"),
     }
 }
 
@@ -39,13 +39,14 @@ pub struct LiveLine<'a> {
     speed: &'a LiveSpeed,
     rotors_rev_s: &'a [f64],
     possible_rev_s: Vec<f64>,
+    remark: String,
 }
 
 impl<'a> LiveLine<'a> {
     /// A live speed, with what the last review says.
     pub fn new(speed: &'a LiveSpeed, listener: &'a Listener) -> Self {
         let possible_rev_s = listener.possible().iter().map(|possible| possible.speed_rev_s).collect();
-        Self { speed, rotors_rev_s: listener.rotors_rev_s(), possible_rev_s }
+        Self { speed, rotors_rev_s: listener.rotors_rev_s(), possible_rev_s, remark: listener.remark() }
     }
 }
 

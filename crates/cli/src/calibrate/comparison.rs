@@ -1,6 +1,6 @@
 //! A heard speed against the known one, in words and as JSON.
 
-use super::{AMBIGUOUS, BAND_SHARE, MILLION, SEVERAL_ROTORS, band_around};
+use super::{AMBIGUOUS, BAND_SHARE, MILLION, OTHER_ROTOR, SEVERAL_ROTORS, band_around};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
 use crate::vehicles::preset;
@@ -68,6 +68,11 @@ impl Comparison {
                 (format!("{hz} Hz"), format!("{} Hz", in_unit(self.heard.order.lines_per_turn())))
             }
         }
+    }
+
+    /// Whether the heard speed is the known one, but for an error that a clock may have.
+    pub(super) fn agrees(&self) -> bool {
+        self.check.relation == Relation::Agrees
     }
 
     /// The band around the tone that the known speed and the given order mean.
@@ -273,7 +278,7 @@ pub(super) fn as_json(
         "passes": match judgement {
             Some(Judgement::Passes) => Some(true),
             Some(Judgement::Undecided) => None,
-            None if [SEVERAL_ROTORS, AMBIGUOUS].contains(&status) => None,
+            None if [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR].contains(&status) => None,
             Some(Judgement::Fails) | None => Some(false),
         },
         "order": heard.map(|heard| heard.order.lines_per_turn()),

@@ -29,6 +29,8 @@ const TRUE_HZ: RangeInclusive<f64> = 1.0..=192_000.0;
 const AMBIGUOUS: &str = "ambiguous";
 /// Status where nothing is compared, because several rotors are heard.
 const SEVERAL_ROTORS: &str = "several_rotors";
+/// Status where the known speed agrees, but the lines are those of a rotor with other blades.
+const OTHER_ROTOR: &str = "other_rotor";
 const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, and the known speed is that of one; record one \
                                 rotor that runs alone";
 const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
@@ -131,6 +133,11 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
         let std_rev_s = speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s);
         Some(HeardSpeed { speed: speed.speed, std_rev_s, order: record.order, is_rotor: true })
     });
+    let agrees = speed.and_then(|speed| Comparison::of(speed, reference).ok()).is_some_and(|it| it.agrees());
+    let doubt = record.as_ref().and_then(SpeedRecord::analysis).and_then(fits_elsewhere);
+    if let Some(warning) = doubt.filter(|_| agrees) {
+        return undecided(OTHER_ROTOR, format!("{warning}; {}", warning.hint()));
+    }
     Heard {
         speed,
         status: record.as_ref().map_or("error", SpeedRecord::status),
@@ -144,6 +151,11 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
 /// The band around a tone, as it is typed.
 fn band_around(tone_hz: f64) -> String {
     format!("{:.0}:{:.0}", (1.0 - BAND_SHARE) * tone_hz, (1.0 + BAND_SHARE) * tone_hz)
+}
+
+/// The warning that the lines are those of a rotor with other blades, where there is one: a speed that agrees proves no order then.
+fn fits_elsewhere(analysis: &SpeedAnalysis) -> Option<&Warning> {
+    analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)))
 }
 
 /// Whether other rotors are heard beside the one that is measured.

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::listen::summary::LiveSummary;
-use hovertone::live::{Listener, LiveSpeed};
+use hovertone::live::{Listener, LiveSpeed, LiveStatus};
 use hovertone_report::fixed;
 use hovertone_workflow::{LiveLine, live_status_in_words, live_words};
 
@@ -25,19 +25,19 @@ pub(crate) struct PlainLines {
 }
 
 impl PlainLines {
-    /// The line of a speed; `None` for those between. A reason why no rotor is heard is written where it changes.
-    pub(crate) fn line(&mut self, speed: &LiveSpeed, reason: &str) -> Option<String> {
+    /// The line of a speed; `None` for those between. A remark is written where it changes.
+    pub(crate) fn line(&mut self, speed: &LiveSpeed, remark: &str) -> Option<String> {
         self.summary.add(speed);
         self.count += 1;
         if !self.count.is_multiple_of(SPEEDS_PER_LINE) {
             return None;
         }
-        let status = live_status_in_words(speed.status, reason);
+        let status = live_status_in_words(speed.status, remark);
         let is_new = status != self.last_status;
         let in_words =
             live_words(speed).map(|words| format!("{} ± {} rev/s", words.speed_rev_s, words.plus_minus_rev_s));
         let words = match in_words {
-            Some(words) if status.is_empty() => words,
+            Some(words) if status.is_empty() || !is_new && speed.status == LiveStatus::Ok => words,
             Some(words) => format!("{words}, {status}"),
             None if is_new => status.clone(),
             None => live_status_in_words(speed.status, ""),

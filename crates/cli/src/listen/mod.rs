@@ -86,8 +86,8 @@ fn tell(
     let lines = match output {
         Output::Json => arrived.map(|speed| json_line(&speed, listener)).transpose()?,
         Output::Plain(lines) => {
-            let reason = listener.reason().map_or_else(String::new, ToString::to_string);
-            arrived.and_then(|speed| lines.line(&speed, &reason))
+            let remark = listener.remark();
+            arrived.and_then(|speed| lines.line(&speed, &remark))
         }
         Output::Screen(screen, view) => {
             if is_reviewed {

@@ -120,7 +120,7 @@ fn draw_speed(frame: &mut Frame<'_>, area: Rect, view: &View) {
         frame.render_widget(Paragraph::new(" the first answer comes after two seconds of sound"), area);
         return;
     };
-    let status = live_status_in_words(now.status, &view.reason);
+    let status = live_status_in_words(now.status, &view.remark);
     let Some((speed_rev_s, words)) = now.speed_rev_s.zip(live_words(&now)) else {
         let text = Paragraph::new(format!(" {status}")).wrap(Wrap { trim: false });
         frame.render_widget(text.yellow(), area);
@@ -316,7 +316,7 @@ mod tests {
     #[test]
     fn no_rotor_and_choices_are_said() {
         let mut view = view_of(None);
-        view.reason = "no series of lines that a rotor can make stands out of the noise".to_owned();
+        view.remark = "no series of lines that a rotor can make stands out of the noise".to_owned();
         assert!(text_of(&view, 80, 24).contains("no rotor tone: no series of lines"));
         let mut view = view_of(Some(120.0));
         view.choices = vec!["120.0 rev/s, 2 blades".to_owned(), "60.0 rev/s, 4 blades".to_owned()];

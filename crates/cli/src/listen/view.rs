@@ -19,8 +19,8 @@ pub(crate) struct View {
     pub(crate) rotors_rev_s: Vec<f64>,
     /// The possible speeds in words, most probable first; empty where one is decided.
     pub(crate) choices: Vec<String>,
-    /// Why no rotor is heard.
-    pub(crate) reason: String,
+    /// Why no rotor is heard, or why the speed is doubtful.
+    pub(crate) remark: String,
     pub(crate) is_frozen: bool,
 }
 
@@ -32,7 +32,7 @@ impl View {
             strip: VecDeque::new(),
             rotors_rev_s: Vec::new(),
             choices: Vec::new(),
-            reason: String::new(),
+            remark: String::new(),
             is_frozen: false,
         }
     }
@@ -56,7 +56,7 @@ impl View {
         }
         self.rotors_rev_s = listener.rotors_rev_s().to_vec();
         self.choices = listener.possible().iter().map(possible_in_words).collect();
-        self.reason = listener.reason().map_or_else(String::new, ToString::to_string);
+        self.remark = listener.remark();
     }
 }
 

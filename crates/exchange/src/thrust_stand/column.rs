@@ -33,7 +33,7 @@ pub(super) struct Column {
     pub(super) index: usize,
     pub(super) header: String,
     pub(super) quantity: Option<Quantity>,
-    /// Whether the column has words, which make groups.
+    /// Whether the column has words: names of groups or of rows.
     pub(super) is_words: bool,
     /// Whether the column is a thrust or a torque without a known unit.
     pub(super) lacks_unit: bool,

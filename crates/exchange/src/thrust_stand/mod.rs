@@ -1,6 +1,7 @@
 //! From tables of speed and thrust to speeds and forces in SI units: CSV of RCbenchmark, or any CSV with a header.
 
 mod column;
+mod grouping;
 mod plausible;
 #[cfg(test)]
 mod tests;
@@ -8,6 +9,7 @@ mod tests;
 use crate::csv_text::{CsvError, CsvText, line_of};
 use column::{Column, Quantity, columns_of, rotors_in};
 use csv::StringRecord;
+use grouping::grouping_columns;
 use plausible::MeasuredColumns;
 use std::f64::consts::TAU;
 
@@ -53,7 +55,7 @@ pub struct StandRow {
 /// The rows of one rotor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandGroup {
-    /// Content of its columns of words; empty without such columns.
+    /// Content of the columns that make groups; empty without such columns.
     pub name: String,
     /// Its rows.
     pub rows: Vec<StandRow>,
@@ -110,6 +112,9 @@ pub enum TableError {
         /// Allowed numbers.
         must_be: &'static str,
     },
+    /// A header alone.
+    #[error("the table has a header and no row below it")]
+    HeaderAlone,
     /// No row with a turning rotor.
     #[error("no row has both a speed and a thrust: there is nothing to fit")]
     NoRow,
@@ -117,16 +122,20 @@ pub enum TableError {
 
 /// Reads a table, separated by commas, semicolons or tabs. The headers give the quantities of the columns: a speed (rpm, rad/s, rev/s), a
 /// thrust (N, mN, g, gf, kg, kgf, lbf, ozf) or a mass that hovers (kg, g), their standard uncertainties (the same with "std"), power,
-/// voltage, current, torque (N m, or a force and a length). Columns of words make groups. An unknown unit is never guessed.
+/// voltage, current, torque (N m, or a force and a length). Columns of words make groups, unless they name the rows. An unknown unit is
+/// never guessed.
 ///
 /// Commas are decimal commas where a cell proves it ("3,5").
 ///
 /// # Errors
-/// No header, no speed, no force, a row that is too short or too long, a cell that is not a number, masses that are zero or negative,
+/// No header, no row, no speed, no force, a row that is too short or too long, a cell that is not a number, masses that are zero or negative,
 /// negative speeds, speeds and masses in another unit than that of the header, no usable row.
 pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let csv = CsvText::open(text)?;
     let records: Vec<StringRecord> = csv.records().collect::<Result<_, _>>()?;
+    if records.is_empty() {
+        return Err(TableError::HeaderAlone);
+    }
     let columns = columns_of(&csv.headers, &records);
     let used = columns.iter().filter(|column| column.quantity.is_some());
     let last_used = used.map(|column| column.index).max().unwrap_or(0);
@@ -137,7 +146,8 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let force = best(&csv, &columns, &records, Quantity::Thrust)
         .or_else(|| best(&csv, &columns, &records, Quantity::Mass))
         .ok_or_else(|| missing("a thrust (N, g, kg or lbf) or a mass (kg or g)"))?;
-    let reader = RowReader { csv: &csv, columns: &columns, speed, force };
+    let groups_by = grouping_columns(&columns, &records);
+    let reader = RowReader { csv: &csv, columns: &columns, groups_by, speed, force };
     let mut rows: Vec<GroupedRow> = Vec::new();
     for record in &records {
         if let Some(row) = reader.row(record)? {
@@ -192,6 +202,8 @@ fn best<'a>(csv: &CsvText, columns: &'a [Column], records: &[StringRecord], quan
 struct RowReader<'a> {
     csv: &'a CsvText<'a>,
     columns: &'a [Column],
+    /// Indices of the columns that make groups.
+    groups_by: Vec<usize>,
     speed: &'a Column,
     force: &'a Column,
 }
@@ -253,8 +265,8 @@ impl RowReader<'_> {
     }
 
     fn group(&self, record: &StringRecord) -> String {
-        let words = self.columns.iter().filter(|column| column.is_words);
-        words.filter_map(|column| record.get(column.index)).collect::<Vec<_>>().join(", ")
+        let words = self.groups_by.iter().filter_map(|&column| record.get(column));
+        words.collect::<Vec<_>>().join(", ")
     }
 }
 

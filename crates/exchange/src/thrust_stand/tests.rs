@@ -40,6 +40,18 @@ fn words_make_groups_and_uncertainties_are_read() {
 }
 
 #[test]
+fn words_that_all_differ_name_rows() {
+    let names = |text: &str| -> Vec<String> {
+        table_from_csv(text).unwrap().groups.into_iter().map(|group| group.name).collect()
+    };
+    assert_eq!(names("load,mass_g,rpm\nnone,413,3610\nsmall,444,3742\nbig,462,3820\n"), [""]);
+    // the tables of loads that hovertone writes itself
+    let by_method = "method,load,mass_g,rpm\na,none,413,3610\na,small,444,3742\nb,none,413,3611\nb,small,444,3743\n";
+    assert_eq!(names(by_method), ["a", "b"]);
+    assert_eq!(names("motor,prop,mass_g,rpm\na,x,413,3610\na,x,444,3742\nb,y,413,3611\n"), ["a, x", "b, y"]);
+}
+
+#[test]
 fn what_means_nothing_is_refused_with_its_line() {
     for (text, words) in [
         ("rpm,mass_kg\n3610,0\n", ["line 2", "above 0"]),
@@ -56,7 +68,7 @@ fn what_means_nothing_is_refused_with_its_line() {
         ("rpm,mass_kg\n3610,413\n3742,444\n", ["line 3", "444: heavier than most multirotors: is this in grams"]),
         ("rpm,mass_g\n3610,0.413\n3742,0.444\n", ["line 3", "0.444: no multirotor is lighter than 1 g"]),
         ("rpm,thrust_n\n0,0\n", ["nothing", "fit"]),
-        ("rpm,thrust_n\n", ["nothing", "fit"]),
+        ("rpm,thrust_n\n", ["header", "no row"]),
         ("", ["empty", "a table is needed"]),
     ] {
         let message = table_from_csv(text).unwrap_err().to_string();

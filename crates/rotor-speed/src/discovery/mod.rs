@@ -141,13 +141,20 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     };
     let mut families = families(Some(believed.fundamental_hz())).into_iter();
     let family = families.next().map(|lines| believed.family(lines, ratio));
+    let is_mesh = |other: &ToneFamily| family.as_ref().is_some_and(|rotor| other.is_gear_mesh_of(rotor));
+    let others: Vec<ToneFamily> = families.map(|other| if is_mesh(&other) { as_mesh(other) } else { other }).collect();
     Ok(FoundSpeed {
         rotor: family.is_some().then_some(0),
-        families: family.into_iter().chain(families).collect(),
+        families: family.into_iter().chain(others).collect(),
         config: found,
         analysis,
         alternatives: believed.alternatives(ratio),
     })
+}
+
+/// The family of a gear mesh: the readings of the rotor are its readings.
+fn as_mesh(family: ToneFamily) -> ToneFamily {
+    ToneFamily { readings: Vec::new(), remark: Some(Remark::GearMesh), ..family }
 }
 
 fn is_single_line(family: &ToneFamily) -> bool {
