@@ -15,7 +15,8 @@ pub fn live_words(speed: &LiveSpeed) -> Option<LiveWords> {
 pub fn live_status_in_words(status: LiveStatus, remark: &str) -> String {
     match status {
         LiveStatus::Ok => remark.to_owned(),
-        LiveStatus::Ambiguous => "several speeds are possible".to_owned(),
+        LiveStatus::Ambiguous if remark.is_empty() => "several speeds are possible".to_owned(),
+        LiveStatus::Ambiguous => format!("several speeds are possible; {remark}"),
         LiveStatus::Listening => "listening".to_owned(),
         LiveStatus::NoRotorTone if remark.is_empty() => "no rotor tone".to_owned(),
         LiveStatus::NoRotorTone => format!("no rotor tone: {remark}"),

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::listen::summary::LiveSummary;
-use hovertone::live::{Listener, LiveSpeed, LiveStatus};
+use hovertone::live::{Listener, LiveSpeed};
 use hovertone_report::fixed;
 use hovertone_workflow::{LiveLine, live_status_in_words, live_words};
 
@@ -37,8 +37,10 @@ impl PlainLines {
         let in_words =
             live_words(speed).map(|words| format!("{} ± {} rev/s", words.speed_rev_s, words.plus_minus_rev_s));
         let words = match in_words {
-            Some(words) if status.is_empty() || !is_new && speed.status == LiveStatus::Ok => words,
-            Some(words) => format!("{words}, {status}"),
+            Some(words) => {
+                let now = if is_new { status.clone() } else { live_status_in_words(speed.status, "") };
+                if now.is_empty() { words } else { format!("{words}, {now}") }
+            }
             None if is_new => status.clone(),
             None => live_status_in_words(speed.status, ""),
         };
