@@ -111,8 +111,8 @@ pub(crate) struct Hypothesis {
     nats: f64,
     /// Levels of its lines in short frames.
     pub(super) levels: RotorLevels,
-    /// The same in long frames, where they were looked at.
-    pub(super) long_levels: Option<RotorLevels>,
+    /// The same in long frames over the near floor, where they were looked at.
+    pub(super) near_levels: Option<RotorLevels>,
     /// Probability among the hypotheses.
     pub(crate) belief: f64,
 }
@@ -157,7 +157,7 @@ pub(crate) struct WantedPropeller {
 /// no rotor is heard.
 pub(crate) fn beliefs_from_looks(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> Option<Beliefs> {
     beliefs_of(looks, wanted, config).or_else(|| {
-        let of_long_frames = Looks { short: looks.long.over_near_floor(), long: Excess::default() };
+        let of_long_frames = Looks { short: looks.long.clone(), long: looks.long.clone() };
         let of_any_votes = EvidenceConfig { votes_nats_min: f64::MIN, ..*config };
         Some(Beliefs { is_faint: true, ..beliefs_of(&of_long_frames, wanted, &of_any_votes)? })
     })
@@ -196,15 +196,15 @@ fn is_tune(look: &OfPropeller, short: &Excess, config: &EvidenceConfig) -> bool 
     jumps_nats.is_none_or(|nats| nats >= config.jumps_nats_max)
 }
 
-/// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames with its model; `None`
-/// where they show none.
+/// Adds to each hypothesis what the long frames show along its path, and sorts them again. Returns the noise of these frames over the near
+/// floor, and the model of that over the wide one; `None` where they show none.
 fn look_again<'a>(
     looks: &Looks,
     of_propellers: &mut [OfPropeller],
     config: &'a EvidenceConfig,
 ) -> Option<(NoiseLevel, LevelModel<'a>)> {
     let near = looks.long.over_near_floor();
-    let mut seen: Vec<Vec<Option<SecondLook>>> = Vec::new();
+    let mut seen: Vec<Vec<Option<[SecondLook; 2]>>> = Vec::new();
     for look in &*of_propellers {
         let table = VoteTable::of(&look.lines);
         // octaves are compared along one path: that of the one with the most votes
@@ -221,24 +221,27 @@ fn look_again<'a>(
         let along = |it: &Hypothesis| {
             let (of, path) = paths.iter().find(|(other, _)| other.path == it.path)?;
             let speeds_rev_s: Vec<f64> = path.iter().map(|speed_rev_s| it.factor / of.factor * speed_rev_s).collect();
-            SecondLook::along([&near, &looks.long], &speeds_rev_s, &look.lines)
+            SecondLook::over_both_floors([&looks.long, &near], &speeds_rev_s, &look.lines)
         };
         seen.push(look.hypotheses.iter().map(along).collect());
     }
-    let noises: Vec<NoiseLevel> = seen.iter().flatten().flatten().map(|seen| seen.noise).collect();
-    let noise = NoiseLevel::of_emptiest(noises, config.levels.foreign)?;
+    let noise_over = |floor: usize| {
+        let noises = seen.iter().flatten().flatten().map(|floors| floors[floor].noise).collect();
+        NoiseLevel::of_emptiest(noises, config.levels.foreign)
+    };
+    let (noise, near_noise) = (noise_over(0)?, noise_over(1)?);
     let mut model = LevelModel::of_speeds(noise, &config.levels);
     for (look, seen) in of_propellers.iter_mut().zip(seen) {
-        let Some(seen) = seen.into_iter().collect::<Option<Vec<SecondLook>>>() else { continue };
-        for (it, seen) in look.hypotheses.iter_mut().zip(seen) {
-            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&seen.levels, &look.lines));
+        let Some(seen) = seen.into_iter().collect::<Option<Vec<[SecondLook; 2]>>>() else { continue };
+        for (it, [wide, near]) in look.hypotheses.iter_mut().zip(seen) {
+            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&wide.levels, &look.lines));
             it.nats += levels_nats - it.levels_nats;
             it.levels_nats = levels_nats;
-            it.long_levels = Some(seen.levels);
+            it.near_levels = Some(near.levels);
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
-    Some((noise, model))
+    Some((near_noise, model))
 }
 
 /// What frames of one length show.
@@ -340,7 +343,7 @@ fn hypothesis_of(
         levels_nats,
         nats: 0.0,
         levels,
-        long_levels: None,
+        near_levels: None,
         belief: 0.0,
     })
 }

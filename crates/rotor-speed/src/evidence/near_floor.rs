@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// Width of the median that is the near floor, Hz: narrower than the crests of an echo of 10 ms, wider than several lines of a long frame.
 /// *Decision.*
-const NEAR_FLOOR_HZ: f64 = 55.0;
+const NEAR_FLOOR_HZ: f64 = 45.0;
 
 /// The median of the power around each point of the shape of the floor.
 pub(super) struct NearFloor {

@@ -51,7 +51,7 @@ impl<'a> Presence<'a> {
         nats: impl Fn(&mut LevelModel<'a>, &RotorLevels, &RotorLines) -> f64,
     ) -> f64 {
         let short_nats = nats(&mut self.short, &hypothesis.levels, &hypothesis.lines);
-        match self.long.as_mut().zip(hypothesis.long_levels.as_ref()) {
+        match self.long.as_mut().zip(hypothesis.near_levels.as_ref()) {
             Some((long, levels)) => short_nats.min(nats(long, levels, &hypothesis.lines)),
             None => short_nats,
         }

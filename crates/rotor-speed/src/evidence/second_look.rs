@@ -23,13 +23,21 @@ pub(super) struct SecondLook {
 }
 
 impl SecondLook {
-    /// Looks along a path: at the lines of a propeller over the near floor, and at those of a gear mesh over the wide one, which holds the lines of
-    /// all rotors. `None` without a band.
-    pub(super) fn along([near, wide]: [&Excess; 2], speeds_rev_s: &[f64], lines: &RotorLines) -> Option<Self> {
-        let of_mesh = RotorLines { blades: None, ..*lines };
-        let mesh = levels_of_lines(wide, speeds_rev_s, &of_mesh).mesh;
-        let levels = RotorLevels { mesh, ..levels_of_lines(near, speeds_rev_s, lines) };
-        Some(Self { levels, noise: noise_level(near, speeds_rev_s)? })
+    /// Looks along a path. `None` without a band.
+    fn along(long: &Excess, speeds_rev_s: &[f64], lines: &RotorLines) -> Option<Self> {
+        Some(Self { levels: levels_of_lines(long, speeds_rev_s, lines), noise: noise_level(long, speeds_rev_s)? })
+    }
+
+    /// Looks along a path, over the wide and over the near floor. The lines of a gear mesh stay over the wide one, as those of all rotors lie close
+    /// there. `None` without a band.
+    pub(super) fn over_both_floors(
+        [wide, near]: [&Excess; 2],
+        speeds_rev_s: &[f64],
+        lines: &RotorLines,
+    ) -> Option<[Self; 2]> {
+        let [wide, near] = [Self::along(wide, speeds_rev_s, lines)?, Self::along(near, speeds_rev_s, lines)?];
+        let levels = RotorLevels { mesh: wide.levels.mesh.clone(), ..near.levels };
+        Some([wide, Self { levels, ..near }])
     }
 }
 
