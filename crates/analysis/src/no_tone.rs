@@ -65,7 +65,7 @@ impl fmt::Display for NoTone {
                 write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover")
             }
             Self::Silence => f.write_str(
-                "the recording is silent; check the microphone, or choose another audio track or channel of it",
+                "the recording is silent; check the microphone, or choose another audio track or one channel (channels of opposite sign cancel each other)",
             ),
             Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
                 match only_rev_s {

@@ -19,6 +19,8 @@ use std::path::Path;
 const MASS_SHARE: f64 = 0.02;
 /// A new constant over the old one: what another propeller or air does.
 const LIKELY_CHANGE: RangeInclusive<f64> = 0.5..=2.0;
+/// Torque per thrust, m: a propeller as large as a house has less.
+const TORQUE_PER_THRUST_M_MAX: f64 = 1.0;
 /// Densities of air: from the highest mountain in summer to a pole in winter.
 const AIR_DENSITY_KG_M3: RangeInclusive<f64> = 0.3..=1.8;
 
@@ -126,7 +128,7 @@ fn difference(before: &Path, after: &Path, changes: &[ChangedLine]) -> String {
 fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
     let rotor = identified(&arguments.results, arguments.of.group.as_deref())?;
     let (torque, command) = (arguments.torque_constant_n_m_s2, arguments.hover_command);
-    torque.map_or(Ok(()), |torque| check_positive("torque_constant_n_m_s2", torque))?;
+    torque.map_or(Ok(()), |torque| check_torque(torque, rotor.thrust_constant_n_s2))?;
     command.map_or(Ok(()), |command| check_positive("hover_command", command))?;
     command.map_or(Ok(()), |command| check_range("hover_command", command, 0.0, 1.0))?;
     arguments.diameter_m.map_or(Ok(()), |diameter_m| check_diameter("diameter_m", diameter_m))?;
@@ -151,6 +153,19 @@ fn resolve(arguments: &ExportArguments) -> Result<IdentifiedRotor, Failure> {
         }
     }
     Ok(rotor)
+}
+
+/// A torque per thrust is a length: about a tenth of the diameter of the propeller.
+fn check_torque(torque_constant_n_m_s2: f64, thrust_constant_n_s2: f64) -> Result<(), Failure> {
+    check_positive("torque_constant_n_m_s2", torque_constant_n_m_s2)?;
+    let arm_m = torque_constant_n_m_s2 / thrust_constant_n_s2;
+    if arm_m <= TORQUE_PER_THRUST_M_MAX {
+        return Ok(());
+    }
+    let what = format!(
+        "torque_constant_n_m_s2 = {torque_constant_n_m_s2} is {arm_m:.2e} m times the thrust constant of one rotor, and propellers have less than {TORQUE_PER_THRUST_M_MAX} m"
+    );
+    Err(Failure::usage(what, "give C_τ in torque = C_τ ω², in N m/(rad/s)²: of small propellers it is 1e-9 to 1e-6"))
 }
 
 /// Reads results.json, or one group of the results of a table.
