@@ -104,8 +104,9 @@ impl Excess {
             levels: levels_over(&frame.levels, &frame.near_floor, self.bin_hz),
             ..frame.clone()
         };
-        let floor = Arc::clone(&self.near_floor);
-        Self { frames: self.frames.iter().map(over).collect(), floor, ..self.clone() }
+        let frames = self.frames.iter().map(over).collect();
+        let [floor, near_floor] = [&self.near_floor; 2].map(Arc::clone);
+        Self { bin_hz: self.bin_hz, frames, floor, near_floor }
     }
 
     /// Resolution of a frame, Hz.
@@ -188,8 +189,8 @@ impl ExcessBuilder {
     /// The sections in frames of both lengths. Each section is freed once it is in frames.
     pub(crate) fn finish(self) -> Looks {
         let section_samples = self.section_samples();
-        let mut short = Frames::new(&self, SHORT_S, HOP_S);
-        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S);
+        let mut short = Frames::new(&self, SHORT_S, HOP_S, false);
+        let mut long = Frames::new(&self, LONG_S, f64::from(LONG_HOPS) * HOP_S, true);
         let mut next = None;
         for Section { index, samples } in self.sections {
             let start_s = self.start_s + (index * section_samples) as f64 / self.sample_rate_hz;
@@ -211,21 +212,22 @@ struct Frames {
     /// Power of a line that rounding makes.
     rounding_power: f64,
     floors: FloorSums,
-    near_floor: NearFloor,
+    /// Of long frames only.
+    near_floor: Option<NearFloor>,
     near_floors: FloorSums,
     levels: LevelTable,
     frames: Vec<ExcessFrame>,
 }
 
 impl Frames {
-    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64) -> Self {
+    fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64, has_near_floor: bool) -> Self {
         let stft = Stft::<f32>::new(sound.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
         Self {
             bins: (sound.hz_max / stft.bin_hz()) as usize,
             floor: Floor::of_bins(stft.bin_hz()),
             rounding_power: sound.rounding.line_power(),
             floors: FloorSums::default(),
-            near_floor: NearFloor::of_bins(stft.bin_hz()),
+            near_floor: has_near_floor.then(|| NearFloor::of_bins(stft.bin_hz())),
             near_floors: FloorSums::default(),
             levels: LevelTable::new(),
             frames: Vec::new(),
@@ -246,11 +248,13 @@ impl Frames {
             let power = &frame.power[..frame.power.len().min(*bins)];
             let under = floor.of(power);
             floors.add(&under, added, bin_hz);
-            let near = near_floor.of(power);
-            near_floors.add_points(&near, added);
+            let near_floor = near_floor.as_mut().map_or_else(Arc::default, |near_floor| {
+                let near = near_floor.of(power);
+                near_floors.add_points(&near, added);
+                near_floor.over(&near, &under, added)
+            });
             let excess = over_floor(power, &under, added);
             let levels = excess.into_iter().map(|excess| levels.of(excess)).collect();
-            let near_floor = near_floor.over(&near, &under, added);
             frames.push(ExcessFrame { centre_s: frame.centre_s, levels, near_floor, mean_power });
         });
     }
