@@ -9,8 +9,11 @@ use std::fmt;
 #[serde(tag = "kind", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum NoTone {
-    /// The requested span lies outside the recording.
-    OutsideRecording,
+    /// The requested span begins where the recording has ended.
+    OutsideRecording {
+        /// End of the recording.
+        end_s: f64,
+    },
     /// The recording is too short for an analysis.
     TooShort {
         /// Length of the recording.
@@ -58,9 +61,10 @@ pub enum NoTone {
 impl fmt::Display for NoTone {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OutsideRecording => {
-                f.write_str("the recording has no sound between the chosen times; choose others with --from and --to")
-            }
+            Self::OutsideRecording { end_s } => write!(
+                f,
+                "the recording ends at {end_s:.1} s, and the chosen times begin later; choose others with --from and --to"
+            ),
             Self::TooShort { heard_s } => {
                 write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover")
             }

@@ -7,8 +7,8 @@ use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::thrust::ThrustCoefficients;
 use hovertone_exchange::{
-    ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
-    updated_model,
+    ChangedLine, IdentifiedRotor, ModelError, ResultsError, SimulatorFormat, export_text, identified_from_results,
+    model_from_text, updated_model,
 };
 use hovertone_report::{Notice, fixed, printable};
 use hovertone_vehicle::{check_diameter, check_positive, check_range};
@@ -36,6 +36,7 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
     };
     let text = export_text(&rotor, format)
         .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
+    say_unused(&rotor, format, &text, arguments, terminal);
     match &arguments.output {
         Some(path) => {
             Outputs::beside([&arguments.results], arguments.replace.force).write(path, text)?;
@@ -44,6 +45,36 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
         None => terminal.data(&text)?,
     }
     Ok(Ending::Done)
+}
+
+/// Names the given facts without which the text of a format is the same.
+fn say_unused(
+    rotor: &IdentifiedRotor,
+    format: SimulatorFormat,
+    text: &str,
+    arguments: &ExportArguments,
+    terminal: &mut Terminal,
+) {
+    let without = |change: fn(&mut IdentifiedRotor)| {
+        let mut rotor = rotor.clone();
+        change(&mut rotor);
+        rotor
+    };
+    for (flag, is_given, other) in [
+        (
+            "--torque-constant-n-m-s2",
+            arguments.torque_constant_n_m_s2.is_some(),
+            without(|rotor| rotor.torque_constant_n_m_s2 = None),
+        ),
+        ("--hover-command", arguments.hover_command.is_some(), without(|rotor| rotor.hover_command = None)),
+        ("--diameter-m", arguments.diameter_m.is_some(), without(|rotor| rotor.propeller_diameter_m = None)),
+        ("--air-density-kg-m3", arguments.air_density_kg_m3.is_some(), without(|rotor| rotor.air_density_kg_m3 = None)),
+    ] {
+        if is_given && export_text(&other, format).is_ok_and(|other| other == text) {
+            let what = format!("{flag} changes nothing: {} has no place for it", format.name());
+            terminal.warning(&Notice::new(what, "leave it out, or choose another format"), "");
+        }
+    }
 }
 
 /// Changes the numbers of a model: in place, which is what was asked for, or into another file. Prints the difference.

@@ -1,6 +1,7 @@
 //! Endings of a run and their exit codes.
 
 use crate::caller::typed_words;
+use crate::number_advice::correct_number;
 use crate::see_help::see_help;
 use hovertone_report::printable;
 use hovertone_vehicle::{ConfigError, Contradiction, QuantityError};
@@ -44,7 +45,7 @@ impl From<Contradiction> for Failure {
 /// A number out of its range.
 impl From<QuantityError> for Failure {
     fn from(error: QuantityError) -> Self {
-        Self::usage(error.to_string(), correct_number())
+        Self::usage(error.to_string(), correct_number(error.name, &typed_words()))
     }
 }
 
@@ -55,15 +56,11 @@ impl From<ConfigError> for Failure {
             ConfigError::EmptySpan { .. } => {
                 format!("give a later end or an earlier start, in seconds or as 1:02.5: {}", see_help(&typed_words()))
             }
-            _ => correct_number(),
+            ConfigError::OutOfRange { name, .. } => correct_number(name, &typed_words()),
+            _ => see_help(&typed_words()),
         };
         Self::usage(error.to_string(), hint)
     }
-}
-
-/// Advice for a number that was typed or stands in a file.
-fn correct_number() -> String {
-    format!("correct it, or its unit: {}", see_help(&typed_words()))
 }
 
 /// Reason why a run was impossible: what happened and why, what to do, and which file.

@@ -1,6 +1,6 @@
 //! `hovertone fit`: the thrust constant from tables, and the plan of a campaign.
 
-use crate::args::FitArguments;
+use crate::args::{AirArguments, FitArguments, PlaceArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
 use crate::inputs::{is_no_text, read_bytes};
@@ -31,6 +31,8 @@ struct Plan {
     is_count_given: bool,
     diameter_m: Option<f64>,
     density_kg_m3: Option<f64>,
+    /// Says why C_T is not computed, where only a part of what it needs is given.
+    half_given: Option<Notice>,
 }
 
 /// Fits all tables, or plans a campaign.
@@ -50,6 +52,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         is_count_given: arguments.rotors.is_some(),
         diameter_m: arguments.air.diameter_m,
         density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
+        half_given: half_given(&arguments.air, &arguments.place),
     };
     if arguments.json {
         let mut all = Vec::new();
@@ -76,6 +79,22 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         }
     }
     Ok(Ending::Done)
+}
+
+/// The notice where a diameter is given without the air, or the air without a diameter.
+fn half_given(air: &AirArguments, place: &PlaceArguments) -> Option<Notice> {
+    let of_air = air.temperature_c.or(air.pressure_hpa).or(air.humidity_percent);
+    match (air.diameter_m, of_air.or(place.height_m)) {
+        (Some(_), None) => Some(Notice::new(
+            "C_T is not computed: it needs the density of the air too",
+            "also give --temperature-c and --pressure-hpa, or --height-m",
+        )),
+        (None, Some(_)) if of_air.is_some() => Some(Notice::new(
+            "C_T is not computed: it needs the diameter of the propeller too",
+            "also give --diameter-m",
+        )),
+        _ => None,
+    }
 }
 
 fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> {
@@ -174,7 +193,11 @@ fn fitted_table(
         propeller_diameter_m: plan.diameter_m,
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
-        notices: notes.chain(too_strong).chain(warnings.iter().map(Notice::from)).collect(),
+        notices: notes
+            .chain(plan.half_given.clone())
+            .chain(too_strong)
+            .chain(warnings.iter().map(Notice::from))
+            .collect(),
         fit,
     })
 }

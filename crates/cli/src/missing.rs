@@ -46,8 +46,50 @@ const ALL: [Needed; 27] = [
     needed("completions", "<SHELL>", "the name of your shell"),
 ];
 
+/// An argument that flags need beside them.
+struct NeededBeside {
+    argument: &'static str,
+    flags: &'static [&'static str],
+    words: &'static str,
+}
+
+const fn needed_beside(argument: &'static str, flags: &'static [&'static str], words: &'static str) -> NeededBeside {
+    NeededBeside { argument, flags, words }
+}
+
+const OF_PLAN: &[&str] = &[
+    "--wanted-share",
+    "--added-mass-kg",
+    "--mass-std-kg",
+    "--speed-spread-share",
+    "--correlation-s",
+    "--rotors-separated",
+];
+const ALL_BESIDE: [NeededBeside; 6] = [
+    needed_beside("--log <FILE>", &["--log-offset-s", "--log-axes", "--layout"], "the log too: --log FILE"),
+    needed_beside("--commands <LOG>", &["--offset"], "the commands too: --commands LOG"),
+    needed_beside("--signal <NAME>", &["--output", "-o"], "the name of the signal too: --signal NAME"),
+    needed_beside("--output <FILE.csv>", &["--signal"], "a file for the signal too: -o FILE.csv"),
+    needed_beside("--plan", OF_PLAN, "--plan, and the mass of the vehicle: --plan --mass-kg KG"),
+    needed_beside("--mass-kg <KG>", &["--plan"], "the mass of the vehicle: --mass-kg KG"),
+];
+
+/// "--log-axes needs the log too: --log FILE".
+fn missing_beside(words: &[OsString], arguments: &[String]) -> Option<String> {
+    let is_missing = |beside: &&NeededBeside| arguments.iter().any(|argument| argument == beside.argument);
+    let typed =
+        |flag: &&str| words.iter().filter_map(|word| word.to_str()).any(|word| word.split('=').next() == Some(flag));
+    ALL_BESIDE.iter().filter(is_missing).find_map(|beside| {
+        let flag = beside.flags.iter().copied().find(typed)?;
+        Some(format!("{flag} needs {}", beside.words))
+    })
+}
+
 /// "speed needs at least one recording", of the missing arguments as the parser names them.
 pub(crate) fn missing_in_words(words: &[OsString], arguments: &[String]) -> String {
+    if let Some(beside) = missing_beside(words, arguments) {
+        return beside;
+    }
     let Some(command) = typed_command(words) else {
         return format!("this is missing: {}", arguments.join(", "));
     };
@@ -64,6 +106,26 @@ mod tests {
     use crate::misuse::typed_arguments;
     use clap::error::{ContextKind, ContextValue};
     use std::collections::BTreeSet;
+
+    #[test]
+    fn what_a_flag_needs_beside_it_has_words() {
+        for (line, words) in [
+            ("speed a.wav --log-axes flu", "--log-axes needs the log too: --log FILE"),
+            ("motor a.wav --offset 0", "--offset needs the commands too: --commands LOG"),
+            ("log a.ulg -o a.csv", "-o needs the name of the signal too: --signal NAME"),
+            ("log a.ulg --signal speed", "--signal needs a file for the signal too: -o FILE.csv"),
+            (
+                "fit a.csv --wanted-share=0.1",
+                "--wanted-share needs --plan, and the mass of the vehicle: --plan --mass-kg KG",
+            ),
+            ("fit --plan", "--plan needs the mass of the vehicle: --mass-kg KG"),
+        ] {
+            let words_typed: Vec<OsString> = format!("hovertone {line}").split(' ').map(OsString::from).collect();
+            let error = typed_arguments(&words_typed).unwrap_err();
+            let Some(ContextValue::Strings(arguments)) = error.get(ContextKind::InvalidArg) else { panic!("{line}") };
+            assert_eq!(missing_in_words(&words_typed, arguments), words);
+        }
+    }
 
     /// Every argument of the list is one that the parser misses where a command stands alone, or with its files.
     #[test]

@@ -1,6 +1,7 @@
 //! A command line that has no meaning: one line says what is wrong and what to do.
 
 use crate::args::Arguments;
+use crate::conflicts::advice;
 use crate::failure::Failure;
 use crate::missing::missing_in_words;
 use crate::nearest::nearest;
@@ -40,9 +41,6 @@ pub(crate) fn failure_of(error: &clap::Error, words: &[OsString]) -> Option<Fail
     Some(Failure::usage(what, hint.unwrap_or_else(|| example_and_help(words, &flag_of(&name)))))
 }
 
-/// The place of an experiment file among the words of a command.
-const EXPERIMENT: &str = "EXPERIMENT.toml";
-
 struct Misuse {
     what: String,
     /// Absent where the help is the best advice.
@@ -79,12 +77,9 @@ impl Misuse {
                     let hint = Some("give it once".to_owned());
                     return Self { what: format!("{name} is given more than once"), hint };
                 }
-                let hint = if [&name, &other].iter().any(|place| place.contains(EXPERIMENT)) {
-                    "recordings without an experiment file need the mass before them, as in --mass 413g hover.mov"
-                } else {
-                    "leave one of them out"
-                };
-                Self { what: format!("{name} cannot be used with {other}"), hint: Some(hint.to_owned()) }
+                let hint = advice(&name, &other, words);
+                let [name, other] = [name, other].map(|argument| argument.trim_matches(['[', ']']).to_owned());
+                Self { what: format!("{name} cannot be used with {other}"), hint: Some(hint) }
             }
             ErrorKind::MissingRequiredArgument => {
                 let arguments = match error.get(ContextKind::InvalidArg) {

@@ -24,8 +24,9 @@ use std::path::Path;
 /// Largest speed of a log, rev/s. *Physics*: the electrical speed of the fastest motors, which logs hold where the pole pairs are not known, stays
 /// below a million rpm.
 const SPEED_REV_S_MAX: f64 = 17_000.0;
-/// Name of the one motor of a recording.
+/// Names of the one motor of a recording.
 const ALL_ROTORS: &str = "all rotors";
+const ONE_ROTOR: &str = "the rotor";
 
 /// Tells the constants of the motors of all files.
 pub(crate) fn run(arguments: &MotorArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -77,6 +78,11 @@ impl<'a> Plan<'a> {
 
     fn told_of(&self, file: &Path) -> Result<Told, Failure> {
         match flight_of(file, &self.names)? {
+            Some(_) if self.commands.is_some() => Err(Failure::Usage {
+                what: "this is a log, and --commands belongs to a recording".to_owned(),
+                hint: "leave --commands out: the commands of a log are those in it".to_owned(),
+                path: Some(file.to_owned()),
+            }),
             Some(flight) => Ok(told_by_log(file, &flight)),
             None => self.told_by_sound(file),
         }
@@ -127,7 +133,8 @@ impl<'a> Plan<'a> {
                 (sound.frame_s, sound.offset_s) = (motor.frame_s, motor.offset_s);
                 let is_used = motor.model.as_ref().is_some_and(|model| model.static_map.is_some());
                 let command = commands.and_then(|(commands, _)| commands.names.first()).filter(|_| is_used).cloned();
-                motors.extend(motor.model.map(|model| LoggedMotor { name: ALL_ROTORS.to_owned(), command, model }));
+                let name = if self.arguments.known.rotors == Some(1) { ONE_ROTOR } else { ALL_ROTORS };
+                motors.extend(motor.model.map(|model| LoggedMotor { name: name.to_owned(), command, model }));
                 rows.push(MotorRows { time_s: motor.time_s, speed_rev_s: motor.speed_rev_s });
             }
         }

@@ -86,7 +86,7 @@ impl OutputFolder {
                 Err(Failure::failed(CLOSED_FOLDER, "choose another with -o DIR", &self.path))
             }
             Err(_) if self.path.exists() => {
-                Err(Failure::failed("this is a file, no folder", "choose another with -o DIR", &self.path))
+                Err(Failure::failed("this is a file, and a folder is needed", "choose another with -o DIR", &self.path))
             }
             Err(_) => Ok(true),
         }

@@ -1,7 +1,7 @@
 //! Where the help about a command line stands, and an example of a right one.
 
 use crate::args::Arguments;
-use clap::{Command, CommandFactory};
+use clap::{Arg, Command, CommandFactory};
 use std::ffi::OsString;
 
 /// The line above the examples of a help.
@@ -15,13 +15,35 @@ pub(crate) fn see_help(words: &[OsString]) -> String {
     }
 }
 
-/// An example of a right call of the typed command, with this flag where an example has it; and the command's help.
+/// An example of a right call of the typed command: with this flag where an example has it, else behind what the flag is for; and the
+/// command's help.
 pub(crate) fn example_and_help(words: &[OsString], flag: &str) -> String {
     let help = see_help(words);
-    match typed_command(words).and_then(|command| example_of(&command, flag)) {
-        Some(example) => format!("as in `{example}`; {help}"),
-        None => help,
-    }
+    let Some(command) = typed_command(words) else { return help };
+    let example = example_of(&command, flag).map(|example| format!("as in `{example}`"));
+    let advice = example
+        .or_else(|| purpose_of(&command, flag))
+        .or_else(|| Some(format!("as in `{}`", examples_of(&command).first()?)));
+    advice.map_or_else(|| help.clone(), |advice| format!("{advice}; {help}"))
+}
+
+/// What a flag of a command is for, by its help: "--clock-ppm PPM is for this: …".
+fn purpose_of(command: &Command, flag: &str) -> Option<String> {
+    let argument = argument_of(command, flag)?;
+    let value =
+        argument.get_value_names().map(|names| names.join(" ")).filter(|_| argument.get_action().takes_values());
+    let help = argument.get_help()?.to_string();
+    Some(format!(
+        "{flag}{}: {}",
+        value.map_or_else(String::new, |value| format!(" {value}")),
+        help.trim_end_matches('.')
+    ))
+}
+
+fn argument_of<'a>(command: &'a Command, flag: &str) -> Option<&'a Arg> {
+    command
+        .get_arguments()
+        .find(|argument| argument.get_long().is_some_and(|long| flag.strip_prefix("--") == Some(long)))
 }
 
 /// The command that is typed, if there is one of that name.
@@ -30,19 +52,19 @@ pub(crate) fn typed_command(words: &[OsString]) -> Option<Command> {
     words.iter().skip(1).filter_map(|word| word.to_str()).find_map(|word| commands.find_subcommand(word)).cloned()
 }
 
-/// The first example of the help that has the flag, else the first.
-fn example_of(command: &Command, flag: &str) -> Option<String> {
-    let help = command.get_after_help()?.to_string();
+/// The examples of a command's help.
+fn examples_of(command: &Command) -> Vec<String> {
+    let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
     // two spaces divide an example from its explanation
     let call = |line: &str| line.trim().split("  ").next().map(str::to_owned);
-    let examples: Vec<String> = help.lines().skip_while(|line| *line != EXAMPLES).skip(1).filter_map(call).collect();
-    let long = command
-        .get_arguments()
-        .find(|argument| argument.get_long().map(|long| format!("--{long}")).as_deref() == Some(flag));
-    let short = long.and_then(|argument| argument.get_short()).map(|short| format!("-{short}"));
+    help.lines().skip_while(|line| *line != EXAMPLES).skip(1).filter_map(call).collect()
+}
+
+/// The first example of the help that has the flag.
+fn example_of(command: &Command, flag: &str) -> Option<String> {
+    let short = argument_of(command, flag).and_then(Arg::get_short).map(|short| format!("-{short}"));
     let is_flag = |word: &str| word == flag || Some(word) == short.as_deref();
-    let with_flag = examples.iter().find(|example| example.split(' ').any(is_flag));
-    with_flag.or_else(|| examples.first()).cloned()
+    examples_of(command).into_iter().find(|example| example.split(' ').any(is_flag))
 }
 
 #[cfg(test)]
@@ -56,7 +78,7 @@ mod tests {
     fn every_command_has_an_example_that_calls_it() {
         let mut count = 0;
         for command in Arguments::command().get_subcommands().filter(|command| command.get_name() != WITHOUT_EXAMPLE) {
-            let example = example_of(command, "").unwrap_or_default();
+            let example = examples_of(command).first().cloned().unwrap_or_default();
             assert!(example.starts_with(&format!("hovertone {}", command.get_name())), "{}", command.get_name());
             assert!(!example.contains("  ") && !example.contains('`'), "{example}");
             count += 1;
@@ -72,5 +94,12 @@ mod tests {
         let words = ["hovertone", "log", "flight.ulg", "--signal", "esc_status"].map(OsString::from);
         let hint = example_and_help(&words, "--output");
         assert!(hint.contains("--signal esc_status -o speeds.csv"), "{hint}");
+    }
+
+    #[test]
+    fn a_flag_that_no_example_has_is_explained() {
+        let words = ["hovertone", "verify", "a.wav", "a.ulg", "--clock-ppm", "x"].map(OsString::from);
+        let hint = example_and_help(&words, "--clock-ppm");
+        assert!(hint.starts_with("--clock-ppm PPM: ") && hint.ends_with("; see `hovertone verify --help`"), "{hint}");
     }
 }

@@ -1,7 +1,9 @@
 //! The settings of an analysis, from the arguments about tone, vehicle and analysis.
 
 use crate::args::{AnalysisArguments, KnownArguments, ToneArguments, TonesArguments};
+use crate::caller::typed_words;
 use crate::failure::Failure;
+use crate::see_help::see_help;
 use crate::vehicles::preset;
 use hovertone::speed::{Config, SpanConfig, ToneConfig};
 use hovertone::tones::Discovery;
@@ -61,10 +63,7 @@ impl From<NoSettings> for Failure {
             NoSettings::Config(error) => error.into(),
             NoSettings::Quantity(error) => error.into(),
             NoSettings::Contradiction(error) => error.into(),
-            error => Self::usage(
-                error.to_string(),
-                "a diameter is in metres, or has its unit: 254mm, 10in; a mass is in kilograms, or has its unit: 413g",
-            ),
+            error => Self::usage(error.to_string(), see_help(&typed_words())),
         }
     }
 }

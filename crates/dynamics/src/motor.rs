@@ -83,8 +83,10 @@ pub fn motor_from_series(
     };
     let steps: Vec<MotorStep> =
         transitions.iter().filter_map(|transition| step_of_transition(&context, transition)).collect();
+    // a single row may be wrong: the largest speed is that of a level
     let settled = plateaus.iter().map(|plateau| plateau.speed_rev_s);
-    let speed_rev_s_max = settled.reduce(f64::max).unwrap_or(speed_rev_s_max);
+    let stepped = steps.iter().map(|step| step.speed_from_rev_s.max(step.speed_to_rev_s));
+    let speed_rev_s_max = settled.chain(stepped).reduce(f64::max).unwrap_or(speed_rev_s_max);
     Some(MotorModel { interval_s, is_too_slow, static_map, speed_rev_s_max, steps })
 }
 

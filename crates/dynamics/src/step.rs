@@ -120,12 +120,15 @@ fn told_step(context: &StepContext, transition: &Transition, fit: FirstOrderFit,
         let rounding = EVEN_VARIANCE * context.command_interval_s.powi(2);
         estimate(fit.start_s - step.time_s, (fit.start_std_s.powi(2) + rounding).sqrt())
     };
+    // what may be anywhere in the range of dead times is not known
+    let is_told =
+        |dead_time: &Estimate| dead_time.std_uncertainty.is_some_and(|std| std < context.config.dead_time_s_max);
     MotorStep {
         time_s: estimate(fit.start_s, fit.start_std_s),
         speed_from_rev_s: fit.from_rev_s,
         speed_to_rev_s: fit.to_rev_s,
         time_constant_s: has_curve.then(|| estimate(fit.time_constant_s, fit.time_constant_std_s)),
-        dead_time_s: transition.command.as_ref().filter(|_| has_curve).map(dead_time),
+        dead_time_s: transition.command.as_ref().filter(|_| has_curve).map(dead_time).filter(is_told),
         command: transition.command.map(|step| [step.from, step.to]),
         residual_rms_rev_s: fit.residual_rms_rev_s,
         verdict,

@@ -76,6 +76,14 @@ impl Comb {
         (1..=self.lines.count).map(|line| self.height_at(f64::from(line) * step)).sum()
     }
 
+    /// How far the odd lines stand over the middles between lines, in nats: at half of the rotor's speed there is no such line.
+    pub(crate) fn odd_lines_over_gaps(&self, speed_rev_s: f64) -> f64 {
+        let step = self.lines.order * speed_rev_s / self.bin_hz;
+        let over_gap =
+            |line: u32| self.height_at(f64::from(line) * step) - self.height_at((f64::from(line) + 0.5) * step);
+        (1..=self.lines.count).step_by(2).map(over_gap).sum()
+    }
+
     /// The height between two bins.
     fn height_at(&self, place: f64) -> f64 {
         let (bin, share) = (place as usize, place.fract());
@@ -103,6 +111,11 @@ mod tests {
         let expected = 16.0 * (1.0 + 1000.0 * LN_2).ln();
         assert!((comb.score(100.0) - expected).abs() < 1e-9, "{}", comb.score(100.0));
         assert!(comb.score(104.0) < 0.2 * expected);
+        // half of the lines are odd; half of the speed has none
+        assert!(
+            (comb.odd_lines_over_gaps(100.0) - 0.5 * 16.0 * ((1.0 + 1000.0 * LN_2) / (1.0 + LN_2)).ln()).abs() < 1e-9
+        );
+        assert_eq!(comb.odd_lines_over_gaps(50.0), 0.0);
         // a gear has three lines, a high tone those that the recording holds
         assert_eq!(Lines::new(69.0, 60.0, 48_000.0).count, 3);
         assert_eq!(Lines::new(69.0, 60.0, 16_000.0).count, 1);

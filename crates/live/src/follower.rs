@@ -36,6 +36,12 @@ const HEIGHT_FRAMES: f64 = 12.0;
 /// A rotor is lost where its pattern stands no higher than this share of its height at the review. *Decision.*
 const HEIGHT_SHARE_MIN: f64 = 0.3;
 
+/// The odd lines stand as high beside the pattern as at the review, or no lower than this share of it: at half of a new speed, only the line
+/// of its shaft is among them. *Decision.*
+const ODD_SHARE_MIN: f64 = 0.5;
+/// Height of the odd lines at a review, in nats, from which they tell anything: e to one. *Decision.*
+const ODD_NATS_MIN: f64 = 1.0;
+
 const SHIFTS: usize = 2 * HALF_SHIFTS + 1;
 
 /// A speed over time at the review, by which the frames are shifted.
@@ -55,6 +61,9 @@ pub(crate) struct Follower {
     /// Mean height of the pattern over the last frames, and at the review.
     height: f64,
     review_height: f64,
+    /// The same of the odd lines, over the gaps between lines.
+    odd_height: f64,
+    review_odd_height: f64,
     /// Mean speed in the review over that of the pattern: the middle of the lines of rotors that are not told apart is not their mean.
     scale: f64,
 }
@@ -82,18 +91,28 @@ impl Follower {
             }
         });
         pattern.start(at_review[0]);
-        let mut follower =
-            Self { stft, pattern, mean: SteadyMean::new(HOPS_PER_FRAME), height: 0.0, review_height: 0.0, scale: 1.0 };
-        let (mut heights, mut followed_rev_s) = (0.0, 0.0);
+        let mut follower = Self {
+            stft,
+            pattern,
+            mean: SteadyMean::new(HOPS_PER_FRAME),
+            height: 0.0,
+            review_height: 0.0,
+            odd_height: 0.0,
+            review_odd_height: 0.0,
+            scale: 1.0,
+        };
+        let (mut heights, mut odd_heights, mut followed_rev_s) = (0.0, 0.0, 0.0);
         follower.stft.restart(start_s);
         follower.push_with(sound, &mut |centre_s, seen| {
             if speeds.speed_rev_s_at(centre_s).is_some() {
                 heights += seen.height;
+                odd_heights += seen.odd_height;
                 followed_rev_s += seen.speed_rev_s;
             }
         });
         let frames = at_review.len() as f64;
-        (follower.review_height, follower.scale) = (heights / frames, speeds.mean_rev_s() * frames / followed_rev_s);
+        (follower.review_height, follower.review_odd_height) = (heights / frames, odd_heights / frames);
+        follower.scale = speeds.mean_rev_s() * frames / followed_rev_s;
         Some(follower)
     }
 
@@ -103,11 +122,12 @@ impl Follower {
     }
 
     fn push_with(&mut self, samples: &[f32], on_seen: &mut dyn FnMut(f64, SeenPattern)) {
-        let Self { stft, pattern, mean, height, .. } = self;
+        let Self { stft, pattern, mean, height, odd_height, .. } = self;
         stft.push(samples, |frame| {
             let seen = pattern.follow(frame.power);
             mean.push(seen.speed_rev_s);
             *height += (seen.height - *height) / HEIGHT_FRAMES;
+            *odd_height += (seen.odd_height - *odd_height) / HEIGHT_FRAMES;
             on_seen(frame.centre_s, seen);
         });
     }
@@ -117,9 +137,12 @@ impl Follower {
         if self.is_lost() { None } else { self.mean.now().map(|mean| mean.scaled(self.scale)) }
     }
 
-    /// Whether the rotors are no longer heard.
+    /// Whether the rotors are no longer heard, or only the even half of their lines: then they turn at twice the followed speed, after a step.
     pub(crate) fn is_lost(&self) -> bool {
+        let has_odd_lines = self.review_odd_height > ODD_NATS_MIN;
         self.height < HEIGHT_SHARE_MIN * self.review_height
+            || has_odd_lines
+                && self.odd_height * self.review_height < ODD_SHARE_MIN * self.review_odd_height * self.height
     }
 }
 
@@ -155,6 +178,8 @@ struct SeenPattern {
     speed_rev_s: f64,
     /// Likeness over its mean over all shifts, in nats.
     height: f64,
+    /// The odd lines of the pattern over the gaps between lines, in nats.
+    odd_height: f64,
 }
 
 impl Pattern {
@@ -220,9 +245,20 @@ impl Pattern {
         let best = highest(&self.belief);
         let shift = best as f64 - HALF_SHIFTS as f64 + vertex(&self.likeness, best);
         let mean = self.likeness.iter().sum::<f64>() / SHIFTS as f64;
-        let seen = SeenPattern { speed_rev_s: self.speed_rev_s(shift), height: self.likeness[best] - mean };
+        let seen = SeenPattern {
+            speed_rev_s: self.speed_rev_s(shift),
+            height: self.likeness[best] - mean,
+            odd_height: self.odd_height(best),
+        };
         self.recentre(best as isize - HALF_SHIFTS as isize);
         seen
+    }
+
+    /// Height of the odd lines of the pattern at a shift.
+    fn odd_height(&self, at: usize) -> f64 {
+        let steps = |offset: usize| (at + offset) as f64 - HALF_GRID as f64;
+        let weighted = self.weights.iter().enumerate().filter(|(_, weight)| **weight > 0.0);
+        weighted.map(|(offset, weight)| weight * self.comb.odd_lines_over_gaps(self.speed_rev_s(steps(offset)))).sum()
     }
 
     /// Belief in each shift: that of the most probable path to it (Viterbi, IEEE Trans. Inf. Theory 13, 1967).

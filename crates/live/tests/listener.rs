@@ -86,6 +86,21 @@ fn a_step_is_followed_within_three_tenths_of_a_second() {
     }
 }
 
+/// The even lines of half of the new speed are within the reach of the step.
+#[test]
+fn a_step_to_nearly_twice_the_speed_is_not_told_as_half_of_it() {
+    for (seed, (before, after)) in [(52.9, 91.8), (60.0, 110.0), (110.0, 62.0)].into_iter().enumerate() {
+        let step_s = 6.03;
+        let rotor = Rotor::new(|time_s| if time_s < step_s { before } else { after }, lines());
+        let speeds = live_speeds(&sound(&[rotor], 14.0, 10.0, seed as u64), 4800);
+        for speed in speeds.iter().filter(|speed| speed.time_s > step_s + 0.6) {
+            let share = speed.speed_rev_s.map_or(0.0, |speed_rev_s| speed_rev_s / after - 1.0);
+            assert!(share.abs() < 0.02, "{before} to {after} at {} s: {share}", speed.time_s);
+            assert!(speed.time_s < step_s + 6.0 || speed.status == LiveStatus::Ok, "{speed:?}");
+        }
+    }
+}
+
 #[test]
 fn where_it_has_settled_it_has_the_numbers_of_the_recording() {
     let wander = SineWander::drawn(0.004, 4, 0.05..1.2, &mut seeded(3));

@@ -117,7 +117,7 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
         MotorSource::Sound(sound) => {
             let frame_ms = significant(sound.frame_s * MS_PER_S, 3);
             let heard = format!(
-                "from the sound of all rotors together, in frames of {frame_ms} ms; in a reverberant room a time constant can be far off\n"
+                "from the sound, in frames of {frame_ms} ms; in a reverberant room a time constant can be far off\n"
             );
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);

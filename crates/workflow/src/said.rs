@@ -46,9 +46,6 @@ pub enum NoSettings {
     /// Facts that exclude each other.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
-    /// A diameter, mass or number of rotors that no multirotor has.
-    #[error("{0}")]
-    Known(ConfigError),
 }
 
 impl Said<'_> {
@@ -132,7 +129,7 @@ impl Said<'_> {
             rotor_count: self.rotors.or(of_vehicle.rotor_count),
             ..of_vehicle
         };
-        known.check().map_err(NoSettings::Known)?;
+        known.check()?;
         let said = SaidOfVehicle { rotors: self.rotors, mass_kg: self.mass_kg, ..SaidOfVehicle::default() };
         self.vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
         // all rotors of a vehicle carry it, also where fewer of them turn on a bench

@@ -8,8 +8,8 @@ use hovertone::sound::SignalSource;
 use hovertone_media::{OpenOptions, PipedSound, Recording};
 use std::path::{Path, PathBuf};
 
-/// What to do about sound that cannot be heard.
-const GIVE_ANOTHER: &str = "give another recording, or another program before the pipe";
+/// Name of the pipe in messages.
+const PIPE: &str = "stdin";
 
 /// Sound that arrives block by block.
 pub(crate) enum LiveSound {
@@ -28,7 +28,7 @@ impl LiveSound {
         match name {
             Some(name) if is_stdin(name) => {
                 let sound = PipedSound::open(std::io::stdin(), channel);
-                Ok(Self::Pipe(Box::new(sound.map_err(|error| failed(&error, Path::new("stdin")))?)))
+                Ok(Self::Pipe(Box::new(sound.map_err(|error| failed(&error, Path::new(PIPE)))?)))
             }
             Some(path) => {
                 let options = OpenOptions { channel, ..OpenOptions::default() };
@@ -65,7 +65,7 @@ impl LiveSound {
     pub(crate) fn next_block(&mut self) -> Result<Option<&[f32]>, Failure> {
         match self {
             Self::File { path, recording } => recording.next_block().map_err(|error| failed(&error, path)),
-            Self::Pipe(pipe) => pipe.next_block().map_err(|error| failed(&error, Path::new("stdin"))),
+            Self::Pipe(pipe) => pipe.next_block().map_err(|error| failed(&error, Path::new(PIPE))),
             #[cfg(feature = "microphone")]
             Self::Microphone(microphone) => microphone.next_block(),
         }
@@ -73,5 +73,6 @@ impl LiveSound {
 }
 
 fn failed(error: &dyn std::fmt::Display, path: &Path) -> Failure {
-    Failure::failed(error.to_string(), GIVE_ANOTHER, path)
+    let hint = if path == Path::new(PIPE) { "give another program before the pipe" } else { "give another recording" };
+    Failure::failed(error.to_string(), hint, path)
 }

@@ -46,6 +46,11 @@ impl Column {
     pub(super) fn number(&self, csv: &CsvText, record: &StringRecord) -> Option<f64> {
         Some(csv.number(record.get(self.index)?)? * self.si_per_unit)
     }
+
+    /// Whether the header says that the rotor is meant, and not the motor.
+    pub(super) fn names_rotor(&self) -> bool {
+        words_of(&self.header.to_lowercase()).any(|word| ROTOR.contains(&word))
+    }
 }
 
 /// The number before the word "rotor" or "rotors" in a header.
@@ -111,9 +116,16 @@ const STD: [&str; 9] = ["std", "stddev", "stdev", "sd", "sigma", "uncertainty", 
 /// Words of masses that are parts and do not hover.
 const PARTS: [&str; 8] = ["motor", "prop", "propeller", "battery", "frame", "arm", "cell", "blade"];
 
+/// Words of a rotor.
+const ROTOR: [&str; 4] = ["rotor", "prop", "propeller", "wheel"];
+
+fn words_of(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty())
+}
+
 fn meaning_of(header: &str) -> Meaning {
     let lower = header.to_lowercase().replace(['²', '^'], "2");
-    let words: Vec<&str> = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let words: Vec<&str> = words_of(&lower).collect();
     let has = |any: &[&str]| words.iter().any(|word| any.contains(word));
     if has(&NO_MEASUREMENT) {
         return Meaning::Other;

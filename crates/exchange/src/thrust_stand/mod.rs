@@ -159,6 +159,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     let mut notes: Vec<String> = unit_missing
         .map(|column| format!("column \"{}\" is not used: it names no unit that is known", column.header))
         .collect();
+    notes.extend(rivals(&csv, &columns, &records, [speed, force]));
     turn_round(&mut rows, &mut notes);
     leave_out_resting(&mut rows, &mut notes);
     if rows.is_empty() {
@@ -188,15 +189,35 @@ fn rotors_running(columns: &[Column], records: &[StringRecord]) -> Option<u32> {
     counts.all(|count| count == Some(first)).then_some(first)
 }
 
-/// The column of a quantity with most numbers other than zero: a missing optical tachometer leaves a column of zeros.
+/// The column of a quantity with most numbers other than zero: a missing optical tachometer leaves a column of zeros. Of equals, one that
+/// names the rotor: with a gear, the motor has another speed.
 fn best<'a>(csv: &CsvText, columns: &'a [Column], records: &[StringRecord], quantity: Quantity) -> Option<&'a Column> {
-    let told = |column: &&Column| {
-        let tells = |record: &&StringRecord| column.number(csv, record).is_some_and(|number| number.abs() > 0.0);
-        records.iter().filter(tells).count()
-    };
     let candidates: Vec<&Column> = columns.iter().filter(|column| column.quantity == Some(quantity)).collect();
     // with equal counts the first column wins
-    candidates.into_iter().rev().max_by_key(told)
+    candidates.into_iter().rev().max_by_key(|column| (numbers_in(csv, column, records), column.names_rotor()))
+}
+
+/// Number of rows where a column has a number other than zero.
+fn numbers_in(csv: &CsvText, column: &Column, records: &[StringRecord]) -> usize {
+    let tells = |record: &&StringRecord| column.number(csv, record).is_some_and(|number| number.abs() > 0.0);
+    records.iter().filter(tells).count()
+}
+
+/// Notes about columns that could have been the speed or the force as well.
+fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&Column; 2]) -> Vec<String> {
+    let [speed, force] = used;
+    let note = |column: &Column| {
+        let (what, chosen) = match column.quantity? {
+            Quantity::Speed => ("speed", speed),
+            Quantity::Thrust | Quantity::Mass => ("force", force),
+            _ => return None,
+        };
+        let is_rival = column.index != chosen.index && numbers_in(csv, column, records) > 0;
+        is_rival.then(|| {
+            format!("column \"{}\" is not used: the {what} is that of column \"{}\"", column.header, chosen.header)
+        })
+    };
+    columns.iter().filter_map(note).collect()
 }
 
 struct RowReader<'a> {

@@ -40,6 +40,18 @@ fn words_make_groups_and_uncertainties_are_read() {
 }
 
 #[test]
+fn of_two_speeds_the_rotors_is_fitted_and_what_is_not_used_is_named() {
+    let text = "motor_rpm,rotor_rpm,mass_g,thrust_g\n31000,3610,500,413\n32200,3742,500,444\n";
+    let table = table_from_csv(text).unwrap();
+    assert_eq!((table.speed_column.as_str(), table.force_column.as_str()), ("rotor_rpm", "thrust_g"));
+    let notes = [
+        "column \"motor_rpm\" is not used: the speed is that of column \"rotor_rpm\"",
+        "column \"mass_g\" is not used: the force is that of column \"thrust_g\"",
+    ];
+    assert_eq!(table.notes, notes);
+}
+
+#[test]
 fn words_that_all_differ_name_rows() {
     let names = |text: &str| -> Vec<String> {
         table_from_csv(text).unwrap().groups.into_iter().map(|group| group.name).collect()

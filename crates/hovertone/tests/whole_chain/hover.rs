@@ -69,7 +69,7 @@ fn from_and_to_overrule() {
     (config.span.from_s, config.span.to_s) = (Some(100.0), None);
     let beyond = analyse(flight(), &config);
     assert!(
-        matches!(beyond.outcome, Outcome::NoRotorTone { reason: NoTone::OutsideRecording }),
+        matches!(beyond.outcome, Outcome::NoRotorTone { reason: NoTone::OutsideRecording { end_s } } if end_s < 100.0),
         "{:?}",
         beyond.outcome
     );

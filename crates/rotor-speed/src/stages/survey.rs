@@ -14,6 +14,8 @@ use std::ops::RangeInclusive;
 pub struct Surveyed {
     pub(crate) survey: Survey,
     pub(crate) heard: Span,
+    /// End of the recording, or of the chosen times if they end before it.
+    end_s: f64,
     /// Power over the floor in short and long frames.
     pub(crate) looks: Looks,
 }
@@ -49,7 +51,7 @@ impl Surveyed {
     /// "No rotor tone" where the span of the settings is outside the recording, or the survey is too short or silent.
     pub(crate) fn check(&self, config: &Config) -> Result<(), Silence> {
         if config.span.is_given() && self.heard.length_s() <= 0.0 {
-            return Err(Silence::because(NoTone::OutsideRecording));
+            return Err(Silence::because(NoTone::OutsideRecording { end_s: self.end_s }));
         }
         self.survey.why_nothing(self.heard.length_s()).map_or(Ok(()), |reason| Err(Silence::because(reason)))
     }
@@ -86,5 +88,5 @@ pub(crate) fn survey_from_source(
         Piece::Heard(_) => {}
     })?;
     let heard = Span { from_s, to_s: to_s.max(from_s) };
-    Ok(Surveyed { survey: builder.finish(to_s), heard, looks: excess.finish() })
+    Ok(Surveyed { survey: builder.finish(to_s), heard, end_s: to_s, looks: excess.finish() })
 }

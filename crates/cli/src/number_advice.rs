@@ -1,0 +1,56 @@
+//! What to do about a number that is out of its range.
+
+use crate::see_help::{see_help, typed_command};
+use std::ffi::OsString;
+
+/// Ends of names, and what a number of that name is in.
+const UNITS: [(&str, &str); 13] = [
+    ("_ppm", "in millionths"),
+    ("_hpa", "in hPa, as a weather report has it"),
+    ("_percent", "in percent"),
+    ("_deg", "in degrees"),
+    ("_rpm", "in turns per minute"),
+    ("_hz", "in Hz"),
+    ("_kg", "in kg, or with its unit, as in 413g"),
+    ("_share", "as a share: 0.03 is 3 %"),
+    ("_m_s2", "in m/s²"),
+    ("_n_s2", "in N/(rad/s)²"),
+    ("_m", "in m, or with its unit, as in 8in"),
+    ("_s", "in seconds"),
+    ("_c", "in degrees Celsius"),
+];
+
+/// "correct --window-s, in seconds: see …", where the name is that of a typed flag or of a key in a file.
+pub(crate) fn correct_number(name: &str, words: &[OsString]) -> String {
+    let name = name.rsplit('.').next().unwrap_or(name).trim_start_matches('-').replace('-', "_");
+    let flag = format!("--{}", name.replace('_', "-"));
+    let is_typed = words.iter().filter_map(|word| word.to_str()).any(|word| word.split('=').next() == Some(&flag));
+    let is_flag = is_typed || typed_command(words).is_some_and(|command| has_flag(&command, &flag));
+    let place = if is_flag { flag } else { name.clone() };
+    let unit = UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| format!(", {unit}"));
+    format!("correct {place}{}: {}", unit.unwrap_or_default(), see_help(words))
+}
+
+fn has_flag(command: &clap::Command, flag: &str) -> bool {
+    command.get_arguments().filter_map(clap::Arg::get_long).any(|long| flag.strip_prefix("--") == Some(long))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_flag_and_its_unit_are_named() {
+        let words = ["hovertone", "speed", "a.wav", "--window-s", "-1"].map(OsString::from);
+        for (name, advice) in [
+            ("window_s", "correct --window-s, in seconds"),
+            ("rotors", "correct --rotors"),
+            ("diameter_m", "correct --diameter-m, in m, or with its unit, as in 8in"),
+            ("clock_ppm", "correct --clock-ppm, in millionths"),
+            ("vehicle.mass_kg", "correct --mass-kg, in kg, or with its unit, as in 413g"),
+            ("hop_ratio", "correct hop_ratio"),
+        ] {
+            assert_eq!(correct_number(name, &words), format!("{advice}: see `hovertone speed --help`"));
+        }
+    }
+}
