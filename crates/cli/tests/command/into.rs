@@ -34,6 +34,21 @@ fn the_diameter_of_an_export_may_have_a_unit() {
 }
 
 #[test]
+fn facts_that_a_format_does_not_hold_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    for (words, is_used) in [
+        (["--to", "gazebo", "--hover-command", "0.5"], false),
+        (["--to", "gazebo", "--air-density-kg-m3", "1.2"], false),
+        (["--to", "gazebo", "--torque-constant-n-m-s2", "1e-8"], true),
+        (["--to", "json", "--torque-constant-n-m-s2", "1e-8"], true),
+    ] {
+        let said = export(&results, &words).ends_with(0).stderr;
+        assert_eq!(said.contains(&format!("{} changes nothing", words[2])), !is_used, "{words:?}: {said}");
+    }
+}
+
+#[test]
 fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
     let folder = tempfile::tempdir().unwrap();
     let results = write_results(folder.path());

@@ -40,6 +40,13 @@ fn near(value: &Value, truth: f64, share: f64) {
 }
 
 #[test]
+fn a_log_has_its_own_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = written(folder.path(), "log.csv", steps_csv(true));
+    refused_with(&["motor", &log, "--commands", &log], &["--commands belongs to a recording", "leave --commands out"]);
+}
+
+#[test]
 fn steps_of_a_log_tell_the_constants_of_its_motor() {
     let folder = tempfile::tempdir().unwrap();
     for has_command in [true, false] {

@@ -105,7 +105,7 @@ pub(crate) struct Hypothesis {
     factor: f64,
     /// Median over the frames of the votes for the path, in nats.
     pub(crate) votes_nats: f64,
-    /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that two tell no more than one.
+    /// Evidence of the levels of its lines, in nats: the mean of the looks. They are at the same lines, so that several tell no more than one.
     pub(super) levels_nats: f64,
     /// The same, with what is known of the vehicle.
     nats: f64,
@@ -229,18 +229,20 @@ fn look_again<'a>(
         let noises = seen.iter().flatten().flatten().map(|floors| floors[floor].noise).collect();
         NoiseLevel::of_emptiest(noises, config.levels.foreign)
     };
-    let (noise, near_noise) = (noise_over(0)?, noise_over(1)?);
-    let mut model = LevelModel::of_speeds(noise, &config.levels);
+    let noises = [noise_over(0)?, noise_over(1)?];
+    let mut models = noises.map(|noise| LevelModel::of_speeds(noise, &config.levels));
     for (look, seen) in of_propellers.iter_mut().zip(seen) {
         let Some(seen) = seen.into_iter().collect::<Option<Vec<[SecondLook; 2]>>>() else { continue };
-        for (it, [wide, near]) in look.hypotheses.iter_mut().zip(seen) {
-            let levels_nats = 0.5 * (it.levels_nats + model.evidence_nats(&wide.levels, &look.lines));
+        for (it, floors) in look.hypotheses.iter_mut().zip(seen) {
+            let levels_nats = 0.5 * (it.levels_nats + SecondLook::evidence_nats(&floors, &mut models, &look.lines));
             it.nats += levels_nats - it.levels_nats;
             it.levels_nats = levels_nats;
+            let [_, near] = floors;
             it.near_levels = Some(near.levels);
         }
         look.hypotheses.sort_by(|a, b| b.nats.total_cmp(&a.nats));
     }
+    let ([_, near_noise], [model, _]) = (noises, models);
     Some((near_noise, model))
 }
 

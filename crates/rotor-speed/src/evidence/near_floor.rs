@@ -1,5 +1,5 @@
-//! A floor nearer to the lines than the wide one, which tells a rotor from none: the crests of the waves that an echo makes in the spectrum of
-//! noise are a part of it.
+//! A floor nearer to the lines than the wide one: the crests of the waves that an echo makes in the spectrum of noise are a part of it, and so are
+//! lines that lie close.
 
 use super::floor::{SHAPE_HZ, bin_at};
 use super::level_table::{LEVELS, LEVELS_PER_DB, Level};

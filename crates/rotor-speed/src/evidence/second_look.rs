@@ -1,7 +1,7 @@
 //! A second look at each hypothesis, in long frames: along the best path near that of the short frames, so that both look at one rotor.
 
 use super::excess::{Excess, Looks};
-use super::level_model::RotorLevels;
+use super::level_model::{LevelModel, RotorLevels};
 use super::levels::{NoiseLevel, levels_of_lines, noise_level};
 use super::path::best_path;
 use super::rotor_lines::RotorLines;
@@ -38,6 +38,13 @@ impl SecondLook {
         let [wide, near] = [Self::along(wide, speeds_rev_s, lines)?, Self::along(near, speeds_rev_s, lines)?];
         let levels = RotorLevels { mesh: wide.levels.mesh.clone(), ..near.levels };
         Some([wide, Self { levels, ..near }])
+    }
+
+    /// Evidence of the levels of the lines, in nats: the mean over both floors. Each errs in its own way: over the wide one waves of the noise stand
+    /// as lines, and the near one rises where lines lie close.
+    pub(super) fn evidence_nats(floors: &[Self; 2], models: &mut [LevelModel<'_>; 2], lines: &RotorLines) -> f64 {
+        let nats = floors.iter().zip(models).map(|(seen, model)| model.evidence_nats(&seen.levels, lines));
+        0.5 * nats.sum::<f64>()
     }
 }
 
