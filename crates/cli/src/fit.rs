@@ -131,18 +131,7 @@ fn fitted_table(
     let points: Vec<ForcePoint> = group.rows.iter().map(|row| point_of(row, plan)).collect();
     let is_stated = group.rows.iter().any(|row| row.force_std.is_some() || row.speed_std_rad_s.is_some());
     let noise = if is_stated { PointNoise::Stated } else { PointNoise::FromResiduals };
-    let fit = square_law_fit(&points, noise).map_err(|error| {
-        let what = match &error {
-            FitError::UnusablePoint { number } => {
-                format!(
-                    "{} has a speed or a force that is too large or too small to be fitted",
-                    points[number - 1].name
-                )
-            }
-            _ => error.to_string(),
-        };
-        Failure::failed(what, "correct or remove that row of the table", path)
-    })?;
+    let fit = square_law_fit(&points, noise).map_err(|error| unfitted(&error, &points, path))?;
     if let Some(reason) = fit.why_no_uncertainty(&points) {
         return Err(without_scatter(reason, group, table, path));
     }
@@ -200,6 +189,16 @@ fn fitted_table(
             .collect(),
         fit,
     })
+}
+
+fn unfitted(error: &FitError, points: &[ForcePoint], path: &Path) -> Failure {
+    let what = match error {
+        FitError::UnusablePoint { number } => {
+            format!("{} has a speed or a force that is too large or too small to be fitted", points[number - 1].name)
+        }
+        _ => error.to_string(),
+    };
+    Failure::failed(what, "correct or remove that row of the table", path)
 }
 
 /// A notice where several rotors seem to make the forces, which count as the forces of one.
