@@ -19,7 +19,7 @@ const fn conflict(one: &'static str, other: &'static str, reason: &'static str) 
 
 const NAMED_TWICE: &str = "each names the rotors by itself: leave one of them out";
 const PRINTED: &str = "--json prints the answer as JSON, and nothing else: leave one of them out";
-const KNOWN: [Conflict; 16] = [
+const KNOWN: [Conflict; 15] = [
     conflict("--gravity-m-s2", "--latitude-deg", "both give the local gravity: leave one of them out"),
     conflict("--constant", "--constant-n-s2", "both give the thrust constant: leave one of them out"),
     conflict(
@@ -38,11 +38,6 @@ const KNOWN: [Conflict; 16] = [
         "--check",
         "--json",
         "--check analyses nothing, so that there are no results to print: leave one of them out",
-    ),
-    conflict(
-        "--check",
-        "--output",
-        "--check analyses nothing, so that there are no results to write: leave one of them out",
     ),
     conflict(
         "--check",

@@ -31,8 +31,6 @@ struct Plan {
     is_count_given: bool,
     diameter_m: Option<f64>,
     density_kg_m3: Option<f64>,
-    /// Says why C_T is not computed, where only a part of what it needs is given.
-    half_given: Option<Notice>,
 }
 
 /// Fits all tables, or plans a campaign.
@@ -52,8 +50,10 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
         is_count_given: arguments.rotors.is_some(),
         diameter_m: arguments.air.diameter_m,
         density_kg_m3: air_density_kg_m3(&arguments.air, &arguments.place)?,
-        half_given: half_given(&arguments.air, &arguments.place),
     };
+    if let Some(notice) = half_given(&arguments.air, &arguments.place) {
+        terminal.warning(&notice, "");
+    }
     if arguments.json {
         let mut all = Vec::new();
         for path in &arguments.tables {
@@ -182,11 +182,7 @@ fn fitted_table(
         propeller_diameter_m: plan.diameter_m,
         figure_of_merit,
         torque_constant_per_rotor_n_m_s2: torque_constant_n_m_s2(&torques).filter(|_| has_torque),
-        notices: notes
-            .chain(plan.half_given.clone())
-            .chain(too_strong)
-            .chain(warnings.iter().map(Notice::from))
-            .collect(),
+        notices: notes.chain(too_strong).chain(warnings.iter().map(Notice::from)).collect(),
         fit,
     })
 }

@@ -243,11 +243,11 @@ mod tests {
             ),
             (
                 "hovertone speed a.wav --window-s long",
-                "--window-s long: a number is needed, such as 0.25 (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--window-s long: a number is needed, such as 0.25 (--window-s S: Length of a frame of the paper's methods, in seconds",
             ),
             (
                 "hovertone speed a.wav --mass-kg heavy",
-                "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (as in `hovertone speed --blades 2 hover.mp4`; see `hovertone speed --help`)",
+                "--mass-kg heavy: a mass is needed, such as 413g, or 0.413 in kilograms (--mass-kg KG: Mass as flown, in kg or as 413g",
             ),
             ("hovertone completions tcsh", "\"tcsh\": there is no such value (did you mean zsh? Give one of: bash, "),
             (
@@ -285,7 +285,10 @@ mod tests {
                 "hovertone listen --from-file a.wav b.wav",
                 "\"b.wav\": listen hears one recording at a time (leave \"b.wav\"",
             ),
-            ("hovertone identify a.toml --check --json", "--check cannot be used with --json (leave one of them out)"),
+            (
+                "hovertone identify a.toml --check --json",
+                "--check cannot be used with --json (--check analyses nothing, so",
+            ),
             ("hovertone speed a.wav --blades 2 --blades 3", "--blades is given more than once (give it once)"),
             ("hovertone identify --mass -0.4=a.mov", "-0.4=a.mov: a mass cannot be negative (write the value"),
             ("hovertone speed a.wav --gear -8:69", "-8:69: this value cannot be negative (write the value"),

@@ -64,7 +64,7 @@ pub(crate) struct IdentifyArguments {
     #[command(flatten)]
     pub(crate) draft: DraftArguments,
     /// Analyse nothing: only list what would be done, which files were found, and which are missing
-    #[arg(long, conflicts_with_all = ["json", "verbose", "output"], help_heading = "How it is analysed")]
+    #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
     /// Write report.html, results.json, tables and figures into this folder: a new or empty one, or that of an earlier run of this experiment
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]

@@ -4,7 +4,7 @@ use super::logs::FlownLog;
 use super::recordings::{
     FoundRecordings, Missing, folder_without_recordings, found_recordings, nearby, place_of, refuse_twice,
 };
-use super::{ExperimentSource, LoadJob, hearing_of};
+use super::{ExperimentSource, LoadJob, checked_folder, hearing_of};
 use crate::args::IdentifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::recording::{Hearing, Job};
@@ -28,6 +28,7 @@ pub(super) fn run(
 ) -> Result<Ending, Failure> {
     let FoundRecordings { mut jobs, missing } = found_recordings(source, arguments.data_root.as_deref())?;
     refuse_twice(&mut jobs, source)?;
+    checked_folder(source, &jobs, arguments)?;
     let logs = jobs.iter().filter_map(|job| job.log.clone()).filter(|log| log.path.is_file());
     for log in logs {
         FlownLog::read(log, false)?;

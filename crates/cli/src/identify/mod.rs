@@ -113,13 +113,8 @@ fn measured(mut source: ExperimentSource, arguments: &IdentifyArguments) -> Resu
     let hearing = hearing_of(&arguments.hearing, &source.experiment, arguments.json || arguments.output.is_some());
     let method = arguments.method.unwrap_or(source.experiment.config.method);
     let recordings = jobs_of(&source, arguments.data_root.as_deref())?;
-    let paths = |LoadJob { job, log, .. }: &LoadJob| {
-        std::iter::once(job.path.clone()).chain(log.as_ref().map(|log| log.path.clone()))
-    };
-    let inputs = recordings.iter().flat_map(paths).chain(source.inputs());
-    let outputs = Outputs::beside(inputs, arguments.replace.force);
-    let prepare = |folder: &PathBuf| prepare_folder(folder, &source, outputs, arguments.data_root.as_deref());
-    let folder = arguments.output.as_ref().map(prepare).transpose()?;
+    let folder = checked_folder(&source, &recordings, arguments)?;
+    folder.as_ref().map_or(Ok(()), OutputFolder::begin)?;
     let text_of_typed = match &folder {
         Some(folder) => source.text_for(folder.path(), arguments.data_root.as_deref())?,
         None => None,
@@ -128,19 +123,24 @@ fn measured(mut source: ExperimentSource, arguments: &IdentifyArguments) -> Resu
     Ok(Measured { identified, folder, text_of_typed })
 }
 
-/// Makes the folder of results. It may hold those of an earlier run for the same experiment.
-fn prepare_folder(
-    folder: &Path,
+/// The folder of results, where one is wanted, before anything is written. It may hold those of an earlier run for the same experiment.
+fn checked_folder(
     source: &ExperimentSource,
-    outputs: Outputs,
-    data_root: Option<&Path>,
-) -> Result<OutputFolder, Failure> {
-    let root =
-        data_root.map_or(String::new(), |root| format!(" {}", sha256_of_bytes(root.as_os_str().as_encoded_bytes())));
+    recordings: &[LoadJob],
+    arguments: &IdentifyArguments,
+) -> Result<Option<OutputFolder>, Failure> {
+    let Some(folder) = &arguments.output else { return Ok(None) };
+    let paths = |LoadJob { job, log, .. }: &LoadJob| {
+        std::iter::once(job.path.clone()).chain(log.as_ref().map(|log| log.path.clone()))
+    };
+    let inputs = recordings.iter().flat_map(paths).chain(source.inputs());
+    let outputs = Outputs::beside(inputs, arguments.replace.force);
+    let root = |root: &PathBuf| format!(" {}", sha256_of_bytes(root.as_os_str().as_encoded_bytes()));
+    let root = arguments.data_root.as_ref().map_or(String::new(), root);
     let run = format!("identify {}{root}", source.fingerprint());
     let of_typed = source.typed.as_ref().map(|_| EXPERIMENT);
     let files: Vec<&str> = RESULTS.into_iter().chain(of_typed).collect();
-    OutputFolder::prepare(folder, outputs, &FolderContent { name: "experiment", run: &run, files: &files })
+    OutputFolder::checked(folder, outputs, &FolderContent { name: "experiment", run: &run, files: &files }).map(Some)
 }
 
 /// The last line to quote: where the page is.

@@ -37,9 +37,9 @@ const CASES: [(&str, i32, &str); 47] = [
     ("verify a.wav nowhere.ulg", 1, "nowhere.ulg"),
     ("verify a.wav a.wav", 1, "this is no log"),
     // what would be written cannot be
-    ("identify good.toml -o a.wav", 1, "no folder"),
-    ("demo -o a.wav", 1, "no folder"),
-    ("simulate flight.toml -o a.wav", 1, "no folder"),
+    ("identify good.toml -o a.wav", 1, "a folder is needed"),
+    ("demo -o a.wav", 1, "a folder is needed"),
+    ("simulate flight.toml -o a.wav", 1, "a folder is needed"),
     ("speed a.wav --blades 2 --track nowhere/x.csv", 1, "nowhere/x.csv"),
     ("spectrogram a.wav --blades 2 -o nowhere/x.png", 1, "nowhere/x.png"),
     ("init --vehicle ardrone --mass 413g=a.wav -o nowhere/x.toml", 1, "nowhere/x.toml"),

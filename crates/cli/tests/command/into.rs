@@ -39,7 +39,7 @@ fn facts_that_a_format_does_not_hold_are_named() {
     let results = write_results(folder.path());
     for (words, is_used) in [
         (["--to", "gazebo", "--hover-command", "0.5"], false),
-        (["--to", "gazebo", "--air-density-kg-m3", "1.2"], false),
+        (["--to", "rotorpy", "--hover-command", "0.5"], false),
         (["--to", "gazebo", "--torque-constant-n-m-s2", "1e-8"], true),
         (["--to", "json", "--torque-constant-n-m-s2", "1e-8"], true),
     ] {

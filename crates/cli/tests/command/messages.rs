@@ -199,7 +199,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ),
         (
             "identify --vehicle ardrone hover.mov",
-            "error: --vehicle cannot be used with [EXPERIMENT.toml] (hint: recordings without an experiment file need the mass before them, as in \
+            "error: --vehicle cannot be used with EXPERIMENT.toml (hint: recordings without an experiment file need the mass before them, as in \
              --mass 413g hover.mov)",
         ),
         ("speed a.wav --no-such-flag", "error: there is no flag --no-such-flag (hint: "),

@@ -142,6 +142,9 @@ fn a_check_says_what_it_would_do_and_what_is_missing() {
     for said in ["half and double the speed", "gravity", "only one load", "--latitude-deg"] {
         assert!(ready.stderr.contains(said), "{said}:\n{}", ready.stderr);
     }
+    // what the run would refuse, the check refuses too
+    let refused = run_in(at, &[&words[..], &["-o", "broken.wav"]].concat()).ends_with(1);
+    assert!(refused.stderr.contains("a folder is needed") && !refused.stdout.contains("ready"), "{}", refused.stderr);
     // a folder stands for its recordings
     let folder_ready = run_in(at, &[&words[..6], &["--mass", "0.413=a"]].concat()).ends_with(0);
     assert!(folder_ready.stdout.contains("a/1.WAV"), "{}", folder_ready.stdout);
