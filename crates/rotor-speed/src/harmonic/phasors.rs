@@ -13,11 +13,31 @@ const COSINE: [f64; 4] = [1.0 / 2.0, 1.0 / (3.0 * 4.0), 1.0 / (5.0 * 6.0), 1.0 /
 /// The same of the sine. *Numeric.*
 const SINE: [f64; 4] = [1.0 / 6.0, 1.0 / (4.0 * 5.0), 1.0 / (6.0 * 7.0), 1.0 / (8.0 * 9.0)];
 
-/// `exp(j angle)`, fast for a small angle in rad.
+/// Largest angle, rad, of which a phasor is made by squaring that of a small part of it: 5 squares, which are faster than the sine and
+/// cosine of the system and lose 5 bits at most. *Numeric.*
+const SQUARED_TURN: f64 = 32.0 * SMALL_TURN;
+
+/// `exp(j angle)`, fast for an angle in rad of less than half a turn.
 pub(crate) fn small_turn(angle: f64) -> Complex<f64> {
-    if angle.abs() > SMALL_TURN {
+    if angle.abs() <= SMALL_TURN {
+        return by_series(angle);
+    }
+    if angle.abs() > SQUARED_TURN {
         return Complex::from_polar(1.0, angle);
     }
+    let (mut part, mut squares) = (0.5 * angle, 1);
+    while part.abs() > SMALL_TURN {
+        part *= 0.5;
+        squares += 1;
+    }
+    let mut turn = by_series(part);
+    for _ in 0..squares {
+        turn = Complex::new(turn.re * turn.re - turn.im * turn.im, 2.0 * turn.re * turn.im);
+    }
+    turn
+}
+
+fn by_series(angle: f64) -> Complex<f64> {
     let x2 = angle * angle;
     // in Horner form
     let cosine = 1.0 - x2 * COSINE[0] * (1.0 - x2 * COSINE[1] * (1.0 - x2 * COSINE[2] * (1.0 - x2 * COSINE[3])));
@@ -85,7 +105,7 @@ mod tests {
 
     #[test]
     fn small_turns_are_turns() {
-        for angle in [0.0, 1e-9, -0.02, 0.0999, 0.1001, -2.0] {
+        for angle in [0.0, 1e-9, -0.02, 0.0999, 0.1001, 0.7, -2.0, 3.19, 3.21, -40.0] {
             let error = (small_turn(angle) - Complex::from_polar(1.0, angle)).norm();
             assert!(error < 1e-14, "{angle}: {error}");
         }
