@@ -12,7 +12,7 @@ use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use hovertone_media::Samples;
-use hovertone_report::{SpeedRecord, condition_table, speed_json, speed_table, track_csv};
+use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
 
 /// The meaning of the arguments.
@@ -41,10 +41,21 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         }
     }
     terminal.flush()?;
+    say_assumed_number(arguments, &records, terminal);
     if let Some(path) = plan.track {
         plan.outputs.write(&path, track_csv(&records).map_err(Failure::internal)?)?;
     }
     Ok(ending_of(&records))
+}
+
+/// Says that nobody told the number of the rotors that were separated. A warning says so where fewer were.
+fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
+    let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
+    let separated = records.iter().map(|record| record.rotors().len()).max().filter(|count| *count > 1);
+    if let Some(count) = separated.filter(|_| !is_said && !arguments.json) {
+        let what = format!("nobody said how many rotors turn: {count} are assumed, since several are heard");
+        terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
+    }
 }
 
 /// The recordings with their answers, for a program that calls. The first recording may be in memory.

@@ -1,7 +1,7 @@
 //! Flights of a vehicle whose rotors turn behind a gear, and bob.
 
 use hovertone::sound::Signal;
-use hovertone::speed::{Config, Method, Outcome, SpeedAnalysis, ToneConfig, speed_from_source};
+use hovertone::speed::{Config, Method, Outcome, SpeedAnalysis, ToneConfig, Warning, speed_from_source};
 use hovertone_sim::paper::LOADS;
 use hovertone_sim::scenario::{ScenarioFile, ScenarioRun, SpreadSection};
 use hovertone_vehicle::{Order, ShaftSpeedRange};
@@ -14,18 +14,19 @@ fn heard(file: &ScenarioFile) -> (SpeedAnalysis, f64) {
 
 /// The same, where the rotor is looked for in a range of speeds.
 fn heard_within(file: &ScenarioFile, range: Option<ShaftSpeedRange>) -> (SpeedAnalysis, f64) {
+    let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
+    tone.blades = Some(2);
+    heard_by(file, &range.map_or(tone.clone(), |range| tone.within(&range)))
+}
+
+fn heard_by(file: &ScenarioFile, tone: &ToneConfig) -> (SpeedAnalysis, f64) {
     let scenario = file.resolve(&BTreeMap::new()).unwrap();
     let sample_rate_hz = f64::from(scenario.sound.sample_rate_hz);
     let mut run = ScenarioRun::new(scenario).unwrap();
     let (mut channels, mut states) = (Vec::new(), Vec::new());
     while run.advance(&mut channels, &mut states).unwrap() {}
     let truth = run.finish(&mut channels).flight.mean_sum_of_squares_rad2_s2 / 4.0;
-    let mut tone = ToneConfig::of_order(Order::new(69.0).unwrap());
-    tone.blades = Some(2);
-    let mut config = Config::for_tone(match &range {
-        Some(range) => tone.within(range),
-        None => tone,
-    });
+    let mut config = Config::for_tone(tone.clone());
     config.rotors.count = 4;
     config.method = Method::Separated;
     let mut signal = Signal::new(channels.swap_remove(0), sample_rate_hz);
@@ -74,5 +75,17 @@ fn twice_the_speed_at_the_end_of_the_range_hides_no_rotor() {
         let speed = tone.speeds[0].speed;
         assert!((speed.rad_s() / truth.sqrt() - 1.0).abs() < 1e-4, "{seed}: {} rev/s", speed.rev_s());
         assert!(tone.alternatives.is_empty(), "{seed}");
+    }
+}
+
+#[test]
+fn a_gear_without_blades_contradicts_no_propeller() {
+    // the lines of the propeller alone tell the same speed as the mesh
+    for trial in [0, 2] {
+        let file = ScenarioFile::paper_trial(&LOADS[0], trial, 1);
+        let (analysis, _) = heard_by(&file, &ToneConfig::of_order(Order::new(69.0).unwrap()));
+        assert!(matches!(analysis.outcome, Outcome::Ok(_)), "{trial}: {:?}", analysis.outcome);
+        let elsewhere = analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)));
+        assert!(elsewhere.is_none(), "{trial}: {elsewhere:?}");
     }
 }

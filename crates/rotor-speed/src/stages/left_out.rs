@@ -19,7 +19,10 @@ pub(super) fn better_without_gear(
     let first = beliefs.hypotheses.first().filter(|first| first.lines.mesh_order.is_some())?;
     let is_open = beliefs.possible(belief_min).len() > 1;
     let other = is_open.then(|| blind_beliefs(surveyed, sample_rate_hz, config)).flatten()?;
-    rotor_of(other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?)
+    let best = other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?;
+    // other blades at the same speed contradict nothing, because behind a gear they need not be known
+    let is_same = |it: &&Hypothesis| it.is_of_same_vehicle(first.speed_rev_s) && !best.is_better_than(it, belief_min);
+    if other.hypotheses.iter().any(|it| is_same(&it)) { None } else { rotor_of(best) }
 }
 
 /// The rotor that is heard where nothing is known. `None` where none is.
