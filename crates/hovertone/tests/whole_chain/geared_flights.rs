@@ -81,11 +81,9 @@ fn twice_the_speed_at_the_end_of_the_range_hides_no_rotor() {
 #[test]
 fn a_gear_without_blades_contradicts_no_propeller() {
     // the lines of the propeller alone tell the same speed as the mesh
-    for trial in [0, 2] {
-        let file = ScenarioFile::paper_trial(&LOADS[0], trial, 1);
-        let (analysis, _) = heard_by(&file, &ToneConfig::of_order(Order::new(69.0).unwrap()));
-        assert!(matches!(analysis.outcome, Outcome::Ok(_)), "{trial}: {:?}", analysis.outcome);
-        let elsewhere = analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)));
-        assert!(elsewhere.is_none(), "{trial}: {elsewhere:?}");
-    }
+    let file = ScenarioFile::paper_trial(&LOADS[0], 0, 1);
+    let (analysis, _) = heard_by(&file, &ToneConfig::of_order(Order::new(69.0).unwrap()));
+    assert!(matches!(analysis.outcome, Outcome::Ok(_)), "{:?}", analysis.outcome);
+    let elsewhere = analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)));
+    assert!(elsewhere.is_none(), "{elsewhere:?}");
 }
