@@ -15,6 +15,9 @@ use hovertone_media::Samples;
 use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
 
+/// Rotors that are told apart where several are heard, and nobody said how many.
+const ROTORS_ASSUMED: usize = 4;
+
 /// The meaning of the arguments.
 struct Plan {
     jobs: Vec<Job>,
@@ -48,12 +51,11 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     Ok(ending_of(&records))
 }
 
-/// Says that nobody told the number of the rotors that were separated. A warning says so where fewer were.
+/// Says that nobody told the number of the rotors that were separated. A warning says so where some could not be.
 fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
-    let separated = records.iter().map(|record| record.rotors().len()).max().filter(|count| *count > 1);
-    if let Some(count) = separated.filter(|_| !is_said && !arguments.json) {
-        let what = format!("nobody said how many rotors turn: {count} are assumed, since several are heard");
+    if !is_said && !arguments.json && records.iter().any(|record| record.rotors().len() >= ROTORS_ASSUMED) {
+        let what = "nobody said how many rotors turn; several are heard, and they are told apart";
         terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
     }
 }
