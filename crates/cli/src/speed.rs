@@ -15,7 +15,7 @@ use hovertone_media::Samples;
 use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
 
-/// Rotors that are told apart where several are heard, and nobody said how many.
+/// Number of rotors that are separated where several are heard, and nobody said how many.
 const ROTORS_ASSUMED: usize = 4;
 
 /// The meaning of the arguments.
@@ -51,11 +51,11 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
     Ok(ending_of(&records))
 }
 
-/// Says that nobody told the number of the rotors that were separated. A warning says so where some could not be.
+/// Says that nobody told the number of the rotors that were separated. A warning says so where not all could be.
 fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
     if !is_said && !arguments.json && records.iter().any(|record| record.rotors().len() >= ROTORS_ASSUMED) {
-        let what = "nobody said how many rotors turn; several are heard, and they are told apart";
+        let what = "nobody said how many rotors turn; several are heard, and four were separated";
         terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
     }
 }
