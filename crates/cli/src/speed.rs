@@ -54,8 +54,9 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
 /// Says that nobody told the number of the rotors that were separated. A warning says so where not all could be.
 fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
-    if !is_said && !arguments.json && records.iter().any(|record| record.rotors().len() >= ROTORS_ASSUMED) {
-        let what = "nobody said how many rotors turn; several are heard, and four were separated";
+    let count = records.iter().map(|record| record.rotors().len()).max().unwrap_or_default();
+    if !is_said && !arguments.json && count >= ROTORS_ASSUMED {
+        let what = format!("nobody said how many rotors turn; several are heard, and {count} were separated");
         terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
     }
 }
