@@ -222,7 +222,12 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors are too many to be named; the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                write!(f, "too few rotors are separated: {tracks}, needed: {needed}")
+                let separated = match tracks {
+                    0 => "no rotor is".to_owned(),
+                    1 => "one rotor is".to_owned(),
+                    count => format!("{count} rotors are"),
+                };
+                write!(f, "{separated} separated, and {needed} are needed")
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(f, "the offset of the log can be anything from {low_s:.0} to {high_s:.0} s")

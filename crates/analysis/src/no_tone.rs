@@ -66,7 +66,7 @@ impl fmt::Display for NoTone {
                 "the recording ends at {end_s:.1} s, and the chosen times begin later; choose others with --from and --to"
             ),
             Self::TooShort { heard_s } => {
-                write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; record a longer hover")
+                write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; choose a longer part, or record a longer hover")
             }
             Self::Silence => f.write_str(
                 "the recording is silent; check the microphone, or choose another audio track or one channel (channels of opposite sign cancel each other)",
@@ -85,7 +85,7 @@ impl fmt::Display for NoTone {
                 }
                 write!(
                     f,
-                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; check the given facts: the vehicle, the blades, the gear or the band"
+                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; if it has {blades} blades, give --blades {blades}; if not, check the given facts: the vehicle, the gear or the band"
                 )
             }
             Self::NoSeries { only_rev_s: None, .. } => {

@@ -84,6 +84,14 @@ fn change(
     arguments: &ExportArguments,
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
+    let unused = [
+        ("--hover-command", arguments.hover_command.is_some()),
+        ("--air-density-kg-m3", arguments.air_density_kg_m3.is_some()),
+    ];
+    for (flag, _) in unused.into_iter().filter(|(_, is_given)| *is_given) {
+        let what = format!("{flag} changes nothing: --into changes the constants of thrust and torque only");
+        terminal.warning(&Notice::new(what, "leave it out"), "");
+    }
     if is_stdin(model) && arguments.output.is_none() {
         return Err(Failure::usage("stdin cannot be changed in place", "write to a file with -o FILE"));
     }

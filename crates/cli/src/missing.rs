@@ -65,7 +65,10 @@ const OF_PLAN: &[&str] = &[
     "--correlation-s",
     "--rotors-separated",
 ];
-const ALL_BESIDE: [NeededBeside; 6] = [
+const OF_DRAFT: &[&str] =
+    &["--vehicle", "--blades", "--gear", "--rotors", "--diameter-m", "--gravity-m-s2", "--latitude-deg", "--height-m"];
+const ALL_BESIDE: [NeededBeside; 7] = [
+    needed_beside("<EXPERIMENT.toml>", OF_DRAFT, "the loads too: --mass KG=FILES"),
     needed_beside("--log <FILE>", &["--log-offset-s", "--log-axes", "--layout"], "the log too: --log FILE"),
     needed_beside("--commands <LOG>", &["--offset"], "the commands too: --commands LOG"),
     needed_beside("--signal <NAME>", &["--output", "-o"], "the name of the signal too: --signal NAME"),

@@ -78,7 +78,7 @@ impl Misuse {
                     return Self { what: format!("{name} is given more than once"), hint };
                 }
                 let hint = advice(&name, &other, words);
-                let [name, other] = [name, other].map(|argument| argument.trim_matches(['[', ']']).to_owned());
+                let [name, other] = [name, other].map(|argument| argument.trim_matches(['[', ']', '.']).to_owned());
                 Self { what: format!("{name} cannot be used with {other}"), hint: Some(hint) }
             }
             ErrorKind::MissingRequiredArgument => {
@@ -135,7 +135,13 @@ impl Misuse {
             Some("listen") => return Self::of_recording_alone(name, words),
             Some("init") => {
                 let what = format!("\"{name}\": init takes recordings behind the mass that hovers in them");
-                return Self { what, hint: Some(format!("as in --mass 413g {name}")) };
+                let is_new_file = name.ends_with(".toml");
+                let hint = if is_new_file {
+                    format!("to name the new file, write -o {name}")
+                } else {
+                    format!("as in --mass 413g {name}")
+                };
+                return Self { what, hint: Some(hint) };
             }
             _ => {}
         }
@@ -187,7 +193,7 @@ fn only_flag_of_unit<'a>(name: &str, flags: &'a [String]) -> Option<&'a str> {
 fn reason_of(error: &clap::Error) -> String {
     match error.source() {
         Some(source) if source.is::<ParseFloatError>() => "a number is needed, such as 0.25".to_owned(),
-        Some(source) if source.is::<ParseIntError>() => "a whole number is needed".to_owned(),
+        Some(source) if source.is::<ParseIntError>() => "a whole number, 0 or more, is needed".to_owned(),
         Some(source) => source.to_string(),
         None => "this value has no meaning here".to_owned(),
     }

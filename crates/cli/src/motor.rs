@@ -78,11 +78,14 @@ impl<'a> Plan<'a> {
 
     fn told_of(&self, file: &Path) -> Result<Told, Failure> {
         match flight_of(file, &self.names)? {
-            Some(_) if self.commands.is_some() => Err(Failure::Usage {
-                what: "this is a log, and --commands belongs to a recording".to_owned(),
-                hint: "leave --commands out: the commands of a log are those in it".to_owned(),
-                path: Some(file.to_owned()),
-            }),
+            Some(_) if self.commands.is_some() => Err(of_recording(
+                file,
+                "--commands belongs",
+                "leave --commands out: the commands of a log are those in it",
+            )),
+            Some(_) if self.arguments.from.or(self.arguments.to).is_some() => {
+                Err(of_recording(file, "--from and --to belong", "leave them out: a log is used whole"))
+            }
             Some(flight) => Ok(told_by_log(file, &flight)),
             None => self.told_by_sound(file),
         }
@@ -141,6 +144,12 @@ impl<'a> Plan<'a> {
         let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors };
         Ok(Told { record, rows, notices: heard.notices, is_whole: true })
     }
+}
+
+/// The failure of a flag that has no meaning for a log.
+fn of_recording(file: &Path, flag_belongs: &str, hint: &str) -> Failure {
+    let what = format!("this is a log, and {flag_belongs} to a recording");
+    Failure::Usage { what, hint: hint.to_owned(), path: Some(file.to_owned()) }
 }
 
 fn told_by_log(file: &Path, flight: &LoggedFlight) -> Told {

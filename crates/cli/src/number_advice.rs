@@ -4,7 +4,9 @@ use crate::see_help::{see_help, typed_command};
 use std::ffi::OsString;
 
 /// Ends of names, and what a number of that name is in.
-const UNITS: [(&str, &str); 13] = [
+const UNITS: [(&str, &str); 15] = [
+    ("_n_m_s2", "in N m/(rad/s)²"),
+    ("height_m", "in m"),
     ("_ppm", "in millionths"),
     ("_hpa", "in hPa, as a weather report has it"),
     ("_percent", "in percent"),

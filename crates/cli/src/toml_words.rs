@@ -61,7 +61,13 @@ fn wrong_value(message: &str) -> Option<PlainFault> {
         None => format!("a list of {}", found.strip_prefix("length ")?),
     };
     let wanted = wanted(expected);
-    Some(PlainFault::new(format!("has {found} where {wanted} is needed"), format!("write {wanted}")))
+    let hint = match wanted.as_str() {
+        "a number" if found.starts_with('"') => {
+            "write the number alone, without quotes, in the unit at the end of the key's name: 413 g are mass_kg = 0.413".to_owned()
+        }
+        _ => format!("write {wanted}"),
+    };
+    Some(PlainFault::new(format!("has {found} where {wanted} is needed"), hint))
 }
 
 /// A value without the name of its type: "integer `3`" is 3.
@@ -96,7 +102,15 @@ fn wanted(expected: &str) -> String {
 fn syntax(message: &str) -> Option<PlainFault> {
     let is = |start: &str| message.starts_with(start);
     if is("duplicate key") {
-        return Some(PlainFault::new("has this name twice", "leave one of the two out"));
+        let hint =
+            "leave one of the two out; of a table that may come several times, write [[load]] with double brackets";
+        return Some(PlainFault::new("has this name twice", hint));
+    }
+    if is("unclosed table") {
+        return Some(PlainFault::new(
+            "has a name in brackets that does not end",
+            "names have no spaces: write [my-drone]",
+        ));
     }
     if is("string values must be quoted") {
         return Some(PlainFault::new("has text without quotes", "write it as \"text\""));
@@ -140,8 +154,11 @@ mod tests {
             ("invalid length 2, expected an array of length 3", "has a list of 2 where a list of 3 numbers is needed"),
             ("invalid type: map, expected a sequence", "has one table where a list of tables is needed"),
             ("duplicate key", "has this name twice"),
-            ("unclosed table, expected `]`", "has a fault: unclosed table"),
-            ("a number of lines per turn, or \"auto\"", "has a fault: a number of lines per turn, or \"auto\""),
+            ("unclosed table, expected `]`", "has a name in brackets that does not end"),
+            (
+                "an order is a number above 0 without quotes, or \"auto\"",
+                "has a fault: an order is a number above 0 without quotes, or \"auto\"",
+            ),
         ] {
             assert_eq!(in_plain_words(message).what, what, "{message}");
         }

@@ -202,7 +202,7 @@ pub(crate) fn in_ms(estimate: Option<Estimate>) -> String {
 fn verdict_in_words(verdict: StepVerdict) -> &'static str {
     match verdict {
         StepVerdict::Used => "",
-        StepVerdict::TooSlowRows => "log rows too slow for a time constant",
+        StepVerdict::TooSlowRows => "too fast for the rows: left out",
         StepVerdict::Saturated => "saturated: left out",
         StepVerdict::AtRest => "starts or stops: left out",
         StepVerdict::OtherCurve => "not of first order: left out",

@@ -158,7 +158,9 @@ fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
     let tone = &analysed.config.tone;
     let tone_hz = tone.order.lines_per_turn() * tone.speed_max.rev_s() / KNOWN_RANGE_MARGIN;
     let half_rate_hz = recording.info().sample_rate_hz / 2.0;
-    let is_rate_low = !is_silent && analysed.found.is_none() && half_rate_hz < tone_hz;
+    // a rotor that is heard by other lines shows that the sample rate is not to blame
+    let is_heard = matches!(reason, NoTone::NoSeries { instead: Some(_), .. });
+    let is_rate_low = !is_silent && !is_heard && analysed.found.is_none() && half_rate_hz < tone_hz;
     is_rate_low.then(|| {
         format!(
             "the sample rate is too low: nothing above {:.1} kHz is recorded, and the tone of order {} may lie up to {:.1} kHz; record \

@@ -31,6 +31,8 @@ const AMBIGUOUS: &str = "ambiguous";
 const SEVERAL_ROTORS: &str = "several_rotors";
 /// Status where the known speed agrees, but the lines are those of a rotor with other blades.
 const OTHER_ROTOR: &str = "other_rotor";
+/// Largest difference from the known speed at which a rotor with other blades has that speed.
+const SAME_SPEED_SHARE: f64 = 0.02;
 const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, and the known speed is that of one; record one \
                                 rotor that runs alone";
 const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
@@ -135,7 +137,11 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
     });
     let agrees = speed.and_then(|speed| Comparison::of(speed, reference).ok()).is_some_and(|it| it.agrees());
     let doubt = record.as_ref().and_then(SpeedRecord::analysis).and_then(fits_elsewhere);
-    if let Some(warning) = doubt.filter(|_| agrees) {
+    let other_agrees = |warning: &&Warning| {
+        matches!((warning, reference), (Warning::FitsElsewhere(other), Reference::Speed { rpm, .. })
+        if (60.0 * other.speed_rev_s / rpm - 1.0).abs() < SAME_SPEED_SHARE)
+    };
+    if let Some(warning) = doubt.filter(|warning| agrees || other_agrees(warning)) {
         return undecided(OTHER_ROTOR, format!("{warning}; {}", warning.hint()));
     }
     Heard {

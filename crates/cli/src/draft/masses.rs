@@ -38,7 +38,11 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
             put_load(&mut loads, LoadDraft { mass_kg, recordings: Vec::new() });
         }
         let Some(mass_kg) = current_kg else {
-            return Err(Failure::usage(format!("--mass {word}: the mass of this recording is missing"), HINT));
+            let what = match word.split_once('=') {
+                Some((mass, _)) => format!("\"{mass}\" is no mass"),
+                None => "the mass of this recording is missing".to_owned(),
+            };
+            return Err(Failure::usage(format!("--mass {word}: {what}"), HINT));
         };
         if let Some(toml) = file.filter(|file| file.ends_with(".toml")) {
             let what = format!("{toml} comes after --mass, so it counts as a recording");

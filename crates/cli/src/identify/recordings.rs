@@ -9,6 +9,7 @@ use crate::recording::{Job, Requests};
 use crate::recording_files::{RecordingGroup, groups_below, groups_in};
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use hovertone::experiment::ExperimentLoad;
+use hovertone_report::counted;
 use std::path::{Path, PathBuf};
 
 /// Most names in the list of missing recordings.
@@ -197,9 +198,9 @@ pub(super) fn folder_without_recordings(place: &Path) -> Option<EmptyFolder> {
     Some(EmptyFolder { path: place.to_owned(), what: "this folder holds no recording", hint })
 }
 
-/// "a/*.wav (3)".
+/// "a/*.wav (3 files)".
 fn in_words(group: &RecordingGroup) -> String {
-    format!("{} ({})", group.pattern.display(), group.files.len())
+    format!("{} ({})", group.pattern.display(), counted(group.files.len(), "file"))
 }
 
 /// The recordings in the folder of a pattern that matches none of them: often the ending is spelled otherwise.
@@ -207,5 +208,5 @@ pub(super) fn nearby(pattern: &Path) -> Option<String> {
     let folder = pattern.parent()?;
     let groups = groups_in(folder);
     let shown: Vec<String> = groups.iter().map(in_words).collect();
-    (!shown.is_empty()).then(|| format!("there is {}", shown.join(", ")))
+    (!shown.is_empty()).then(|| format!("the folder has {}", shown.join(", ")))
 }

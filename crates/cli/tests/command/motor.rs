@@ -44,6 +44,7 @@ fn a_log_has_its_own_commands() {
     let folder = tempfile::tempdir().unwrap();
     let log = written(folder.path(), "log.csv", steps_csv(true));
     refused_with(&["motor", &log, "--commands", &log], &["--commands belongs to a recording", "leave --commands out"]);
+    refused_with(&["motor", &log, "--from", "5"], &["--from and --to belong to a recording"]);
 }
 
 #[test]

@@ -54,7 +54,7 @@ fn a_folder_without_recordings_names_the_folders_that_have_some() {
         };
         let said = identify("demo");
         assert!(
-            said.contains("demo: this folder holds no recording") && said.contains("demo/no_hull/*.wav (1)"),
+            said.contains("demo: this folder holds no recording") && said.contains("demo/no_hull/*.wav (1 file)"),
             "{said}"
         );
         assert!(identify("bare").contains("bare: this folder holds no recording"));

@@ -150,7 +150,7 @@ fn a_check_says_what_it_would_do_and_what_is_missing() {
     assert!(folder_ready.stdout.contains("a/1.WAV"), "{}", folder_ready.stdout);
     let more = ["--mass", "0.5=a/*.wav", "--mass", "0.6=broken.wav", "-o", "out"];
     let missing = run_in(at, &[&words[..], &more[..]].concat()).ends_with(1);
-    for said in ["no file matches a/*.wav", "a/*.WAV (1)", "broken.wav: "] {
+    for said in ["no file matches a/*.wav", "a/*.WAV (1 file)", "broken.wav: "] {
         assert!(missing.stderr.contains(said), "{said}:\n{}", missing.stderr);
     }
     assert!(missing.stdout.contains("not ready: 2 errors") && !at.join("out").exists(), "{}", missing.stdout);

@@ -113,7 +113,7 @@ pub struct VehicleSection {
 
 /// The order of a tone: a number, or `"auto"` for the tone of the vehicle (its gear mesh if it has a gear, else its blade pass).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, expecting = "a number of lines per turn, or \"auto\"")]
+#[serde(untagged, expecting = "an order is a number above 0 without quotes, or \"auto\"")]
 pub enum OrderSetting {
     /// Lines per turn.
     Lines(Order),

@@ -320,16 +320,14 @@ impl ExperimentFile {
     /// Refuses loads with equal or empty names.
     fn check_names(&self) -> Result<(), ExperimentError> {
         for (index, load) in self.loads.iter().enumerate() {
-            if load.name.trim().is_empty() || self.loads[..index].iter().any(|before| before.name == load.name) {
-                return Err(ExperimentError::Contradiction {
-                    what: format!(
-                        "load number {} has the name {:?}, which is empty or another load's",
-                        index + 1,
-                        load.name
-                    ),
-                    hint: "give every load a name of its own",
-                });
-            }
+            let number = index + 1;
+            let before = self.loads[..index].iter().position(|before| before.name == load.name);
+            let what = match before {
+                _ if load.name.trim().is_empty() => format!("load number {number} has no name"),
+                Some(before) => format!("loads number {} and {number} are both named {:?}", before + 1, load.name),
+                None => continue,
+            };
+            return Err(ExperimentError::Contradiction { what, hint: "give every load a name of its own" });
         }
         Ok(())
     }

@@ -82,8 +82,11 @@ pub enum NoScatter {
         count: usize,
     },
     /// All points lie on the law but for rounding.
-    #[error("the rows lie exactly on F = C ω², as measured rows never do: without scatter there is no ±")]
-    Computed,
+    #[error("{} lie exactly on F = C ω², as measured rows never do: without scatter there is no ±", rows_but(*left_out))]
+    Computed {
+        /// Number of points that are left out, because they do not fit.
+        left_out: usize,
+    },
 }
 
 impl SquareLawFit {
@@ -97,7 +100,16 @@ impl SquareLawFit {
         if count < SCATTER_POINTS_MIN {
             return Some(NoScatter::TooFewPoints { count });
         }
-        (self.residual_max_share < ROUNDING_SHARE).then_some(NoScatter::Computed)
+        let left_out = self.shares.len() - count;
+        (self.residual_max_share < ROUNDING_SHARE).then_some(NoScatter::Computed { left_out })
+    }
+}
+
+fn rows_but(left_out: usize) -> String {
+    match left_out {
+        0 => "the rows".to_owned(),
+        1 => "all rows but one that does not fit".to_owned(),
+        count => format!("all rows but {count} that do not fit"),
     }
 }
 
