@@ -1,0 +1,95 @@
+//! Tracks against logs: offsets, motors, wrong orders and clocks.
+
+use super::*;
+
+fn speed_rev_s(motor: usize, time_s: f64) -> f64 {
+    let phase = motor as f64;
+    80.0 + 1.5 * phase + 2.0 * (0.9 * time_s + phase).sin() + 1.2 * (0.23 * time_s - phase).cos()
+}
+
+fn track(motor: usize, factor: f64) -> Vec<TrackPoint> {
+    let point = |at: usize| {
+        let time_s = 1.0 + 0.04 * at as f64;
+        let error = 0.05 * ((at * 7919 % 100) as f64 / 50.0 - 1.0) * 3f64.sqrt();
+        let speed_rev_s = factor * (speed_rev_s(motor, time_s) + error);
+        TrackPoint { time_s, tone_hz: 2.0 * speed_rev_s, speed_rev_s, std_uncertainty_rev_s: 0.05, level_db: -30.0 }
+    };
+    (0..2000).map(point).collect()
+}
+
+fn verified(factor: f64, rate: f64) -> Verification {
+    let time_s: Vec<f64> = (0..1000).map(|row| 40.0 + 0.1 * f64::from(row)).collect();
+    // the log's clock is 37.3 s ahead and runs faster by `rate`
+    let of_recording = |row_s: f64| (row_s - 37.3) / (1.0 + rate);
+    let speeds_rev_s: Vec<Vec<f64>> =
+        (0..4).map(|motor| time_s.iter().map(|&row_s| speed_rev_s(motor, of_recording(row_s))).collect()).collect();
+    let names: Vec<String> = (1..=4).map(|motor| format!("motor {motor}")).collect();
+    let tracks = [track(2, factor), track(0, factor), track(3, factor), track(1, factor)];
+    let tracks: Vec<&[TrackPoint]> = tracks.iter().map(Vec::as_slice).collect();
+    verification_from_log(&tracks, LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s }, None)
+        .unwrap()
+}
+
+#[test]
+fn offset_motors_and_coverage_are_found() {
+    let found = verified(1.0, 0.0);
+    assert!((found.offset_s + 37.3).abs() < 0.01 && found.is_offset_told && found.is_right(), "{found:?}");
+    assert_eq!(found.rotors.iter().map(|rotor| rotor.motor).collect::<Vec<_>>(), [2, 0, 3, 1]);
+    for rotor in &found.rotors {
+        assert!(rotor.bias_rev_s.abs() < 0.01 && (rotor.scatter_rev_s - 0.05).abs() < 0.02, "{rotor:?}");
+        assert!(rotor.coverage > 0.9, "{rotor:?}");
+    }
+    assert!(found.clock_rate_share.unwrap().abs() < 3e-4);
+}
+
+/// A log of a climb that the recording does not have: the offset that leaves the climb out fits best, and tells nothing.
+#[test]
+fn a_steady_recording_has_no_offset() {
+    let steady: Vec<TrackPoint> =
+        track(0, 1.0).into_iter().map(|point| TrackPoint { speed_rev_s: 80.0, ..point }).collect();
+    let time_s: Vec<f64> = (0..800).map(|row| 0.1 * f64::from(row)).collect();
+    let climb = |time_s: &f64| if (30.0..33.0).contains(time_s) { 84.0 } else { 80.0 };
+    let speeds_rev_s = [time_s.iter().map(climb).collect()];
+    let names = ["motor 1".to_owned()];
+    let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+    assert!(!verification_from_log(&[&steady], log, None).unwrap().is_offset_told);
+}
+
+/// A log that never changes: the offset at which it covers the calm part of the recording fits best, and tells nothing.
+#[test]
+fn a_steady_log_has_no_offset() {
+    let time_s: Vec<f64> = (0..600).map(|row| 0.1 * f64::from(row)).collect();
+    let speeds_rev_s = [vec![80.0; 600]];
+    let names = ["motor 1".to_owned()];
+    let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+    let calm = |point: TrackPoint| TrackPoint {
+        speed_rev_s: if point.time_s > 30.0 { 80.0 + 0.1 * (point.speed_rev_s - 80.0) } else { point.speed_rev_s },
+        ..point
+    };
+    let heard: Vec<TrackPoint> = track(0, 1.0).into_iter().map(calm).collect();
+    assert!(!verification_from_log(&[&heard], log, None).unwrap().is_offset_told);
+}
+
+#[test]
+fn a_wrong_order_and_a_wrong_clock_are_told() {
+    let half = verified(0.5, 0.0);
+    assert!(!half.is_right() && half.near_ratio == Some(0.5) && (half.offset_s + 37.3).abs() < 0.01, "{half:?}");
+    let clock = verified(1.01, 0.0);
+    assert!(!clock.is_right() && (clock.speed_ratio - 1.01).abs() < 1e-3, "{clock:?}");
+    let rate = verified(1.0, 1e-3).clock_rate_share.unwrap();
+    assert!((rate + 1e-3).abs() < 3e-4, "{rate}");
+}
+
+#[test]
+fn nothing_to_compare_has_a_reason() {
+    let names = ["motor 1".to_owned()];
+    let speeds = [vec![80.0; 3]];
+    let log = LoggedSpeeds { time_s: &[0.0, 0.1, 0.2], names: &names, speeds_rev_s: &speeds };
+    let one = track(0, 1.0);
+    assert_eq!(verification_from_log(&[], log, None), Err(NotVerified::NoTrack));
+    assert!(matches!(
+        verification_from_log(&[&one, &one], log, None),
+        Err(NotVerified::TooFewMotors { tracks: 2, motors: 1 })
+    ));
+    assert_eq!(verification_from_log(&[&one], log, None), Err(NotVerified::NoOverlap));
+}
