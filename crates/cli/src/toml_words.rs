@@ -63,7 +63,7 @@ fn wrong_value(message: &str) -> Option<PlainFault> {
     let wanted = wanted(expected);
     let hint = match wanted.as_str() {
         "a number" if found.starts_with('"') => {
-            "write the number alone, without quotes, in the unit at the end of the key's name: 413 g are mass_kg = 0.413".to_owned()
+            "write a number, without quotes and unit; the unit is at the end of the key's name: 413 g are mass_kg = 0.413".to_owned()
         }
         _ => format!("write {wanted}"),
     };

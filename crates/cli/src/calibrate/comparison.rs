@@ -70,6 +70,11 @@ impl Comparison {
         }
     }
 
+    /// Whether this many lines per turn, in place of the given ones, make the known speed.
+    pub(super) fn fits_order(&self, lines_per_turn: f64) -> bool {
+        matches!(self.check.relation, Relation::OtherOrder(fitting) if fitting.lines_per_turn() == lines_per_turn)
+    }
+
     /// Whether the heard speed is the known one, but for an error that a clock may have.
     pub(super) fn agrees(&self) -> bool {
         self.check.relation == Relation::Agrees

@@ -135,11 +135,16 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
         let std_rev_s = speed.combined_std_uncertainty_rev_s().or(speed.std_uncertainty_rev_s);
         Some(HeardSpeed { speed: speed.speed, std_rev_s, order: record.order, is_rotor: true })
     });
-    let agrees = speed.and_then(|speed| Comparison::of(speed, reference).ok()).is_some_and(|it| it.agrees());
+    let comparison = speed.and_then(|speed| Comparison::of(speed, reference).ok());
+    let agrees = comparison.as_ref().is_some_and(Comparison::agrees);
     let doubt = record.as_ref().and_then(SpeedRecord::analysis).and_then(fits_elsewhere);
-    let other_agrees = |warning: &&Warning| {
-        matches!((warning, reference), (Warning::FitsElsewhere(other), Reference::Speed { rpm, .. })
-        if (60.0 * other.speed_rev_s / rpm - 1.0).abs() < SAME_SPEED_SHARE)
+    // where these lines have the known speed, another order than theirs would be wrong advice
+    let other_agrees = |warning: &&Warning| match (warning, reference) {
+        (Warning::FitsElsewhere(other), Reference::Speed { rpm, .. }) => {
+            let is_named = comparison.as_ref().is_some_and(|it| it.fits_order(f64::from(other.blades)));
+            (60.0 * other.speed_rev_s / rpm - 1.0).abs() < SAME_SPEED_SHARE && !is_named
+        }
+        _ => false,
     };
     if let Some(warning) = doubt.filter(|warning| agrees || other_agrees(warning)) {
         return undecided(OTHER_ROTOR, format!("{warning}; {}", warning.hint()));

@@ -324,7 +324,9 @@ impl ExperimentFile {
             let before = self.loads[..index].iter().position(|before| before.name == load.name);
             let what = match before {
                 _ if load.name.trim().is_empty() => format!("load number {number} has no name"),
-                Some(before) => format!("loads number {} and {number} are both named {:?}", before + 1, load.name),
+                Some(before) => {
+                    format!("load number {number} is named {:?}, as load number {} is", load.name, before + 1)
+                }
                 None => continue,
             };
             return Err(ExperimentError::Contradiction { what, hint: "give every load a name of its own" });
