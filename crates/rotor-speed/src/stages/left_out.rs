@@ -8,7 +8,7 @@ use hovertone_analysis::OtherRotor;
 use hovertone_vehicle::{KnownRotor, Order};
 
 /// Behind a gear, the rotor without one whose lines are far more probable than those of the most probable one. It is looked for where several
-/// speeds are possible: other lines may pass for those of a mesh.
+/// speeds are possible, and where the blades are not known, because other lines may pass for those of a mesh.
 pub(super) fn better_without_gear(
     surveyed: &Surveyed,
     beliefs: &Beliefs,
@@ -17,7 +17,7 @@ pub(super) fn better_without_gear(
 ) -> Option<OtherRotor> {
     let belief_min = config.evidence.belief_min;
     let first = beliefs.hypotheses.first().filter(|first| first.lines.mesh_order.is_some())?;
-    let is_open = beliefs.possible(belief_min).len() > 1;
+    let is_open = beliefs.possible(belief_min).len() > 1 || first.lines.blades.is_none();
     let other = is_open.then(|| blind_beliefs(surveyed, sample_rate_hz, config)).flatten()?;
     let best = other.hypotheses.first().filter(|other| other.is_better_than(first, belief_min))?;
     // other blades at the same speed contradict nothing, because behind a gear they need not be known
