@@ -27,7 +27,7 @@ pub(crate) fn example_and_help(words: &[OsString], flag: &str) -> String {
     advice.map_or_else(|| help.clone(), |advice| format!("{advice}; {help}"))
 }
 
-/// What a flag of a command is for, by its help: "--clock-ppm PPM is for this: …".
+/// What a flag of a command is for, by its help: "--clock-ppm PPM: …".
 fn purpose_of(command: &Command, flag: &str) -> Option<String> {
     let argument = argument_of(command, flag)?;
     let value =
