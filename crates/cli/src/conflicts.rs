@@ -6,60 +6,34 @@ use std::path::Path;
 /// The place of an experiment file among the words of a command.
 const EXPERIMENT: &str = "EXPERIMENT.toml";
 
-/// Two arguments, as the parser names them, and why only one of them has a meaning.
-struct Conflict {
-    one: &'static str,
-    other: &'static str,
-    reason: &'static str,
-}
-
-const fn conflict(one: &'static str, other: &'static str, reason: &'static str) -> Conflict {
-    Conflict { one, other, reason }
-}
-
 const NAMED_TWICE: &str = "each names the rotors by itself: leave one of them out";
 const PRINTED: &str = "--json prints the answer as JSON, and nothing else: leave one of them out";
-const KNOWN: [Conflict; 15] = [
-    conflict("--gravity-m-s2", "--latitude-deg", "both give the local gravity: leave one of them out"),
-    conflict("--constant", "--constant-n-s2", "both give the thrust constant: leave one of them out"),
-    conflict(
-        "--constant",
-        "--constant-std-n-s2",
-        "the results have an uncertainty of their own: leave one of them out",
-    ),
-    conflict("--tachometer-rpm", "--true-hz", "both give the known speed: leave one of them out"),
-    conflict("--to", "--into", "--to writes a new model, --into changes one that you have: leave one of them out"),
-    conflict("--mean-only", "--method", "both say how the speed is read from the sound: leave one of them out"),
-    conflict("--plan", "TABLE.csv", "a plan is made before there are tables: leave one of them out"),
-    conflict("--spin-up", "--log", NAMED_TWICE),
-    conflict("--microphones", "--log", NAMED_TWICE),
-    conflict("--microphones", "--spin-up", NAMED_TWICE),
-    conflict(
-        "--check",
-        "--json",
-        "--check analyses nothing, so that there are no results to print: leave one of them out",
-    ),
-    conflict(
-        "--check",
-        "--verbose",
-        "--check analyses nothing, so that there are no tables to print: leave one of them out",
-    ),
-    conflict("--signals", "--signal", "--signals lists the names of all, --signal writes one: leave one of them out"),
-    conflict("--signals", "--json", "--json has the names of all signals already: leave --signals out"),
-    conflict("--output", "COMMAND", "-o writes the pages of all commands, COMMAND prints one: leave one of them out"),
+/// Two arguments, and why only one of them has a meaning.
+const KNOWN: [([&str; 2], &str); 15] = [
+    (["--gravity-m-s2", "--latitude-deg"], "both give the local gravity: leave one of them out"),
+    (["--constant", "--constant-n-s2"], "both give the thrust constant: leave one of them out"),
+    (["--constant", "--constant-std-n-s2"], "the results have an uncertainty of their own: leave one of them out"),
+    (["--tachometer-rpm", "--true-hz"], "both give the known speed: leave one of them out"),
+    (["--to", "--into"], "--to writes a new model, --into changes one that you have: leave one of them out"),
+    (["--mean-only", "--method"], "both say how the speed is read from the sound: leave one of them out"),
+    (["--plan", "TABLE.csv"], "a plan is made before there are tables: leave one of them out"),
+    (["--spin-up", "--log"], NAMED_TWICE),
+    (["--microphones", "--log"], NAMED_TWICE),
+    (["--microphones", "--spin-up"], NAMED_TWICE),
+    (["--check", "--json"], "--check analyses nothing, so that there are no results to print: leave one of them out"),
+    (["--check", "--verbose"], "--check analyses nothing, so that there are no tables to print: leave one of them out"),
+    (["--signals", "--signal"], "--signals lists the names of all, --signal writes one: leave one of them out"),
+    (["--signals", "--json"], "--json has the names of all signals already: leave --signals out"),
+    (["--output", "COMMAND"], "-o writes the pages of all commands, COMMAND prints one: leave one of them out"),
 ];
 
-/// What to do about two arguments that cannot be used together.
+/// What to do about two arguments that cannot be used together: flags, or places without their brackets.
 pub(crate) fn advice(one: &str, other: &str, words: &[OsString]) -> String {
-    let is_experiment = |place: &str| place.contains(EXPERIMENT);
-    if is_experiment(one) || is_experiment(other) {
-        return beside_experiment(if is_experiment(one) { other } else { one }, words);
+    if let (EXPERIMENT, flag) | (flag, EXPERIMENT) = (one, other) {
+        return beside_experiment(flag, words);
     }
-    let is = |place: &str, name: &str| place.trim_matches(['[', ']', '<', '>', '.']) == name;
-    let of_both = |known: &&Conflict| {
-        (is(one, known.one) && is(other, known.other)) || (is(one, known.other) && is(other, known.one))
-    };
-    let reason = KNOWN.iter().find(of_both).map(|known| known.reason);
+    let of_both = |(pair, _): &&([&str; 2], &str)| *pair == [one, other] || *pair == [other, one];
+    let reason = KNOWN.iter().find(of_both).map(|(_, reason)| *reason);
     let prints = || [one, other].contains(&"--json").then_some(PRINTED);
     reason.or_else(prints).unwrap_or("leave one of them out").to_owned()
 }
@@ -96,7 +70,7 @@ mod tests {
                 for other in command.get_arg_conflicts_with(argument) {
                     let name = |argument: &clap::Arg| match argument.get_long() {
                         Some(long) => format!("--{long}"),
-                        None => format!("<{}>", argument.get_value_names().unwrap_or_default().join(" ")),
+                        None => argument.get_value_names().unwrap_or_default().join(" "),
                     };
                     let (one, other) = (name(argument), name(other));
                     assert_ne!(
@@ -115,13 +89,13 @@ mod tests {
     #[test]
     fn a_fact_beside_an_experiment_file_is_told_its_place() {
         let words = ["hovertone", "identify", "bench.toml"].map(OsString::from);
-        let advised = advice("[EXPERIMENT.toml]", "--latitude-deg", &words);
+        let advised = advice(EXPERIMENT, "--latitude-deg", &words);
         assert!(
             advised.starts_with("write it into the experiment file, as latitude_deg in [vehicle]; or"),
             "{advised}"
         );
-        assert!(advice("--vehicle", "[EXPERIMENT.toml]", &words).contains("as preset in [vehicle]"));
-        assert!(advice("[EXPERIMENT.toml]", "--vehicle", &words[..2]).starts_with("recordings without"));
-        assert!(advice("[EXPERIMENT.toml]", "--mass", &words).starts_with("recordings without"));
+        assert!(advice("--vehicle", EXPERIMENT, &words).contains("as preset in [vehicle]"));
+        assert!(advice(EXPERIMENT, "--vehicle", &words[..2]).starts_with("recordings without"));
+        assert!(advice(EXPERIMENT, "--mass", &words).starts_with("recordings without"));
     }
 }

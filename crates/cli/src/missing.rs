@@ -1,6 +1,6 @@
 //! What a command needs and was not given, in words.
 
-use crate::see_help::typed_command;
+use crate::see_help::{is_typed, typed_command};
 use std::ffi::OsString;
 
 /// An argument of a command, and what to call it.
@@ -80,10 +80,8 @@ const ALL_BESIDE: [NeededBeside; 7] = [
 /// "--log-axes needs the log too: --log FILE".
 fn missing_beside(words: &[OsString], arguments: &[String]) -> Option<String> {
     let is_missing = |beside: &&NeededBeside| arguments.iter().any(|argument| argument == beside.argument);
-    let typed =
-        |flag: &&str| words.iter().filter_map(|word| word.to_str()).any(|word| word.split('=').next() == Some(flag));
     ALL_BESIDE.iter().filter(is_missing).find_map(|beside| {
-        let flag = beside.flags.iter().copied().find(typed)?;
+        let flag = beside.flags.iter().find(|flag| is_typed(words, flag))?;
         Some(format!("{flag} needs {}", beside.words))
     })
 }

@@ -5,7 +5,7 @@ use crate::conflicts::advice;
 use crate::failure::Failure;
 use crate::missing::missing_in_words;
 use crate::nearest::nearest;
-use crate::see_help::{example_and_help, typed_command};
+use crate::see_help::{example_and_help, is_typed, typed_command};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, CommandFactory, FromArgMatches};
 use hovertone_report::printable;
@@ -77,9 +77,8 @@ impl Misuse {
                     let hint = Some("give it once".to_owned());
                     return Self { what: format!("{name} is given more than once"), hint };
                 }
-                let hint = advice(&name, &other, words);
-                let [name, other] = [name, other].map(|argument| argument.trim_matches(['[', ']', '.']).to_owned());
-                Self { what: format!("{name} cannot be used with {other}"), hint: Some(hint) }
+                let [name, other] = [&name, &other].map(|argument| argument.trim_matches(['[', ']', '.']));
+                Self { what: format!("{name} cannot be used with {other}"), hint: Some(advice(name, other, words)) }
             }
             ErrorKind::MissingRequiredArgument => {
                 let arguments = match error.get(ContextKind::InvalidArg) {
@@ -151,8 +150,7 @@ impl Misuse {
     /// A word without a flag behind `listen`: most probably the name of a recording.
     fn of_recording_alone(name: &str, words: &[OsString]) -> Self {
         let flag = "--from-file";
-        let is_given = |word: &OsString| word.to_str().is_some_and(|word| word.split('=').next() == Some(flag));
-        if words.iter().any(is_given) {
+        if is_typed(words, flag) {
             let hint = Some(format!("leave \"{name}\" out"));
             return Self { what: format!("\"{name}\": listen hears one recording at a time"), hint };
         }

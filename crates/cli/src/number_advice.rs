@@ -1,6 +1,6 @@
 //! What to do about a number that is out of its range.
 
-use crate::see_help::{see_help, typed_command};
+use crate::see_help::{argument_of, see_help, typed_command};
 use std::ffi::OsString;
 
 /// Ends of names, and what a number of that name is in.
@@ -22,19 +22,14 @@ const UNITS: [(&str, &str); 15] = [
     ("_c", "in degrees Celsius"),
 ];
 
-/// "correct --window-s, in seconds: see …", where the name is that of a typed flag or of a key in a file.
+/// "correct --window-s, in seconds: see …", where the name is that of a flag of the command, or of a key in a file.
 pub(crate) fn correct_number(name: &str, words: &[OsString]) -> String {
     let name = name.rsplit('.').next().unwrap_or(name).trim_start_matches('-').replace('-', "_");
     let flag = format!("--{}", name.replace('_', "-"));
-    let is_typed = words.iter().filter_map(|word| word.to_str()).any(|word| word.split('=').next() == Some(&flag));
-    let is_flag = is_typed || typed_command(words).is_some_and(|command| has_flag(&command, &flag));
+    let is_flag = typed_command(words).is_some_and(|command| argument_of(&command, &flag).is_some());
     let place = if is_flag { flag } else { name.clone() };
     let unit = UNITS.iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| format!(", {unit}"));
     format!("correct {place}{}: {}", unit.unwrap_or_default(), see_help(words))
-}
-
-fn has_flag(command: &clap::Command, flag: &str) -> bool {
-    command.get_arguments().filter_map(clap::Arg::get_long).any(|long| flag.strip_prefix("--") == Some(long))
 }
 
 #[cfg(test)]

@@ -40,10 +40,16 @@ fn purpose_of(command: &Command, flag: &str) -> Option<String> {
     ))
 }
 
-fn argument_of<'a>(command: &'a Command, flag: &str) -> Option<&'a Arg> {
+/// The argument of a command that is given by this flag.
+pub(crate) fn argument_of<'a>(command: &'a Command, flag: &str) -> Option<&'a Arg> {
     command
         .get_arguments()
         .find(|argument| argument.get_long().is_some_and(|long| flag.strip_prefix("--") == Some(long)))
+}
+
+/// Whether a flag is among the words, alone or as in --flag=value.
+pub(crate) fn is_typed(words: &[OsString], flag: &str) -> bool {
+    words.iter().filter_map(|word| word.to_str()).any(|word| word.split('=').next() == Some(flag))
 }
 
 /// The command that is typed, if there is one of that name.

@@ -142,7 +142,7 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
     let other_agrees = |warning: &&Warning| match (warning, reference) {
         (Warning::FitsElsewhere(other), Reference::Speed { rpm, .. }) => {
             let is_named = comparison.as_ref().is_some_and(|it| it.fits_order(f64::from(other.blades)));
-            (60.0 * other.speed_rev_s / rpm - 1.0).abs() < SAME_SPEED_SHARE && !is_named
+            (RotorSpeed::from_rev_s(other.speed_rev_s).rpm() / rpm - 1.0).abs() < SAME_SPEED_SHARE && !is_named
         }
         _ => false,
     };
