@@ -7,6 +7,7 @@
 use super::labellings::{Labellings, UNCHANGED};
 use super::loudness::{Levels, Sides, level_cost, sides_of_frames};
 use super::pace::Pace;
+use hovertone_signal::statistics::median;
 
 /// Standard deviation of the speed of a rotor from the one that its last speed and slopes predict, as a share of the speed. *Decision.*
 const STEP_STD_SHARE: f64 = 0.0008;
@@ -57,21 +58,15 @@ pub(super) struct Identity {
 }
 
 impl Identity {
-    /// For each frame, the track of each rotor. Two tracks that are closer than `resolution_rev_s` may lie there in place of each other.
-    pub(super) fn labelled(
-        &mut self,
-        tracks: &[Vec<TrackFrame>],
-        frame_s: f64,
-        pace: Pace,
-        resolution_rev_s: f64,
-    ) -> Labelling {
+    /// For each frame, the track of each rotor.
+    pub(super) fn labelled(&mut self, tracks: &[Vec<TrackFrame>], steps: &Steps) -> Labelling {
+        let frame_s = steps.frame_s;
         let count = tracks.len();
         let frames = tracks.iter().map(Vec::len).min().unwrap_or(0);
         if frames == 0 {
             return Labelling::default();
         }
         let labellings = Labellings::of(count);
-        let steps = Steps { frame_s, pace, resolution_rev_s };
         let mut path = vec![UNCHANGED; frames];
         let rotors_of = |path: &[usize]| -> Vec<Vec<&TrackFrame>> {
             let of_frame = |(frame, &place): (usize, &usize)| {
@@ -85,7 +80,7 @@ impl Identity {
             } else {
                 self.sides(&rotors_of(&path), frame_s, pass > 0).iter().map(Sides::expected).collect()
             };
-            let before = std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &expected, &steps));
+            let before = std::mem::replace(&mut path, self.best_sequence(tracks, &labellings, &expected, steps));
             // the next pass would expect the same levels
             if pass > 0 && path == before {
                 break;
@@ -93,7 +88,7 @@ impl Identity {
         }
         let rotors = rotors_of(&path);
         let sides = self.sides(&rotors, frame_s, true);
-        let meetings = self.meetings(&rotors, &sides, &steps);
+        let meetings = self.meetings(&rotors, &sides, steps);
         let known = sides.last().map(Sides::expected);
         if let (Some(last), Some(known)) = (rotors.last(), known) {
             self.last = last.iter().map(|&frame| frame.clone()).collect();
@@ -108,7 +103,7 @@ impl Identity {
         let mut meetings = Vec::new();
         let mut before: Vec<&TrackFrame> = self.last.iter().collect();
         for (frame, now) in rotors.iter().enumerate() {
-            let costs = steps.costs(&before, now);
+            let costs = steps.costs(frame, &before, now);
             for (a, own) in costs.iter().enumerate() {
                 for b in a + 1..costs.len().min(now.len()) {
                     let of_steps = own[b] + costs[b][a] - own[a] - costs[b][b];
@@ -149,7 +144,7 @@ impl Identity {
                 .iter()
                 .map(|expected| now.iter().map(|it| level_cost(&it.levels, expected, steps.frame_s)).collect())
                 .collect();
-            let steps = steps.costs(&before, &now).concat();
+            let steps = steps.costs(frame, &before, &now).concat();
             let levels = labellings.costs(&level_costs);
             let mut origin = vec![0; labellings.all.len()];
             let mut next = vec![0.0; labellings.all.len()];
@@ -181,16 +176,28 @@ impl Identity {
 }
 
 /// How rotors go from one frame to the next.
-struct Steps {
-    frame_s: f64,
-    pace: Pace,
-    resolution_rev_s: f64,
+pub(super) struct Steps {
+    pub(super) frame_s: f64,
+    pub(super) pace: Pace,
+    /// Two tracks that are closer may lie in place of each other.
+    pub(super) resolution_rev_s: f64,
+    /// How long nothing was listened to before the first frame.
+    pub(super) gap_s: f64,
 }
 
 impl Steps {
-    /// What it costs each rotor of one frame to be each track of the next. Where rotors bob, that is by how it moves against the others: what
-    /// they share changes by more from frame to frame than they are apart.
-    fn costs(&self, before: &[&TrackFrame], now: &[&TrackFrame]) -> Vec<Vec<f64>> {
+    /// What it costs each rotor before a frame to be each track in it.
+    fn costs(&self, frame: usize, before: &[&TrackFrame], now: &[&TrackFrame]) -> Vec<Vec<f64>> {
+        if frame == 0 && self.gap_s > self.frame_s {
+            self.costs_after_gap(before, now)
+        } else {
+            self.costs_of_step(before, now)
+        }
+    }
+
+    /// From one frame to the next. Where rotors bob, it costs by how a rotor moves against the others: what they share changes by more from frame
+    /// to frame than they are apart.
+    fn costs_of_step(&self, before: &[&TrackFrame], now: &[&TrackFrame]) -> Vec<Vec<f64>> {
         let shared = |value: fn(&TrackFrame) -> f64, frames: &[&TrackFrame]| match self.pace {
             Pace::Steady => 0.0,
             Pace::Bobbing => frames.iter().map(|frame| value(frame)).sum::<f64>() / frames.len() as f64,
@@ -201,20 +208,39 @@ impl Steps {
             let slope_rev_s2_max = SLOPE_SHARE_S_MAX * frame.speed_rev_s;
             own.clamp(-slope_rev_s2_max, slope_rev_s2_max)
         };
-        before
-            .iter()
-            .map(|from| {
-                now.iter()
-                    .map(|to| {
-                        let own_step = self.frame_s * (slope(from, before) + slope(to, now)) / 2.0;
-                        let expected = from.speed_rev_s + shared_step + own_step;
-                        let std_rev_s = (STEP_STD_SHARE * expected).hypot(self.resolution_rev_s);
-                        let deviation = (to.speed_rev_s - expected) / std_rev_s;
-                        STEP_COST * (deviation.powi(2) / STEP_COST).ln_1p()
-                    })
-                    .collect()
-            })
-            .collect()
+        let expected_rev_s = |from: &TrackFrame, to: &TrackFrame| {
+            from.speed_rev_s + shared_step + self.frame_s * (slope(from, before) + slope(to, now)) / 2.0
+        };
+        self.costs_of(before, now, expected_rev_s, STEP_STD_SHARE)
+    }
+
+    /// Over a gap, such as a manoeuvre or a new load. The vehicle may have changed the speeds of all rotors in one ratio, which their order of speed
+    /// tells; what each did by itself is a random walk, and slopes predict nothing.
+    fn costs_after_gap(&self, before: &[&TrackFrame], now: &[&TrackFrame]) -> Vec<Vec<f64>> {
+        let sorted = |frames: &[&TrackFrame]| {
+            let mut speeds: Vec<f64> = frames.iter().map(|frame| frame.speed_rev_s).collect();
+            speeds.sort_by(f64::total_cmp);
+            speeds
+        };
+        let ratios: Vec<f64> = sorted(now).iter().zip(sorted(before)).map(|(now, before)| now / before).collect();
+        let ratio = median(&ratios).unwrap_or(1.0);
+        let std_share = STEP_STD_SHARE * (self.gap_s / self.frame_s).sqrt();
+        self.costs_of(before, now, |from, _| ratio * from.speed_rev_s, std_share)
+    }
+
+    fn costs_of(
+        &self,
+        before: &[&TrackFrame],
+        now: &[&TrackFrame],
+        expected_rev_s: impl Fn(&TrackFrame, &TrackFrame) -> f64,
+        std_share: f64,
+    ) -> Vec<Vec<f64>> {
+        let cost = |from: &TrackFrame, to: &TrackFrame| {
+            let expected = expected_rev_s(from, to);
+            let deviation = (to.speed_rev_s - expected) / (std_share * expected).hypot(self.resolution_rev_s);
+            STEP_COST * (deviation.powi(2) / STEP_COST).ln_1p()
+        };
+        before.iter().map(|from| now.iter().map(|to| cost(from, to)).collect()).collect()
     }
 }
 
@@ -224,6 +250,10 @@ mod tests {
 
     fn frame(speed_rev_s: f64, level: f64) -> TrackFrame {
         TrackFrame { speed_rev_s, levels: vec![Some(level), Some(-level)], ..TrackFrame::default() }
+    }
+
+    fn steps(pace: Pace, gap_s: f64) -> Steps {
+        Steps { frame_s: 0.04, pace, resolution_rev_s: 0.0, gap_s }
     }
 
     #[test]
@@ -242,14 +272,14 @@ mod tests {
             })
             .collect();
         let mut identity = Identity::default();
-        let labelled = identity.labelled(&tracks, 0.04, Pace::Steady, 0.0).tracks;
+        let labelled = identity.labelled(&tracks, &steps(Pace::Steady, 0.0)).tracks;
         assert!(labelled[..10].iter().all(|labelling| labelling == &labelled[0]));
         assert!(labelled[10..].iter().all(|labelling| labelling == &labelled[10]));
         assert_eq!(labelled[0][0], labelled[10][1]);
         assert_eq!(labelled[0][2], labelled[10][2]);
         // what comes next keeps the names, whatever the order of the tracks
         let turned: Vec<Vec<TrackFrame>> = [2, 0, 1].iter().map(|&track| tracks[track][10..].to_vec()).collect();
-        let next = identity.labelled(&turned, 0.04, Pace::Steady, 0.0).tracks;
+        let next = identity.labelled(&turned, &steps(Pace::Steady, 0.0)).tracks;
         let of_before = |rotor: usize| tracks[labelled[29][rotor]][29].speed_rev_s;
         assert!((0..3).all(|rotor| turned[next[0][rotor]][0].speed_rev_s == of_before(rotor)));
     }
@@ -263,8 +293,20 @@ mod tests {
             .enumerate()
             .map(|(rotor, speed_rev_s)| (0..200).map(|index| frame(speed_rev_s, loud(rotor, index))).collect())
             .collect();
-        let labelled = Identity::default().labelled(&tracks, 0.04, Pace::Steady, 0.0).tracks;
+        let labelled = Identity::default().labelled(&tracks, &steps(Pace::Steady, 0.0)).tracks;
         assert!(labelled.iter().all(|labelling| labelling == &labelled[0]));
+    }
+
+    #[test]
+    fn rotors_keep_their_names_where_all_turn_faster_after_a_gap() {
+        let track = |speed_rev_s: f64| vec![frame(speed_rev_s, 0.0); 20];
+        let mut identity = Identity::default();
+        identity.labelled(&[97.1, 103.3, 106.7, 109.9].map(track), &steps(Pace::Steady, 0.0));
+        // the slowest one is now where the fastest one was
+        let faster = [125.3, 110.7, 121.6, 117.8].map(track);
+        let after = identity.labelled(&faster, &steps(Pace::Steady, 5.0));
+        assert!(after.tracks.iter().all(|labels| labels == &[1, 3, 2, 0]), "{:?}", after.tracks);
+        assert!(after.meetings.iter().all(|meeting| meeting.chance < 0.2), "{:?}", after.meetings);
     }
 
     #[test]
@@ -278,13 +320,13 @@ mod tests {
             })
             .collect();
         let mut identity = Identity::default();
-        let labelled = identity.labelled(&tracks, 0.04, Pace::Bobbing, 0.0).tracks;
+        let labelled = identity.labelled(&tracks, &steps(Pace::Bobbing, 0.0)).tracks;
         let rotor = |place: usize, index: usize| (labelled[index][place] + index) % 3;
         assert!((0..3).all(|place| (0..40).all(|index| rotor(place, index) == rotor(place, 0))));
         // and where they are steady again, from where they were
         let steady =
             |track: usize| vec![TrackFrame { speed_rev_s: tracks[track][39].speed_rev_s, ..TrackFrame::default() }; 5];
-        let next = identity.labelled(&[steady(2), steady(0), steady(1)], 0.04, Pace::Steady, 0.0).tracks;
+        let next = identity.labelled(&[steady(2), steady(0), steady(1)], &steps(Pace::Steady, 0.0)).tracks;
         assert!((0..3).all(|place| [2, 0, 1][next[4][place]] == labelled[39][place]));
     }
 }

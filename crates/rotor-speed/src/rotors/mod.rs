@@ -42,7 +42,7 @@ use hovertone_analysis::Span;
 use hovertone_signal::channels::ChannelBand;
 use hovertone_signal::fft::ComplexPlanner;
 use hovertone_signal::statistics::median;
-use identity::{Identity, Labelling, TrackFrame};
+use identity::{Identity, Labelling, Steps, TrackFrame};
 use pace::Pace;
 use spectra::FRAME_TICKS;
 use std::ops::RangeInclusive;
@@ -89,6 +89,8 @@ pub(crate) struct RotorTracer {
     steady_resolution_rev_s: f64,
     planner: ComplexPlanner,
     identity: Identity,
+    /// End of the sound that was listened to so far.
+    heard_to_s: f64,
     histories: Histories,
     rough: std::vec::IntoIter<RoughChunk>,
     tracks: RotorTracks,
@@ -206,6 +208,7 @@ impl RotorTracer {
             steady_resolution_rev_s,
             planner: ComplexPlanner::new(),
             identity: Identity::default(),
+            heard_to_s: 0.0,
             histories: Histories::of(rough.count),
             tracks: RotorTracks {
                 rotors: vec![rotor; rough.count],
@@ -268,8 +271,11 @@ impl ChunkListener for RotorTracer {
         let frame_s = FRAME_TICKS as f64 * tick_s;
         let frames: Vec<Vec<TrackFrame>> = heard.iter().map(|rotor| rotor.frames(tick_s)).collect();
         let resolution_rev_s = self.steady_resolution_rev_s * rough.pace.shorter();
-        let Labelling { tracks: labelling, meetings } =
-            self.identity.labelled(&frames, frame_s, rough.pace, resolution_rev_s);
+        let Labelling { tracks: labelling, meetings } = self.identity.labelled(
+            &frames,
+            &Steps { frame_s, pace: rough.pace, resolution_rev_s, gap_s: start_s - self.heard_to_s },
+        );
+        self.heard_to_s = start_s + length_s;
         let of = |rotor: usize, frame: usize| &frames[labelling[frame][rotor]][frame];
         let speeds: Vec<Vec<f64>> = (0..heard.len())
             .map(|rotor| (0..labelling.len()).map(|frame| of(rotor, frame).speed_rev_s).collect())

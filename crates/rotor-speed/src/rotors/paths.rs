@@ -1,6 +1,6 @@
 //! Tracks of several rotors, speeds in each frame, and the paths through them.
 
-use super::identity::{Identity, TrackFrame};
+use super::identity::{Identity, Steps, TrackFrame};
 use super::pace::Pace;
 use super::spectra::{FRAME_TICKS, frame_middle_ticks};
 use crate::harmonic::chunks::Chunk;
@@ -44,7 +44,8 @@ pub(super) fn continuous_paths(speeds_rev_s: &[Vec<f64>], pace: Pace, chunk: &Ch
         .iter()
         .map(|track| track.iter().map(|&speed_rev_s| TrackFrame { speed_rev_s, ..TrackFrame::default() }).collect())
         .collect();
-    let labelling = Identity::default().labelled(&frames, frame_s, pace, 0.0).tracks;
+    let steps = Steps { frame_s, pace, resolution_rev_s: 0.0, gap_s: 0.0 };
+    let labelling = Identity::default().labelled(&frames, &steps).tracks;
     (0..speeds_rev_s.len())
         .filter_map(|rotor| {
             path_through(labelling.iter().enumerate().map(|(frame, labels)| speeds_rev_s[labels[rotor]][frame]), chunk)
