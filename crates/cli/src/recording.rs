@@ -11,7 +11,7 @@ use hovertone::motors::{
 };
 use hovertone::rotors::SpinUp;
 use hovertone::sound::{LineFrequency, Passes, line_frequency};
-use hovertone::speed::{Config, NoTone, passes_of_speed};
+use hovertone::speed::{Config, NoTone, OtherRotor, better_rotor_from_passes, passes_of_speed};
 use hovertone::tones::{Meaning, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
 use hovertone_media::Recording;
@@ -148,6 +148,23 @@ fn guess_in_words(meaning: Meaning) -> Option<Notice> {
         "the number of blades is not known: the speeds belong to a propeller with {blades} blades, which the sound suggests"
     );
     Some(Notice::new(what, "count the blades and give --blades N; the time constants are the same for any number"))
+}
+
+/// A rotor that the settings leave out, and that fits the sound far better.
+pub(crate) fn better_rotor(
+    path: &Path,
+    config: &Config,
+    hearing: Hearing,
+    progress: &Progress,
+) -> Result<Option<OtherRotor>, Failure> {
+    let failed = |what: String| Failure::failed(what, "give another recording", path);
+    let mut recording = Recording::open(path, &hearing.open_options()).map_err(|error| failed(error.to_string()))?;
+    let mut share = progress.recording();
+    let mut on_progress = progress_of(&recording, |done| share.show(done));
+    Passes::planned(&mut recording, 1, &mut on_progress)
+        .map_err(hovertone::speed::Error::from)
+        .and_then(|mut passes| better_rotor_from_passes(&mut passes, config))
+        .map_err(|error| failed(error.to_string()))
 }
 
 /// The lines of all rotors of a recording, in a range of shaft speeds.

@@ -30,7 +30,7 @@ pub use combined::CombinedEstimate;
 pub use config::MotorConfig;
 pub use grey_box::*;
 pub use listening::{
-    HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, speeds_along,
+    HeardLines, LineOrders, SoundConfig, SoundFit, grey_box_from_sound, lines_from_passes, log_offset_s, speeds_along,
 };
 pub use load::LoadTerm;
 pub use motor::{MotorConstants, MotorModel, constants_of, motor_from_series};

@@ -127,8 +127,8 @@ pub mod speed {
     pub use hovertone_rotor_speed::{
         BudgetConfig, ComparedSpeed, Config, Error, EvidenceNear, HoverConfig, HoverPart, HoverRotors, LinesNear,
         NoiseLevel, OrderLevel, RidgeConfig, RotorsConfig, SampleConfig, SpanConfig, SpectrogramConfig, Surveyed,
-        ToneConfig, evidence_near, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source,
-        speed_from_survey, survey_from_passes,
+        ToneConfig, better_rotor_from_passes, evidence_near, passes_of_speed, rotors_from_survey, speed_from_passes,
+        speed_from_source, speed_from_survey, survey_from_passes,
     };
 }
 

@@ -7,6 +7,7 @@ use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
 use crate::version::VERSION;
+use hovertone_analysis::{OtherRotor, Warning};
 use hovertone_dynamics::{Advice, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
 use hovertone_vehicle::{Axis, Estimate, RotorSpeed};
 use serde::Serialize;
@@ -31,6 +32,10 @@ pub struct GreyBoxRecord {
     pub slope_v_s_rad: f64,
     /// Names of the rotors' places, in the order of their numbers.
     pub places: [&'static str; 4],
+    /// By how much the sound has moved the clock of the log, s.
+    pub log_moved_s: f64,
+    /// A rotor of another vehicle that fits the sound far better.
+    pub better: Option<OtherRotor>,
     /// Loss of likelihood by the best swap of two names, nats; absent for logged speeds.
     pub names_nats: Option<f64>,
     /// C_τ, or why not.
@@ -50,6 +55,8 @@ pub struct CheckedFlight {
     pub recording: Option<String>,
     /// Its log.
     pub log: String,
+    /// By how much the sound has moved the clock of its log, s.
+    pub log_moved_s: f64,
     /// The result; `None` where no speed was certain enough.
     pub result: Option<Checked>,
 }
@@ -95,7 +102,17 @@ pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
     let torque = torque_line(&record.torque_constant).trim_end().to_owned();
     let checks = check_lines(record);
     let checks = checks.lines().map(str::to_owned);
-    [trust(record).to_owned(), torque, rank_line(record)].into_iter().chain(checks).chain(advice).collect()
+    let moved = moved_in_words(&record.log, record.log_moved_s);
+    [trust(record).to_owned(), torque, rank_line(record)].into_iter().chain(moved).chain(checks).chain(advice).collect()
+}
+
+/// That the clock of a log was moved; `None` where it was right.
+fn moved_in_words(log: &str, moved_s: f64) -> Option<String> {
+    let by = if moved_s < 0.0 { "earlier" } else { "later" };
+    let is_moved = moved_s != 0.0;
+    is_moved.then(|| {
+        format!("the clock of {} was set {:.2} s {by}: there the sound follows it", printable(log), moved_s.abs())
+    })
 }
 
 /// Volts are by the vehicle's motor: the sound holds a gain times the speed per volt.
@@ -162,10 +179,11 @@ fn torque_line(constant: &TorqueConstant) -> String {
 
 fn rank_line(record: &GreyBoxRecord) -> String {
     let information = &record.fit.information;
-    let rank = if information.rank == information.parameters {
-        format!("the flight identifies all {} parameters", information.parameters)
-    } else {
-        format!("the flight identifies {} of {} combinations of parameters", information.rank, information.parameters)
+    let told = record.fit.std_uncertainty.iter().flatten().count();
+    let of_all = format!("the flight tells {told} of the {} parameters", information.parameters);
+    let rank = match information.rank {
+        rank if rank < information.parameters => format!("{of_all}; its information holds only {rank} combinations"),
+        _ => of_all,
     };
     let names = match record.names_nats {
         Some(nats) if nats < NAMES_NATS_MIN => "; the names of two rotors may be swapped",
@@ -187,6 +205,7 @@ fn check_lines(record: &GreyBoxRecord) -> String {
     };
     let mut text = record.fitted.as_ref().map_or(String::new(), |fitted| format!("on this flight: {}\n", line(fitted)));
     if let Some(other) = &record.other_flight {
+        text += &moved_in_words(&other.log, other.log_moved_s).map_or(String::new(), |words| words + "\n");
         let name = printable(other.recording.as_deref().unwrap_or(&other.log));
         text += &match &other.result {
             Some(result) => format!("on {name}, not used for the fit: {}\n", line(result)),
@@ -211,10 +230,11 @@ struct GreyBoxLine<'a> {
     condition: f64,
     correlations: Vec<CorrelationLine>,
     names_nats: Option<f64>,
+    log_moved_s: f64,
     advice: Vec<AdviceLine<'a>>,
     rms_share: Option<f64>,
     check: Option<CheckLine<'a>>,
-    warnings: [&'static str; 1],
+    warnings: Vec<String>,
     version: &'static str,
 }
 
@@ -268,6 +288,7 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
         second: pair.second.name(),
         correlation: pair.correlation,
     };
+    let better = record.better.map(|better| Warning::FitsElsewhere(better).to_string());
     let line = GreyBoxLine {
         recording: record.recording.as_deref(),
         log: &record.log,
@@ -297,6 +318,7 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
         rank: fit.information.rank,
         condition: fit.information.condition,
         correlations: fit.information.correlations.iter().map(correlation).collect(),
+        log_moved_s: record.log_moved_s,
         names_nats: record.names_nats.filter(|nats| nats.is_finite()),
         advice: record.advice.iter().map(|advice| AdviceLine { what: &advice.what, hint: &advice.hint }).collect(),
         rms_share: record.fitted.map(|fitted| fitted.rms_share),
@@ -307,7 +329,7 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
             change_share: other.result.map(|result| result.change_share),
             compared_share: other.result.map(|result| result.compared_share),
         }),
-        warnings: [trust(record)],
+        warnings: std::iter::once(trust(record).to_owned()).chain(better).collect(),
         version: VERSION,
     };
     serde_json::to_string(&line)

@@ -29,8 +29,8 @@ pub use evidence::{EvidenceConfig, LinesNear, NoiseLevel, OrderLevel};
 pub use exam::{ComparedSpeed, EvidenceNear, evidence_near};
 pub use hover::{HoverConfig, HoverPart};
 pub use pipeline::{
-    HoverRotors, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source, speed_from_survey,
-    survey_from_passes,
+    HoverRotors, better_rotor_from_passes, passes_of_speed, rotors_from_survey, speed_from_passes, speed_from_source,
+    speed_from_survey, survey_from_passes,
 };
 pub use quick_track::{
     PASSES_OF_QUICK_TRACK, QuickStretch, QuickTrack, SpeedPath, held_spans_from_passes, quick_track_along,

@@ -7,7 +7,7 @@ use crate::stages::{
     lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
 };
 use crate::tone::search_range_rev_s;
-use hovertone_analysis::{Hover, Method, RotorEstimate, SpeedAnalysis};
+use hovertone_analysis::{Hover, Method, OtherRotor, RotorEstimate, SpeedAnalysis};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
 
@@ -110,6 +110,16 @@ pub fn rotors_from_survey(passes: &mut Passes<'_>, surveyed: &Surveyed, config: 
     let hover = hover_from_candidate(surveyed, &candidates, candidates.leading_rev_s, config);
     let tracks = rotors_from_hover(passes, surveyed, &hover, candidates.leading_rev_s, config)?;
     Ok(HoverRotors { rotors: tracks.rotors(config.tone.order, &config.budget), hover })
+}
+
+/// A rotor that something known leaves out, such as the vehicle, and whose lines are far more probable than those of a rotor as said. One pass.
+///
+/// # Errors
+/// As [`speed_from_source`].
+pub fn better_rotor_from_passes(passes: &mut Passes<'_>, config: &Config) -> Result<Option<OtherRotor>, Error> {
+    let surveyed = survey_from_passes(passes, config)?;
+    let candidates = candidates_from_survey(&surveyed, passes.sample_rate_hz(), config);
+    Ok(candidates.ok().and_then(|candidates| candidates.better))
 }
 
 /// A hover and the rotors that were separated in it.

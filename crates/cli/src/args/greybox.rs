@@ -33,7 +33,7 @@ pub(crate) struct GreyBoxArguments {
     /// Mass as flown, in kg or as 413g [default: the vehicle's]
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Time to add to the log's clock to get that of the recording, in s, right to 0.05 s [default: 0]
+    /// Time to add to the log's clock to get that of the recording, in s, right to 10 s: the sound tells the rest [default: 0]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = clock_offset_s)]
     pub(crate) log_offset_s: Option<f64>,
     /// Axes of the log: flu (x forward, y left, z up) or frd (y right, z down) [default: flu]

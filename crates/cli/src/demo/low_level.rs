@@ -4,7 +4,7 @@
 use crate::args::DemoArguments;
 use crate::failure::{Ending, Failure};
 use crate::greybox::{
-    FlightFiles, FlownLog, GreyBoxVehicle, fit_of, record_of, scenario_file, scenario_toml, speeds_of,
+    FlightFiles, FlownLog, GreyBoxVehicle, OtherFlight, fit_of, record_of, scenario_file, scenario_toml, speeds_of,
 };
 use crate::identify::page_line;
 use crate::output_folder::{FolderContent, OutputFolder};
@@ -54,11 +54,12 @@ pub(super) fn run(arguments: &DemoArguments, terminal: &mut Terminal) -> Result<
     let vehicle = GreyBoxVehicle::find(PRESET, None)?;
     let progress = Progress::new("listening", 2, !arguments.no_progress);
     let [fit_files, check_files] = [FIT_FLIGHT, CHECK_FLIGHT].map(|name| files_of(folder, name));
-    let [fit_log, check_log] = [read(&fit_files, &vehicle)?, read(&check_files, &vehicle)?];
-    let heard = fit_of(&fit_files, &fit_log, &vehicle, Hearing::default(), &progress)?;
-    let other = speeds_of(&check_files, &check_log, &heard, &vehicle, Hearing::default(), &progress)?;
+    let [mut fit_log, mut check_log] = [read(&fit_files, &vehicle)?, read(&check_files, &vehicle)?];
+    let heard = fit_of(&fit_files, &mut fit_log, &vehicle, Hearing::default(), &progress)?;
+    let other = speeds_of(&check_files, &mut check_log, &heard, &vehicle, Hearing::default(), &progress)?;
     progress.finish();
-    let record = record_of(&fit_files, &fit_log, &heard, &vehicle, Some((&check_files, &other)));
+    let compared = OtherFlight { files: &check_files, speeds: &other, moved_s: check_log.moved_s };
+    let record = record_of(&fit_files, &fit_log, &heard, &vehicle, Some(compared));
     let own = heard.speeds(&fit_log);
     let drawn = |observations, prediction, name: &str, title: &str| {
         named_figure(&DrawnSpeeds { observations, prediction, places: record.places }, name, title)

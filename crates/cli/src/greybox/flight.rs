@@ -5,22 +5,27 @@ use crate::failure::Failure;
 use crate::inputs::open_stream;
 use crate::log::{THE_LOG, log_failure};
 use crate::progress::Progress;
-use crate::recording::{Hearing, lines_of};
+use crate::recording::{Hearing, better_rotor, lines_of};
 use crate::vehicles::not_in_flight_model;
+use hovertone::speed::{Config, OtherRotor};
 use hovertone_dynamics::{
     ControlKnowns, ControlLog, GreyBoxConfig, GreyBoxFit, GreyBoxModel, GreyBoxStop, HeardLines, LineOrders,
-    LoopInputs, MotorVolts, SoundConfig, SpeedObservation, SpeedPrediction, grey_box_from_sound, grey_box_from_speeds,
-    observations_of_rows, speeds_along,
+    LoopInputs, MotorVolts, SoundConfig, SoundFit, SpeedObservation, SpeedPrediction, grey_box_from_sound,
+    grey_box_from_speeds, log_offset_s, observations_of_rows, speeds_along,
 };
 use hovertone_logs::{ColumnNames, LoggedControl, MissingControl, RateAxes, control_from_log};
 use hovertone_report::Notice;
 use hovertone_vehicle::{
-    FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, find_flight_parameters, find_preset,
+    FlightParameters, GRAVITY_STANDARD_M_S2, KnownRotor, RotorSpeed, SaidOfVehicle, Vehicle, find_flight_parameters,
+    find_preset,
 };
+use hovertone_workflow::Said;
 use std::path::{Path, PathBuf};
 
 /// Standard uncertainty of a logged speed as a share: half of the last digit of most telemetry. *Decision*: larger errors count as wander.
 const LOGGED_STD_SHARE: f64 = 2e-4;
+/// A clock that is so near is right: the delays of the model hold the rest, s. *Decision.*
+const CLOCK_RIGHT_S: f64 = 0.051;
 /// Beyond the range that the vehicle's numbers predict, the rotors are sought by this share. *Decision.*
 const RANGE_SHARE: f64 = 0.15;
 
@@ -55,6 +60,7 @@ pub(crate) struct GreyBoxVehicle {
     pub(crate) parameters: FlightParameters,
     pub(crate) mass_kg: f64,
     pub(crate) orders: LineOrders,
+    preset: &'static Vehicle,
 }
 
 impl GreyBoxVehicle {
@@ -69,7 +75,7 @@ impl GreyBoxVehicle {
         KnownRotor { mass_kg, ..KnownRotor::default() }.check()?;
         preset.check_said(&SaidOfVehicle { mass_kg, is_hovering: true, ..SaidOfVehicle::default() })?;
         let orders = LineOrders::of(preset).ok_or_else(unknown)?;
-        Ok(Self { mass_kg: mass_kg.unwrap_or(parameters.mass_kg.value), parameters, orders })
+        Ok(Self { mass_kg: mass_kg.unwrap_or(parameters.mass_kg.value), parameters, orders, preset })
     }
 
     pub(crate) fn id(&self) -> &'static str {
@@ -78,6 +84,12 @@ impl GreyBoxVehicle {
 
     pub(crate) fn start(&self) -> GreyBoxModel {
         GreyBoxModel::of(&self.parameters, self.mass_kg, GRAVITY_STANDARD_M_S2)
+    }
+
+    /// The settings with which its rotors are heard in a hover.
+    fn config(&self) -> Result<Config, Failure> {
+        let said = Said { vehicle: Some(self.preset), mass_kg: Some(self.mass_kg), ..Said::default() };
+        Ok(said.settings()?.0)
     }
 
     pub(crate) fn slope_v_s_rad(&self, fit: &GreyBoxFit) -> f64 {
@@ -92,6 +104,8 @@ pub(crate) struct FlownLog {
     /// Logged speeds, rad/s, of all four rotors.
     pub(crate) speeds_rad_s: Option<[Vec<f64>; 4]>,
     pub(crate) loss: Option<String>,
+    /// By how much the sound has moved the clock of the log, s; 0 where the given one is right.
+    pub(crate) moved_s: f64,
     /// The loops that are left out, since the log lacks a signal.
     pub(crate) left_out: Vec<Notice>,
 }
@@ -122,7 +136,18 @@ impl FlownLog {
             return Err(without_loops(&control.missing, path));
         }
         let left_out = control.missing.iter().map(left_out).collect();
-        Ok(Self { log, inputs, speeds_rad_s, loss: control.loss, left_out })
+        Ok(Self { log, inputs, speeds_rad_s, loss: control.loss, moved_s: 0.0, left_out })
+    }
+
+    /// Moves the clock of the log to where the sound follows the log. Returns whether it follows it anywhere.
+    fn align(&mut self, lines: &HeardLines, model: &GreyBoxModel) -> bool {
+        let Some(offset_s) = log_offset_s(lines, &self.inputs, model, &SoundConfig::default()) else { return false };
+        if offset_s.abs() > CLOCK_RIGHT_S {
+            self.log.time_s.iter_mut().for_each(|time_s| *time_s += offset_s);
+            self.inputs.start_s += offset_s;
+            self.moved_s = offset_s;
+        }
+        true
     }
 }
 
@@ -177,6 +202,8 @@ pub(crate) struct Heard {
     pub(crate) fit: GreyBoxFit,
     pub(crate) observations: Vec<SpeedObservation>,
     pub(crate) names_nats: Option<f64>,
+    /// A rotor of another vehicle that fits the sound far better.
+    pub(crate) better: Option<OtherRotor>,
 }
 
 impl Heard {
@@ -194,7 +221,7 @@ pub(crate) struct Speeds {
 /// Fits the model to a flight.
 pub(crate) fn fit_of(
     files: &FlightFiles,
-    flown: &FlownLog,
+    flown: &mut FlownLog,
     vehicle: &GreyBoxVehicle,
     hearing: Hearing,
     progress: &Progress,
@@ -209,20 +236,32 @@ pub(crate) fn fit_of(
             let observations = logged_observations(flown, files)?;
             let fit = grey_box_from_speeds(&observations, &flown.inputs, &start, &GreyBoxConfig::default())
                 .map_err(stopped)?;
-            Ok(Heard { fit, observations, names_nats: None })
+            Ok(Heard { fit, observations, names_nats: None, better: None })
         }
         Some(recording) => {
             let lines = heard_lines(recording, flown, &start, vehicle, hearing, progress)?;
+            if !flown.align(&lines, &start) {
+                return Err(not_followed(&files.log));
+            }
+            let better = better_rotor(recording, &vehicle.config()?, hearing, progress)?;
             let heard = grey_box_from_sound(&lines, &flown.inputs, &start, &SoundConfig::default()).map_err(stopped)?;
-            Ok(Heard { fit: heard.fit, observations: heard.observations, names_nats: Some(heard.names_nats) })
+            let SoundFit { fit, observations, names_nats } = heard;
+            Ok(Heard { fit, observations, names_nats: Some(names_nats), better })
         }
     }
 }
 
-/// Observed and predicted speeds of another flight.
+/// The failure of a log that the sound does not follow.
+fn not_followed(log: &Path) -> Failure {
+    let what = "the sound does not follow this log: the speeds that the model predicts fit it at no shift of the clock within 10 s";
+    let hint = "give the recording and the log of one flight of doublets; check --vehicle; where the clocks differ by more, give --log-offset-s";
+    Failure::failed(what, hint, log)
+}
+
+/// Observed and predicted speeds of another flight. Where its speeds hardly change, its clock is taken as given.
 pub(crate) fn speeds_of(
     files: &FlightFiles,
-    flown: &FlownLog,
+    flown: &mut FlownLog,
     fitted: &Heard,
     vehicle: &GreyBoxVehicle,
     hearing: Hearing,
@@ -235,6 +274,7 @@ pub(crate) fn speeds_of(
         }),
         Some(recording) => {
             let lines = heard_lines(recording, flown, &fitted.fit.model, vehicle, hearing, progress)?;
+            flown.align(&lines, &fitted.fit.model);
             let (observations, prediction) = speeds_along(&lines, &flown.inputs, &fitted.fit, &SoundConfig::default());
             Ok(Speeds { observations, prediction })
         }

@@ -14,10 +14,11 @@ use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::Hearing;
 use crate::terminal::Terminal;
+use hovertone::speed::Warning;
 use hovertone_dynamics::{YawInertia, advice_of, checked, torque_constant};
 use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
 use hovertone_logs::RateAxes;
-use hovertone_report::{CheckedFlight, GreyBoxRecord, grey_box_json, grey_box_text};
+use hovertone_report::{CheckedFlight, GreyBoxRecord, Notice, grey_box_json, grey_box_text};
 use std::path::{Path, PathBuf};
 
 /// Fits, prints, and writes what was asked for.
@@ -28,24 +29,29 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     let outputs = Outputs::beside(arguments.files.iter().chain(&arguments.check), arguments.replace.force);
     let kind = checked_outputs(arguments, &outputs)?;
     let reader = LogReader::of(arguments)?;
-    let flown = reader.read(&files, &vehicle)?;
-    let other_flown = other.as_ref().map(|files| reader.read(files, &vehicle)).transpose()?;
+    let mut flown = reader.read(&files, &vehicle)?;
+    let mut other_flown = other.as_ref().map(|files| reader.read(files, &vehicle)).transpose()?;
     let progress = Progress::new("listening", 1, !arguments.hearing.no_progress);
     let hearing = Hearing::of(&arguments.hearing);
-    let heard = fit_of(&files, &flown, &vehicle, hearing, &progress)?;
+    let heard = fit_of(&files, &mut flown, &vehicle, hearing, &progress)?;
     let checked_speeds = other
         .as_ref()
-        .zip(other_flown.as_ref())
+        .zip(other_flown.as_mut())
         .map(|(files, flown)| speeds_of(files, flown, &heard, &vehicle, hearing, &progress));
     let checked_speeds = checked_speeds.transpose()?;
     progress.finish();
-    let compared = other.as_ref().zip(checked_speeds.as_ref());
+    let moved_s = other_flown.as_ref().map_or(0.0, |flown| flown.moved_s);
+    let compared =
+        other.as_ref().zip(checked_speeds.as_ref()).map(|(files, speeds)| OtherFlight { files, speeds, moved_s });
     let record = record_of(&files, &flown, &heard, &vehicle, compared);
     match arguments.json {
         true => terminal.data(&grey_box_json(&record).map_err(Failure::internal)?)?,
         false => terminal.text(&grey_box_text(&record, terminal.fold_width()))?,
     }
     terminal.flush()?;
+    if let Some(better) = heard.better.map(Warning::FitsElsewhere) {
+        terminal.warning(&Notice::new(better.to_string(), better.hint()), "");
+    }
     if let Some(place) = &arguments.scenario {
         outputs.write(place, scenario_toml(&heard.fit, &vehicle)?)?;
         terminal.say(&written(place));
@@ -66,13 +72,20 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     Ok(if losses.is_empty() { Ending::Done } else { Ending::Incomplete })
 }
 
+/// A flight that was not used for the fit.
+pub(crate) struct OtherFlight<'a> {
+    pub(crate) files: &'a FlightFiles,
+    pub(crate) speeds: &'a Speeds,
+    pub(crate) moved_s: f64,
+}
+
 /// The record of a fit, with the flight that was not used.
 pub(crate) fn record_of(
     files: &FlightFiles,
     flown: &FlownLog,
     heard: &Heard,
     vehicle: &GreyBoxVehicle,
-    other: Option<(&FlightFiles, &Speeds)>,
+    other: Option<OtherFlight<'_>>,
 ) -> GreyBoxRecord {
     let body = YawInertia::of(&vehicle.parameters);
     GreyBoxRecord {
@@ -87,9 +100,12 @@ pub(crate) fn record_of(
         torque_constant: torque_constant(&flown.log, &flown.inputs, &heard.fit, &body),
         advice: advice_of(&heard.fit, &flown.inputs),
         fitted: checked(&heard.observations, &heard.fit.prediction(&flown.inputs)),
-        other_flight: other.map(|(files, speeds)| CheckedFlight {
+        log_moved_s: flown.moved_s,
+        better: heard.better,
+        other_flight: other.map(|OtherFlight { files, speeds, moved_s }| CheckedFlight {
             recording: files.recording_name(),
             log: files.log_name(),
+            log_moved_s: moved_s,
             result: checked(&speeds.observations, &speeds.prediction),
         }),
     }

@@ -78,3 +78,23 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let few = log("few.csv", &(turning + &few));
     refused_with(&["greybox", &few, "--vehicle", "ardrone"], &["speeds lie within the log", "200 are needed"]);
 }
+
+#[test]
+#[ignore = "exam: a flight of doublets, heard"]
+fn the_sound_finds_the_clock_of_the_log_and_refuses_a_log_that_it_does_not_follow() {
+    let folder = tempfile::tempdir().unwrap();
+    let flight = flown(folder.path(), "flight", 1, 25.0);
+    let files = [format!("{flight}/sound.wav"), format!("{flight}/truth.csv")];
+    let heard = |offset_s: &str| {
+        let common = ["--vehicle", "ardrone", "--json", "--no-progress", "--log-offset-s", offset_s];
+        hovertone(&[&["greybox", &files[0], &files[1]], &common[..]].concat())
+    };
+    let line = heard("-2.4").ends_with(0).json_lines().remove(0);
+    let moved_s = line["log_moved_s"].as_f64().unwrap();
+    assert!((moved_s - 2.4).abs() < 0.051, "{moved_s}");
+    let hover = parameter(&line, "hover_1_rad_s")["value"].as_f64().unwrap();
+    assert!((hover / 377.0 - 1.0).abs() < 0.01, "{hover}");
+    // further off than clocks are sought
+    let refusal = heard("15").ends_with(1).stderr;
+    assert!(refusal.contains("does not follow this log") && refusal.contains("--log-offset-s"), "{refusal}");
+}

@@ -139,10 +139,15 @@ fn rising_orders(heard: &HeardLines) -> Vec<f64> {
 /// Windows with the sound and the log, overlapping by half.
 fn windows_of(heard: &HeardLines, inputs: &LoopInputs, length_s: f64) -> Vec<Window> {
     let (from_s, to_s) = (heard.start_s.max(inputs.start_s), heard.end_s.min(inputs.end_s()));
+    let is_known = |window: &Window| inputs.knows(window.time_s - 0.5 * length_s, window.time_s + 0.5 * length_s);
+    windows_within(from_s, to_s, length_s).into_iter().filter(is_known).collect()
+}
+
+/// Windows of a span, overlapping by half.
+pub(super) fn windows_within(from_s: f64, to_s: f64, length_s: f64) -> Vec<Window> {
     let count = ((2.0 * (to_s - from_s) / length_s) as usize).saturating_sub(1);
     let window = |index: usize| Window { time_s: from_s + 0.5 * length_s * (index + 1) as f64, length_s };
-    let is_known = |window: &Window| inputs.knows(window.time_s - 0.5 * length_s, window.time_s + 0.5 * length_s);
-    (0..count).map(window).filter(is_known).collect()
+    (0..count).map(window).collect()
 }
 
 /// Orders for which the prediction is near enough: its angle is right to a quarter of a turn of the line within the window.

@@ -11,10 +11,12 @@
 //! a window, with amplitudes that are Gaussian, is that of a linear model; how it changes with the speeds tells how far the model is off.
 
 mod along;
+mod clock;
 mod heard_lines;
 mod search;
 mod turns;
 mod window;
 
 pub use along::{SoundConfig, SoundFit, grey_box_from_sound, speeds_along};
+pub use clock::log_offset_s;
 pub use heard_lines::{HeardLines, LineOrders, lines_from_passes};

@@ -10,7 +10,7 @@ use nalgebra::Vector4;
 use std::f64::consts::TAU;
 
 /// Highest order of the search over the whole flight: the blade passes. *Physics.*
-const ORDER_MAX: f64 = 24.0;
+pub(super) const ORDER_MAX: f64 = 24.0;
 /// Highest order of the search in hover: the first mesh. *Physics.*
 const HOVER_ORDER_MAX: f64 = 100.0;
 /// Windows of hover, and their length in windows of the flight. *Numeric*: longer ones separate rotors better.
@@ -140,13 +140,20 @@ fn same_hover(
     windows: &[Window],
     config: &SoundConfig,
 ) -> GreyBoxModel {
-    let along = Along::new(inputs, start);
-    let mut listener = HoverListener::new(heard, ORDER_MAX, &along, windows);
+    let prediction = SpeedPrediction::new(inputs, start);
+    with_same_hover(&mut HoverListener::new(heard, ORDER_MAX, start, &prediction, windows), start, config)
+}
+
+/// A model whose rotors all have the hover speed that a listener hears best.
+pub(super) fn with_same_hover(
+    listener: &mut HoverListener<'_>,
+    model: &GreyBoxModel,
+    config: &SoundConfig,
+) -> GreyBoxModel {
     listener.turns.sounding = [true, false, false, false];
-    let hover = start.mean_hover_rad_s();
-    let found = listener.best(0, offsets(heard, ORDER_MAX, config.window_s, config.hover_share * hover));
-    let hover_rad_s = [hover + found; 4];
-    GreyBoxModel { hover_rad_s, ..*start }
+    let hover = model.mean_hover_rad_s();
+    let found = listener.best(0, offsets(listener.heard, ORDER_MAX, config.window_s, config.hover_share * hover));
+    GreyBoxModel { hover_rad_s: [hover + found; 4], ..*model }
 }
 
 /// The hover speed of each rotor, where the flight is quietest: one rotor after the other, each beside those that are found, and then each again
@@ -158,9 +165,9 @@ fn four_hovers(
     windows: &[Window],
     config: &SoundConfig,
 ) -> GreyBoxModel {
-    let along = Along::new(inputs, model);
-    let quiet = quiet_windows(inputs, &along.prediction, windows);
-    let mut listener = HoverListener::new(heard, HOVER_ORDER_MAX, &along, &quiet);
+    let prediction = SpeedPrediction::new(inputs, model);
+    let quiet = quiet_windows(inputs, &prediction, windows);
+    let mut listener = HoverListener::new(heard, HOVER_ORDER_MAX, model, &prediction, &quiet);
     let middle = model.mean_hover_rad_s();
     let length_s = HOVER_LENGTH * config.window_s;
     let offsets = offsets(heard, HOVER_ORDER_MAX, length_s, config.spread_share * middle);
@@ -185,11 +192,11 @@ pub(super) fn reseated(
     start: &GreyBoxModel,
     config: &SoundConfig,
 ) -> Option<GreyBoxModel> {
-    let along = Along::new(inputs, model);
-    let quiet = quiet_windows(inputs, &along.prediction, windows);
+    let prediction = SpeedPrediction::new(inputs, model);
+    let quiet = quiet_windows(inputs, &prediction, windows);
     let windows = thinned(windows);
-    let mut quietly = HoverListener::new(heard, HOVER_ORDER_MAX, &along, &quiet);
-    let mut wholly = HoverListener::new(heard, order_max, &along, &windows);
+    let mut quietly = HoverListener::new(heard, HOVER_ORDER_MAX, model, &prediction, &quiet);
+    let mut wholly = HoverListener::new(heard, order_max, model, &prediction, &windows);
     let middle = model.mean_hover_rad_s();
     let length_s = HOVER_LENGTH * config.window_s;
     let offsets = offsets(heard, HOVER_ORDER_MAX, length_s, config.spread_share * middle);
@@ -216,20 +223,8 @@ pub(super) fn reseated(
     better_gains(&seated, start, score).or((now > before).then_some(seated))
 }
 
-/// A model and its prediction.
-struct Along {
-    model: GreyBoxModel,
-    prediction: SpeedPrediction,
-}
-
-impl Along {
-    fn new(inputs: &LoopInputs, model: &GreyBoxModel) -> Self {
-        Self { model: *model, prediction: SpeedPrediction::new(inputs, model) }
-    }
-}
-
 /// Listens along one prediction with the hover speeds off it.
-struct HoverListener<'a> {
+pub(super) struct HoverListener<'a> {
     heard: &'a HeardLines,
     order_max: f64,
     turns: Turns<'a>,
@@ -240,8 +235,14 @@ struct HoverListener<'a> {
 }
 
 impl<'a> HoverListener<'a> {
-    fn new(heard: &'a HeardLines, order_max: f64, along: &'a Along, windows: &'a [Window]) -> Self {
-        let (turns, hover_rad_s) = (Turns::of(&along.prediction), along.model.hover_rad_s);
+    pub(super) fn new(
+        heard: &'a HeardLines,
+        order_max: f64,
+        model: &GreyBoxModel,
+        prediction: &'a SpeedPrediction,
+        windows: &'a [Window],
+    ) -> Self {
+        let (turns, hover_rad_s) = (Turns::of(prediction), model.hover_rad_s);
         Self { heard, order_max, turns, windows, hover_rad_s, offset_rad_s: Vector4::zeros() }
     }
 

@@ -25,17 +25,18 @@ impl<'a> Turns<'a> {
         Self { prediction, turns, sounding: [true; 4] }
     }
 
-    /// Turns at a time within the prediction. The speed is straight between the points.
+    /// Turns at a time. The speed is straight between the points, and that of the nearest point outside.
     pub(super) fn at(&self, time_s: f64) -> [f64; 4] {
-        let place =
-            ((time_s - self.prediction.start_s) / self.prediction.step_s).clamp(0.0, (self.turns.len() - 1) as f64);
+        let wanted = (time_s - self.prediction.start_s) / self.prediction.step_s;
+        let place = wanted.clamp(0.0, (self.turns.len() - 1) as f64);
         let (before, share) = (place as usize, place.fract());
+        let outside_s = (wanted - place) * self.prediction.step_s;
         let next = (before + 1).min(self.turns.len() - 1);
         let (from, to) = (&self.prediction.speed_rad_s[before], &self.prediction.speed_rad_s[next]);
         let since_s = share * self.prediction.step_s;
         std::array::from_fn(|rotor| {
             let mean = from[rotor] + 0.5 * share * (to[rotor] - from[rotor]);
-            self.turns[before][rotor] + mean * since_s / TAU
+            self.turns[before][rotor] + (mean * since_s + from[rotor] * outside_s) / TAU
         })
     }
 }

@@ -28,7 +28,7 @@ pub(crate) struct Candidates {
     /// The beliefs in its speeds; `None` where the speed was found before.
     beliefs: Option<Beliefs>,
     /// A rotor that something known leaves out, whose lines are far more probable.
-    better: Option<OtherRotor>,
+    pub(crate) better: Option<OtherRotor>,
     /// Whether other rotors are heard, though one alone is said to turn.
     others: bool,
     /// Whether several rotors are heard, where their number is not known.
