@@ -29,13 +29,16 @@ fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
 /// Reads the model of a simulator.
 pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
     let text = read_text(path, "the model")?;
-    model_from_text(&text).map_err(|error| {
-        let hint = match error {
-            ModelError::NoExport => {
-                "give the model of a simulator; the constant of each results.json stands in its report.html"
-            }
-            _ => "`hovertone export --help` lists the simulators",
-        };
-        Failure::failed(error.to_string(), hint, path)
-    })
+    model_from_text(&text).map_err(|error| model_failure(&error, path))
+}
+
+/// The failure of a file that should be a model.
+pub(crate) fn model_failure(error: &ModelError, path: &Path) -> Failure {
+    let hint = match error {
+        ModelError::NoExport => {
+            "give the model of a simulator; the constant of each results.json stands in its report.html"
+        }
+        _ => "`hovertone compare --help` lists the files that it knows",
+    };
+    Failure::failed(error.to_string(), hint, path)
 }

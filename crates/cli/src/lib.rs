@@ -37,6 +37,7 @@ mod misuse;
 mod motor;
 mod nearest;
 mod number_advice;
+mod of_recording;
 mod output_file;
 mod output_folder;
 mod outputs;

@@ -42,6 +42,15 @@ impl<'a> TomlFile<'a> {
         Ok(Self { path, kind, see_example, text })
     }
 
+    /// The same file, refused where nothing is in it.
+    pub(crate) fn with_content(self) -> Result<Self, Failure> {
+        if self.text.trim().is_empty() {
+            let what = format!("this file is empty, and the {} is needed", self.kind);
+            return Err(Failure::failed(what, self.see_example, self.path));
+        }
+        Ok(self)
+    }
+
     /// A text that stands, or would stand, at a path.
     pub(crate) fn of_text(path: &'a Path, kind: &'static str, see_example: &'static str, text: &str) -> Self {
         Self { path, kind, see_example, text: text.to_owned() }

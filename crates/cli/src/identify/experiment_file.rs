@@ -47,7 +47,8 @@ impl ExperimentSource {
             KIND,
             "to hear recordings, write their mass before them, as in --mass 413g hover.mov",
             SEE_EXAMPLE,
-        )?;
+        )?
+        .with_content()?;
         Self::of_text(&toml.text, path.to_owned())
     }
 

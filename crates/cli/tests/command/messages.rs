@@ -286,12 +286,12 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
     let experiment = write("e.toml", b"# mine\n[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n");
     let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
     for (arguments, code, said) in [
-        (vec!["fit", &json], 2, "this file is JSON, and a table is needed"),
-        (vec!["fit", &empty], 2, "this file is empty, and a table is needed"),
-        (vec!["fit", &experiment], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
-        (vec!["log", &scenario], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["fit", &json], 1, "this file is JSON, and a table is needed"),
+        (vec!["fit", &empty], 1, "this file is empty, and a table is needed"),
+        (vec!["fit", &experiment], 1, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["log", &scenario], 1, "this file is TOML, and a table is needed (hint: give a CSV file"),
         (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),
-        (vec!["export", &results, "--into", &results], 2, "this JSON is no model of a simulator"),
+        (vec!["export", &results, "--into", &results], 1, "this JSON is no model of a simulator"),
         (vec!["compare", &results, &results], 1, "this JSON is no model of a simulator"),
         (vec!["compare", &model, &results], 2, "this is a model of a simulator, and the results are needed first"),
         (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
