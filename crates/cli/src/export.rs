@@ -114,6 +114,10 @@ fn change(
     terminal.data(&difference(model, place, &updated.changes))?;
     terminal.flush()?;
     terminal.say(&written(place));
+    if let Some(line_number) = updated.line_with_old_number() {
+        let text = format!("line {line_number} still has a number from before: --into changes no comments");
+        terminal.warning(&Notice::new(text, "correct or remove the comment there"), "");
+    }
     let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
     if !LIKELY_CHANGE.contains(&ratio) {
         let text = format!("the constant of the model is {} times as large as before", fixed(ratio, 2));

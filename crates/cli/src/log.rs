@@ -4,6 +4,7 @@ use crate::args::{ColumnName, LogArguments};
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, open_stream};
+use crate::nearest::nearest;
 use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
 use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
@@ -71,8 +72,17 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
         | LogError::WithoutData { .. }
         | LogError::WithoutSignal { .. }
         | LogError::OtherVersion { .. } => Failure::failed(error.to_string(), error.hint(), path),
-        _ => Failure::Usage { what: error.to_string(), hint: error.hint().to_owned(), path: Some(path.to_owned()) },
+        _ => Failure::Usage { what: error.to_string(), hint: hint_of(error), path: Some(path.to_owned()) },
     }
+}
+
+/// What to do, with the table of which the name was meant.
+fn hint_of(error: &LogError) -> String {
+    let meant = match error {
+        LogError::NoSuchSignal { name, tables } => nearest(name, tables.split(", ")),
+        _ => None,
+    };
+    meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
 }
 
 /// The failure of a recording in the place of a log.

@@ -37,4 +37,4 @@ pub use no_table::NoTable;
 pub use signals::{LogSignals, SignalRow, SignalTable, signal_rows, signals_from_log};
 pub use summary::{LogSummary, SignalSummary, TableSummary, ValueRange, log_summary};
 pub use table::{SignalRole, TableSignal};
-pub use table_text::{ColumnNames, CsvCells};
+pub use table_text::{ColumnNames, CsvCells, has_thousands_point};

@@ -11,7 +11,7 @@ use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::log::{column_names, loss_notice};
 use crate::of_recording::{flags_of, refuse_of_recording};
-use crate::outputs::{Outputs, written};
+use crate::outputs::{Outputs, is_recording, written};
 use crate::progress::Progress;
 use crate::recording::Hearing;
 use crate::terminal::Terminal;
@@ -134,6 +134,13 @@ impl LogReader {
     }
 
     fn read(&self, files: &FlightFiles, vehicle: &GreyBoxVehicle) -> Result<FlownLog, Failure> {
+        if files.recording.as_deref().is_some_and(|recording| !is_recording(recording)) && is_recording(&files.log) {
+            return Err(Failure::failed(
+                "recording and log are exchanged",
+                "give the recording first, then the log",
+                &files.log,
+            ));
+        }
         // logged speeds have the clock of the log
         let offset_s = if files.recording.is_some() { self.offset_s } else { 0.0 };
         FlownLog::read(&files.log, &self.names, self.axes, offset_s, vehicle)

@@ -72,6 +72,12 @@ fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
         }
         Err(_) => println!("skipped: no `patch`"),
     }
+    fs::write(&model, IRIS.replace("theirs", "5.84e-6 is the maker's")).unwrap();
+    let said = export(&results, &["--into", text(&model), "-o", text(&folder.path().join("copy.sdf"))]).ends_with(0);
+    assert!(!said.stderr.contains("from before"), "a line that is changed is shown: {}", said.stderr);
+    fs::write(&model, IRIS.replace("from PX4", "from PX4: 5.84e-6")).unwrap();
+    let said = export(&results, &["--into", text(&model)]).ends_with(0);
+    assert!(said.stderr.contains("line 2 still has a number from before"), "{}", said.stderr);
     fs::write(&model, &after).unwrap();
     let again = export(&results, &["--into", text(&model)]).ends_with(0);
     assert!(again.stdout.is_empty() && again.stderr.contains("nothing to change"), "{}", again.stderr);

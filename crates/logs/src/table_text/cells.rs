@@ -56,6 +56,9 @@ impl CsvCells {
     /// The finite number in a cell.
     pub fn number(&self, cell: &[u8]) -> Option<f64> {
         let cell = cell.trim_ascii();
+        if self.has_decimal_commas && has_thousands_point(cell) {
+            return None;
+        }
         if let Some(number) = plain_number(cell) {
             return Some(number);
         }
@@ -67,6 +70,15 @@ impl CsvCells {
         };
         number.is_finite().then_some(number)
     }
+}
+
+/// Whether a point may separate thousands, as in "1.000" and "12.500", which is 12500 where commas are decimal.
+pub fn has_thousands_point(cell: &[u8]) -> bool {
+    let mut groups = cell.split(|byte| *byte == b'.');
+    let are_digits = |group: &[u8]| group.iter().all(u8::is_ascii_digit);
+    let is_first = |group: &[u8]| (1..=3).contains(&group.len()) && are_digits(group) && group[0] != b'0';
+    let has_point = cell.contains(&b'.');
+    has_point && groups.next().is_some_and(is_first) && groups.all(|group| group.len() == 3 && are_digits(group))
 }
 
 /// Text of a cell.
