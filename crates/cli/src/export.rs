@@ -1,9 +1,9 @@
 //! `hovertone export`: the model of a simulator with the constant, new or changed in place.
 
 use crate::args::ExportArguments;
-use crate::compare::model_failure;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, read_text};
+use crate::model_file::model_failure;
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::thrust::ThrustCoefficients;

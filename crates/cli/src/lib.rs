@@ -34,6 +34,7 @@ mod log;
 mod microphones;
 mod missing;
 mod misuse;
+mod model_file;
 mod motor;
 mod nearest;
 mod number_advice;

@@ -1,9 +1,9 @@
 //! Reading the experiment file, with messages for its errors.
 
 use super::typed::TypedExperiment;
-use crate::compare::read_model;
 use crate::failure::Failure;
 use crate::files::{home_expanded, sha256_of_bytes};
+use crate::model_file::read_model;
 use crate::toml_file::TomlFile;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};

@@ -25,6 +25,17 @@ fn a_recording_and_a_log_that_are_exchanged_are_said_to_be() {
 }
 
 #[test]
+fn a_log_of_another_clock_is_answered_with_the_flag_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("a.wav");
+    write_noise(&sound, 3.0);
+    let rows = (0..60).map(|row| format!("{}.{},0,0\n", 1000 + row / 10, row % 10)).collect::<String>();
+    let log = written(folder.path(), "log.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &rows));
+    let words = ["speeds lie within the log", "--log-offset-s"];
+    refused_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
+}
+
+#[test]
 fn the_reason_of_a_recording_has_one_advice() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("a.wav");

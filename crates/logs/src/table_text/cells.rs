@@ -1,6 +1,6 @@
 //! Separators and numbers of a CSV.
 
-use crate::{LogError, NoTable};
+use crate::{LogError, NoTable, has_thousands_point};
 use std::borrow::Cow;
 
 /// Most characters of a number whose digits, without the point, are a whole number that a float holds.
@@ -70,15 +70,6 @@ impl CsvCells {
         };
         number.is_finite().then_some(number)
     }
-}
-
-/// Whether a point may separate thousands, as in "1.000" and "12.500", which is 12500 where commas are decimal.
-pub fn has_thousands_point(cell: &[u8]) -> bool {
-    let mut groups = cell.split(|byte| *byte == b'.');
-    let are_digits = |group: &[u8]| group.iter().all(u8::is_ascii_digit);
-    let is_first = |group: &[u8]| (1..=3).contains(&group.len()) && are_digits(group) && group[0] != b'0';
-    let has_point = cell.contains(&b'.');
-    has_point && groups.next().is_some_and(is_first) && groups.all(|group| group.len() == 3 && are_digits(group))
 }
 
 /// Text of a cell.

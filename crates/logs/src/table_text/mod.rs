@@ -8,7 +8,7 @@ mod tests;
 use crate::byte_window::ByteWindow;
 use crate::table::{Findings, RowSink, RowValues, SignalRole, TableSignal};
 use crate::{LogError, LogFormat};
-pub use cells::{CsvCells, has_thousands_point};
+pub use cells::CsvCells;
 use column::{LogColumn, column_of, unit_of};
 use csv::ByteRecord;
 use std::io::Read;
