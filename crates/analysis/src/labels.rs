@@ -173,7 +173,9 @@ impl NotTold {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::OtherCount { .. } => "give the number of rotors with --rotors, and the log of the same flight",
+            Self::OtherCount { .. } => {
+                "give the log of the same flight; where that is right, the number of rotors is that of another vehicle (--vehicle, --rotors)"
+            }
             Self::TooManyRotors { .. } => "they keep their numbers by speed",
             Self::TooFewTracks { .. } => {
                 "place the microphone nearer and keep the high frequencies: then more rotors can be separated"

@@ -92,7 +92,7 @@ impl fmt::Display for NoTone {
                 f.write_str("nothing sounds like a rotor; place the microphone nearer")
             }
             Self::NoSeries { only_rev_s: Some((low, high)), .. } => {
-                write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; go nearer")
+                write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; check the given facts: the vehicle or the band; else go nearer")
             }
             Self::NoHover => {
                 f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off")

@@ -124,7 +124,9 @@ impl Warning {
             }
             Self::OtherSteadySpeed { .. } => "choose the part you mean with --from and --to",
             Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
-            Self::ManyGaps { .. } => "move the microphone nearer, or choose the clear part with --from and --to",
+            Self::ManyGaps { .. } => {
+                "leave --band out if you gave it; else move the microphone nearer, or choose the clear part with --from and --to"
+            }
             Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"

@@ -3,9 +3,8 @@
 use crate::args::CompareArguments;
 use crate::export::{identified, say_doubts};
 use crate::failure::{Ending, Failure};
-use crate::inputs::read_text;
+use crate::model_file::read_model;
 use crate::terminal::Terminal;
-use hovertone_exchange::{ModelError, SimulatorModel, model_from_text};
 use hovertone_report::{ComparedModel, models_json, models_text};
 use std::path::Path;
 
@@ -24,18 +23,4 @@ pub(crate) fn run(arguments: &CompareArguments, terminal: &mut Terminal) -> Resu
 
 fn model_of(path: &Path) -> Result<ComparedModel, Failure> {
     Ok(ComparedModel { file: path.display().to_string(), model: read_model(path)? })
-}
-
-/// Reads the model of a simulator.
-pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
-    let text = read_text(path, "the model")?;
-    model_from_text(&text).map_err(|error| {
-        let hint = match error {
-            ModelError::NoExport => {
-                "give the model of a simulator; the constant of each results.json stands in its report.html"
-            }
-            _ => "`hovertone export --help` lists the simulators",
-        };
-        Failure::failed(error.to_string(), hint, path)
-    })
 }

@@ -7,9 +7,10 @@ use std::path::Path;
 const EXPERIMENT: &str = "EXPERIMENT.toml";
 
 const NAMED_TWICE: &str = "each names the rotors by itself: leave one of them out";
+const WITHOUT_AIR: &str = "a plan does not use the air: leave it out, and give it with the tables";
 const PRINTED: &str = "--json prints the answer as JSON, and nothing else: leave one of them out";
 /// Two arguments, and why only one of them has a meaning.
-const KNOWN: [([&str; 2], &str); 15] = [
+const KNOWN: [([&str; 2], &str); 18] = [
     (["--gravity-m-s2", "--latitude-deg"], "both give the local gravity: leave one of them out"),
     (["--constant", "--constant-n-s2"], "both give the thrust constant: leave one of them out"),
     (["--constant", "--constant-std-n-s2"], "the results have an uncertainty of their own: leave one of them out"),
@@ -17,6 +18,9 @@ const KNOWN: [([&str; 2], &str); 15] = [
     (["--to", "--into"], "--to writes a new model, --into changes one that you have: leave one of them out"),
     (["--mean-only", "--method"], "both say how the speed is read from the sound: leave one of them out"),
     (["--plan", "TABLE.csv"], "a plan is made before there are tables: leave one of them out"),
+    (["--plan", "--temperature-c"], WITHOUT_AIR),
+    (["--plan", "--pressure-hpa"], WITHOUT_AIR),
+    (["--plan", "--humidity-percent"], WITHOUT_AIR),
     (["--spin-up", "--log"], NAMED_TWICE),
     (["--microphones", "--log"], NAMED_TWICE),
     (["--microphones", "--spin-up"], NAMED_TWICE),

@@ -3,6 +3,7 @@
 use crate::args::ExportArguments;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, read_text};
+use crate::model_file::model_failure;
 use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::thrust::ThrustCoefficients;
@@ -96,19 +97,8 @@ fn change(
         return Err(Failure::usage("stdin cannot be changed in place", "write to a file with -o FILE"));
     }
     let text = read_text(model, "the model")?;
-    let hint = match arguments.torque_constant_n_m_s2 {
-        Some(_) => {
-            "`hovertone compare --help` lists the files that it knows; without --torque-constant-n-m-s2 the torque stays"
-        }
-        None => "`hovertone compare --help` lists the files that it knows",
-    };
-    let failed = |error: ModelError| Failure::Usage {
-        what: format!("{error}: nothing was written"),
-        hint: hint.to_owned(),
-        path: Some(model.to_owned()),
-    };
-    let before = model_from_text(&text).map_err(failed)?;
-    let updated = updated_model(&text, rotor).map_err(failed)?;
+    let before = model_from_text(&text).map_err(|error| model_failure(&error, model))?;
+    let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;
     let place = arguments.output.as_deref().unwrap_or(model);
     if updated.changes.is_empty() && arguments.output.is_none() {
         terminal
@@ -124,6 +114,10 @@ fn change(
     terminal.data(&difference(model, place, &updated.changes))?;
     terminal.flush()?;
     terminal.say(&written(place));
+    if let Some(line_number) = updated.line_with_old_number() {
+        let text = format!("line {line_number} still has a number from before: --into changes no comments");
+        terminal.warning(&Notice::new(text, "correct or remove the comment there"), "");
+    }
     let ratio = rotor.thrust_constant_n_s2 / before.thrust_constant_n_s2;
     if !LIKELY_CHANGE.contains(&ratio) {
         let text = format!("the constant of the model is {} times as large as before", fixed(ratio, 2));
@@ -138,6 +132,18 @@ fn change(
         terminal.warning(&Notice::new(text, "set the mass of the model, which was not changed"), "");
     }
     Ok(Ending::Done)
+}
+
+/// The failure of a model that cannot be changed.
+fn unchanged(error: &ModelError, model: &Path, arguments: &ExportArguments) -> Failure {
+    let hint = match arguments.torque_constant_n_m_s2 {
+        Some(_) => {
+            "`hovertone compare --help` lists the files that it knows; without --torque-constant-n-m-s2 the torque stays"
+        }
+        None => "`hovertone compare --help` lists the files that it knows",
+    };
+    let what = format!("{error}: nothing was written");
+    Failure::Usage { what, hint: hint.to_owned(), path: Some(model.to_owned()) }
 }
 
 /// Says what weakens the constant of results.

@@ -4,7 +4,7 @@ use crate::args::{AirArguments, FitArguments, PlaceArguments};
 use crate::failure::{Ending, Failure};
 use crate::files::sha256_of_bytes;
 use crate::inputs::{is_no_text, read_bytes};
-use crate::place::{air_density_kg_m3, gravity_of};
+use crate::place::{air_density_kg_m3, gravity_of, refuse_height_alone};
 use crate::terminal::Terminal;
 
 use hovertone::thrust::regression::FitError;
@@ -13,7 +13,7 @@ use hovertone::thrust::{
     TorqueReading, figure_of_merit, flight_plan, is_plausible_merit, least_tip_mach, row_drifts, square_law_fit,
     torque_constant_n_m_s2, warnings_of_points,
 };
-use hovertone_exchange::{StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
+use hovertone_exchange::{CsvError, StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
 use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
 use hovertone_vehicle::{Estimate, KnownRotor, QuantityError, RotorSpeed, TIP_MACH_MAX, check_tips};
 use std::path::Path;
@@ -110,6 +110,9 @@ fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> 
 }
 
 fn table_failure(error: &TableError, path: &Path) -> Failure {
+    if let TableError::Csv(error @ (CsvError::NoTable(_) | CsvError::NotCsv(_))) = error {
+        return Failure::failed(error.to_string(), error.hint(), path);
+    }
     let hint = match error {
         TableError::NoColumn { .. } => "`hovertone fit --help` lists the headers that hovertone knows",
         TableError::Csv(error) => error.hint(),
@@ -295,6 +298,7 @@ fn plan_campaign(
     gravity: Gravity,
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
+    refuse_height_alone(&arguments.place)?;
     let asked = &arguments.plan;
     let rotor_count = arguments.rotors.unwrap_or(ROTORS_OF_MOST);
     let flown = KnownRotor {
@@ -329,7 +333,6 @@ fn plan_campaign(
         Failure::usage(error.to_string(), hint)
     })?;
     flown.check_hover()?;
-    air_density_kg_m3(&arguments.air, &arguments.place)?;
     if arguments.json {
         terminal.data(&(serde_json::to_string_pretty(&plan).map_err(Failure::internal)? + "\n"))?;
     } else {

@@ -4,6 +4,7 @@ use crate::args::{ColumnName, LogArguments};
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, open_stream};
+use crate::nearest::nearest;
 use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
 use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
@@ -31,7 +32,7 @@ pub(crate) fn run(arguments: &LogArguments, terminal: &mut Terminal) -> Result<E
     }
     let read = |file: &Path| {
         let stream = open_stream(file, THE_LOG)?;
-        log_summary(stream, &names).map_err(|error| failure_of(&error, file))
+        log_summary(stream, &names).map_err(|error| log_failure(&error, file))
     };
     let files = EachFile { files: &arguments.files, has_gaps: !arguments.json };
     files.told(terminal, read, |file, log, terminal| tell(file, &log, arguments, terminal))
@@ -59,28 +60,39 @@ pub(crate) fn column_names(typed: &[ColumnName]) -> Result<ColumnNames, Failure>
     Ok(names)
 }
 
-/// The failure of a file that should be a log.
-fn failure_of(error: &LogError, path: &Path) -> Failure {
+/// The failure of a log: a file of another kind, one that cannot be read, or content without a meaning.
+pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
     match error {
-        // a file of another kind
-        LogError::UnknownFormat if is_recording(path) => Failure::failed(IS_RECORDING, HINT_OF_RECORDING, path),
-        LogError::UnknownFormat => Failure::failed(error.to_string(), error.hint(), path),
-        _ => log_failure(error, path),
+        LogError::Write(error) => Failure::cannot_write(error, path),
+        LogError::UnknownFormat if is_recording(path) => is_recording_failure(path),
+        LogError::Read(_)
+        | LogError::UnknownFormat
+        | LogError::NoTable(_)
+        | LogError::NotCsv(_)
+        | LogError::WithoutData { .. }
+        | LogError::WithoutSignal { .. }
+        | LogError::OtherVersion { .. } => Failure::failed(error.to_string(), error.hint(), path),
+        _ => Failure::Usage { what: error.to_string(), hint: hint_of(error), path: Some(path.to_owned()) },
     }
 }
 
-/// The failure of a log: of the disk, or of its content.
-pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
-    match error {
-        LogError::Read(_) => Failure::failed(error.to_string(), error.hint(), path),
-        LogError::Write(error) => Failure::cannot_write(error, path),
-        LogError::UnknownFormat if is_recording(path) => Failure::Usage {
-            what: IS_RECORDING.to_owned(),
-            hint: HINT_OF_RECORDING.to_owned(),
-            path: Some(path.to_owned()),
-        },
-        _ => Failure::Usage { what: error.to_string(), hint: error.hint().to_owned(), path: Some(path.to_owned()) },
-    }
+/// What to do, with the table of which the name was meant.
+fn hint_of(error: &LogError) -> String {
+    let meant = match error {
+        LogError::NoSuchSignal { name, tables } => nearest(name, tables.split(", ")),
+        _ => None,
+    };
+    meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
+}
+
+/// The failure of a recording in the place of a log.
+pub(crate) fn is_recording_failure(path: &Path) -> Failure {
+    Failure::failed(IS_RECORDING, HINT_OF_RECORDING, path)
+}
+
+/// The failure of a log whose speeds are needed.
+pub(crate) fn without_speeds(path: &Path) -> Failure {
+    Failure::failed("no rotor speed in this log", "let the ESCs report their speeds (telemetry), and log them", path)
 }
 
 /// The notice of what a log has lost.
@@ -121,7 +133,7 @@ fn write_signals(
     let stream = open_stream(file, THE_LOG)?;
     let loss = signal_rows(stream, names, &arguments.signal, take).map_err(|error| match error {
         LogError::Write(error) => Failure::cannot_write(&error, output),
-        error => failure_of(&error, file),
+        error => log_failure(&error, file),
     })?;
     writer.flush().map_err(|error| Failure::cannot_write(&error, output))?;
     drop(writer);

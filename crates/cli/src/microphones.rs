@@ -65,7 +65,8 @@ pub(crate) fn resolve(
         let what = "microphones give names to several rotors, and only one is heard";
         return Err(refused(what.to_owned(), "give their number, as in --rotors 4"));
     }
-    let file: MicrophonesFile = TomlFile::read(path, "file of microphones", NO_RECORDING, SEE_EXAMPLE)?.parse()?;
+    let file: MicrophonesFile =
+        TomlFile::read(path, "file of microphones", NO_RECORDING, SEE_EXAMPLE)?.with_content()?.parse()?;
     let defaults = MicrophonesConfig::default();
     let config = MicrophonesConfig {
         position_std_m: file.position_std_m.unwrap_or(defaults.position_std_m),

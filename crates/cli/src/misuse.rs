@@ -120,9 +120,10 @@ impl Misuse {
             words.iter().filter_map(|word| word.to_str()).find(|word| is_negative(word) && word.starts_with(name));
         if let Some(word) = negative {
             let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();
-            let is_mass = words.windows(2).any(|pair| pair[0] == "--mass" && pair[1] == *word);
-            let what = if is_mass { "a mass cannot be negative" } else { "this value cannot be negative" };
-            return Self { what: format!("{word}: {what}"), hint: Some(hint) };
+            let before = words.windows(2).find(|pair| pair[1] == *word).and_then(|pair| pair[0].to_str());
+            let flag =
+                before.filter(|before| before.starts_with("--")).map_or(String::new(), |flag| format!("{flag} "));
+            return Self { what: format!("{flag}{word}: this value cannot be negative"), hint: Some(hint) };
         }
         if let Some(place) = place_of_log(name, words) {
             return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
@@ -294,8 +295,15 @@ mod tests {
                 "--check cannot be used with --json (--check analyses nothing, so",
             ),
             ("hovertone speed a.wav --blades 2 --blades 3", "--blades is given more than once (give it once)"),
-            ("hovertone identify --mass -0.4=a.mov", "-0.4=a.mov: a mass cannot be negative (write the value"),
-            ("hovertone speed a.wav --gear -8:69", "-8:69: this value cannot be negative (write the value"),
+            (
+                "hovertone identify --mass -0.4=a.mov",
+                "--mass -0.4=a.mov: this value cannot be negative (write the value",
+            ),
+            ("hovertone speed a.wav --gear -8:69", "--gear -8:69: this value cannot be negative (write the value"),
+            (
+                "hovertone weigh a.wav --constant-n-s2 -2.8e-5",
+                "--constant-n-s2 -2.8e-5: this value cannot be negative (write the value",
+            ),
         ] {
             let line_said = said(line);
             assert!(line_said.starts_with(expected) && !line_said.contains('\n'), "{line}: {line_said}");

@@ -1,12 +1,13 @@
 //! `hovertone motor`: constants of motors from the steps in a log or in a recording.
 
-use crate::args::{AnalysisArguments, MotorArguments};
+use crate::args::{AnalysisArguments, HearingArguments, KnownArguments, MotorArguments, ToneArguments};
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::inputs::{STDIN, is_stdin, open_stream};
 use crate::jobs::jobs_of;
-use crate::log::{column_names, log_failure, loss_notice};
+use crate::log::{column_names, log_failure, loss_notice, without_speeds};
+use crate::of_recording::{flags_of, refuse_of_recording};
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, motor_in};
@@ -43,6 +44,7 @@ struct Plan<'a> {
     config: Config,
     discovery: Option<Discovery>,
     commands: Option<LoggedMotors>,
+    of_recording: Vec<String>,
 }
 
 /// What a file tells of its motors.
@@ -73,20 +75,16 @@ impl<'a> Plan<'a> {
         };
         let (config, discovery) = config_of(&arguments.tone, &arguments.known, &analysis)?;
         let commands = arguments.commands.as_deref().map(|path| commands_of(path, &names)).transpose()?;
-        Ok(Self { arguments, names, figure, config, discovery, commands })
+        Ok(Self { arguments, names, figure, config, discovery, commands, of_recording: flags_of_recording() })
     }
 
     fn told_of(&self, file: &Path) -> Result<Told, Failure> {
         match flight_of(file, &self.names)? {
-            Some(_) if self.commands.is_some() => Err(of_recording(
-                file,
-                "--commands belongs",
-                "leave --commands out: the commands of a log are those in it",
-            )),
-            Some(_) if self.arguments.from.or(self.arguments.to).is_some() => {
-                Err(of_recording(file, "--from and --to belong", "leave them out: a log is used whole"))
+            Some(flight) if flight.speeds_rev_s.is_none() => Err(without_speeds(file)),
+            Some(flight) => {
+                refuse_of_recording(&self.of_recording, file)?;
+                Ok(told_by_log(file, &flight))
             }
-            Some(flight) => Ok(told_by_log(file, &flight)),
             None => self.told_by_sound(file),
         }
     }
@@ -146,10 +144,11 @@ impl<'a> Plan<'a> {
     }
 }
 
-/// The failure of a flag that has no meaning for a log.
-fn of_recording(file: &Path, flag_belongs: &str, hint: &str) -> Failure {
-    let what = format!("this is a log, and {flag_belongs} to a recording");
-    Failure::Usage { what, hint: hint.to_owned(), path: Some(file.to_owned()) }
+/// The flags that mean nothing for a log.
+fn flags_of_recording() -> Vec<String> {
+    let of_motor = ["--commands", "--from", "--to"].map(str::to_owned).to_vec();
+    let of_groups = [flags_of::<ToneArguments>(), flags_of::<KnownArguments>(), flags_of::<HearingArguments>()];
+    of_motor.into_iter().chain(of_groups.concat()).collect()
 }
 
 fn told_by_log(file: &Path, flight: &LoggedFlight) -> Told {
@@ -205,12 +204,11 @@ impl<'a> FigureFile<'a> {
 
 /// The commands of a log.
 fn commands_of(path: &Path, names: &ColumnNames) -> Result<LoggedMotors, Failure> {
-    let flight = flight_of(path, names)?;
-    let commands = flight.and_then(|flight| flight.commands).filter(|commands| !commands.values.is_empty());
-    commands.ok_or_else(|| Failure::Usage {
-        what: "--commands names a file without commands of motors".to_owned(),
-        hint: "give a log, or a CSV with columns such as time_s and motor1_pwm (see --column)".to_owned(),
-        path: Some(path.to_owned()),
+    let flight = flight_of(path, names)?.ok_or_else(|| log_failure(&LogError::UnknownFormat, path))?;
+    let commands = flight.commands.filter(|commands| !commands.values.is_empty());
+    commands.ok_or_else(|| {
+        let hint = "give a log, or a CSV with columns such as time_s and motor1_pwm (see --column)";
+        Failure::failed("--commands names a file without commands of motors", hint, path)
     })
 }
 

@@ -60,5 +60,5 @@ pub(crate) fn vehicles_in(file: &TomlFile<'_>) -> Result<Vec<Vehicle>, Failure> 
 
 /// Reads a file of vehicles that the user wants to keep.
 pub(crate) fn file_to_add(path: &std::path::Path) -> Result<TomlFile<'_>, Failure> {
-    TomlFile::read(path, KIND, NO_RECORDING, SEE_EXAMPLE)
+    TomlFile::read(path, KIND, NO_RECORDING, SEE_EXAMPLE)?.with_content()
 }

@@ -5,7 +5,7 @@ use crate::caller::typed_words;
 use crate::failure::Failure;
 use crate::see_help::see_help;
 use crate::vehicles::preset;
-use hovertone::speed::{Config, SpanConfig, ToneConfig};
+use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
 use hovertone::tones::Discovery;
 use hovertone_report::SpeedRecord;
 use hovertone_vehicle::{check_not_negative, check_tips};
@@ -24,6 +24,7 @@ pub(crate) fn config_of(
         ..said_of(asked, known)?
     };
     let (mut config, discovery) = said.settings()?;
+    check_read(analysis, config.method)?;
     config.budget.clock_ppm = analysis.clock_ppm.unwrap_or(config.budget.clock_ppm);
     config.budget.radial_speed_m_s_max = analysis.radial_speed_m_s_max.unwrap_or(config.budget.radial_speed_m_s_max);
     config.budget.drift_m_max = analysis.drift_m_max.unwrap_or(config.budget.drift_m_max);
@@ -33,6 +34,18 @@ pub(crate) fn config_of(
     config.ridge.gaussian_threshold_share = threshold_share.unwrap_or(config.ridge.gaussian_threshold_share);
     config.check()?;
     Ok((config, discovery))
+}
+
+/// Refuses settings of the paper's methods where another method reads the speed.
+fn check_read(analysis: &AnalysisArguments, method: Method) -> Result<(), Failure> {
+    let (flag, methods) = match (analysis.hop_share, analysis.gaussian_threshold_share) {
+        (_, Some(_)) if method != Method::Gaussian => ("--gaussian-threshold-share", "--method gaussian"),
+        (Some(_), _) if !method.reads_ridges() => ("--hop-share", "--method maximum_trace or --method gaussian"),
+        _ => return Ok(()),
+    };
+    let what =
+        format!("{flag} changes nothing: the speed is read by --method {}, which does not use it", method.name());
+    Err(Failure::usage(what, format!("leave it out, or give {methods}")))
 }
 
 /// The tone that the arguments name; `None` where it has to be searched for.

@@ -11,12 +11,10 @@ use crate::recording::{HeardJobs, Hearing, Job, Requests, hear_all, in_memory};
 use crate::settings::{check_tips_heard, config_of};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
+use hovertone::speed::RotorsConfig;
 use hovertone_media::Samples;
 use hovertone_report::{Notice, SpeedRecord, condition_table, speed_json, speed_table, track_csv};
 use std::path::PathBuf;
-
-/// Number of rotors that are separated where several are heard, and nobody said how many.
-const ROTORS_ASSUMED: usize = 4;
 
 /// The meaning of the arguments.
 struct Plan {
@@ -55,7 +53,7 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
 fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], terminal: &mut Terminal) {
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
     let count = records.iter().map(|record| record.rotors().len()).max().unwrap_or_default();
-    if !is_said && !arguments.json && count >= ROTORS_ASSUMED {
+    if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
         let what = format!("nobody said how many rotors turn; several are heard, and {count} were separated");
         terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
     }

@@ -42,6 +42,15 @@ impl<'a> TomlFile<'a> {
         Ok(Self { path, kind, see_example, text })
     }
 
+    /// The same file, refused where nothing is in it.
+    pub(crate) fn with_content(self) -> Result<Self, Failure> {
+        if self.text.trim().is_empty() {
+            let what = format!("this file is empty, and the {} is needed", self.kind);
+            return Err(Failure::failed(what, self.see_example, self.path));
+        }
+        Ok(self)
+    }
+
     /// A text that stands, or would stand, at a path.
     pub(crate) fn of_text(path: &'a Path, kind: &'static str, see_example: &'static str, text: &str) -> Self {
         Self { path, kind, see_example, text: text.to_owned() }
@@ -55,15 +64,18 @@ impl<'a> TomlFile<'a> {
 
 /// The faulty line with a mark under the fault, and the nearest name for a misspelt one.
 fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
+    if let Some((found, hint)) = other_kind(file) {
+        return Failure::failed(format!("this is {found}, and the {} is needed", file.kind), hint, file.path);
+    }
     let PlainFault { what, hint } = in_plain_words(error.message());
     let what = format!("the {} {what}", file.kind);
-    let hint = match (other_command(file), hint) {
-        (Some(command), _) => command.to_owned(),
-        (None, Some(hint)) if error.message().starts_with("unknown") => hint,
-        (None, Some(hint)) => format!("{hint}; {}", file.see_example),
-        (None, None) => file.see_example.to_owned(),
+    let hint = match hint {
+        Some(hint) if error.message().starts_with("unknown") => hint,
+        Some(hint) => format!("{hint}; {}", file.see_example),
+        None => file.see_example.to_owned(),
     };
-    let Some(place) = error.span().map(|span| Place::of(span, &file.text)) else {
+    let span = error.span().map(|span| unknown_in(error.message(), &file.text, span.start).unwrap_or(span));
+    let Some(place) = span.map(|span| Place::of(span, &file.text)) else {
         return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
     };
     let what = format!("{what}\n{}", place.underlined());
@@ -71,14 +83,29 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     Failure::Usage { what, hint, path: Some(path) }
 }
 
-/// The command that takes a file, where it is one of another kind: an experiment has loads, a scenario has manoeuvres.
-fn other_command(file: &TomlFile<'_>) -> Option<&'static str> {
+/// What a file is instead, and its command: an experiment has loads, a scenario has manoeuvres.
+fn other_kind(file: &TomlFile<'_>) -> Option<(&'static str, &'static str)> {
     let has = |section: &str| file.text.lines().any(|line| line.trim() == section);
     match file.kind {
-        "scenario file" if has("[[load]]") => Some("this is an experiment file: give it to `hovertone identify`"),
-        "experiment file" if has("[[maneuver]]") => Some("this is a scenario file: give it to `hovertone simulate`"),
+        "experiment file" if has("[[maneuver]]") => Some(("a scenario file", "give it to `hovertone simulate`")),
+        "experiment file" => None,
+        _ if has("[[load]]") => Some(("an experiment file", "give it to `hovertone identify`")),
         _ => None,
     }
+}
+
+/// Where the name stands that the parser does not know, behind a position: of a table that comes several times, the parser names the header.
+fn unknown_in(message: &str, text: &str, from: usize) -> Option<Range<usize>> {
+    let name = message.strip_prefix("unknown ")?.split('`').nth(1)?;
+    let rest = text.get(from..)?;
+    let quoted = || rest.find(&format!("\"{name}\"")).map(|at| at + 1);
+    let is_key = |at: &usize| {
+        let line_start = rest[..*at].rfind('\n').map_or(0, |feed| feed + 1);
+        rest[line_start..*at].trim().is_empty() && rest[at + name.len()..].trim_start().starts_with('=')
+    };
+    let key = || rest.match_indices(name).map(|(at, _)| at).find(is_key);
+    let at = from + if message.starts_with("unknown field") { key()? } else { quoted()? };
+    Some(at..at + name.len())
 }
 
 /// A position in a text, with line and column counted from 1.

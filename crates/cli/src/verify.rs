@@ -4,7 +4,7 @@ use crate::args::VerifyArguments;
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::jobs::jobs_of;
-use crate::log::{column_names, loss_notice};
+use crate::log::{column_names, loss_notice, without_speeds};
 use crate::motor::flight_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
@@ -29,8 +29,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
         return Err(Failure::failed("this is no log", "give the recording first, then the log", log));
     };
     let Some(speeds) = &flight.speeds_rev_s else {
-        let what = "no rotor speed in this log: there is nothing to compare with";
-        return Err(Failure::failed(what, "let the ESCs report their speeds (telemetry), and log them", log));
+        return Err(without_speeds(log));
     };
     let progress = Progress::new("listening to", 1, !arguments.hearing.no_progress);
     let records = records_of(&jobs, Hearing::of(&arguments.hearing), &progress);

@@ -1,7 +1,7 @@
 //! CSV text: a header, then rows, separated by commas, semicolons or tabs.
 
 use csv::StringRecord;
-use hovertone_logs::{CsvCells, NoTable};
+use hovertone_logs::{CsvCells, NoTable, has_thousands_point};
 
 /// An error in CSV text.
 #[derive(Debug, thiserror::Error)]
@@ -43,6 +43,9 @@ impl CsvError {
             Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::RaggedRow { .. } => {
                 "complete or remove the row; a decimal comma needs semicolons or quotes: 3,5 is two cells"
+            }
+            Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
+                "write thousands without a point, as 1000: in this table commas are decimal"
             }
             Self::NotANumber { .. } => "correct the cell, or remove the row",
         }

@@ -174,7 +174,8 @@ fn one_of(document: Value, group: Option<&str>) -> Result<Value, ResultsError> {
         }
         None => vec![document],
     };
-    let names = || all.iter().filter_map(name_of_group).collect::<Vec<_>>().join(", ");
+    let names =
+        || all.iter().filter_map(name_of_group).map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
     let named: Vec<&Value> =
         all.iter().filter(|results| group.is_none_or(|group| name_of_group(results) == Some(group))).collect();
     match (named.as_slice(), group) {

@@ -1,6 +1,6 @@
 //! Errors in logs.
 
-use crate::{LogFormat, NoTable};
+use crate::{LogFormat, NoTable, has_thousands_point};
 use std::io;
 
 /// Why a log cannot be used.
@@ -146,6 +146,9 @@ impl LogError {
             Self::OtherVersion { .. } => "export the log as CSV with its own program (blackbox_decode)",
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
+            Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
+                "write thousands without a point, as 1000: in this table commas are decimal"
+            }
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
             Self::NoTime { .. } => "a log has a column of times with their unit, such as time_s or timestamp_us",
             Self::NoSignal { .. } => {

@@ -25,6 +25,7 @@ mod signals;
 mod summary;
 mod table;
 mod table_text;
+mod thousands;
 mod time_line;
 mod ulog;
 
@@ -38,3 +39,4 @@ pub use signals::{LogSignals, SignalRow, SignalTable, signal_rows, signals_from_
 pub use summary::{LogSummary, SignalSummary, TableSummary, ValueRange, log_summary};
 pub use table::{SignalRole, TableSignal};
 pub use table_text::{ColumnNames, CsvCells};
+pub use thousands::has_thousands_point;

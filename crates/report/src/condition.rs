@@ -19,7 +19,11 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     let wanted = || records.iter().filter(|record| record.wants_condition && record.speed().is_some());
     wanted().next()?;
     for record in wanted() {
-        let why_none = if record.rotors().is_empty() { "no rotors are separated" } else { "" };
+        let why_none = if record.rotors().is_empty() {
+            "none: only the lines of separated rotors, two or more, are compared"
+        } else {
+            ""
+        };
         table.push_words(record.file.clone(), why_none.to_owned());
         for (index, rotor) in record.rotors().iter().enumerate() {
             let name = name_of_rotor(record, index);

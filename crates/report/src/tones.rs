@@ -218,7 +218,11 @@ fn readings_in_a_line(family: &ToneFamily) -> String {
         .map(|reading| format!("{}: {} rev/s", reading.meaning, significant(reading.speed.rev_s(), DIGITS)))
         .collect();
     match words.is_empty() {
-        true => format!("{INDENT}no rotor: the vehicle, or the speed by itself, excludes it\n"),
+        true => {
+            let mut reasons: Vec<&str> = family.readings.iter().map(|reading| reading.why.as_str()).collect();
+            reasons.dedup();
+            format!("{INDENT}no rotor: {}\n", reasons.join("; "))
+        }
         false => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
     }
 }

@@ -28,7 +28,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
     let found = &record.verification;
     let mut shown = TextTable::new(vec![
         Column::words("rotor"),
-        Column::words("motor of the log"),
+        Column::words("nearest in the log"),
         Column::numbers("heard", "rev/s"),
         Column::numbers("heard − logged", "rev/s"),
         Column::numbers("scatter", "rev/s"),

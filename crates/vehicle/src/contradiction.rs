@@ -151,7 +151,7 @@ impl Contradiction {
                     edge_hz(*rev_s_max)
                 )
             }
-            Self::Rotors { .. } => "say how many rotors turn: all of them in a hover".to_owned(),
+            Self::Rotors { .. } => "leave out one of the two: of a known vehicle, all of them turn in a hover".to_owned(),
             Self::HeavyWithoutDiameter(mass_kg) => format!(
                 "masses are in kilograms: {mass_kg} g are {}; if it is this heavy, also give the diameter of its propellers",
                 mass_kg / 1e3

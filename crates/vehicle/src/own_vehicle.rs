@@ -8,6 +8,8 @@ use serde::Deserialize;
 
 /// Most blades of a propeller that a file may state. *Physics.*
 const BLADES_ALLOWED: std::ops::RangeInclusive<u32> = 1..=20;
+/// Fastest shaft of a multirotor, rev/s: propellers of 3 cm turn at 900. A larger number is in rpm. *Physics.*
+const SHAFT_REV_S_MAX: f64 = 1000.0;
 /// Source of the numbers where the file names none.
 const SOURCE: &str = "your own vehicles.toml";
 
@@ -113,6 +115,9 @@ impl OwnVehicle {
             (.., Some((low, high))) if !(low > 0.0 && low < high && high.is_finite()) => {
                 refuse("shaft_speed_rev_s", low, "above 0, and below the second number")
             }
+            (.., Some((_, high))) if high > SHAFT_REV_S_MAX => {
+                refuse("shaft_speed_rev_s", high, "1000 or less: it is in turns per second, and 3600 rpm are 60")
+            }
             _ => Ok(()),
         }
     }
@@ -157,6 +162,7 @@ mod tests {
             (OwnVehicle { propeller_diameter_m: Some(254.0), ..own() }, "metres"),
             (OwnVehicle { mass_kg: Some(f64::NAN), ..own() }, "mass_kg"),
             (OwnVehicle { shaft_speed_rev_s: Some((200.0, 40.0)), ..own() }, "shaft_speed_rev_s"),
+            (OwnVehicle { shaft_speed_rev_s: Some((3600.0, 9000.0)), ..own() }, "3600 rpm are 60"),
             (OwnVehicle { gear: Some(Gear { pinion: 69, wheel: 8 }), ..own() }, "swapped"),
             (OwnVehicle { mass_kg: Some(250.0), ..own() }, "Mach"),
             (OwnVehicle { mass_kg: Some(250.0), propeller_diameter_m: None, ..own() }, "heavier than most"),

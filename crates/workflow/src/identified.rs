@@ -140,7 +140,12 @@ impl Identified {
 
     /// "2 warnings".
     pub fn warnings_counted(&self) -> String {
-        counted(self.warnings().len() + warning_count(&self.records()), "warning")
+        counted(self.warning_count(), "warning")
+    }
+
+    /// The number of warnings.
+    pub fn warning_count(&self) -> usize {
+        self.warnings().len() + warning_count(&self.records())
     }
 
     /// The tables of all methods, the laws and the budget.

@@ -79,10 +79,10 @@ pub(crate) struct AnalysisArguments {
     /// Length of a frame of the paper's methods, in seconds [default: the length from 0.0125 to 0.4 with the clearest tone]
     #[arg(long, value_name = "S")]
     pub(crate) window_s: Option<f64>,
-    /// Step between frames as a share of their length [default: 0.5]
+    /// Step between frames as a share of their length, with --method maximum_trace or gaussian [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     pub(crate) hop_share: Option<f64>,
-    /// The Gaussian is fitted to the part of a peak above this share of its height [default: 0.8]
+    /// The Gaussian of --method gaussian is fitted to the part of a peak above this share of its height [default: 0.8]
     #[arg(long, value_name = "SHARE")]
     pub(crate) gaussian_threshold_share: Option<f64>,
 }

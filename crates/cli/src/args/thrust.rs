@@ -158,7 +158,7 @@ pub(crate) struct AirArguments {
 #[command(next_help_heading = "Before flying")]
 pub(crate) struct PlanArguments {
     /// Tell how many loads and trials, and how many seconds of hover, a wanted uncertainty needs
-    #[arg(long, conflicts_with = "tables", requires = "mass_kg")]
+    #[arg(long, conflicts_with_all = ["tables", "temperature_c", "pressure_hpa", "humidity_percent"], requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
     #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.025)]

@@ -19,12 +19,15 @@ pub(crate) struct Counts {
 }
 
 impl Counts {
+    /// The status of a recording that could not be heard.
+    pub(crate) const ERROR: &str = "error";
+
     /// Counts a recording.
     pub(crate) fn add(&mut self, status: &str, is_prefix: bool) {
         match status {
             "ok" => self.ok += 1,
             "ambiguous" => self.ambiguous += 1,
-            "error" => self.error += 1,
+            Self::ERROR => self.error += 1,
             _ => self.no_rotor_tone += 1,
         }
         self.cut_short += usize::from(is_prefix);

@@ -67,10 +67,12 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
         wants_progress: !arguments.hearing.no_progress,
     };
     let of_run = hear_missing(&plan, &folder, &manner)?;
-    let counts = write_tables(&plan, &folder, &identity)?;
-    if counts.is_some() && shard.is_whole() {
+    let written = write_tables(&plan, &folder, &identity)?;
+    if written.is_some() && shard.is_whole() {
         folder.remove_other_parts(&plan)?;
     }
+    written.iter().flat_map(|written| &written.failed).for_each(|failed| terminal.error(failed));
+    let counts = written.map(|written| written.counts);
     say(&Said { heard: of_run, all: counts.as_ref(), plan: &plan, shard, folder: &folder }, arguments.json, terminal)?;
     Ok(if counts.unwrap_or(of_run).is_complete() { Ending::Done } else { Ending::Incomplete })
 }

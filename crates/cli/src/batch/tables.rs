@@ -6,6 +6,7 @@ use super::overview::Overview;
 use crate::failure::Failure;
 use crate::output_file::{OutputFile, remove_written};
 use hovertone_archive::{ArchiveError, BatchIdentity, Part, Plan, RecordingsTable, TracksTable};
+use hovertone_report::Notice;
 use serde_json::Value;
 use std::fs::File;
 use std::io::BufWriter;
@@ -20,23 +21,37 @@ pub(crate) const OVERVIEW: &str = "overview.html";
 /// First letters of the name of a table of tracks.
 const TRACKS_BEGIN: &str = "part-";
 
+/// Most recordings that are named where they could not be heard; the table and the page name all.
+const FAILED_NAMED_MAX: usize = 10;
+
+/// What the tables hold.
+pub(crate) struct Written {
+    pub(crate) counts: Counts,
+    /// The first recordings that could not be heard, with the reasons.
+    pub(crate) failed: Vec<Notice>,
+}
+
 /// Writes the tables and the page; `None` where recordings are missing, which other jobs hear.
 pub(crate) fn write_tables(
     plan: &Plan,
     folder: &BatchFolder,
     identity: &BatchIdentity,
-) -> Result<Option<Counts>, Failure> {
+) -> Result<Option<Written>, Failure> {
     if !plan.recordings().iter().all(|recording| folder.has(recording)) {
         return Ok(None);
     }
     let _alone = folder.alone()?;
     let mut recordings = Begun::new(folder, RECORDINGS, |into| RecordingsTable::begin(into, &identity.settings))?;
     let mut tracks = Tracks { folder, settings: &identity.settings, current: None, count: 0 };
-    let (mut counts, mut overview) = (Counts::default(), Overview::new(identity));
+    let (mut counts, mut failed, mut overview) = (Counts::default(), Vec::new(), Overview::new(identity));
     for recording in plan.recordings() {
         let part = folder.part(recording)?;
         let summary = part.summary().map_err(Failure::internal)?;
         counts.add(&summary.status, summary.is_prefix);
+        if summary.status == Counts::ERROR && failed.len() < FAILED_NAMED_MAX {
+            failed
+                .push(Notice::new(format!("{}: {}", summary.file, summary.reason.as_deref().unwrap_or_default()), ""));
+        }
         recordings.table.push(&part).map_err(|error| cannot_write(error, &recordings.output))?;
         tracks.push(&part)?;
         overview.add(summary, part.picture);
@@ -44,7 +59,7 @@ pub(crate) fn write_tables(
     tracks.end()?;
     folder.write(OVERVIEW, &overview.html()?)?;
     recordings.end(RecordingsTable::finish)?;
-    Ok(Some(counts))
+    Ok(Some(Written { counts, failed }))
 }
 
 /// Whether a file in the folder of the tracks was written by a batch.

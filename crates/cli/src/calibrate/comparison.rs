@@ -10,6 +10,8 @@ use hovertone_vehicle::{BLADES_MAX, CLOCK_CORRECTION_PPM_MAX, Gear, Order, Rotor
 use serde_json::json;
 
 const SECONDS_PER_MINUTE: f64 = 60.0;
+/// Share by which the known speed of one rotor may differ from the mean of several. *Decision.*
+const ROTORS_SHARE: f64 = 0.25;
 /// Millionths in a hundredth.
 const PPM_PER_PERCENT: f64 = 1e4;
 /// Largest error of a clock.
@@ -91,10 +93,7 @@ impl Comparison {
         let is_ratio = |ratio: f64| (self.check.heard_over_known / ratio - 1.0).abs() < BAND_SHARE;
         let order = self.heard.order.lines_per_turn();
         match self.reference {
-            Reference::Speed { rpm, .. } if is_ratio(SECONDS_PER_MINUTE) => Some(format!(
-                "Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {}",
-                to_tenths(SECONDS_PER_MINUTE * rpm)
-            )),
+            Reference::Speed { rpm, .. } if is_ratio(SECONDS_PER_MINUTE) => Some(in_turns_per_second(rpm)),
             Reference::Speed { rpm, .. } => {
                 let gear = gear_of(arguments).filter(|gear| is_ratio(1.0 / gear.ratio()))?;
                 Some(format!(
@@ -116,6 +115,18 @@ impl Comparison {
     fn whole_correction_ppm(&self, before_ppm: f64) -> f64 {
         MILLION * ((1.0 + before_ppm / MILLION) * (1.0 + self.check.correction_ppm / MILLION) - 1.0)
     }
+}
+
+fn in_turns_per_second(rpm: f64) -> String {
+    let right = to_tenths(SECONDS_PER_MINUTE * rpm);
+    format!("Was the known speed in turns per second? {rpm} turns per second are --tachometer-rpm {right}")
+}
+
+/// Asks whether the known speed was in turns per second, where several rotors are heard near sixty times it.
+pub(super) fn slip_of_turns_per_second(reference: Reference, heard: RotorSpeed) -> Option<String> {
+    let Reference::Speed { rpm, .. } = reference else { return None };
+    let is_near = (heard.rpm() / (SECONDS_PER_MINUTE * rpm) - 1.0).abs() < ROTORS_SHARE;
+    is_near.then(|| in_turns_per_second(rpm))
 }
 
 /// The comparison for people.

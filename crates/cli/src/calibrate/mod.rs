@@ -10,7 +10,7 @@ use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
 use crate::settings::config_of;
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
-use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words};
+use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words, slip_of_turns_per_second};
 use hovertone::calibration::Judgement;
 use hovertone::speed::{Config, SpeedAnalysis, Warning};
 use hovertone::tones::Discovery;
@@ -117,7 +117,12 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
         ending: ending.max(Ending::Incomplete),
     };
     if record.as_ref().and_then(SpeedRecord::analysis).is_some_and(hears_several) {
-        return undecided(SEVERAL_ROTORS, SEVERAL_IN_WORDS.to_owned());
+        let heard = record.as_ref().and_then(|record| Some(record.speed()?.speed));
+        let slip = heard.and_then(|heard| slip_of_turns_per_second(reference, heard));
+        return undecided(
+            SEVERAL_ROTORS,
+            slip.map_or(SEVERAL_IN_WORDS.to_owned(), |slip| format!("{SEVERAL_IN_WORDS}. {slip}")),
+        );
     }
     if let Some(record) = record.as_ref().filter(|record| record.is_ambiguous()) {
         let known_hz = match reference {

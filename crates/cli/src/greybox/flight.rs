@@ -228,8 +228,13 @@ pub(crate) fn fit_of(
 ) -> Result<Heard, Failure> {
     let start = vehicle.start();
     let stopped = |stop: GreyBoxStop| {
-        let hint = "log commands and attitude over a minute of doublets about all axes".to_owned();
-        Failure::Usage { what: stop.to_string(), hint, path: Some(files.log.clone()) }
+        let hint = match stop {
+            GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
+                "give the time between their clocks with --log-offset-s, and the log of this recording; fly doublets for a minute"
+            }
+            _ => "log commands and attitude over a minute of doublets about all axes",
+        };
+        Failure::Usage { what: stop.to_string(), hint: hint.to_owned(), path: Some(files.log.clone()) }
     };
     match &files.recording {
         None => {

@@ -6,11 +6,12 @@ mod scenario;
 pub(crate) use flight::{FlightFiles, FlownLog, GreyBoxVehicle, Heard, Speeds, fit_of, speeds_of};
 pub(crate) use scenario::{scenario_file, scenario_toml};
 
-use crate::args::{BodyAxes, GreyBoxArguments};
+use crate::args::{BodyAxes, GreyBoxArguments, HearingArguments};
 use crate::failure::{Ending, Failure};
 use crate::figure_file::FigureKind;
 use crate::log::{column_names, loss_notice};
-use crate::outputs::{Outputs, written};
+use crate::of_recording::{flags_of, refuse_of_recording};
+use crate::outputs::{Outputs, is_recording, written};
 use crate::progress::Progress;
 use crate::recording::Hearing;
 use crate::terminal::Terminal;
@@ -25,6 +26,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let vehicle = GreyBoxVehicle::find(&arguments.vehicle, arguments.mass_kg)?;
     let files = FlightFiles::typed(&arguments.files);
+    refuse_unheard(arguments)?;
     let other = (!arguments.check.is_empty()).then(|| FlightFiles::typed(&arguments.check));
     let outputs = Outputs::beside(arguments.files.iter().chain(&arguments.check), arguments.replace.force);
     let kind = checked_outputs(arguments, &outputs)?;
@@ -119,6 +121,17 @@ fn checked_outputs(arguments: &GreyBoxArguments, outputs: &Outputs) -> Result<Op
     Ok(kind)
 }
 
+/// Refuses flags about a recording where logs alone are given.
+fn refuse_unheard(arguments: &GreyBoxArguments) -> Result<(), Failure> {
+    match (arguments.files.as_slice(), arguments.check.len()) {
+        ([log], 0 | 1) => {
+            let of_log = ["--log-offset-s".to_owned()];
+            refuse_of_recording(&[&of_log[..], &flags_of::<HearingArguments>()].concat(), log)
+        }
+        _ => Ok(()),
+    }
+}
+
 /// How logs are read.
 struct LogReader {
     names: hovertone_logs::ColumnNames,
@@ -137,6 +150,13 @@ impl LogReader {
     }
 
     fn read(&self, files: &FlightFiles, vehicle: &GreyBoxVehicle) -> Result<FlownLog, Failure> {
+        if files.recording.as_deref().is_some_and(|recording| !is_recording(recording)) && is_recording(&files.log) {
+            return Err(Failure::failed(
+                "recording and log are exchanged",
+                "give the recording first, then the log",
+                &files.log,
+            ));
+        }
         // logged speeds have the clock of the log
         let offset_s = if files.recording.is_some() { self.offset_s } else { 0.0 };
         FlownLog::read(&files.log, &self.names, self.axes, offset_s, vehicle)

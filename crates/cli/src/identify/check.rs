@@ -98,7 +98,7 @@ fn faults_of(plan: &PlannedExperiment<'_>, missing: &[Missing<'_>], root: &Path)
     let recordings = plan.loads.iter().flat_map(|load| &load.recordings);
     let broken = recordings.filter_map(|recording| {
         let reason = recording.sound.as_ref().err()?;
-        Some(Notice::new(format!("{}: {reason}", recording.file), "name another recording, or leave this one out"))
+        Some(Notice::new(format!("{}: {reason}", recording.file), ""))
     });
     missing.chain(broken).collect()
 }

@@ -1,14 +1,14 @@
 //! Reading the experiment file, with messages for its errors.
 
 use super::typed::TypedExperiment;
-use crate::compare::read_model;
 use crate::failure::Failure;
 use crate::files::{home_expanded, sha256_of_bytes};
+use crate::model_file::read_model;
 use crate::toml_file::TomlFile;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
 use hovertone::thrust::VehicleModel;
-use hovertone_vehicle::{find_preset, presets};
+use hovertone_vehicle::{Contradiction, find_preset, presets};
 use std::path::{Path, PathBuf};
 
 const KIND: &str = "experiment file";
@@ -47,7 +47,8 @@ impl ExperimentSource {
             KIND,
             "to hear recordings, write their mass before them, as in --mass 413g hover.mov",
             SEE_EXAMPLE,
-        )?;
+        )?
+        .with_content()?;
         Self::of_text(&toml.text, path.to_owned())
     }
 
@@ -99,6 +100,11 @@ fn meaning_failure(error: &ExperimentError, path: &Path) -> Failure {
     let (what, hint) = match error {
         ExperimentError::UnknownPreset { name } => {
             (format!("the experiment file names a vehicle that does not exist: \"{name}\""), preset_hint(name))
+        }
+        ExperimentError::Vehicle(contradiction @ Contradiction::Rotors { .. }) => {
+            let hint =
+                "leave rotors or preset out under [vehicle]; of a bench, write rotors_running under its [[load]]";
+            (contradiction.to_string(), hint.to_owned())
         }
         ExperimentError::Vehicle(contradiction) => (contradiction.to_string(), contradiction.hint()),
         _ => (error.to_string(), SEE_EXAMPLE.to_owned()),

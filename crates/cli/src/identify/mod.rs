@@ -210,7 +210,7 @@ impl Identified {
 
     /// Prints warnings and cuts: first those of the constant, then those of the recordings.
     pub(crate) fn say_notes(&self, terminal: &mut Terminal) {
-        terminal.heading(&self.warnings_counted());
+        terminal.warning_count(self.warning_count());
         for warning in self.warnings() {
             terminal.warning(&Notice::from(warning), "");
         }

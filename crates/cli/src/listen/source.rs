@@ -72,7 +72,7 @@ impl LiveSound {
     }
 }
 
+/// The reason of a recording says what to do.
 fn failed(error: &dyn std::fmt::Display, path: &Path) -> Failure {
-    let hint = if path == Path::new(PIPE) { "give another program before the pipe" } else { "give another recording" };
-    Failure::failed(error.to_string(), hint, path)
+    Failure::failed(error.to_string(), "", path)
 }

@@ -241,6 +241,9 @@ fn four_rotors_check_no_clock() {
         let line = calibrated(&sound, &[said, &["--json"]].concat()).ends_with(3).json_lines().remove(0);
         assert_eq!((&line["status"], &line["passes"]), (&"several_rotors".into(), &serde_json::Value::Null));
     }
+    let slip = ["calibrate", text(&sound), "--vehicle", "crazyflie", "--tachometer-rpm", "350"];
+    let slip = hovertone(&slip).ends_with(3).stderr;
+    assert!(slip.contains("350 turns per second are --tachometer-rpm 21000"), "{slip}");
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
     }
     for command in ["identify", "init"] {
         let flown = [command, "--vehicle", "ardrone", "--mass", "413g=a.wav"];
-        refused_with(&[&flown[..], &["--rotors", "2"]].concat(), &["rotors = 2", "all of them in a hover"]);
+        refused_with(&[&flown[..], &["--rotors", "2"]].concat(), &["rotors = 2", "all of them turn in a hover"]);
         refused_with(&[&flown[..], &["--diameter-m", "0.02"]].concat(), &["diameter_m = 0.02", "Mach 0.84"]);
     }
 }

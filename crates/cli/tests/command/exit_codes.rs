@@ -5,7 +5,7 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Words of a command, its exit code, and a word of its message.
-const CASES: [(&str, i32, &str); 47] = [
+const CASES: [(&str, i32, &str); 64] = [
     // what is read is not there, or of another kind
     ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
     ("speed *.mov --blades 2", 1, "no file matches"),
@@ -31,6 +31,24 @@ const CASES: [(&str, i32, &str); 47] = [
     ("vehicles --add nowhere.toml", 1, "nowhere.toml"),
     ("log nowhere.ulg", 1, "nowhere.ulg"),
     ("log empty", 1, "a folder"),
+    ("fit empty.csv", 1, "this file is empty"),
+    ("log empty.csv", 1, "this file is empty"),
+    ("verify a.wav empty.csv", 1, "this file is empty"),
+    ("identify empty.csv", 1, "this file is empty"),
+    ("vehicles --add empty.csv", 1, "this file is empty"),
+    ("fit results.json", 1, "this file is JSON"),
+    ("motor results.json", 1, "this file is JSON"),
+    ("identify results.json", 1, "this file is JSON"),
+    ("export results.json --into good.toml", 1, "no thrust constant"),
+    ("compare results.json good.toml", 1, "no thrust constant"),
+    ("speed a.wav --vehicle ardrone --log a.wav", 1, "this is a recording, and a log is needed"),
+    ("greybox a.wav a.wav --vehicle ardrone", 1, "this is a recording, and a log is needed"),
+    ("motor a.wav --commands a.wav", 1, "this is a recording, and a log is needed"),
+    ("verify a.wav still.csv", 1, "no rotor speed in this log"),
+    ("motor still.csv", 1, "no rotor speed in this log"),
+    // what is read has no answer
+    ("speed a.wav --blades 2 --from 9", 3, "the recording ends at"),
+    ("spectrogram a.wav --blades 2 --from 9 -o x.png", 3, "nothing was written"),
     ("log a.wav", 1, "this is a recording, and a log is needed"),
     ("motor nowhere.ulg", 1, "nowhere.ulg"),
     ("motor a.wav", 3, ""),
@@ -59,6 +77,8 @@ const CASES: [(&str, i32, &str); 47] = [
     ("motor a.wav --column Zeit=speed", 2, "no known column name"),
 ];
 
+const RESULTS: &str = "{\"thrust_constant_per_rotor_n_s2\": {\"value\": 1e-6}, \"rotor_count\": 1, \"methods\": {}}";
+
 #[test]
 fn every_command_ends_by_one_rule() {
     let folder = tempfile::tempdir().unwrap();
@@ -76,6 +96,9 @@ fn every_command_ends_by_one_rule() {
         ("broken.toml", load("a.wav").replace("[[load]]", "mas_kg = 0.4\n[[load]]")),
         ("flight.toml", "duration_s = 0.2\n".to_owned()),
         ("model.sdf", String::new()),
+        ("empty.csv", String::new()),
+        ("still.csv", "time_s,motor1_pwm\n0,1000\n1,1100\n".to_owned()),
+        ("results.json", RESULTS.to_owned()),
     ] {
         fs::write(at(name), content).unwrap();
     }

@@ -70,6 +70,10 @@ fn what_is_no_flight_is_refused_in_one_line() {
     lacks(&short, &["no speeds of four rotors", "give the recording before the log"]);
     let wild = log("wild.csv", &format!("{head}{}", rows("7")));
     refused_with(&["greybox", &wild, "--vehicle", "ardrone"], &["within ±1"]);
+    for flag in ["--channel", "--log-offset-s", "--clock-correction-ppm"] {
+        let words = [&format!("{flag} belongs to a recording"), "hint: leave"];
+        refused_with(&["greybox", &short, "--vehicle", "ardrone", flag, "1"], &words);
+    }
     let other = log("other.csv", "time_s,rotor1_rpm\n0,6000\n1,6000\n");
     lacks(&other, &["no command beside the angle or rate", "climb lacks its command", "log a column command_roll, ±1"]);
     refused_with(&["greybox", &short, "--vehicle", "ardron"], &["did you mean \"ardrone\"?"]);

@@ -72,6 +72,12 @@ fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
         }
         Err(_) => println!("skipped: no `patch`"),
     }
+    fs::write(&model, IRIS.replace("theirs", "5.84e-6 is the maker's")).unwrap();
+    let said = export(&results, &["--into", text(&model), "-o", text(&folder.path().join("copy.sdf"))]).ends_with(0);
+    assert!(!said.stderr.contains("from before"), "a line that is changed is shown: {}", said.stderr);
+    fs::write(&model, IRIS.replace("from PX4", "from PX4: 5.84e-6")).unwrap();
+    let said = export(&results, &["--into", text(&model)]).ends_with(0);
+    assert!(said.stderr.contains("line 2 still has a number from before"), "{}", said.stderr);
     fs::write(&model, &after).unwrap();
     let again = export(&results, &["--into", text(&model)]).ends_with(0);
     assert!(again.stdout.is_empty() && again.stderr.contains("nothing to change"), "{}", again.stderr);
@@ -124,13 +130,13 @@ fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
     }
     assert_eq!(fs::read_to_string(&model).unwrap(), IRIS);
     let results = text(&results);
-    refused_with(&["export", results, "--into", results], &["nothing was written"]);
+    assert!(hovertone(&["export", results, "--into", results]).ends_with(1).stderr.contains("no model of a simulator"));
     let torque = ["--torque-constant-n-m-s2", "5"];
     refused_with(&[&["export", results, "--to", "gazebo"], &torque[..]].concat(), &["propellers have less than 1 m"]);
     let both = hovertone(&["export", results, "--to", "gazebo", "--into", text(&model)]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     fs::write(&model, IRIS.replace("5.84e-06", "${motor_constant}")).unwrap();
-    refused_with(&["export", results, "--into", text(&model)], &["nothing was written"]);
+    assert!(hovertone(&["export", results, "--into", text(&model)]).ends_with(1).stderr.contains("no thrust constant"));
 }
 
 #[test]

@@ -113,21 +113,24 @@ fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
 fn a_ulog_is_known_by_its_first_bytes_and_says_its_axes_itself() {
     let folder = tempfile::tempdir().unwrap();
     let log = folder.path().join("log.csv");
-    let refused = |content: &[u8], more: &[&str], words: &[&str]| {
+    let speed = ["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)];
+    let no_log = |content: &[u8], words: &str| {
         fs::write(&log, content).unwrap();
-        refused_with(&[&["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)], more].concat(), words);
+        let said = hovertone(&speed).ends_with(1).stderr;
+        assert!(said.contains(words) && said.contains("log.csv"), "{words}:\n{said}");
     };
     let message = |kind: u8, content: &[u8]| [&(content.len() as u16).to_le_bytes()[..], &[kind], content].concat();
     let head = [&b"ULog\x01\x12\x35\x01"[..], &[0; 8]].concat();
     let format = message(b'F', b"sensor_combined:uint64_t timestamp;float[3] gyro_rad;");
     let rates = [head.clone(), format, message(b'A', b"\0\0\0sensor_combined"), message(b'D', &[0; 22])].concat();
-    refused(&rates, &["--log-axes", "flu"], &["x forward, y right and z down", "leave --log-axes out"]);
-    refused(&head, &[], &["before its data", "log.csv"]);
-    refused(b"\xa3\x95\x80\0FMT", &[], &["this ArduPilot DataFlash log ends"]);
-    refused(b"PK\x03\x04\0\0", &[], &["neither a CSV nor a log of PX4"]);
-    // without --log-axes it is the recording that is missing
+    no_log(&head, "before its data");
+    no_log(b"\xa3\x95\x80\0FMT", "this ArduPilot DataFlash log ends");
+    no_log(b"PK\x03\x04\0\0", "neither a CSV nor a log of PX4");
     fs::write(&log, &rates).unwrap();
-    let run = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--log", text(&log)]).ends_with(1);
+    let with_axes = [&speed[..], &["--log-axes", "flu"]].concat();
+    refused_with(&with_axes, &["x forward, y right and z down", "leave --log-axes out"]);
+    // without --log-axes it is the recording that is missing
+    let run = hovertone(&speed).ends_with(1);
     assert!(run.stderr.contains("a.wav"), "{}", run.stderr);
 }
 

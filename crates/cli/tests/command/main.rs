@@ -19,6 +19,7 @@ mod filing;
 mod flight_logs;
 mod folded;
 mod greybox;
+mod hints;
 mod identify;
 mod interrupts;
 mod into;

@@ -190,7 +190,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("fit --plan --mass-kg -1", "error: mass_kg = -1"),
         ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 64 (hint: "),
         ("identify --vehicle ardrone --mass -1 a.wav", "error: --mass -1: "),
-        ("identify --vehicle ardrone --mass -0.4=a.wav", "error: -0.4=a.wav: a mass cannot be negative"),
+        ("identify --vehicle ardrone --mass -0.4=a.wav", "error: --mass -0.4=a.wav: this value cannot be negative"),
         ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),
         ("speed a.wav --method guess", "error: --method guess: there is no such value (hint: give one of: "),
         (
@@ -286,12 +286,12 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
     let experiment = write("e.toml", b"# mine\n[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n");
     let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
     for (arguments, code, said) in [
-        (vec!["fit", &json], 2, "this file is JSON, and a table is needed"),
-        (vec!["fit", &empty], 2, "this file is empty, and a table is needed"),
-        (vec!["fit", &experiment], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
-        (vec!["log", &scenario], 2, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["fit", &json], 1, "this file is JSON, and a table is needed"),
+        (vec!["fit", &empty], 1, "this file is empty, and a table is needed"),
+        (vec!["fit", &experiment], 1, "this file is TOML, and a table is needed (hint: give a CSV file"),
+        (vec!["log", &scenario], 1, "this file is TOML, and a table is needed (hint: give a CSV file"),
         (vec!["identify", &json], 1, "this file is JSON, so it cannot be the experiment file"),
-        (vec!["export", &results, "--into", &results], 2, "this JSON is no model of a simulator"),
+        (vec!["export", &results, "--into", &results], 1, "this JSON is no model of a simulator"),
         (vec!["compare", &results, &results], 1, "this JSON is no model of a simulator"),
         (vec!["compare", &model, &results], 2, "this is a model of a simulator, and the results are needed first"),
         (vec!["export", &json, "--to", "gazebo", "--group", "x"], 2, "these results have no groups"),
@@ -314,10 +314,22 @@ fn an_experiment_and_a_scenario_are_told_from_each_other() {
     let (experiment, scenario) = (folder.path().join("e.toml"), folder.path().join("s.toml"));
     fs::write(&experiment, "[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n").unwrap();
     fs::write(&scenario, "duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n").unwrap();
-    let flown = hovertone(&["simulate", text(&experiment), "-o", text(&folder.path().join("out"))]).ends_with(2);
-    assert!(flown.stderr.contains("this is an experiment file: give it to `hovertone identify`"), "{}", flown.stderr);
-    let heard = hovertone(&["identify", text(&scenario)]).ends_with(2);
-    assert!(heard.stderr.contains("this is a scenario file: give it to `hovertone simulate`"), "{}", heard.stderr);
+    let flown = hovertone(&["simulate", text(&experiment), "-o", text(&folder.path().join("out"))]).ends_with(1);
+    assert!(
+        flown.stderr.contains(
+            "this is an experiment file, and the scenario file is needed (hint: give it to `hovertone identify`"
+        ),
+        "{}",
+        flown.stderr
+    );
+    let heard = hovertone(&["identify", text(&scenario)]).ends_with(1);
+    assert!(
+        heard.stderr.contains(
+            "this is a scenario file, and the experiment file is needed (hint: give it to `hovertone simulate`"
+        ),
+        "{}",
+        heard.stderr
+    );
 }
 
 /// Both streams as a terminal shows them.

@@ -44,7 +44,10 @@ fn a_log_has_its_own_commands() {
     let folder = tempfile::tempdir().unwrap();
     let log = written(folder.path(), "log.csv", steps_csv(true));
     refused_with(&["motor", &log, "--commands", &log], &["--commands belongs to a recording", "leave --commands out"]);
-    refused_with(&["motor", &log, "--from", "5"], &["--from and --to belong to a recording"]);
+    for flag in ["--from", "--blades", "--channel", "--rotors"] {
+        refused_with(&["motor", &log, flag, "2"], &[&format!("{flag} belongs to a recording"), "hint: leave"]);
+    }
+    refused_with(&["motor", &log, "--vehicle", "ardrone"], &["--vehicle belongs to a recording"]);
 }
 
 #[test]
@@ -147,9 +150,9 @@ fn a_log_without_a_time_constant_says_why() {
         run.stdout
     );
     let commands = written(folder.path(), "commands.csv", "time_s,motor1_pwm\n0,1000\n1,1200\n");
-    assert!(hovertone(&["motor", &commands]).ends_with(3).stdout.contains("no rotor speed in this log"));
+    assert!(hovertone(&["motor", &commands]).ends_with(1).stderr.contains("no rotor speed in this log"));
     let still = written(folder.path(), "still.csv", "time_s,rotor1_rpm\n0,0\n1,0\n2,0\n");
-    assert!(hovertone(&["motor", &still]).ends_with(3).stdout.contains("no rotor speed in this log"));
+    assert!(hovertone(&["motor", &still]).ends_with(3).stdout.contains("no rotor turns in this log"));
 }
 
 #[test]
@@ -204,8 +207,8 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
     assert!(!run.stdout.contains("timeConstant"));
-    let run = hovertone(&["motor", text(&logs.join("px4_sample_small.ulg"))]).ends_with(3);
-    assert!(run.stdout.contains("no rotor speed in this log"), "{}", run.stdout);
+    let run = hovertone(&["motor", text(&logs.join("px4_sample_small.ulg"))]).ends_with(1);
+    assert!(run.stderr.contains("no rotor speed in this log"), "{}", run.stderr);
 }
 
 #[test]
@@ -248,6 +251,7 @@ fn what_is_neither_log_nor_recording_ends_with_a_sentence() {
     let run = hovertone(&["motor", text(&noise), "--blades", "2"]).ends_with(3);
     assert!(run.stdout.contains("no rotor tone"), "{}", run.stdout);
     let flat = written(folder.path(), "flat.csv", "time_s,rotor1_rpm\n0,600\n0.01,600\n");
-    refused_with(&["motor", text(&noise), "--commands", &flat], &["without commands of motors", "motor1_pwm"]);
+    let run = hovertone(&["motor", text(&noise), "--commands", &flat]).ends_with(1);
+    assert!(run.stderr.contains("without commands of motors") && run.stderr.contains("motor1_pwm"), "{}", run.stderr);
     refused_with(&["motor", text(&noise), "--offset", "1"], &["--commands"]);
 }

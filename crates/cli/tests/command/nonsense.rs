@@ -322,3 +322,16 @@ fn a_thrust_that_no_propeller_has_is_said() {
     let gram_force = run("rpm,thrust_n\n4000,128\n6000,287\n8000,511\n");
     assert!(gram_force.contains(words) && gram_force.contains("check the units"), "{gram_force}");
 }
+
+#[test]
+fn a_flag_that_changes_nothing_is_refused() {
+    let speed = ["speed", "a.wav", "--blades", "2"];
+    refused_with(&[&speed[..], &["--hop-share", "0.3"]].concat(), &["--hop-share changes nothing", "maximum_trace"]);
+    let trace = [&speed[..], &["--method", "maximum_trace", "--gaussian-threshold-share", "0.5"]].concat();
+    refused_with(&trace, &["--gaussian-threshold-share changes nothing", "give --method gaussian"]);
+    let plan = ["fit", "--plan", "--mass-kg", "0.413"];
+    for flag in ["--temperature-c", "--pressure-hpa", "--humidity-percent"] {
+        refused_with(&[&plan[..], &[flag, "20"]].concat(), &[flag, "a plan does not use the air"]);
+    }
+    refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not tell gravity"]);
+}

@@ -149,8 +149,11 @@ fn a_fit_with_groups_is_one_document_and_export_takes_a_group() {
         assert!((number(&rotor, "/expanded_uncertainty_per_rotor_n_s2") / (2.0 * std) - 1.0).abs() < 1e-9);
         assert!(run.stdout.contains(&format!("\"vehicle\": \"{name}\"")), "{}", run.stdout);
     }
-    refused_with(&["export", text(&fitted), "--to", "gazebo"], &["several groups: A, B", "--group"]);
-    refused_with(&["export", text(&fitted), "--to", "gazebo", "--group", "C"], &["no group \"C\"", "A, B", "--group"]);
+    refused_with(&["export", text(&fitted), "--to", "gazebo"], &["several groups: \"A\", \"B\"", "--group"]);
+    refused_with(
+        &["export", text(&fitted), "--to", "gazebo", "--group", "C"],
+        &["no group \"C\"", "\"A\", \"B\"", "--group"],
+    );
     // the table of one group is the fit itself, as it always was
     fs::write(
         &table,

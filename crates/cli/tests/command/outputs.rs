@@ -135,11 +135,11 @@ fn an_existing_file_is_replaced_only_by_force() {
         assert!([0, 3].contains(&forced.code), "{}", forced.stderr);
         assert_ne!(fs::read(file).unwrap(), b"precious");
     }
-    // what ends in an error later leaves the old file, also with --force
+    // what ends without a picture leaves the old file, also with --force
     let short = folder.path().join("short.wav");
     write_noise(&short, 0.02);
     fs::write(&png, "precious").unwrap();
-    hovertone(&["spectrogram", "--blades", "2", text(&short), "-o", text(&png), "--force"]).ends_with(1);
+    hovertone(&["spectrogram", "--blades", "2", text(&short), "-o", text(&png), "--force"]).ends_with(3);
     assert_eq!(fs::read(&png).unwrap(), b"precious");
     let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert!(left.iter().all(|name| !name.to_string_lossy().contains("unfinished")), "{left:?}");

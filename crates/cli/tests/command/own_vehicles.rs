@@ -68,7 +68,7 @@ fn a_second_vehicle_is_added_and_what_is_wrong_is_not() {
         ("[x]\nrotors = 4\nblades = 0\n", "it must be from 1 to 20 (hint: correct this number; "),
         ("[x]\nrotors = 4\npropeller_diameter_m = 254.0\n", "metres"),
         ("[\"My Drone\"]\nrotors = 4\n", "small letters"),
-        ("", "no vehicle"),
+        ("# none\n", "no vehicle"),
     ] {
         let refused = add(content, 2);
         assert!(refused.stderr.contains(said), "{said}:\n{}", refused.stderr);

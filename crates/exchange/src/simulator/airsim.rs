@@ -6,13 +6,19 @@ use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
 use std::f64::consts::TAU;
 
+const NEEDED_BOTH: &str = "the propellers' diameter and the air's density: give --diameter-m and --air-density-kg-m3, or write \
+     vehicle.propeller_diameter_m and [air] into the experiment file";
+const NEEDED_AIR: &str = "the air's density: give --air-density-kg-m3, or write [air] into the experiment file";
+const NEEDED_DIAMETER: &str =
+    "the propellers' diameter: give --diameter-m, or write vehicle.propeller_diameter_m into the experiment file";
+
 pub(super) fn write(rotor: &IdentifiedRotor) -> Result<String, ModelError> {
-    let (Some(density), Some(diameter_m)) = (rotor.air_density_kg_m3, rotor.propeller_diameter_m) else {
-        return Err(ModelError::Needs {
-            format: "airsim",
-            what: "the propellers' diameter and the air's density: give --diameter-m and --air-density-kg-m3, or write \
-                   vehicle.propeller_diameter_m and [air] into the experiment file",
-        });
+    let needs = |what| Err(ModelError::Needs { format: "airsim", what });
+    let (density, diameter_m) = match (rotor.air_density_kg_m3, rotor.propeller_diameter_m) {
+        (Some(density), Some(diameter_m)) => (density, diameter_m),
+        (None, Some(_)) => return needs(NEEDED_AIR),
+        (Some(_), None) => return needs(NEEDED_DIAMETER),
+        (None, None) => return needs(NEEDED_BOTH),
     };
     let constant = ConstantUnits::from_n_s2(rotor.thrust_constant_n_s2);
     let coefficient = constant.coefficient(density, diameter_m);

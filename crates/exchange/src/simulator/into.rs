@@ -36,6 +36,27 @@ pub struct UpdatedModel {
     pub changes: Vec<ChangedLine>,
 }
 
+impl UpdatedModel {
+    /// The first line that still has a number which another line had before: a comment, most probably.
+    pub fn line_with_old_number(&self) -> Option<usize> {
+        let is_changed = |line: usize| self.changes.iter().any(|change| change.line_number == line);
+        let old: Vec<f64> = (self.changes.iter())
+            .flat_map(|change| {
+                let after: Vec<f64> = numbers_in(&change.after).collect();
+                numbers_in(&change.before).filter(move |number| !after.contains(number))
+            })
+            .collect();
+        let lines = self.text.lines().enumerate().map(|(index, line)| (index + 1, line));
+        let mut unchanged = lines.filter(|(number, _)| !is_changed(*number));
+        unchanged.find(|(_, line)| numbers_in(line).any(|number| old.contains(&number))).map(|(number, _)| number)
+    }
+}
+
+fn numbers_in(line: &str) -> impl Iterator<Item = f64> {
+    let words = line.split(|letter: char| !letter.is_ascii_alphanumeric() && !".+-".contains(letter));
+    words.filter_map(|word| word.parse().ok())
+}
+
 /// A part of the text and its replacement.
 struct Edit {
     range: Range<usize>,

@@ -236,7 +236,10 @@ impl ExperimentFile {
             not_negative(&named(field), time_s.unwrap_or(0.0))?;
         }
         let span = SpanConfig { from_s: load.from_s, to_s: load.to_s };
-        span.check()?;
+        span.check().map_err(|error| ExperimentError::Contradiction {
+            what: format!("load {:?}: {error}", load.name),
+            hint: "write a later to_s or an earlier from_s, in seconds of the recording",
+        })?;
         let power_w = load.power_w.map(|power_w| positive(&named("power_w"), power_w)).transpose()?;
         Ok(ExperimentLoad {
             name: load.name.clone(),
@@ -287,10 +290,10 @@ impl ExperimentFile {
             && !are_masses_of_one_vehicle(mass_kg, known_kg)
         {
             let is_in_grams = GRAMS_FACTOR.contains(&(mass_kg / known_kg));
-            let meant = if is_in_grams { format!("; did you mean {}?", mass_kg / 1e3) } else { String::new() };
+            let meant = if is_in_grams { format!(" (did you mean {}?)", mass_kg / 1e3) } else { String::new() };
             return Err(ExperimentError::Contradiction {
                 what: format!(
-                    "vehicle.mass_kg = {mass_kg} is {mass_kg} kg, and the preset or the model weighs {known_kg} kg{meant}"
+                    "vehicle.mass_kg = {mass_kg} is {mass_kg} kg{meant}, and the preset or the model weighs {known_kg} kg"
                 ),
                 hint: "masses are in kg; check this one, and the name of the vehicle",
             });

@@ -1,6 +1,6 @@
 //! Separators and numbers of a CSV.
 
-use crate::{LogError, NoTable};
+use crate::{LogError, NoTable, has_thousands_point};
 use std::borrow::Cow;
 
 /// Most characters of a number whose digits, without the point, are a whole number that a float holds.
@@ -56,6 +56,9 @@ impl CsvCells {
     /// The finite number in a cell.
     pub fn number(&self, cell: &[u8]) -> Option<f64> {
         let cell = cell.trim_ascii();
+        if self.has_decimal_commas && has_thousands_point(cell) {
+            return None;
+        }
         if let Some(number) = plain_number(cell) {
             return Some(number);
         }

@@ -22,15 +22,16 @@ impl Default for RotorsConfig {
     }
 }
 
-/// Rotors of a vehicle of which several are heard: most multirotors are quadrotors. *Decision.*
-const SEVERAL: u32 = 4;
 /// Rotors that are looked for where more than these are heard: no common multirotor has more. *Physics.*
 const MANY: u32 = 8;
 
 impl RotorsConfig {
+    /// Rotors of a vehicle of which several are heard, where nobody said how many: most multirotors are quadrotors. *Decision.*
+    pub const SEVERAL: u32 = 4;
+
     /// The same settings where several rotors are heard.
     pub(crate) fn with_several(self) -> Self {
-        Self { count: SEVERAL, ..self }
+        Self { count: Self::SEVERAL, ..self }
     }
 
     /// The same settings where others are heard beside as many rotors.
@@ -41,7 +42,7 @@ impl RotorsConfig {
     /// Rotors for which one line may stand. A line that keeps its phase is that of one rotor; otherwise others may turn beside it, too near to be
     /// heard by themselves, where their number is not known.
     pub(crate) fn count_of_one_line(&self, keeps_phase: bool) -> u32 {
-        if self.is_count_known || keeps_phase { self.count } else { self.count.max(SEVERAL) }
+        if self.is_count_known || keeps_phase { self.count } else { self.count.max(Self::SEVERAL) }
     }
 
     pub(crate) fn check(&self) -> Result<(), ConfigError> {

@@ -13,7 +13,8 @@ fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
     let list = folder.path().join("list.txt");
     fs::write(&list, "# my flights\narchive/flight 1/1.wav\n\narchive/gone.wav\narchive/flight 0\n").unwrap();
     let out = folder.path().join("listed");
-    batch(&list, &out, &[]).ends_with(3);
+    let said = batch(&list, &out, &[]).ends_with(3).stderr;
+    assert!(said.contains("error: ") && said.contains("archive/gone.wav: "), "{said}");
     let rows = table(&out.join("recordings.parquet"));
     assert_eq!(texts(&rows, "error_class"), ["not_a_file", "", "not_found"]);
     let pattern = folder.path().join("archive/*/*.wav");

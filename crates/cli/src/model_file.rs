@@ -1,0 +1,23 @@
+//! The file of a simulator's model.
+
+use crate::failure::Failure;
+use crate::inputs::read_text;
+use hovertone_exchange::{ModelError, SimulatorModel, model_from_text};
+use std::path::Path;
+
+/// Reads the model of a simulator.
+pub(crate) fn read_model(path: &Path) -> Result<SimulatorModel, Failure> {
+    let text = read_text(path, "the model")?;
+    model_from_text(&text).map_err(|error| model_failure(&error, path))
+}
+
+/// The failure of a file that should be a model.
+pub(crate) fn model_failure(error: &ModelError, path: &Path) -> Failure {
+    let hint = match error {
+        ModelError::NoExport => {
+            "give the model of a simulator; the constant of each results.json stands in its report.html"
+        }
+        _ => "`hovertone compare --help` lists the files that it knows",
+    };
+    Failure::failed(error.to_string(), hint, path)
+}
