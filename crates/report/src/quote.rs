@@ -3,7 +3,7 @@
 use crate::number::{PowerOfTen, with_uncertainty};
 use crate::thrust::{CONSTANT_UNIT, WITHOUT_FLIGHTS};
 use hovertone_analysis::RotorsHeardCounts;
-use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, p_value_text};
+use hovertone_thrust::{COVERAGE_FACTOR, ThrustTable, ThrustWarning, p_value_text};
 use hovertone_vehicle::{Estimate, Order};
 
 /// Whether the loads agree with each other.
@@ -27,6 +27,12 @@ impl Verdict {
         });
         let heard = table.loads.iter().filter(|load| load.speed.is_some()).count();
         if !table.loads.iter().any(|load| load.fits.is_some()) {
+            let differ = table.warnings.iter().find(|warning| {
+                matches!(warning, ThrustWarning::ConstantsDiffer { .. } | ThrustWarning::ConstantsSplit)
+            });
+            if let Some(differ) = differ {
+                return Self::Fails(format!("the loads do not fit each other: {differ}"));
+            }
             let why = match heard {
                 0 | 1 => "there is no second load with a speed to compare with",
                 _ => {

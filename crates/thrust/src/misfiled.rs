@@ -12,6 +12,9 @@ const TRIALS_MIN: usize = 4;
 const FAR_DEVIATIONS: f64 = 5.0;
 /// … and by this share: trials in moving air differ by no more. *Decision.*
 const FAR_SHARE: f64 = 2.0 * ALIKE_SHARE_MAX;
+/// The constants of two loads are far apart if they differ by this share: flights in moving air differ by 3 %, and the laws of real vehicles
+/// change a constant by up to 5 % over a usual range of loads. *Decision.*
+const DIFFERENT_SHARE: f64 = 0.1;
 /// Standard deviation of a normal distribution over its median absolute deviation. *Numeric.*
 const STD_PER_MEDIAN_DEVIATION: f64 = 1.4826;
 
@@ -27,6 +30,7 @@ pub(crate) fn misfiled(campaign: &Campaign<'_>) -> Vec<ThrustWarning> {
     let mut warnings: Vec<ThrustWarning> =
         campaign.loads.iter().flat_map(|load| far_trials(load, &squares_of(load))).collect();
     warnings.extend(exchanged_loads(campaign));
+    warnings.extend(different_constants(campaign));
     warnings
 }
 
@@ -60,6 +64,20 @@ fn far_trials(load: &HeardLoad<'_>, trials: &[TrialSquare<'_>]) -> Vec<ThrustWar
         thrust_share: share(trial),
     };
     trials.iter().filter(is_far).map(warning).collect()
+}
+
+/// The loads with the smallest and the largest constant, where each has one recording, and the constants differ by more than flights do. Constants
+/// that are off by a factor are another warning.
+fn different_constants(campaign: &Campaign<'_>) -> Option<ThrustWarning> {
+    if campaign.loads.iter().any(|load| load.trials_rad_s.len() > 1) {
+        return None;
+    }
+    let constant = |point: &&ForcePoint| ForcePoint::thrust_constant_n_s2(point);
+    let least = campaign.points.iter().min_by(|a, b| constant(a).total_cmp(&constant(b)))?;
+    let most = campaign.points.iter().max_by(|a, b| constant(a).total_cmp(&constant(b)))?;
+    let share = constant(&most) / constant(&least) - 1.0;
+    let differ = share > DIFFERENT_SHARE && !is_off_by_a_factor(constant(&most), constant(&least));
+    differ.then(|| ThrustWarning::ConstantsDiffer { least: least.name.clone(), most: most.name.clone(), share })
 }
 
 /// The rows of two masses, of which the heavier turned slower by the largest share, more than hovers of one mass differ. `points` are hovers with

@@ -51,6 +51,15 @@ pub enum ThrustWarning {
         /// Its ω² over that of the others, minus 1.
         thrust_share: f64,
     },
+    /// The constants of loads with one recording each differ by more than any law or weather explains.
+    ConstantsDiffer {
+        /// The load with the smallest constant.
+        least: String,
+        /// The load with the largest one.
+        most: String,
+        /// Largest over smallest constant, minus 1.
+        share: f64,
+    },
     /// The few trials of a load need different thrusts.
     TrialsDiffer {
         /// Name of the load.
@@ -164,6 +173,9 @@ impl ThrustWarning {
             Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
                 "are masses exchanged? Check them, and which recording belongs to which load"
             }
+            Self::ConstantsDiffer { .. } => {
+                "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
+            }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
                 "is it filed under the right load? If it is, check it with `hovertone speed`"
             }
@@ -239,6 +251,7 @@ impl ThrustWarning {
             Self::LoadsDisagree { .. }
                 | Self::TrialFarFromOthers { .. }
                 | Self::TrialsDiffer { .. }
+                | Self::ConstantsDiffer { .. }
                 | Self::HeavierTurnedSlower { .. }
         )
     }
@@ -333,6 +346,9 @@ impl fmt::Display for ThrustWarning {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
                 let percent = 100.0 * thrust_share.abs();
                 write!(f, "{recording} of load \"{load}\" needs {percent:.0} % {than} thrust than the others")
+            }
+            Self::ConstantsDiffer { least, most, share } => {
+                write!(f, "the constant of load \"{most}\" is {:.0} % larger than that of \"{least}\"", 100.0 * share)
             }
             Self::TrialsDiffer { load, least, most, thrust_share } => {
                 write!(f, "{most} of load \"{load}\" needs {:.0} % more thrust than {least}", 100.0 * thrust_share)

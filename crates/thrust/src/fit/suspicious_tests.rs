@@ -172,6 +172,16 @@ fn points_that_mean_nothing_are_refused_by_number() {
     assert!(square_law_fit(&[], PointNoise::Stated).is_err());
 }
 
+#[test]
+fn constants_of_single_recordings_that_differ_are_told() {
+    let mut two = exact_hovers(&[0.0, 0.05], 1);
+    assert!(!fitted(&two).warnings.iter().any(|warning| matches!(warning, ThrustWarning::ConstantsDiffer { .. })));
+    two[1].force = weight(0.4 * VEHICLE_KG);
+    let table = fitted(&two);
+    let differ = table.warnings.iter().find(|warning| matches!(warning, ThrustWarning::ConstantsDiffer { .. }));
+    assert!(differ.is_some(), "{:?}", table.warnings);
+}
+
 /// One of two loads is wrong, or half of the trials of each: nothing shows which, and the result says so.
 #[test]
 fn halves_that_are_off_by_a_factor_are_not_averaged_in_silence() {
