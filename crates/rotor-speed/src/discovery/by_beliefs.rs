@@ -5,11 +5,11 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
-use crate::stages::{HeardRotor, Surveyed, at_ratio, reading_of};
+use crate::stages::{HeardRotor, Surveyed, at_ratio, geared_propellers, known_gears, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, reading_at, rule_out, search_range_rev_s};
 use hovertone_analysis::{Meaning, NoTone, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
 use hovertone_signal::passes::Passes;
-use hovertone_vehicle::{Gear, Order, RotorSpeed, presets};
+use hovertone_vehicle::{Gear, Order, RotorSpeed};
 
 /// The analysis knows the speed better than the evidence where it followed the same line: within this share, the width of a line of the
 /// evidence. *Numeric.*
@@ -110,36 +110,18 @@ fn gcd(a: u32, b: u32) -> u32 {
 
 /// The propellers that are possible: with the blades that are given, or any; and those of the vehicles that are known to have a gear.
 fn propellers(sample_rate_hz: f64, config: &Config, discovery: &Discovery) -> Vec<WantedPropeller> {
-    let is_possible = |blades: u32| discovery.known.blade_count.is_none_or(|known| known == blades);
-    let shares: Vec<(u32, f64)> = match discovery.known.blade_count {
+    let known = discovery.known.blade_count;
+    let shares: Vec<(u32, f64)> = match known {
         Some(blades) => vec![(blades, 1.0)],
         None => BLADES.into_iter().zip(discovery.config.blade_shares).collect(),
     };
-    let direct = shares.into_iter().map(|(blades, share)| (RotorLines::of_blades(blades), blades, share));
-    let geared = known_gears().into_iter().filter(|(_, blades)| is_possible(*blades)).map(|(gear, blades)| {
-        let lines = RotorLines { blades: Some(blades), mesh_order: Some(f64::from(gear.wheel)) };
-        (lines, blades, discovery.config.gear_share)
-    });
-    let propeller = |(lines, blades, share): (RotorLines, u32, f64)| {
+    let direct = shares.into_iter().filter_map(|(blades, share)| {
         let tone = ToneConfig { order: Order::from_blades(blades).ok()?, ..config.tone.clone() };
-        let (slowest_rev_s, fastest_rev_s) = search_range_rev_s(&tone, sample_rate_hz).ok()?.into_inner();
-        // the mesh must be inside the band that is heard
-        let inside_rev_s =
-            lines.mesh_order.map_or(f64::INFINITY, |order| RotorLines::of_blades(blades).hz_max() / order);
-        let fastest_rev_s = fastest_rev_s.min(inside_rev_s);
-        let speeds_rev_s = slowest_rev_s..=fastest_rev_s;
-        (slowest_rev_s < fastest_rev_s).then_some(WantedPropeller { lines, share, speeds_rev_s })
-    };
-    direct.chain(geared).filter_map(propeller).collect()
-}
-
-/// Gears of the vehicles that are known, each with the blades behind it.
-fn known_gears() -> Vec<(Gear, u32)> {
-    let of_vehicles = presets().iter().filter_map(|vehicle| Some((vehicle.gear?.value, vehicle.blade_count?.value)));
-    let mut gears: Vec<(Gear, u32)> = of_vehicles.collect();
-    gears.sort_by_key(|(gear, blades)| (gear.wheel, gear.pinion, *blades));
-    gears.dedup();
-    gears
+        let speeds_rev_s = search_range_rev_s(&tone, sample_rate_hz).ok()?;
+        let is_range = speeds_rev_s.start() < speeds_rev_s.end();
+        is_range.then_some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
+    });
+    direct.chain(geared_propellers(sample_rate_hz, &config.tone, known, discovery.config.gear_share)).collect()
 }
 
 /// The hypotheses as readings, most plausible first; those that are excluded last.

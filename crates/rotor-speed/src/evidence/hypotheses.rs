@@ -74,6 +74,20 @@ impl Beliefs {
         })
     }
 
+    /// The same, where all hypotheses with one speed are one: the most probable of them, with the belief in all.
+    pub(crate) fn with_equal_speeds_joined(mut self) -> Self {
+        let mut joined: Vec<Hypothesis> = Vec::new();
+        for it in self.hypotheses {
+            match joined.iter_mut().find(|other| other.is_of_same_vehicle(it.speed_rev_s)) {
+                Some(same) => same.belief += it.belief,
+                None => joined.push(it),
+            }
+        }
+        joined.sort_by(|a, b| b.belief.total_cmp(&a.belief));
+        self.hypotheses = joined;
+        self
+    }
+
     /// The speed of the hover of the most probable rotor.
     pub(crate) fn hover_rev_s(&self) -> Option<f64> {
         self.hypotheses.first().map(|first| first.hover_rev_s)

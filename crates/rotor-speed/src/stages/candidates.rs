@@ -1,12 +1,13 @@
 //! Stage 2: survey → candidate shaft speeds that may explain its lines.
 
-use super::left_out::{any_propellers, better_without_gear, heard_instead};
+use super::left_out::{better_without_gear, heard_instead};
+use super::propellers::{any_propellers, geared_propellers};
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
-use crate::tone::{CombMap, blades_of_tone, reading_at, search_range_rev_s};
+use crate::tone::{CombMap, DiscoveryConfig, blades_of_tone, reading_at, search_range_rev_s};
 use hovertone_analysis::{Hover, Meaning, NoTone, OtherRotor, Reading, Span, Warning, WeighedSpeed};
 use hovertone_vehicle::{AIR_KG_M3, KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
@@ -149,7 +150,9 @@ pub(crate) fn candidates_from_survey(
     let search_rev_s = search_range_rev_s(&config.tone, sample_rate_hz)?;
     surveyed.check(config)?;
     let where_unknown = any_propellers(sample_rate_hz);
-    let beliefs = beliefs_of(surveyed, search_rev_s.clone(), where_unknown, config).map_err(Silence::because)?;
+    let wanted = wanted_rotor(search_rev_s.clone(), where_unknown, config);
+    let beliefs = surveyed.beliefs(&wanted, config).map_err(Silence::because)?;
+    let beliefs = beliefs.map(|open| decided_by_mesh(&open, surveyed, wanted, sample_rate_hz, config).unwrap_or(open));
     let Some((beliefs, leading_rev_s)) = beliefs.and_then(|beliefs| beliefs.hover_rev_s().map(|it| (beliefs, it)))
     else {
         let instead = heard_instead(surveyed, sample_rate_hz, config);
@@ -169,20 +172,43 @@ pub(crate) fn candidates_from_survey(
     })
 }
 
-/// The beliefs in the speeds of a rotor with the tone of the settings, compared with the propellers that are possible where nothing is known. `None`
-/// where no rotor is heard.
+/// Where the blades alone are said and several speeds are possible: the beliefs with rotors behind the gears of known vehicles as well, whose mesh
+/// tells the octave. `None` where it does not decide.
+fn decided_by_mesh(
+    open: &Beliefs,
+    surveyed: &Surveyed,
+    mut wanted: WantedRotor,
+    sample_rate_hz: f64,
+    config: &Config,
+) -> Option<Beliefs> {
+    let is_open = open.possible(config.evidence.belief_min).len() > 1;
+    let blades = blades_of_tone(&config.tone).filter(|_| is_open)?;
+    let gear_share = DiscoveryConfig::default().gear_share;
+    wanted.propellers.extend(geared_propellers(sample_rate_hz, &config.tone, Some(blades), gear_share));
+    let with_gears = surveyed.beliefs(&wanted, config).ok()??.with_equal_speeds_joined();
+    (with_gears.possible(config.evidence.belief_min).len() == 1).then_some(with_gears)
+}
+
+/// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.
 ///
 /// # Errors
 /// Mains hum.
 pub(crate) fn beliefs_of(
     surveyed: &Surveyed,
     speeds_rev_s: RangeInclusive<f64>,
-    where_unknown: Vec<WantedPropeller>,
     config: &Config,
 ) -> Result<Option<Beliefs>, NoTone> {
+    surveyed.beliefs(&wanted_rotor(speeds_rev_s, Vec::new(), config), config)
+}
+
+/// A rotor with the tone of the settings, compared with the propellers that are possible where nothing is known.
+fn wanted_rotor(
+    speeds_rev_s: RangeInclusive<f64>,
+    where_unknown: Vec<WantedPropeller>,
+    config: &Config,
+) -> WantedRotor {
     let propeller = WantedPropeller { lines: RotorLines::of_tone(&config.tone), share: 1.0, speeds_rev_s };
     let may_be_slow =
         config.tone.is_named_by_band() || config.known.diameter_m.is_some() || config.known.shaft_speed.is_some();
-    let wanted = WantedRotor { propellers: vec![propeller], known: config.known, may_be_slow, where_unknown };
-    surveyed.beliefs(&wanted, config)
+    WantedRotor { propellers: vec![propeller], known: config.known, may_be_slow, where_unknown }
 }

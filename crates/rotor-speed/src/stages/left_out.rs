@@ -1,11 +1,12 @@
 //! For stage 2: rotors that what is known leaves out.
 
 use super::Surveyed;
+use super::propellers::any_propellers;
 use crate::config::Config;
-use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
-use crate::tone::{BLADES, DiscoveryConfig, ToneConfig, search_range_rev_s};
+use crate::evidence::{Beliefs, Hypothesis, WantedRotor};
+use crate::tone::ToneConfig;
 use hovertone_analysis::OtherRotor;
-use hovertone_vehicle::{KnownRotor, Order};
+use hovertone_vehicle::KnownRotor;
 
 /// Behind a gear, the rotor without one whose lines are far more probable than those of the most probable one. It is looked for where several
 /// speeds are possible, and where the blades are not known, because other lines may pass for those of a mesh.
@@ -44,15 +45,4 @@ fn blind_beliefs(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> O
 
 fn rotor_of(hypothesis: &Hypothesis) -> Option<OtherRotor> {
     Some(OtherRotor { blades: hypothesis.lines.blades?, speed_rev_s: hypothesis.hover_rev_s })
-}
-
-/// The propellers that are possible where nothing is known, without a gear.
-pub(super) fn any_propellers(sample_rate_hz: f64) -> Vec<WantedPropeller> {
-    let shares = BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares);
-    let propeller = |(blades, share)| {
-        let tone = ToneConfig::of_order(Order::from_blades(blades).ok()?);
-        let speeds_rev_s = search_range_rev_s(&tone, sample_rate_hz).ok()?;
-        Some(WantedPropeller { lines: RotorLines::of_blades(blades), share, speeds_rev_s })
-    };
-    shares.filter_map(propeller).collect()
 }

@@ -7,6 +7,7 @@ mod decision;
 mod hover;
 mod left_out;
 mod lines;
+mod propellers;
 mod rotors;
 mod speeds;
 mod stop;
@@ -16,6 +17,7 @@ pub(crate) use candidates::{Candidates, HeardRotor, at_ratio, beliefs_of, candid
 pub(crate) use decision::{Decision, decision_from_lines};
 pub(crate) use hover::hover_from_candidate;
 pub(crate) use lines::{Lines, lines_from_hover};
+pub(crate) use propellers::{geared_propellers, known_gears};
 pub(crate) use rotors::rotors_from_hover;
 pub(crate) use speeds::speeds_from_decision;
 pub(crate) use stop::{Silence, Stop};
