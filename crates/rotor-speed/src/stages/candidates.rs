@@ -1,7 +1,7 @@
 //! Stage 2: survey → candidate shaft speeds that may explain its lines.
 
 use super::left_out::{better_without_gear, heard_instead};
-use super::propellers::{any_propellers, geared_propellers};
+use super::propellers::{any_propellers, geared_propellers, with_any_blades};
 use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
@@ -152,7 +152,11 @@ pub(crate) fn candidates_from_survey(
     let where_unknown = any_propellers(sample_rate_hz);
     let wanted = wanted_rotor(search_rev_s.clone(), where_unknown, config);
     let beliefs = surveyed.beliefs(&wanted, config).map_err(Silence::because)?;
-    let beliefs = beliefs.map(|open| decided_by_mesh(&open, surveyed, wanted, sample_rate_hz, config).unwrap_or(open));
+    let is_decided = |beliefs: &Beliefs| beliefs.possible(config.evidence.belief_min).len() == 1;
+    let beliefs = match beliefs {
+        Some(beliefs) if is_decided(&beliefs) => Some(beliefs),
+        open => with_all_lines(surveyed, wanted, sample_rate_hz, config).filter(is_decided).or(open),
+    };
     let Some((beliefs, leading_rev_s)) = beliefs.and_then(|beliefs| beliefs.hover_rev_s().map(|it| (beliefs, it)))
     else {
         let instead = heard_instead(surveyed, sample_rate_hz, config);
@@ -172,21 +176,24 @@ pub(crate) fn candidates_from_survey(
     })
 }
 
-/// Where the blades alone are said and several speeds are possible: the beliefs with rotors behind the gears of known vehicles as well, whose mesh
-/// tells the octave. `None` where it does not decide.
-fn decided_by_mesh(
-    open: &Beliefs,
+/// The beliefs where lines that nobody named may tell the speed as well: the mesh of a gear, where the blades alone are said, and the blade pass,
+/// where the gear alone is said. `None` where all lines are named, or no rotor is heard.
+fn with_all_lines(
     surveyed: &Surveyed,
     mut wanted: WantedRotor,
     sample_rate_hz: f64,
     config: &Config,
 ) -> Option<Beliefs> {
-    let is_open = open.possible(config.evidence.belief_min).len() > 1;
-    let blades = blades_of_tone(&config.tone).filter(|_| is_open)?;
-    let gear_share = DiscoveryConfig::default().gear_share;
-    wanted.propellers.extend(geared_propellers(sample_rate_hz, &config.tone, Some(blades), gear_share));
-    let with_gears = surveyed.beliefs(&wanted, config).ok()??.with_equal_speeds_joined();
-    (with_gears.possible(config.evidence.belief_min).len() == 1).then_some(with_gears)
+    let named = wanted.propellers.first()?;
+    let more = match named.lines {
+        RotorLines { blades: Some(blades), mesh_order: None } => {
+            geared_propellers(sample_rate_hz, &config.tone, Some(blades), DiscoveryConfig::default().gear_share)
+        }
+        RotorLines { blades: None, mesh_order: Some(_) } => with_any_blades(named),
+        _ => return None,
+    };
+    wanted.propellers.extend(more);
+    Some(surveyed.beliefs(&wanted, config).ok()??.with_equal_speeds_joined())
 }
 
 /// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.

@@ -15,6 +15,15 @@ pub(super) fn any_propellers(sample_rate_hz: f64) -> Vec<WantedPropeller> {
     shares.filter_map(propeller).collect()
 }
 
+/// The propellers with each number of blades behind the gear of one whose blades are not known.
+pub(super) fn with_any_blades(geared: &WantedPropeller) -> Vec<WantedPropeller> {
+    let with_blades = |(blades, share)| {
+        let lines = RotorLines { blades: Some(blades), ..geared.lines };
+        WantedPropeller { lines, share, speeds_rev_s: geared.speeds_rev_s.clone() }
+    };
+    BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares).map(with_blades).collect()
+}
+
 /// The propellers behind the gears of known vehicles, with these blades, or any where they are not known.
 pub(crate) fn geared_propellers(
     sample_rate_hz: f64,
