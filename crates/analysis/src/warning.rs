@@ -35,6 +35,13 @@ pub enum Warning {
         /// Number of followed harmonics.
         of: usize,
     },
+    /// Parts of the hover, between manoeuvres, turn at different speeds.
+    HoversDiffer {
+        /// Mean shaft speed of the slowest part.
+        slowest_rev_s: f64,
+        /// Mean shaft speed of the fastest part.
+        fastest_rev_s: f64,
+    },
     /// Another steady speed was heard for at least half as long as the reported one.
     OtherSteadySpeed {
         /// The other shaft speed.
@@ -101,6 +108,7 @@ impl Warning {
             | Self::SeveralLines { .. } => true,
             Self::BandCutByCodec { .. }
             | Self::OtherSteadySpeed { .. }
+            | Self::HoversDiffer { .. }
             | Self::HoverShorterThanSample { .. }
             | Self::OtherRotorsHeard
             | Self::FitsElsewhere(_)
@@ -122,7 +130,9 @@ impl Warning {
             Self::FewHarmonicsAgree { .. } => {
                 "another sound may lie in these bands: check the blades or the gear, narrow --band, or compare --harmonics 1"
             }
-            Self::OtherSteadySpeed { .. } => "choose the part you mean with --from and --to",
+            Self::OtherSteadySpeed { .. } | Self::HoversDiffer { .. } => {
+                "choose the part you mean with --from and --to"
+            }
             Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
             Self::ManyGaps { .. } => {
                 "leave --band out if you gave it; else move the microphone nearer, or choose the clear part with --from and --to"
@@ -169,6 +179,12 @@ impl fmt::Display for Warning {
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
                 write!(f, "another steady speed, {speed_rev_s:.1} rev/s, is heard from {from_s:.1} s to {to_s:.1} s")
+            }
+            Self::HoversDiffer { slowest_rev_s, fastest_rev_s } => {
+                write!(
+                    f,
+                    "parts of the hover turn at different speeds, {slowest_rev_s:.1} to {fastest_rev_s:.1} rev/s: the result is their mean"
+                )
             }
             Self::HoverShorterThanSample { hover_s, length_s } => {
                 write!(

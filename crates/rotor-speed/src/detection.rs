@@ -4,7 +4,8 @@ use crate::hover::HoverConfig;
 use crate::survey::Survey;
 use crate::tone::ToneConfig;
 use hovertone_analysis::{
-    CutReason, Hover, Method, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, Warning,
+    CutReason, Hover, Method, NoTone, OtherRotor, Ridge, RotorEstimate, SampleSpeeds, Span, SpeedEstimate, TrackPoint,
+    Warning,
 };
 use hovertone_signal::statistics::mean;
 
@@ -19,6 +20,8 @@ const GAP_SHARE: f64 = 0.3;
 const SPREAD_SHARE: f64 = 0.025;
 /// A sample of fewer frames has a mean that one bad frame spoils. *Decision.*
 const FEW_FRAMES: usize = 8;
+/// Shortest part of a hover that has a speed of its own, s. *Decision.*
+const PART_S: f64 = 2.0;
 /// Another speed is worth a warning when it lasts this share of the hover. *Decision.*
 const OTHER_SPEED_LENGTH_SHARE: f64 = 0.5;
 
@@ -67,6 +70,21 @@ pub(crate) fn warnings_of_hover(hover: &Hover) -> Vec<Warning> {
             _ => None,
         })
         .collect()
+}
+
+/// Parts of a hover whose speeds differ by as much as a manoeuvre.
+pub(crate) fn warning_of_parts(hover: &Hover, track: &[TrackPoint], share_max: f64) -> Option<Warning> {
+    let mean_in = |segment: &Span| {
+        let speeds: Vec<f64> =
+            track.iter().filter(|point| segment.contains(point.time_s)).map(|point| point.speed_rev_s).collect();
+        mean(&speeds)
+    };
+    let long = hover.segments.iter().filter(|segment| segment.length_s() >= PART_S);
+    let means: Vec<f64> = long.filter_map(mean_in).collect();
+    let slowest_rev_s = means.iter().copied().min_by(f64::total_cmp)?;
+    let fastest_rev_s = means.iter().copied().max_by(f64::total_cmp)?;
+    let differ = fastest_rev_s / slowest_rev_s - 1.0 > share_max;
+    differ.then_some(Warning::HoversDiffer { slowest_rev_s, fastest_rev_s })
 }
 
 /// What the samples say against their speeds.

@@ -79,11 +79,17 @@ fn twice_the_speed_at_the_end_of_the_range_hides_no_rotor() {
 }
 
 #[test]
-fn a_gear_without_blades_contradicts_no_propeller() {
-    // the lines of the propeller alone tell the same speed as the mesh
-    let file = ScenarioFile::paper_trial(&LOADS[0], 0, 1);
-    let (analysis, _) = heard_by(&file, &ToneConfig::of_order(Order::new(69.0).unwrap()));
-    assert!(matches!(analysis.outcome, Outcome::Ok(_)), "{:?}", analysis.outcome);
-    let elsewhere = analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)));
-    assert!(elsewhere.is_none(), "{elsewhere:?}");
+fn a_gear_without_blades_is_heard_by_the_propeller_too() {
+    // in half of these flights the mesh alone is too faint, or as probable at another speed
+    for trial in 0..3 {
+        let file = ScenarioFile::paper_trial(&LOADS[0], trial, 1);
+        let (analysis, truth) = heard_by(&file, &ToneConfig::of_order(Order::new(69.0).unwrap()));
+        let Outcome::Ok(tone) = &analysis.outcome else { panic!("{trial}: {:?}", analysis.outcome) };
+        assert!(tone.alternatives.is_empty(), "{trial}: {:?}", tone.alternatives);
+        let speed = tone.speeds[0].speed;
+        assert!((speed.rad_s() / truth.sqrt() - 1.0).abs() < 0.005, "{trial}: {} rev/s", speed.rev_s());
+        // the lines of the propeller tell the same speed as the mesh
+        let elsewhere = analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)));
+        assert!(elsewhere.is_none(), "{elsewhere:?}");
+    }
 }

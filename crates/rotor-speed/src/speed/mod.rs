@@ -39,6 +39,8 @@ const ONE_SHAFT_STDS: f64 = 3.0;
 #[derive(Clone, Debug)]
 pub(crate) struct HarmonicWeights<'a> {
     used: Vec<WeightedRidge<'a>>,
+    /// Largest difference of a harmonic from the others, as a share: it follows another rotor. 0 where all agree.
+    pub(crate) difference_share: f64,
 }
 
 /// A harmonic and its weight; the weights of all used harmonics sum to 1.
@@ -82,16 +84,17 @@ impl<'a> HarmonicWeights<'a> {
             .max_by(|(a, a_speed), (b, b_speed)| {
                 agreeing(*a_speed).cmp(&agreeing(*b_speed)).then(a.line_share.total_cmp(&b.line_share))
             });
-        let mut used = Vec::new();
+        let (mut used, mut difference_share) = (Vec::new(), 0.0);
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
                     format!("it is heard for {} of the time", percent_in_words(ridge.point_share()))
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
-                    let (percent, how) =
-                        (100.0 * (speed / reference - 1.0), if *speed < reference { "below" } else { "above" });
-                    format!("its speed is {:.1} % {how} that of the others", percent.abs())
+                    let share = speed / reference - 1.0;
+                    difference_share = share.abs().max(difference_share);
+                    let how = if share < 0.0 { "below" } else { "above" };
+                    format!("its speed is {:.1} % {how} that of the others", 100.0 * share.abs())
                 }
                 (Some(_), Some(_)) => {
                     used.push(ridge);
@@ -106,7 +109,8 @@ impl<'a> HarmonicWeights<'a> {
         let order_power = if is_one_shaft { 2 } else { -1 };
         let weight = |ridge: &Ridge| ridge.band.order.lines_per_turn().powi(order_power) * typical_over_sides(ridge);
         let total: f64 = used.iter().map(|ridge| weight(ridge)).sum();
-        Self { used: used.into_iter().map(|ridge| WeightedRidge { ridge, weight: weight(ridge) / total }).collect() }
+        let used = used.into_iter().map(|ridge| WeightedRidge { ridge, weight: weight(ridge) / total }).collect();
+        Self { used, difference_share }
     }
 
     /// Mean speed over a span of time, or over the whole track, of a track from these weights. `None` where no frame has a point.

@@ -2,9 +2,9 @@
 
 use super::{Decision, Lines, Silence, Stop, at_ratio};
 use crate::config::Config;
-use crate::detection::{warning_of_rotors, warning_of_samples, warnings_of_hover, warnings_of_speed};
+use crate::detection::{warning_of_parts, warning_of_rotors, warning_of_samples, warnings_of_hover, warnings_of_speed};
 use crate::rotors::RotorTracks;
-use crate::speed::{HarmonicWeights, Track, excerpts_from_hover, mean_track, with_budget};
+use crate::speed::{BudgetConfig, HarmonicWeights, Track, excerpts_from_hover, mean_track, with_budget};
 use hovertone_analysis::{
     Hover, Method, NoTone, Outcome, Reading, RotorTone, SampleSpeeds, Span, SpeedAnalysis, SpeedEstimate, Warning,
 };
@@ -23,6 +23,9 @@ pub(crate) fn speeds_from_decision(
     let mut warnings = lines.warnings.clone();
     let order = config.tone.order;
     let weights = HarmonicWeights::from_ridges(&lines.ridges, &config.ridge, &mut warnings);
+    // harmonics that differ follow different rotors: half of the distance is the standard deviation of two
+    let rotor_spread_share = config.budget.rotor_spread_share.max(weights.difference_share / 2.0);
+    let config = &Config { budget: BudgetConfig { rotor_spread_share, ..config.budget }, ..config.clone() };
     let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, order)).collect();
     let keeps_phase = lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
     let one_line_count = config.rotors.count_of_one_line(keeps_phase);
@@ -64,6 +67,7 @@ pub(crate) fn speeds_from_decision(
         None if are_all_apart => mean_track(&rotors, rotor_tracks.step_s()),
         None => lines.harmonic.points_in(None, order),
     };
+    warnings.extend(warning_of_parts(&hover, &track, config.hover.manoeuvre_share_min));
     let alternatives = as_heard(alternatives, speeds.first());
     let Lines { bands, ridges, .. } = lines;
     let tone = RotorTone { bands, window_s, speeds, track, rotors, samples, ridges, alternatives, weighed };
