@@ -62,6 +62,7 @@ mod tests {
             does_not_fit(false, Some(12_345.678)),
             ThrustWarning::LoadsDisagree { names: names(), are_rows: false },
             ThrustWarning::TrialFarFromOthers { load: name(), recording: recording(), thrust_share: -123.0 },
+            ThrustWarning::TrialsInGroups { load: name(), groups_rev_s: vec![123.4; 4] },
             ThrustWarning::ConstantsDiffer { least: name(), most: name(), share: 123.0 },
             ThrustWarning::TrialsDiffer { load: name(), least: recording(), most: recording(), thrust_share: 123.0 },
             ThrustWarning::HeavierTurnedSlower { heavy: name(), light: name() },

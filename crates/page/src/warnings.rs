@@ -121,6 +121,7 @@ fn section_of(warning: &ThrustWarning) -> &'static str {
         | ThrustWarning::TrialLeftOut { .. }
         | ThrustWarning::TrialFarFromOthers { .. }
         | ThrustWarning::TrialsDiffer { .. }
+        | ThrustWarning::TrialsInGroups { .. }
         | ThrustWarning::MassFarFromKnown { .. }
         | ThrustWarning::ImplausibleFigureOfMerit { .. } => "loads",
         ThrustWarning::MassNotWeighed { .. }

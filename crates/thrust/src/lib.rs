@@ -28,6 +28,7 @@ mod statistics;
 mod table;
 mod vehicle_model;
 mod warning;
+mod warning_words;
 mod weighing;
 
 pub use air::{
@@ -50,5 +51,6 @@ pub use square_law::{
 pub use statistics::COVERAGE_FACTOR;
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
-pub use warning::{ThrustWarning, compared, p_value_text};
+pub use warning::ThrustWarning;
+pub use warning_words::{compared, p_value_text};
 pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

@@ -3,8 +3,10 @@
 use crate::campaign::{Campaign, EQUAL_FORCES_SHARE, HeardLoad};
 use crate::square_law::{ForcePoint, PointNoise, is_off_by_a_factor};
 use crate::statistics::{COVERAGE_FACTOR, median};
-use crate::warning::{ThrustWarning, first_names};
+use crate::warning::ThrustWarning;
+use crate::warning_words::first_names;
 use crate::weighing::ALIKE_SHARE_MAX;
+use hovertone_vehicle::RotorSpeed;
 
 /// Fewest trials of a load among which one can be called far from the others. *Decision.*
 const TRIALS_MIN: usize = 4;
@@ -12,6 +14,8 @@ const TRIALS_MIN: usize = 4;
 const FAR_DEVIATIONS: f64 = 5.0;
 /// … and by this share: trials in moving air differ by no more. *Decision.*
 const FAR_SHARE: f64 = 2.0 * ALIKE_SHARE_MAX;
+/// Gaps between groups are wider than those within by this factor. *Decision.*
+const INNER_GAPS: f64 = 3.0;
 /// The constants of two loads are far apart if they differ by this share: flights in moving air differ by 3 %, and the laws of real vehicles
 /// change a constant by up to 5 % over a usual range of loads. *Decision.*
 const DIFFERENT_SHARE: f64 = 0.1;
@@ -63,7 +67,24 @@ fn far_trials(load: &HeardLoad<'_>, trials: &[TrialSquare<'_>]) -> Vec<ThrustWar
         recording: trial.recording.to_owned(),
         thrust_share: share(trial),
     };
-    trials.iter().filter(is_far).map(warning).collect()
+    let far: Vec<ThrustWarning> = trials.iter().filter(is_far).map(warning).collect();
+    if far.is_empty() { in_groups(name(), trials).into_iter().collect() } else { far }
+}
+
+/// Trials in groups of two and more, with gaps between the groups as flights of one mass do not have, and far wider than those within.
+fn in_groups(load: String, trials: &[TrialSquare<'_>]) -> Option<ThrustWarning> {
+    let mut speeds_rad_s: Vec<f64> = trials.iter().map(|trial| trial.square.sqrt()).collect();
+    speeds_rad_s.sort_by(f64::total_cmp);
+    let gap = |slow: &f64, fast: &f64| fast / slow - 1.0;
+    let groups: Vec<&[f64]> = speeds_rad_s.chunk_by(|slow, fast| gap(slow, fast) <= ALIKE_SHARE_MAX).collect();
+    let inner =
+        groups.iter().flat_map(|group| group.windows(2)).map(|pair| gap(&pair[0], &pair[1])).fold(0.0, f64::max);
+    let ends = groups.windows(2).filter_map(|pair| Some(gap(pair[0].last()?, pair[1].first()?)));
+    let are_groups = groups.len() > 1 && groups.iter().all(|group| group.len() > 1);
+    let are_apart = ends.fold(f64::INFINITY, f64::min) > INNER_GAPS * inner;
+    let mean_rev_s = |group: &&[f64]| RotorSpeed::from_rad_s(group.iter().sum::<f64>() / group.len() as f64).rev_s();
+    (are_groups && are_apart)
+        .then(|| ThrustWarning::TrialsInGroups { load, groups_rev_s: groups.iter().map(mean_rev_s).collect() })
 }
 
 /// The loads with the smallest and the largest constant, where each has one recording, and the constants differ by more than flights do. Constants

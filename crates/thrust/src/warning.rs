@@ -4,18 +4,10 @@ use crate::drift::{Drift, DriftKind};
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::statistics::COVERAGE_FACTOR;
+use crate::warning_words::{drift_text, first_names, is_shifted_point, mass_text, range_text, ratio_text};
 use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
 use std::fmt;
-
-/// Most names in the list of a warning. *Decision.*
-const NAMES_MAX: usize = 5;
-
-/// Smallest p-value that is printed as a number. *Decision.*
-const P_VALUE_SHOWN_MIN: f64 = 1e-4;
-
-/// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
-const POINT_MARGIN: f64 = 1.5;
 
 /// A reason to doubt a thrust constant.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -50,6 +42,13 @@ pub enum ThrustWarning {
         recording: String,
         /// Its ω² over that of the others, minus 1.
         thrust_share: f64,
+    },
+    /// The trials of a load lie in groups of speeds, as trials of several masses do.
+    TrialsInGroups {
+        /// Name of the load.
+        load: String,
+        /// Mean speed of each group, slowest first.
+        groups_rev_s: Vec<f64>,
     },
     /// The constants of loads with one recording each differ by more than any law or weather explains.
     ConstantsDiffer {
@@ -173,6 +172,7 @@ impl ThrustWarning {
             Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
                 "are masses exchanged? Check them, and which recording belongs to which load"
             }
+            Self::TrialsInGroups { .. } => "were they flown with different masses? Give each mass a load of its own",
             Self::ConstantsDiffer { .. } => {
                 "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
             }
@@ -252,73 +252,10 @@ impl ThrustWarning {
                 | Self::TrialFarFromOthers { .. }
                 | Self::TrialsDiffer { .. }
                 | Self::ConstantsDiffer { .. }
+                | Self::TrialsInGroups { .. }
                 | Self::HeavierTurnedSlower { .. }
         )
     }
-}
-
-/// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
-pub fn p_value_text(p_value: f64) -> String {
-    if p_value < P_VALUE_SHOWN_MIN {
-        return format!("p < {P_VALUE_SHOWN_MIN}");
-    }
-    // two digits
-    let decimals = (1.0 - p_value.log10().floor()).clamp(2.0, 5.0) as usize;
-    format!("p = {p_value:.decimals$}")
-}
-
-fn drift_text(drift: &Drift) -> String {
-    let step = match drift.kind {
-        DriftKind::PerTrial => "from trial to trial",
-        DriftKind::PerSecond => "each second of a trial",
-        DriftKind::PerRow => "from row to row of the table",
-        DriftKind::PerVolt => "with each volt of the supply",
-    };
-    let percent = 100.0 * drift.constant_share;
-    // two digits of a small drift, which would else be printed as zero
-    let decimals = (1.0 - percent.abs().log10().floor()).clamp(3.0, 9.0) as usize;
-    let percent = format!("{percent:+.decimals$}").replace('-', "−");
-    format!("the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
-}
-
-fn range_text(range: &LoadRange) -> String {
-    let Some(needed) = range.force_ratio_needed else {
-        return "the loads scatter too much about F = C_f ω² to test it".to_owned();
-    };
-    let [ratio, needed] = compared([range.force_ratio, needed]);
-    format!(
-        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, and {needed} times is needed"
-    )
-}
-
-/// Two different ratios with two decimals, or with as many as show that they differ.
-pub fn compared(ratios: [f64; 2]) -> [String; 2] {
-    let printed = |decimals: usize| ratios.map(|ratio| format!("{ratio:.decimals$}"));
-    (2..=6).map(printed).find(|[one, other]| one != other).unwrap_or_else(|| printed(2))
-}
-
-/// The first names of a list.
-pub(crate) fn first_names(names: &[String]) -> String {
-    let more = if names.len() > NAMES_MAX { ", …" } else { "" };
-    names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ") + more
-}
-
-/// A mass in grams.
-fn mass_text(mass_kg: f64) -> String {
-    let grams = 1e3 * mass_kg;
-    if grams < 100.0 { format!("{grams:.1} g") } else { format!("{grams:.0} g") }
-}
-
-/// A ratio with two digits.
-fn ratio_text(ratio: f64) -> String {
-    let decimals = (1.0 - ratio.log10().floor()).clamp(0.0, 3.0) as usize;
-    format!("{ratio:.decimals$}")
-}
-
-/// Whether a ratio of masses is about ten, or a tenth.
-fn is_shifted_point(ratio: f64) -> bool {
-    let near_ten = 10.0 / POINT_MARGIN..=10.0 * POINT_MARGIN;
-    near_ten.contains(&ratio) || near_ten.contains(&ratio.recip())
 }
 
 impl fmt::Display for ThrustWarning {
@@ -346,6 +283,10 @@ impl fmt::Display for ThrustWarning {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
                 let percent = 100.0 * thrust_share.abs();
                 write!(f, "{recording} of load \"{load}\" needs {percent:.0} % {than} thrust than the others")
+            }
+            Self::TrialsInGroups { load, groups_rev_s } => {
+                let speeds: Vec<String> = groups_rev_s.iter().map(|rev_s| format!("{rev_s:.1}")).collect();
+                write!(f, "the trials of load \"{load}\" lie in {} groups of speeds: {} rev/s", speeds.len(), speeds.join(", "))
             }
             Self::ConstantsDiffer { least, most, share } => {
                 write!(f, "the constant of load \"{most}\" is {:.0} % larger than that of \"{least}\"", 100.0 * share)
@@ -394,7 +335,7 @@ impl fmt::Display for ThrustWarning {
                 write!(f, "a figure of merit of {figure_of_merit:.3} (\"{name}\") is outside the range of rotors")
             }
             Self::UncertaintiesIncomplete { stated, of } => {
-                write!(f, "only {stated} of {of} rows have an uncertainty above 0: all forces are taken as equally uncertain")
+                write!(f, "only {stated} of {of} rows have an uncertainty above 0: the ± comes from the scatter of all rows")
             }
             Self::MassNotWeighed { mass_kg } => {
                 write!(f, "the vehicle's mass, {:.1} g, is that of a preset or a model: nobody weighed this one", 1e3 * mass_kg)

@@ -91,7 +91,7 @@ const FIT_EXAMPLES: &str = "\
 The headers name the columns: a speed (rpm, rad/s, rev/s), and a thrust (N, g, gf, kg, lbf) or a mass that hovers \
 (mass_g, mass_kg). There may also be standard uncertainties (speed_std_rpm, thrust_std_n, mass_std_g), power and torque. \
 Columns of words (motor, propeller) make groups, each with a fit of its own. Without uncertainties, all thrusts are \
-equally uncertain, by the scatter of the residuals.
+equally uncertain, in newtons or as a share, whichever fits the scatter of the residuals better.
 
 Examples:
   hovertone fit stand.csv

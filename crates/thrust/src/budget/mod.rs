@@ -347,7 +347,7 @@ fn of_scatter(fit: &SquareLawFit, campaign: &Campaign<'_>) -> Option<BudgetLine>
             (fit.own_std_n_s2 * (factor.powi(2) - 1.0).max(0.0).sqrt(), degrees_of_freedom)
         }
         // unless the loads were the repeated observations, so that their scatter is that of the speeds
-        None if compared > 1 && fit.noise == PointNoise::FromResiduals => {
+        None if compared > 1 && matches!(fit.noise, PointNoise::FromResiduals | PointNoise::FromShares) => {
             (fit.thrust_constant_n_s2.std_uncertainty?, compared - 1)
         }
         _ => return None,

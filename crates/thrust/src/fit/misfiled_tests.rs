@@ -33,6 +33,17 @@ fn a_trial_under_the_wrong_load_is_named() {
 }
 
 #[test]
+fn one_load_for_trials_of_three_masses_is_asked_about() {
+    let mut loads = exact_hovers(&[0.0], 6);
+    for (index, trial) in loads[0].trials.iter_mut().enumerate() {
+        stretch(trial, [1.0, 1.08, 1.16][index / 2] * (1.0 + 0.002 * (index % 2) as f64));
+    }
+    let said = misfiled(&fitted(&loads));
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(said[0].contains("the trials of load \"load 0\" lie in 3 groups of speeds"), "{said:?}");
+}
+
+#[test]
 fn of_two_trials_that_differ_both_are_named() {
     let mut loads = exact_hovers(&[0.0], 2);
     stretch(&mut loads[0].trials[1], 1.12);

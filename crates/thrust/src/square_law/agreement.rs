@@ -26,7 +26,7 @@ pub struct LawAgreement {
 pub(crate) fn agreement_of(agreement: Agreement, noise: PointNoise) -> Option<LawAgreement> {
     let freedom = agreement.degrees_of_freedom as f64;
     let p_value = match noise {
-        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => None,
+        PointNoise::FromResiduals | PointNoise::FromShares | PointNoise::Unrepeated { .. } => None,
         PointNoise::Stated => agreement.p_value(),
         PointNoise::Measured { degrees_of_freedom } => {
             let distribution = FisherSnedecor::new(freedom, degrees_of_freedom).ok()?;

@@ -131,7 +131,9 @@ pub(super) fn power_law(points: &[&ForcePoint], noise: PointNoise) -> Option<Pow
     let logarithms: Vec<FitPoint> = points
         .iter()
         .map(|point| match noise {
-            PointNoise::FromResiduals => FitPoint { x_std: 0.0, y_std: 1.0, ..point.logarithms() },
+            PointNoise::FromResiduals | PointNoise::FromShares => {
+                FitPoint { x_std: 0.0, y_std: 1.0, ..point.logarithms() }
+            }
             _ => point.logarithms(),
         })
         .collect();
@@ -154,7 +156,7 @@ pub(super) fn law_probabilities(
 ) -> Vec<LawProbability> {
     let freedom = points.len().saturating_sub(2);
     let noise_freedom = match noise {
-        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => Some(freedom),
+        PointNoise::FromResiduals | PointNoise::FromShares | PointNoise::Unrepeated { .. } => Some(freedom),
         PointNoise::Measured { degrees_of_freedom } => Some(degrees_of_freedom as usize),
         PointNoise::Stated => None,
     };

@@ -28,7 +28,7 @@ use agreement::agreement_of;
 use hovertone_vehicle::{Ending, Estimate};
 use laws::{intercept_law, law_probabilities, power_law, preferred};
 use load_range::load_range;
-use point::law_through_origin;
+use point::{law_through_origin, scatter_of};
 use point_verdict::verdicts;
 use serde::Serialize;
 
@@ -122,10 +122,11 @@ pub fn square_law_fit(points: &[ForcePoint], noise: PointNoise) -> Result<Square
     if let Some(index) = points.iter().position(|point| !point.is_usable()) {
         return Err(FitError::UnusablePoint { number: index + 1 });
     }
-    let noise = if points.iter().all(ForcePoint::has_std) { noise } else { PointNoise::FromResiduals };
     let gross = gross_points(points);
     let kept: Vec<&ForcePoint> =
         points.iter().zip(&gross).filter(|(_, gross)| !**gross).map(|(point, _)| point).collect();
+    let is_stated = noise != PointNoise::FromResiduals && points.iter().all(ForcePoint::has_std);
+    let noise = if is_stated { noise } else { scatter_of(&kept) };
     let fit = law_through_origin(&kept, noise)?;
     let all_points = verdicts(points, &gross, noise);
     // two points without uncertainties leave nothing to tell the ± of a law with two parameters
@@ -183,6 +184,7 @@ fn shares(points: &[ForcePoint], gross: &[bool], fit: &ProportionalFit, noise: P
     let weight = |point: &ForcePoint, is_gross: bool| {
         let variance = match noise {
             PointNoise::FromResiduals => 1.0,
+            PointNoise::FromShares => point.force_n.powi(2),
             _ => point.force_std_n.powi(2) + (fit.slope * point.speed_square_std_rad2_s2).powi(2),
         };
         if is_gross { 0.0 } else { point.speed_square_rad2_s2.powi(2) / variance }

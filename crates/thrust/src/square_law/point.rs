@@ -98,19 +98,23 @@ pub enum PointNoise {
     },
     /// No uncertainty is stated: all forces have the same one, and the residuals give its size.
     FromResiduals,
+    /// No uncertainty is stated: that of each force is the same share of it, and the residuals give its size. A fit finds which of the two is more
+    /// probable.
+    FromShares,
 }
 
 impl PointNoise {
     /// Whether the residuals of a law are all that shows how uncertain the points are.
     pub(super) fn is_by_residuals(self) -> bool {
-        matches!(self, Self::FromResiduals | Self::Unrepeated { .. })
+        matches!(self, Self::FromResiduals | Self::FromShares | Self::Unrepeated { .. })
     }
 }
 
-/// The points as the regression takes them. Without stated uncertainties every force has a standard uncertainty of 1 N.
+/// The points as the regression takes them. Without stated uncertainties every force has a standard uncertainty of 1 N, or of itself.
 pub(super) fn fit_points(points: &[&ForcePoint], noise: PointNoise) -> Vec<FitPoint> {
     let of = |point: &&ForcePoint| match noise {
         PointNoise::FromResiduals => FitPoint::with_y_std(point.speed_square_rad2_s2, point.force_n, 1.0),
+        PointNoise::FromShares => FitPoint::with_y_std(point.speed_square_rad2_s2, point.force_n, point.force_n),
         PointNoise::Stated | PointNoise::Measured { .. } | PointNoise::Unrepeated { .. } => point.fit_point(),
     };
     points.iter().map(of).collect()
@@ -119,4 +123,18 @@ pub(super) fn fit_points(points: &[&ForcePoint], noise: PointNoise) -> Vec<FitPo
 /// The square law F = C ω² through the points.
 pub(super) fn law_through_origin(points: &[&ForcePoint], noise: PointNoise) -> Result<ProportionalFit, FitError> {
     proportional_fit(&fit_points(points, noise))
+}
+
+/// How points without uncertainties scatter: forces by the same amount, or by the same share. The more probable of the two, where the residuals about
+/// the square law are normal: −n/2 ln χ² − Σ ln u.
+pub(super) fn scatter_of(points: &[&ForcePoint]) -> PointNoise {
+    let nats = |noise: PointNoise| {
+        let chi_square = law_through_origin(points, noise).ok()?.agreement.chi_square;
+        let widths: f64 = fit_points(points, noise).iter().map(|point| point.y_std.ln()).sum();
+        (chi_square > 0.0).then(|| -0.5 * points.len() as f64 * chi_square.ln() - widths)
+    };
+    match (nats(PointNoise::FromResiduals), nats(PointNoise::FromShares)) {
+        (Some(equal), Some(shares)) if shares > equal => PointNoise::FromShares,
+        _ => PointNoise::FromResiduals,
+    }
 }

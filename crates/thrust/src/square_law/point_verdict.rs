@@ -93,6 +93,7 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     let (speed_std, force_std_n) = match noise {
         // rows that agree by chance show less noise than the digits of a force have
         PointNoise::FromResiduals => (0.0, factor.unwrap_or(f64::INFINITY).hypot(ROUNDING_SHARE * own.force_n)),
+        PointNoise::FromShares => (0.0, factor.unwrap_or(f64::INFINITY).hypot(ROUNDING_SHARE) * own.force_n),
         PointNoise::Unrepeated { .. } => {
             let factor = factor.unwrap_or(f64::INFINITY);
             (factor * own.speed_square_std_rad2_s2, factor * own.force_std_n)
@@ -106,7 +107,7 @@ fn against_others(points: &[ForcePoint], index: usize, kept: &[usize], noise: Po
     let p_value = match noise {
         PointNoise::Stated => two_sided_chance(stds, None),
         PointNoise::Measured { degrees_of_freedom } => two_sided_chance(stds, Some(degrees_of_freedom)),
-        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => {
+        PointNoise::FromResiduals | PointNoise::FromShares | PointNoise::Unrepeated { .. } => {
             two_sided_chance(stds, Some(fit.agreement.degrees_of_freedom as f64))
         }
     };
@@ -129,7 +130,7 @@ fn stds_of(deviation: f64, std: f64) -> f64 {
 /// their number (Bonferroni 1936).
 fn together_disagree(points: &[ForcePoint], kept: &[usize], noise: PointNoise) -> bool {
     let p_value = match noise {
-        PointNoise::FromResiduals | PointNoise::Unrepeated { .. } => {
+        PointNoise::FromResiduals | PointNoise::FromShares | PointNoise::Unrepeated { .. } => {
             let p_of = |&index: &usize| against_others(points, index, kept, noise)?.p_value;
             kept.iter().filter_map(p_of).reduce(f64::min).map(|p_value| p_value * kept.len() as f64)
         }

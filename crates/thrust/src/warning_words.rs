@@ -1,0 +1,77 @@
+//! Numbers and names in the words of warnings.
+
+use crate::drift::{Drift, DriftKind};
+use crate::square_law::LoadRange;
+
+/// Most names in the list of a warning. *Decision.*
+const NAMES_MAX: usize = 5;
+
+/// Smallest p-value that is printed as a number. *Decision.*
+const P_VALUE_SHOWN_MIN: f64 = 1e-4;
+
+/// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
+const POINT_MARGIN: f64 = 1.5;
+
+/// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
+pub fn p_value_text(p_value: f64) -> String {
+    if p_value < P_VALUE_SHOWN_MIN {
+        return format!("p < {P_VALUE_SHOWN_MIN}");
+    }
+    // two digits
+    let decimals = (1.0 - p_value.log10().floor()).clamp(2.0, 5.0) as usize;
+    format!("p = {p_value:.decimals$}")
+}
+
+pub(crate) fn drift_text(drift: &Drift) -> String {
+    let step = match drift.kind {
+        DriftKind::PerTrial => "from trial to trial",
+        DriftKind::PerSecond => "each second of a trial",
+        DriftKind::PerRow => "from row to row of the table",
+        DriftKind::PerVolt => "with each volt of the supply",
+    };
+    let percent = 100.0 * drift.constant_share;
+    // two digits of a small drift, which would else be printed as zero
+    let decimals = (1.0 - percent.abs().log10().floor()).clamp(3.0, 9.0) as usize;
+    let percent = format!("{percent:+.decimals$}").replace('-', "−");
+    format!("the constant drifts by {percent} % {step} ({})", p_value_text(drift.p_value))
+}
+
+pub(crate) fn range_text(range: &LoadRange) -> String {
+    let Some(needed) = range.force_ratio_needed else {
+        return "the loads scatter too much about F = C_f ω² to test it".to_owned();
+    };
+    let [ratio, needed] = compared([range.force_ratio, needed]);
+    format!(
+        "the forces are too alike to test F = C_f ω²: the largest is {ratio} times the smallest, and {needed} times is needed"
+    )
+}
+
+/// Two different ratios with two decimals, or with as many as show that they differ.
+pub fn compared(ratios: [f64; 2]) -> [String; 2] {
+    let printed = |decimals: usize| ratios.map(|ratio| format!("{ratio:.decimals$}"));
+    (2..=6).map(printed).find(|[one, other]| one != other).unwrap_or_else(|| printed(2))
+}
+
+/// The first names of a list.
+pub(crate) fn first_names(names: &[String]) -> String {
+    let more = if names.len() > NAMES_MAX { ", …" } else { "" };
+    names.iter().take(NAMES_MAX).map(String::as_str).collect::<Vec<_>>().join(", ") + more
+}
+
+/// A mass in grams.
+pub(crate) fn mass_text(mass_kg: f64) -> String {
+    let grams = 1e3 * mass_kg;
+    if grams < 100.0 { format!("{grams:.1} g") } else { format!("{grams:.0} g") }
+}
+
+/// A ratio with two digits.
+pub(crate) fn ratio_text(ratio: f64) -> String {
+    let decimals = (1.0 - ratio.log10().floor()).clamp(0.0, 3.0) as usize;
+    format!("{ratio:.decimals$}")
+}
+
+/// Whether a ratio of masses is about ten, or a tenth.
+pub(crate) fn is_shifted_point(ratio: f64) -> bool {
+    let near_ten = 10.0 / POINT_MARGIN..=10.0 * POINT_MARGIN;
+    near_ten.contains(&ratio) || near_ten.contains(&ratio.recip())
+}
