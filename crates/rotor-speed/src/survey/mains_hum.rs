@@ -14,6 +14,10 @@ const GRID_SHARE: f64 = 0.001;
 const GRID_SHARE_MAX: f64 = 0.0012;
 /// Error of an interpolated peak, in bins. *Numeric.*
 const PEAK_ERROR_BINS: f64 = 0.08;
+/// Twice the standard deviation of a peak in one row, in bins, where noise and line are as loud: of a Hann window (Rife and Vincent 1970). *Physics.*
+const ROW_ERROR_BINS: f64 = 0.8;
+/// Largest deviation of a grid from its mean within a recording, as a share. *Decision.*
+const ROW_SHARE: f64 = 0.0005;
 /// Largest deviation of a line of hum from its multiple of the measured frequency, as a share: the drift of the grid within a recording.
 /// *Decision.*
 const OWN_SHARE: f64 = 0.0003;
@@ -162,12 +166,14 @@ fn still_line(spectrum: &FineSpectrum<'_>, hz: f64) -> Option<StillLine> {
     if !is_in_place(heard_hz) || *over_db.get(bin)? < OVER_DB_MIN || power[bin] < ROUNDING_POWER {
         return None;
     }
-    // a row has one frame or few, so that noise moves a weak line further
+    // a row has one frame or few, so that noise moves a weak line further; a rotor near the grid moves by more than the grid and noise do
+    let error_bins = PEAK_ERROR_BINS + ROW_ERROR_BINS * 10f64.powf(-over_db[bin] / 20.0);
+    let row_reach_hz = ROW_SHARE * hz + error_bins * fine.bin_hz;
     let in_place = fine
         .rows
         .iter()
         .filter_map(|row| peak_near(&row.power, hz / fine.bin_hz))
-        .filter(|peak| (peak.place * fine.bin_hz - heard_hz).abs() <= reach_hz)
+        .filter(|peak| (peak.place * fine.bin_hz - heard_hz).abs() <= row_reach_hz)
         .count();
     (in_place as f64 >= ROWS_IN_PLACE_MIN * fine.rows.len() as f64)
         .then_some(StillLine { hz: heard_hz, power: power[bin] })
