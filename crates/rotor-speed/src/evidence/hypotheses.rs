@@ -1,19 +1,17 @@
 //! Hypotheses: speeds and numbers of blades, and the belief in each.
 
-use super::companions::companion_nats;
+use super::beliefs::Beliefs;
 use super::elsewhere::better_elsewhere;
 use super::excess::{Excess, Looks};
 use super::level_model::{LevelModel, RotorLevels};
 use super::levels::{NoiseLevel, levels_of_lines, noise_level};
-use super::own_lines::OwnPropeller;
 use super::presence::Presence;
 use super::prior::{nats_of_vehicle, odds_nats};
 use super::rotor_lines::RotorLines;
-use super::search::{GRID_STEP, Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
+use super::search::{Multiple, ROTORS_APART, Search, VOTES_NATS_APART, is_family};
 use super::second_look::{SecondLook, path_in_long_frames};
 use super::settings::EvidenceConfig;
 use super::votes::VoteTable;
-use hovertone_analysis::OtherRotor;
 use hovertone_signal::statistics::{log_sum_exp, mean};
 use hovertone_vehicle::KnownRotor;
 use std::ops::RangeInclusive;
@@ -27,81 +25,6 @@ const HOVER_WIDTH_SHARE: f64 = 0.024;
 pub(super) const RESOLVED_REV_S: f64 = 30.0;
 /// Numbers of blades whose paths tell the noise: the lines that one of them leaves may be those of another. *Decision.*
 const NOISE_BLADES: RangeInclusive<u32> = 1..=3;
-/// The beliefs that a recording gives rise to, where a rotor is heard.
-#[derive(Clone, Debug)]
-pub(crate) struct Beliefs {
-    /// All hypotheses that are possible, most probable first; at least one.
-    pub(crate) hypotheses: Vec<Hypothesis>,
-    /// The noise between the lines.
-    noise: NoiseLevel,
-    /// Whether only long frames hear the rotor.
-    pub(crate) is_faint: bool,
-    /// Evidence for the gear mesh of the most probable rotor alone, in nats; 0 where none is followed.
-    mesh_nats: f64,
-    /// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one.
-    pub(crate) better: Option<OtherRotor>,
-}
-
-impl Beliefs {
-    /// Orders of the most probable rotor whose lines stand out of the noise.
-    pub(crate) fn heard_orders(&self) -> impl Iterator<Item = u32> {
-        let lines = self.hypotheses.iter().take(1).flat_map(|first| &first.levels.shaft);
-        lines.filter(|line| self.noise.is_below(line.level_db)).map(|line| line.order)
-    }
-
-    /// Whether the most probable rotor is one of several, which turn at other speeds. Beside a faint one no other is heard.
-    pub(crate) fn are_several(&self, looks: &Looks, config: &EvidenceConfig) -> bool {
-        let first = self.hypotheses.first().filter(|_| !self.is_faint);
-        let first = first.and_then(|first| Some((first, first.lines.blades?)));
-        first.is_some_and(|(first, blades)| {
-            let propeller = OwnPropeller { blades, prior: &config.levels };
-            let nats = companion_nats(looks, &first.speeds_rev_s, &propeller);
-            nats.is_some_and(|nats| nats >= config.companion_nats_min)
-        })
-    }
-
-    /// Where the lines are without which the most probable rotor would not be heard: of its gear mesh, and of its blade pass. Beside a mesh that is
-    /// heard for sure, the propeller is not needed. Noise at the mesh may draw the path one step aside from the propeller.
-    pub(crate) fn telling_hz(&self, config: &EvidenceConfig) -> impl Iterator<Item = RangeInclusive<f64>> {
-        let is_mesh_sure = self.mesh_nats >= config.levels_nats_min;
-        self.hypotheses.iter().take(1).flat_map(move |first| {
-            let RotorLines { blades, mesh_order } = first.lines;
-            let step = if mesh_order.is_some() { GRID_STEP } else { 0.0 };
-            let around = |hz: f64, share: f64| hz * (1.0 - share)..=hz * (1.0 + share);
-            let blade_pass = blades.filter(|_| !is_mesh_sure).map(|blades| f64::from(blades) * first.hover_rev_s);
-            let mesh = mesh_order.map(|order| order * first.hover_rev_s);
-            mesh.map(|hz| around(hz, 0.0)).into_iter().chain(blade_pass.map(|hz| around(hz, step)))
-        })
-    }
-
-    /// The same, where all hypotheses with one speed are one: the most probable of them, with the belief in all.
-    pub(crate) fn with_equal_speeds_joined(mut self) -> Self {
-        let mut joined: Vec<Hypothesis> = Vec::new();
-        for it in self.hypotheses {
-            match joined.iter_mut().find(|other| other.is_of_same_vehicle(it.speed_rev_s)) {
-                Some(same) => same.belief += it.belief,
-                None => joined.push(it),
-            }
-        }
-        joined.sort_by(|a, b| b.belief.total_cmp(&a.belief));
-        self.hypotheses = joined;
-        self
-    }
-
-    /// The speed of the hover of the most probable rotor.
-    pub(crate) fn hover_rev_s(&self) -> Option<f64> {
-        self.hypotheses.first().map(|first| first.hover_rev_s)
-    }
-
-    /// Those that remain possible where odds of `belief_min` decide; only one where it is decided.
-    pub(crate) fn possible(&self, belief_min: f64) -> &[Hypothesis] {
-        let is_decided = self.hypotheses.first().is_some_and(|first| first.belief >= belief_min);
-        let possible =
-            self.hypotheses.iter().take_while(|hypothesis| hypothesis.belief >= 1.0 - belief_min).count().max(2);
-        &self.hypotheses[..if is_decided { 1 } else { possible.min(self.hypotheses.len()) }]
-    }
-}
-
 /// One shaft speed, with a number of blades.
 #[derive(Clone, Debug)]
 pub(crate) struct Hypothesis {

@@ -28,6 +28,7 @@
 //! Sources: Bayesian comparison of pitches as in Nielsen, Christensen, Cemgil and Jensen, IEEE/ACM Trans. ASLP 22, 2014; the path as in
 //! Tabrikian, Dubnov and Dickalov, IEEE Trans. SAP 12, 2004. The level model is measured on real rotors (`docs/measurements.md`).
 
+mod beliefs;
 mod companions;
 mod elsewhere;
 mod excess;
@@ -50,9 +51,10 @@ mod second_look;
 mod settings;
 mod votes;
 
+pub(crate) use beliefs::Beliefs;
 pub(crate) use companions::nats_beside;
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
-pub(crate) use hypotheses::{Beliefs, Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
+pub(crate) use hypotheses::{Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub use level_model::OrderLevel;
 pub use levels::NoiseLevel;
 pub use near_speed::LinesNear;

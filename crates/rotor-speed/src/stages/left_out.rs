@@ -8,8 +8,8 @@ use crate::tone::{DiscoveryConfig, ToneConfig};
 use hovertone_analysis::OtherRotor;
 use hovertone_vehicle::KnownRotor;
 
-/// Behind a gear, the rotor without it, or behind that of another vehicle, whose lines are far more probable than those of the most probable one. It is looked for where several
-/// speeds are possible, and where the blades are not known, because other lines may pass for those of a mesh.
+/// Behind a gear, the rotor without it, or behind that of another vehicle, whose lines are far more probable than those of the most probable one.
+/// It is looked for where several speeds are possible, and where the blades are not known, because other lines may pass for those of a mesh.
 pub(super) fn better_without_gear(
     surveyed: &Surveyed,
     beliefs: &Beliefs,

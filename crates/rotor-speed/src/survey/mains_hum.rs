@@ -167,7 +167,7 @@ fn still_line(spectrum: &FineSpectrum<'_>, hz: f64) -> Option<StillLine> {
         return None;
     }
     // a row has one frame or few, so that noise moves a weak line further; a rotor near the grid moves by more than the grid and noise do
-    let error_bins = PEAK_ERROR_BINS + ROW_ERROR_BINS * 10f64.powf(-over_db[bin] / 20.0);
+    let error_bins = PEAK_ERROR_BINS + ROW_ERROR_BINS / 10f64.powf(over_db[bin] / 10.0).sqrt();
     let row_reach_hz = ROW_SHARE * hz + error_bins * fine.bin_hz;
     let in_place = fine
         .rows
