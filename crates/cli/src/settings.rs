@@ -38,14 +38,34 @@ pub(crate) fn config_of(
 
 /// Refuses settings of the paper's methods where another method reads the speed.
 fn check_read(analysis: &AnalysisArguments, method: Method) -> Result<(), Failure> {
-    let (flag, methods) = match (analysis.hop_share, analysis.gaussian_threshold_share) {
-        (_, Some(_)) if method != Method::Gaussian => ("--gaussian-threshold-share", "--method gaussian"),
-        (Some(_), _) if !method.reads_ridges() => ("--hop-share", "--method maximum_trace or --method gaussian"),
-        _ => return Ok(()),
-    };
+    const OF_RIDGES: &str = "--method maximum_trace or --method gaussian";
+    let reads_no_ridges = !method.reads_ridges();
+    let flags = [
+        (analysis.gaussian_threshold_share.is_some() && method != Method::Gaussian, "--gaussian-threshold-share", "--method gaussian"),
+        (analysis.hop_share.is_some() && reads_no_ridges, "--hop-share", OF_RIDGES),
+        (analysis.window_s.is_some() && reads_no_ridges, "--window-s", OF_RIDGES),
+    ];
+    let Some((_, flag, methods)) = flags.into_iter().find(|(is_unused, ..)| *is_unused) else { return Ok(()) };
     let what =
         format!("{flag} changes nothing: the speed is read by --method {}, which does not use it", method.name());
     Err(Failure::usage(what, format!("leave it out, or give {methods}")))
+}
+
+/// Refuses what tells only of the ± and of the shaft's lines, where neither is shown.
+pub(crate) fn refuse_of_table(analysis: &AnalysisArguments, why: &str) -> Result<(), Failure> {
+    let flags = [
+        ("--condition", analysis.condition),
+        ("--clock-ppm", analysis.clock_ppm.is_some()),
+        ("--drift-m-max", analysis.drift_m_max.is_some()),
+        ("--radial-speed-m-s-max", analysis.radial_speed_m_s_max.is_some()),
+    ];
+    match flags.into_iter().find(|(_, is_given)| *is_given) {
+        Some((flag, _)) => Err(Failure::usage(
+            format!("{flag} changes nothing: {why}"),
+            format!("leave it out; `hovertone speed {flag}` shows it"),
+        )),
+        None => Ok(()),
+    }
 }
 
 /// The tone that the arguments name; `None` where it has to be searched for.
