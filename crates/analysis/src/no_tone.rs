@@ -137,6 +137,9 @@ mod tests {
         let other = said(Some((200.0, 400.0)));
         assert!(other.starts_with("no such rotor is heard at 200 to 400 rev/s, but one with 2 blades"), "{other}");
         assert!(said(None).starts_with("no such rotor is heard, but one with 2 blades may turn at 60.2 rev/s"));
-        assert!(other.contains("give --blades 2 alone, in place of the vehicle, the gear, the order or the band"), "{other}");
+        assert!(
+            other.contains("give --blades 2 alone, in place of the vehicle, the gear, the order or the band"),
+            "{other}"
+        );
     }
 }

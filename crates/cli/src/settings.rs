@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::see_help::see_help;
 use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
-use hovertone::tones::Discovery;
-use hovertone_report::SpeedRecord;
+use hovertone::tones::{Discovery, KnownRotor};
+use hovertone_report::{Notice, SpeedRecord};
 use hovertone_vehicle::{check_not_negative, check_tips};
 use hovertone_workflow::{NoSettings, Said};
 
@@ -41,7 +41,11 @@ fn check_read(analysis: &AnalysisArguments, method: Method) -> Result<(), Failur
     const OF_RIDGES: &str = "--method maximum_trace or --method gaussian";
     let reads_no_ridges = !method.reads_ridges();
     let flags = [
-        (analysis.gaussian_threshold_share.is_some() && method != Method::Gaussian, "--gaussian-threshold-share", "--method gaussian"),
+        (
+            analysis.gaussian_threshold_share.is_some() && method != Method::Gaussian,
+            "--gaussian-threshold-share",
+            "--method gaussian",
+        ),
         (analysis.hop_share.is_some() && reads_no_ridges, "--hop-share", OF_RIDGES),
         (analysis.window_s.is_some() && reads_no_ridges, "--window-s", OF_RIDGES),
     ];
@@ -109,6 +113,21 @@ pub(crate) fn span_of(from_s: Option<f64>, to_s: Option<f64>) -> Result<SpanConf
         checked.map_err(|error| Failure::usage(error.to_string(), hint))?;
     }
     Ok(SpanConfig { from_s, to_s })
+}
+
+/// Says that a given mass changes nothing, where a fact that it needs beside it is missing.
+pub(crate) fn idle_mass(arguments: &KnownArguments, known: &KnownRotor) -> Option<Notice> {
+    let needs = match (known.diameter_m, known.rotor_count) {
+        (Some(_), Some(_)) => return None,
+        (None, Some(_)) => "--diameter-m",
+        (Some(_), None) => "--rotors",
+        (None, None) => "--diameter-m and --rotors",
+    };
+    arguments.mass_kg?;
+    let what = format!(
+        "--mass-kg changes nothing without {needs}: together they rule out speeds that cannot carry the vehicle"
+    );
+    Some(Notice::new(what, format!("give {needs} too, or leave --mass-kg out")))
 }
 
 /// Refuses the diameter of the arguments where the blade tips of a heard rotor would be faster than any multirotor's.

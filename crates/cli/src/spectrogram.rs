@@ -9,7 +9,7 @@ use crate::jobs::ending_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
-use crate::settings::{check_tips_heard, config_of, refuse_of_table};
+use crate::settings::{check_tips_heard, config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
 use hovertone_figures::{DOTS_PER_INCH, recording_figure};
 use hovertone_workflow::trial_of;
@@ -23,6 +23,9 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         return Err(Failure::usage(what, "leave it out, or name a picture that ends with .png"));
     }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    if let Some(notice) = idle_mass(&arguments.known, &config.known) {
+        terminal.tip(&notice);
+    }
     let hearing = Hearing::of(&arguments.hearing);
     let outputs = Outputs::beside([&arguments.file], arguments.replace.force);
     outputs.check(&arguments.output)?;
