@@ -221,6 +221,11 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             hint: "give results.json of `hovertone identify`, then the models".to_owned(),
             path: Some(path.to_owned()),
         },
+        ResultsError::NotJson(_) if text.lines().any(|line| line.trim() == "[[load]]") => Failure::failed(
+            "this is an experiment file, and results.json is needed",
+            "`hovertone identify EXPERIMENT.toml -o DIR` makes it: DIR/results.json",
+            path,
+        ),
         ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
             what: error.to_string(),
             hint: "give --group NAME".to_owned(),

@@ -37,7 +37,7 @@ pub use air::{
 pub use budget::{BudgetInput, BudgetLine, UncertaintyBudget};
 pub use campaign::TrialBootstrap;
 pub use drift::{Drift, DriftKind, row_drifts};
-pub use fit::{thrust_from_loads, warnings_of_points};
+pub use fit::{preferred_law, thrust_from_loads, warnings_of_points};
 pub use force::Force;
 pub use outline::{LoadOutline, warnings_of_outline};
 pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};

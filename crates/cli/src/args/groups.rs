@@ -76,7 +76,7 @@ pub(crate) struct AnalysisArguments {
     /// Use the recording up to here, and cut nothing away
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) to: Option<f64>,
-    /// Length of a frame in seconds, with --method maximum_trace or gaussian [default: the length from 0.0125 to 0.4 with the clearest tone]
+    /// Length of a frame of the paper's methods, in seconds [default: the length from 0.0125 to 0.4 with the clearest tone]
     #[arg(long, value_name = "S")]
     pub(crate) window_s: Option<f64>,
     /// Step between frames as a share of their length, with --method maximum_trace or gaussian [default: 0.5]

@@ -31,8 +31,8 @@ fn a_log_of_another_clock_is_answered_with_the_flag_for_it() {
     write_noise(&sound, 3.0);
     let rows = (0..60).map(|row| format!("{}.{},0,0\n", 1000 + row / 10, row % 10)).collect::<String>();
     let log = written(folder.path(), "log.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &rows));
-    let words = ["speeds lie within the log", "--log-offset-s"];
-    refused_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
+    let words = ["does not follow this log", "--log-offset-s"];
+    failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
 }
 
 #[test]
