@@ -85,7 +85,7 @@ pub use motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource, motor_text};
 pub use motor_json::motor_json;
 pub use names::short_names;
 pub use notice::Notice;
-pub use number::{ScaledNumber, fixed, scaled_number, signed, with_uncertainty};
+pub use number::{ScaledNumber, fixed, scaled_number, signed, significant, with_uncertainty};
 pub use planned_experiment::{PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, planned_experiment_text};
 pub use printable::{folded, printable, shared_folder, wrapped};
 pub use quote::{Verdict, counted, quoted_constants, rotors_heard_text, tone_of_order};

@@ -92,6 +92,16 @@ fn names_of_groups_are_told_from_each_other() {
 }
 
 #[test]
+fn a_bench_is_asked_for_a_band_and_for_no_mass_first() {
+    let Some(bench) = recordings("crazyflie-propeller") else { return };
+    let sound = bench.join("64000.wav");
+    let said = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&sound)]).ends_with(3).stderr;
+    assert!(said.contains("on a bench, give --band LOW:HIGH around the blade pass"), "{said}");
+    let band = ["speed", "--blades", "2", "--rotors", "1", "--band", "780:840", text(&sound)];
+    hovertone(&band).ends_with(0);
+}
+
+#[test]
 fn the_signal_that_was_meant_is_named() {
     let Some(logs) = recordings("logs") else { return };
     let log = logs.join("px4_esc_status.ulg");

@@ -322,4 +322,8 @@ fn a_thrust_that_no_propeller_has_is_said() {
     assert!(!run("rpm,thrust_n\n4000,1.26\n6000,2.81\n8000,5.01\n").contains(words));
     let gram_force = run("rpm,thrust_n\n4000,128\n6000,287\n8000,511\n");
     assert!(gram_force.contains(words) && gram_force.contains("check the units"), "{gram_force}");
+    let table = folder.path().join("rev_s.csv");
+    fs::write(&table, "rpm,thrust_n\n67,1.26\n100,2.81\n133,5.01\n").unwrap();
+    let fitted = hovertone(&["fit", text(&table), "--diameter-m", "0.254"]).ends_with(0).stderr;
+    assert!(fitted.contains("C_T would be") && fitted.contains("rev/s or rad/s"), "{fitted}");
 }

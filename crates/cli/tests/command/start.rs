@@ -117,7 +117,10 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
         assert!(!run.stderr.contains("experiment.toml"), "no file was typed: {}", run.stderr);
     };
     flags("identify --mass 0.0005=a.wav --vehicle ardrone", &["--mass 0.0005=a.wav: ", "from 0.001"]);
-    flags("identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone", &["--mass 9000 g and --mass 400 g: ", "check --mass 9000 g"]);
+    flags(
+        "identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone",
+        &["--mass 9000 g and --mass 400 g: ", "check --mass 9000 g"],
+    );
     flags("identify --mass 0.4=a.wav --vehicle ardrone --height-m 40", &["--height-m 40 alone", "--latitude-deg"]);
     refuses(&["init"], &["no terminal", "--mass"]);
     refuses(&["init", "--vehicle", "ardron", "--mass", "0.4=a.wav"], &["did you mean \"ardrone\""]);
