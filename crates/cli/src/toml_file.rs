@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::inputs::read_bytes;
 use crate::toml_words::{PlainFault, in_plain_words};
-use crate::vehicles::preset;
+use hovertone_vehicle::find_preset;
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -93,7 +93,7 @@ fn mass_of_load(error: &toml::de::Error, text: &str) -> Option<String> {
     let file: toml::Table = text.parse().ok()?;
     let vehicle = file.get("vehicle");
     let number = |value: &toml::Value| value.as_float().or_else(|| Some(value.as_integer()? as f64));
-    let of_preset = || preset(vehicle?.get("preset")?.as_str()?).ok()?.mass_kg.map(|mass| mass.value);
+    let of_preset = || find_preset(vehicle?.get("preset")?.as_str()?)?.mass_kg.map(|mass| mass.value);
     let vehicle_kg = vehicle.and_then(|vehicle| number(vehicle.get("mass_kg")?)).or_else(of_preset);
     let loads = file.get("load").and_then(toml::Value::as_array);
     let whole_kg = loads.and_then(|loads| loads.iter().find_map(|load| number(load.get("mass_kg")?)));

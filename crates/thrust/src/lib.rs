@@ -47,8 +47,8 @@ pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, NoScatter, PointNoise, PointVerdict,
     PowerLaw, SquareLawFit, square_law_fit,
 };
-pub use statistics::COVERAGE_FACTOR;
+pub use statistics::{COVERAGE_FACTOR, p_value_text};
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
-pub use warning::{ThrustWarning, compared, p_value_text};
+pub use warning::{ThrustWarning, compared};
 pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

@@ -3,16 +3,13 @@
 use crate::drift::{Drift, DriftKind};
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
-use crate::statistics::COVERAGE_FACTOR;
+use crate::statistics::{COVERAGE_FACTOR, p_value_text};
 use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
 use std::fmt;
 
 /// Most names in the list of a warning. *Decision.*
 const NAMES_MAX: usize = 5;
-
-/// Smallest p-value that is printed as a number. *Decision.*
-const P_VALUE_SHOWN_MIN: f64 = 1e-4;
 
 /// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
 const POINT_MARGIN: f64 = 1.5;
@@ -255,16 +252,6 @@ impl ThrustWarning {
                 | Self::HeavierTurnedSlower { .. }
         )
     }
-}
-
-/// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
-pub fn p_value_text(p_value: f64) -> String {
-    if p_value < P_VALUE_SHOWN_MIN {
-        return format!("p < {P_VALUE_SHOWN_MIN}");
-    }
-    // two digits
-    let decimals = (1.0 - p_value.log10().floor()).clamp(2.0, 5.0) as usize;
-    format!("p = {p_value:.decimals$}")
 }
 
 fn drift_text(drift: &Drift) -> String {
