@@ -77,7 +77,7 @@ impl fmt::Display for NoTone {
                         return write!(
                             f,
                             "the tone that was given is not heard, but a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s; \
-                             give --blades {blades} in place of the vehicle, the gear or the order"
+                             give --blades {blades} alone, in place of the vehicle, the gear or the order"
                         );
                     }
                     Some((low, high)) => write!(f, "no such rotor is heard at {low:.0} to {high:.0} rev/s")?,
@@ -85,7 +85,8 @@ impl fmt::Display for NoTone {
                 }
                 write!(
                     f,
-                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; if it has {blades} blades, give --blades {blades}; if not, check the given facts: the vehicle, the gear or the band"
+                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; if it has {blades} blades, give --blades {blades} \
+                     alone, in place of the vehicle, the gear, the order or the band; if not, check these facts"
                 )
             }
             Self::NoSeries { only_rev_s: None, .. } => {
@@ -132,9 +133,13 @@ mod tests {
             let instead = Some(OtherRotor { blades: 2, speed_rev_s: 60.2 });
             NoTone::NoSeries { only_rev_s, instead }.to_string()
         };
-        assert!(said(Some((13.0, 120.0))).contains("give --blades 2 in place of the vehicle"));
+        assert!(said(Some((13.0, 120.0))).contains("give --blades 2 alone, in place of the vehicle"));
         let other = said(Some((200.0, 400.0)));
         assert!(other.starts_with("no such rotor is heard at 200 to 400 rev/s, but one with 2 blades"), "{other}");
         assert!(said(None).starts_with("no such rotor is heard, but one with 2 blades may turn at 60.2 rev/s"));
+        assert!(
+            other.contains("give --blades 2 alone, in place of the vehicle, the gear, the order or the band"),
+            "{other}"
+        );
     }
 }

@@ -41,6 +41,15 @@ impl FromStr for Shard {
         let parts = typed.split_once('/').and_then(|(number, count)| Some((number.parse().ok()?, count.parse().ok()?)));
         match parts {
             Some((number, count)) if (1..=count).contains(&number) && count <= COUNT_MAX => Ok(Self { number, count }),
+            Some((_, count @ 1..=COUNT_MAX)) => {
+                let last = match count {
+                    1 => String::new(),
+                    2 => " or 2/2".to_owned(),
+                    _ => format!(" to {count}/{count}"),
+                };
+                let jobs = if count > 1 { format!("there are {count} jobs") } else { "there is 1 job".to_owned() };
+                Err(format!("{jobs}, so write 1/{count}{last}"))
+            }
             _ => Err(format!(
                 "must be the number of a job and how many there are, as 1/8 to 8/8, of at most {COUNT_MAX}"
             )),
@@ -54,6 +63,7 @@ mod tests {
 
     #[test]
     fn each_recording_belongs_to_one_job() {
+        assert_eq!("3/2".parse::<Shard>().unwrap_err(), "there are 2 jobs, so write 1/2 or 2/2");
         let shards: Vec<Shard> = ["1/3", "2/3", "3/3"].map(|typed| typed.parse().unwrap()).to_vec();
         for index in 0..10 {
             assert_eq!(shards.iter().filter(|shard| shard.has(index)).count(), 1);

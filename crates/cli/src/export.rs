@@ -8,8 +8,8 @@ use crate::outputs::{Outputs, written};
 use crate::terminal::Terminal;
 use hovertone::thrust::ThrustCoefficients;
 use hovertone_exchange::{
-    ChangedLine, IdentifiedRotor, ModelError, ResultsError, SimulatorFormat, export_text, identified_from_results,
-    model_from_text, updated_model,
+    ChangedLine, IdentifiedRotor, ModelError, ResultsError, export_text, identified_from_results, model_from_text,
+    updated_model,
 };
 use hovertone_report::{Notice, fixed, printable};
 use hovertone_vehicle::{check_diameter, check_positive, check_range};
@@ -37,7 +37,8 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
     };
     let text = export_text(&rotor, format)
         .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
-    say_unused(&rotor, format, &text, arguments, terminal);
+    let why = Notice::new(format!("{} has no place for it", format.name()), "leave it out, or choose another format");
+    say_unused(&rotor, arguments, &why, |rotor| export_text(rotor, format), terminal);
     match &arguments.output {
         Some(path) => {
             Outputs::beside([&arguments.results], arguments.replace.force).write(path, text)?;
@@ -48,12 +49,12 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
     Ok(Ending::Done)
 }
 
-/// Names the given facts without which the text of a format is the same.
+/// Names the given facts without which the text that is made of the rotor is the same.
 fn say_unused(
     rotor: &IdentifiedRotor,
-    format: SimulatorFormat,
-    text: &str,
     arguments: &ExportArguments,
+    why: &Notice,
+    text_of: impl Fn(&IdentifiedRotor) -> Result<String, ModelError>,
     terminal: &mut Terminal,
 ) {
     let without = |change: fn(&mut IdentifiedRotor)| {
@@ -61,6 +62,7 @@ fn say_unused(
         change(&mut rotor);
         rotor
     };
+    let Ok(text) = text_of(rotor) else { return };
     for (flag, is_given, other) in [
         (
             "--torque-constant-n-m-s2",
@@ -71,9 +73,8 @@ fn say_unused(
         ("--diameter-m", arguments.diameter_m.is_some(), without(|rotor| rotor.propeller_diameter_m = None)),
         ("--air-density-kg-m3", arguments.air_density_kg_m3.is_some(), without(|rotor| rotor.air_density_kg_m3 = None)),
     ] {
-        if is_given && export_text(&other, format).is_ok_and(|other| other == text) {
-            let what = format!("{flag} changes nothing: {} has no place for it", format.name());
-            terminal.warning(&Notice::new(what, "leave it out, or choose another format"), "");
+        if is_given && text_of(&other).is_ok_and(|other| other == text) {
+            terminal.warning(&Notice::new(format!("{flag} changes nothing: {}", why.text), &why.hint), "");
         }
     }
 }
@@ -85,20 +86,14 @@ fn change(
     arguments: &ExportArguments,
     terminal: &mut Terminal,
 ) -> Result<Ending, Failure> {
-    let unused = [
-        ("--hover-command", arguments.hover_command.is_some()),
-        ("--air-density-kg-m3", arguments.air_density_kg_m3.is_some()),
-    ];
-    for (flag, _) in unused.into_iter().filter(|(_, is_given)| *is_given) {
-        let what = format!("{flag} changes nothing: --into changes the constants of thrust and torque only");
-        terminal.warning(&Notice::new(what, "leave it out"), "");
-    }
     if is_stdin(model) && arguments.output.is_none() {
         return Err(Failure::usage("stdin cannot be changed in place", "write to a file with -o FILE"));
     }
     let text = read_text(model, "the model")?;
     let before = model_from_text(&text).map_err(|error| model_failure(&error, model))?;
     let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;
+    let why = Notice::new("the model has no such number, or has this one already", "leave it out");
+    say_unused(rotor, arguments, &why, |rotor| Ok(updated_model(&text, rotor)?.text), terminal);
     let place = arguments.output.as_deref().unwrap_or(model);
     if updated.changes.is_empty() && arguments.output.is_none() {
         terminal
@@ -136,6 +131,9 @@ fn change(
 
 /// The failure of a model that cannot be changed.
 fn unchanged(error: &ModelError, model: &Path, arguments: &ExportArguments) -> Failure {
+    if matches!(error, ModelError::Expression { .. }) {
+        return model_failure(error, model);
+    }
     let hint = match arguments.torque_constant_n_m_s2 {
         Some(_) => {
             "`hovertone compare --help` lists the files that it knows; without --torque-constant-n-m-s2 the torque stays"
@@ -223,6 +221,11 @@ pub(crate) fn identified(path: &Path, group: Option<&str>) -> Result<IdentifiedR
             hint: "give results.json of `hovertone identify`, then the models".to_owned(),
             path: Some(path.to_owned()),
         },
+        ResultsError::NotJson(_) if text.lines().any(|line| line.trim() == "[[load]]") => Failure::failed(
+            "this is an experiment file, and results.json is needed",
+            "`hovertone identify EXPERIMENT.toml -o DIR` makes it: DIR/results.json",
+            path,
+        ),
         ResultsError::SeveralGroups { .. } | ResultsError::NoSuchGroup { .. } => Failure::Usage {
             what: error.to_string(),
             hint: "give --group NAME".to_owned(),

@@ -14,12 +14,16 @@ use hovertone::thrust::{
     torque_constant_n_m_s2, warnings_of_points,
 };
 use hovertone_exchange::{CsvError, StandForce, StandGroup, StandRow, StandTable, TableError, table_from_csv};
-use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text};
-use hovertone_vehicle::{Estimate, KnownRotor, QuantityError, RotorSpeed, TIP_MACH_MAX, check_tips};
+use hovertone_report::{FittedTable, Notice, fitted_table_text, fitted_tables_json, flight_plan_text, significant};
+use hovertone_vehicle::{
+    AIR_KG_M3, Estimate, KnownRotor, QuantityError, RotorSpeed, THRUST_COEFFICIENT, TIP_MACH_MAX, check_tips,
+};
 use std::path::Path;
 
 /// Most multirotors safely carry a quarter of their mass.
 const ADDED_MASS_SHARE: f64 = 0.25;
+/// The air changes C_T by less: thin air on the highest mountains has a third of the density at sea level.
+const FAR_OFF_FACTOR: f64 = 3.0;
 /// Number of rotors of most multirotors.
 const ROTORS_OF_MOST: u32 = 4;
 
@@ -163,7 +167,8 @@ fn fitted_table(
             .filter(|both| !both.is_plausible)
             .map(|both| ThrustWarning::ImplausibleThrustCoefficient { propeller: both.propeller }),
     );
-    let too_strong = too_strong_notice(group, per_rotor).filter(|_| coefficients.is_none());
+    let of_any_air = || plan.diameter_m.and_then(|diameter_m| far_off_notice(per_rotor, diameter_m));
+    let too_strong = of_any_air().or_else(|| too_strong_notice(group, per_rotor)).filter(|_| coefficients.is_none());
     let has_std = |point: &&ForcePoint| point.force_std_n > 0.0 || point.speed_square_std_rad2_s2 > 0.0;
     let stated = points.iter().filter(has_std).count();
     if is_stated && stated < points.len() {
@@ -216,6 +221,19 @@ fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<No
         text,
         format!("give --rotors {count} for the constant of one rotor; --rotors 1 if one rotor is right"),
     ))
+}
+
+/// Says that C_T is far outside the range of propellers in the air of any place.
+fn far_off_notice(per_rotor: Estimate, diameter_m: f64) -> Option<Notice> {
+    let coefficient = ThrustCoefficients::of_rotor(per_rotor.value, diameter_m, AIR_KG_M3).propeller;
+    let (least, most) = (*THRUST_COEFFICIENT.start(), *THRUST_COEFFICIENT.end());
+    let is_far = coefficient < least / FAR_OFF_FACTOR || coefficient > most * FAR_OFF_FACTOR;
+    let text = format!(
+        "with this diameter C_T would be {} in air of {AIR_KG_M3} kg/m³, and propellers have {least} to {most}",
+        significant(coefficient, 2)
+    );
+    let hint = "check the units of the forces and of the speeds (rpm, rev/s or rad/s), the diameter, and --rotors";
+    is_far.then(|| Notice::new(text, hint))
 }
 
 /// Says that no propeller has such a thrust.

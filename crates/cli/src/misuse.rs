@@ -119,10 +119,14 @@ impl Misuse {
         let negative =
             words.iter().filter_map(|word| word.to_str()).find(|word| is_negative(word) && word.starts_with(name));
         if let Some(word) = negative {
-            let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();
             let before = words.windows(2).find(|pair| pair[1] == *word).and_then(|pair| pair[0].to_str());
             let flag =
                 before.filter(|before| before.starts_with("--")).map_or(String::new(), |flag| format!("{flag} "));
+            if let Some(point) = with_point(word) {
+                let what = format!("{flag}{word}: the decimal sign is a point");
+                return Self { what, hint: Some(format!("write {point}")) };
+            }
+            let hint = "write the value without the minus sign; a file of this name is written ./NAME".to_owned();
             return Self { what: format!("{flag}{word}: this value cannot be negative"), hint: Some(hint) };
         }
         if let Some(place) = place_of_log(name, words) {
@@ -186,6 +190,12 @@ fn only_flag_of_unit<'a>(name: &str, flags: &'a [String]) -> Option<&'a str> {
     let mut of_unit = flags.iter().filter(|flag| flag.rsplit_once('-').is_some_and(|(_, of)| of == unit));
     let only = of_unit.next()?;
     of_unit.next().is_none().then_some(only)
+}
+
+/// The number that a comma stands in, with a point.
+fn with_point(word: &str) -> Option<String> {
+    let point = word.replacen(',', ".", 1);
+    (point != word && point.parse::<f64>().is_ok()).then_some(point)
 }
 
 /// Why a value is refused.

@@ -11,7 +11,7 @@ use crate::of_recording::{flags_of, refuse_of_recording};
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, motor_in};
-use crate::settings::config_of;
+use crate::settings::{config_of, idle_mass};
 use crate::terminal::Terminal;
 use hovertone::motors::HeardCommands;
 use hovertone::speed::Config;
@@ -140,7 +140,8 @@ impl<'a> Plan<'a> {
             }
         }
         let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors };
-        Ok(Told { record, rows, notices: heard.notices, is_whole: true })
+        let notices = idle_mass(&self.arguments.known, &self.config.known).into_iter().chain(heard.notices).collect();
+        Ok(Told { record, rows, notices, is_whole: true })
     }
 }
 

@@ -6,8 +6,8 @@ use crate::failure::Failure;
 use crate::see_help::see_help;
 use crate::vehicles::preset;
 use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
-use hovertone::tones::Discovery;
-use hovertone_report::SpeedRecord;
+use hovertone::tones::{Discovery, KnownRotor};
+use hovertone_report::{Notice, SpeedRecord};
 use hovertone_vehicle::{check_not_negative, check_tips};
 use hovertone_workflow::{NoSettings, Said};
 
@@ -38,14 +38,38 @@ pub(crate) fn config_of(
 
 /// Refuses settings of the paper's methods where another method reads the speed.
 fn check_read(analysis: &AnalysisArguments, method: Method) -> Result<(), Failure> {
-    let (flag, methods) = match (analysis.hop_share, analysis.gaussian_threshold_share) {
-        (_, Some(_)) if method != Method::Gaussian => ("--gaussian-threshold-share", "--method gaussian"),
-        (Some(_), _) if !method.reads_ridges() => ("--hop-share", "--method maximum_trace or --method gaussian"),
-        _ => return Ok(()),
-    };
+    const OF_RIDGES: &str = "--method maximum_trace or --method gaussian";
+    let reads_no_ridges = !method.reads_ridges();
+    let flags = [
+        (
+            analysis.gaussian_threshold_share.is_some() && method != Method::Gaussian,
+            "--gaussian-threshold-share",
+            "--method gaussian",
+        ),
+        (analysis.hop_share.is_some() && reads_no_ridges, "--hop-share", OF_RIDGES),
+        (analysis.window_s.is_some() && reads_no_ridges, "--window-s", OF_RIDGES),
+    ];
+    let Some((_, flag, methods)) = flags.into_iter().find(|(is_unused, ..)| *is_unused) else { return Ok(()) };
     let what =
         format!("{flag} changes nothing: the speed is read by --method {}, which does not use it", method.name());
     Err(Failure::usage(what, format!("leave it out, or give {methods}")))
+}
+
+/// Refuses what tells only of the ± and of the shaft's lines, where neither is shown.
+pub(crate) fn refuse_of_table(analysis: &AnalysisArguments, why: &str) -> Result<(), Failure> {
+    let flags = [
+        ("--condition", analysis.condition),
+        ("--clock-ppm", analysis.clock_ppm.is_some()),
+        ("--drift-m-max", analysis.drift_m_max.is_some()),
+        ("--radial-speed-m-s-max", analysis.radial_speed_m_s_max.is_some()),
+    ];
+    match flags.into_iter().find(|(_, is_given)| *is_given) {
+        Some((flag, _)) => Err(Failure::usage(
+            format!("{flag} changes nothing: {why}"),
+            format!("leave it out; `hovertone speed {flag}` shows it"),
+        )),
+        None => Ok(()),
+    }
 }
 
 /// The tone that the arguments name; `None` where it has to be searched for.
@@ -89,6 +113,21 @@ pub(crate) fn span_of(from_s: Option<f64>, to_s: Option<f64>) -> Result<SpanConf
         checked.map_err(|error| Failure::usage(error.to_string(), hint))?;
     }
     Ok(SpanConfig { from_s, to_s })
+}
+
+/// Says that a given mass changes nothing, where a fact that it needs beside it is missing.
+pub(crate) fn idle_mass(arguments: &KnownArguments, known: &KnownRotor) -> Option<Notice> {
+    let needs = match (known.diameter_m, known.rotor_count) {
+        (Some(_), Some(_)) => return None,
+        (None, Some(_)) => "--diameter-m",
+        (Some(_), None) => "--rotors",
+        (None, None) => "--diameter-m and --rotors",
+    };
+    arguments.mass_kg?;
+    let what = format!(
+        "--mass-kg changes nothing without {needs}: together they rule out speeds that cannot carry the vehicle"
+    );
+    Some(Notice::new(what, format!("give {needs} too, or leave --mass-kg out")))
 }
 
 /// Refuses the diameter of the arguments where the blade tips of a heard rotor would be faster than any multirotor's.

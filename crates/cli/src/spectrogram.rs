@@ -9,15 +9,23 @@ use crate::jobs::ending_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, records_of};
-use crate::settings::{check_tips_heard, config_of};
+use crate::settings::{check_tips_heard, config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
-use hovertone_figures::recording_figure;
+use hovertone_figures::{DOTS_PER_INCH, recording_figure};
 use hovertone_workflow::trial_of;
 
 /// Analyses a recording and draws it.
 pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let kind = FigureKind::of(&arguments.output, "use -o spectrogram.png or -o spectrogram.svg")?;
+    refuse_of_table(&arguments.analysis, "a picture shows neither the ± nor the condition of the rotors")?;
+    if let (FigureKind::Svg, Some(dpi)) = (kind, arguments.dpi) {
+        let what = format!("--dpi {dpi} changes nothing: an SVG has lines, and no dots");
+        return Err(Failure::usage(what, "leave it out, or name a picture that ends with .png"));
+    }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    if let Some(notice) = idle_mass(&arguments.known, &config.known) {
+        terminal.tip(&notice);
+    }
     let hearing = Hearing::of(&arguments.hearing);
     let outputs = Outputs::beside([&arguments.file], arguments.replace.force);
     outputs.check(&arguments.output)?;
@@ -41,7 +49,7 @@ pub(crate) fn run(arguments: &SpectrogramArguments, terminal: &mut Terminal) -> 
         terminal.say("nothing was written: a picture needs a tenth of a second of sound");
         return Ok(ending);
     };
-    let bytes = kind.bytes(figure, f64::from(arguments.dpi))?;
+    let bytes = kind.bytes(figure, arguments.dpi.map_or(DOTS_PER_INCH, f64::from))?;
     outputs.write(&arguments.output, bytes)?;
     terminal.say(&written(&arguments.output));
     Ok(ending)

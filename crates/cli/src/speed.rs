@@ -8,7 +8,7 @@ use crate::microphones::{ArrayPlan, label_all};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, hear_all, in_memory};
-use crate::settings::{check_tips_heard, config_of};
+use crate::settings::{check_tips_heard, config_of, idle_mass};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use hovertone::speed::RotorsConfig;
@@ -29,6 +29,7 @@ struct Plan {
 /// Analyses all files and prints their speeds.
 pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     let plan = resolve(arguments)?;
+    say_idle_mass(&plan, arguments, terminal);
     let records = hear(&plan, arguments)?;
     terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     if arguments.json {
@@ -47,6 +48,13 @@ pub(crate) fn run(arguments: &SpeedArguments, terminal: &mut Terminal) -> Result
         plan.outputs.write(&path, track_csv(&records).map_err(Failure::internal)?)?;
     }
     Ok(ending_of(&records))
+}
+
+fn say_idle_mass(plan: &Plan, arguments: &SpeedArguments, terminal: &mut Terminal) {
+    let known = plan.jobs.first().map(|job| job.config.known);
+    if let Some(notice) = known.and_then(|known| idle_mass(&arguments.known, &known)) {
+        terminal.tip(&notice);
+    }
 }
 
 /// Says that nobody told the number of the rotors that were separated. A warning says so where not all could be.

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::inputs::read_bytes;
 use crate::toml_words::{PlainFault, in_plain_words};
+use hovertone_vehicle::find_preset;
 use serde::de::DeserializeOwned;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -70,7 +71,7 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let PlainFault { what, hint } = in_plain_words(error.message());
     let what = format!("the {} {what}", file.kind);
     let hint = match hint {
-        Some(hint) if error.message().starts_with("unknown") => hint,
+        Some(hint) if error.message().starts_with("unknown") => mass_of_load(error, &file.text).unwrap_or(hint),
         Some(hint) => format!("{hint}; {}", file.see_example),
         None => file.see_example.to_owned(),
     };
@@ -81,6 +82,31 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let what = format!("{what}\n{}", place.underlined());
     let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));
     Failure::Usage { what, hint, path: Some(path) }
+}
+
+/// What to write in place of the whole mass of a load: the mass above that of the vehicle.
+fn mass_of_load(error: &toml::de::Error, text: &str) -> Option<String> {
+    let message = error.message();
+    if !message.starts_with("unknown field `mass_kg`") || !message.contains("`added_mass_kg`") {
+        return None;
+    }
+    let file: toml::Table = text.parse().ok()?;
+    let vehicle = file.get("vehicle");
+    let number = |value: &toml::Value| value.as_float().or_else(|| Some(value.as_integer()? as f64));
+    let of_preset = || find_preset(vehicle?.get("preset")?.as_str()?)?.mass_kg.map(|mass| mass.value);
+    let vehicle_kg = vehicle.and_then(|vehicle| number(vehicle.get("mass_kg")?)).or_else(of_preset);
+    let loads = file.get("load").and_then(toml::Value::as_array);
+    let whole_kg = loads.and_then(|loads| loads.iter().find_map(|load| number(load.get("mass_kg")?)));
+    let added = match vehicle_kg.zip(whole_kg) {
+        Some((vehicle_kg, whole_kg)) if whole_kg >= vehicle_kg => {
+            format!("added_mass_kg = {:.6}", whole_kg - vehicle_kg)
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned()
+        }
+        _ => "added_mass_kg".to_owned(),
+    };
+    Some(format!("the mass of a load is what it adds to the vehicle: write {added}"))
 }
 
 /// What a file is instead, and its command: an experiment has loads, a scenario has manoeuvres.

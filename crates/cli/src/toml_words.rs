@@ -112,6 +112,12 @@ fn syntax(message: &str) -> Option<PlainFault> {
             "names have no spaces: write [my-drone]",
         ));
     }
+    if is("missing escaped value") || is("too few unicode value digits") {
+        return Some(PlainFault::new(
+            "has a backslash in text, where it has another meaning",
+            "in a path write / in place of \\",
+        ));
+    }
     if is("string values must be quoted") {
         return Some(PlainFault::new("has text without quotes", "write it as \"text\""));
     }
@@ -154,6 +160,7 @@ mod tests {
             ("invalid length 2, expected an array of length 3", "has a list of 2 where a list of 3 numbers is needed"),
             ("invalid type: map, expected a sequence", "has one table where a list of tables is needed"),
             ("duplicate key", "has this name twice"),
+            ("missing escaped value, expected `b`, `e`, `f`", "has a backslash in text, where it has another meaning"),
             ("unclosed table, expected `]`", "has a name in brackets that does not end"),
             (
                 "an order is a number above 0 without quotes, or \"auto\"",

@@ -5,7 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, in_memory, opened, records_of};
-use crate::settings::{search_of, span_of};
+use crate::settings::{idle_mass, search_of, span_of};
 use crate::terminal::Terminal;
 use hovertone::speed::Config;
 use hovertone_media::{Recording, Samples};
@@ -13,7 +13,12 @@ use hovertone_report::{SpeedRecord, tones_json, tones_text};
 
 /// Analyses all files and prints their families of tones.
 pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
-    let records = hear(&resolve(arguments)?, arguments);
+    let plan = resolve(arguments)?;
+    let known = plan.jobs.first().and_then(|job| Some(job.discovery.as_ref()?.known));
+    if let Some(notice) = known.and_then(|known| idle_mass(&arguments.known, &known)) {
+        terminal.tip(&notice);
+    }
+    let records = hear(&plan, arguments);
     terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     if arguments.json {
         for record in &records {

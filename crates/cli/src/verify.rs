@@ -9,7 +9,7 @@ use crate::motor::flight_of;
 use crate::outputs::{Outputs, written};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::settings::config_of;
+use crate::settings::{config_of, idle_mass, refuse_of_table};
 use crate::terminal::Terminal;
 use hovertone::rotors::{LoggedSpeeds, verification_from_log};
 use hovertone::speed::TrackPoint;
@@ -22,7 +22,11 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let names = column_names(&arguments.column)?;
     let outputs = Outputs::beside([&arguments.recording, &arguments.log], arguments.replace.force);
     let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, &outputs)).transpose()?;
+    refuse_of_table(&arguments.analysis, "a check compares speeds at each time, without the ± of the mean")?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    if let Some(notice) = idle_mass(&arguments.known, &config.known) {
+        terminal.tip(&notice);
+    }
     let jobs = jobs_of(std::slice::from_ref(&arguments.recording), &config, discovery, Requests::default())?;
     let log = &arguments.log;
     let Some(flight) = flight_of(log, &names)? else {

@@ -6,13 +6,12 @@ use crate::text_table::{Column, TextTable};
 use crate::thrust::CONSTANT_UNIT;
 use hovertone_thrust::{
     BudgetInput, BudgetLine, ForceLaw, SquareLawFit, ThrustTable, TrialBootstrap, UncertaintyBudget, p_value_text,
+    preferred_law,
 };
 
 /// Contributions below this share of the constant have no line for people; the JSON has all of them.
 const NEGLIGIBLE_SHARE: f64 = 1e-6;
 
-/// A law with a larger probability has most of it.
-const MOST: f64 = 0.5;
 /// Parameters of the largest compared law: more points tell whether it is needed.
 const LAW_PARAMETERS: usize = 2;
 
@@ -69,12 +68,6 @@ pub fn laws_table(fit: &SquareLawFit) -> TextTable {
         row(ForceLaw::Power, [DASH.to_owned(), "0".to_owned(), exponent]);
     }
     text
-}
-
-/// The law that the evidence prefers and that has most of the probability; `None` where there is none, or nothing to choose from.
-fn preferred_law(fit: &SquareLawFit) -> Option<ForceLaw> {
-    let has_most = |law: ForceLaw| fit.laws.iter().any(|known| known.law == law && known.probability > MOST);
-    Some(fit.preferred).filter(|law| fit.laws.len() > 1 && has_most(*law))
 }
 
 /// The preferred law with all its numbers, ready for use, where it is not the square law; that no law is preferred, or compared; else empty.

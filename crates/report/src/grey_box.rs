@@ -1,5 +1,6 @@
 //! The grey box of eqs 1 and 2: a table for people, a JSON line for programs.
 
+use crate::notice::Notice;
 use crate::number::{DASH, fixed, scaled_number, significant, with_uncertainty};
 use crate::printable::printable;
 use crate::quote::counted;
@@ -14,6 +15,8 @@ use serde::Serialize;
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;
+/// Coverage factor of an expanded uncertainty.
+const EXPANDED: f64 = 2.0;
 
 /// A fitted grey box and what belongs to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,6 +107,22 @@ pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
     let checks = checks.lines().map(str::to_owned);
     let moved = moved_in_words(&record.log, record.log_moved_s);
     [trust(record).to_owned(), torque, rank_line(record)].into_iter().chain(moved).chain(checks).chain(advice).collect()
+}
+
+/// What speaks against the model: gains that no controller has, and a rotor of another vehicle.
+pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
+    let is_negative = |axis: &Axis| {
+        let told = record.fit.estimate(Parameter::Proportional(*axis));
+        told.is_some_and(|told| told.value < -EXPANDED * told.std_uncertainty.unwrap_or(0.0))
+    };
+    let axes: Vec<&str> = Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect();
+    let gains = (!axes.is_empty()).then(|| {
+        let (gains, are) = if axes.len() > 1 { ("gains", "are") } else { ("gain", "is") };
+        let what = format!("the {gains} k_p of {} {are} negative, and no controller flies so", axes.join(" and "));
+        Notice::new(what, "check --log-axes, and the signs of the log's columns")
+    });
+    let better = record.better.map(Warning::FitsElsewhere);
+    gains.into_iter().chain(better.map(|better| Notice::new(better.to_string(), better.hint()))).collect()
 }
 
 /// That the clock of a log was moved; `None` where it was right.
@@ -288,7 +307,7 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
         second: pair.second.name(),
         correlation: pair.correlation,
     };
-    let better = record.better.map(|better| Warning::FitsElsewhere(better).to_string());
+    let warnings = grey_box_warnings(record).into_iter().map(|notice| notice.to_string());
     let line = GreyBoxLine {
         recording: record.recording.as_deref(),
         log: &record.log,
@@ -329,7 +348,7 @@ pub fn grey_box_json(record: &GreyBoxRecord) -> serde_json::Result<String> {
             change_share: other.result.map(|result| result.change_share),
             compared_share: other.result.map(|result| result.compared_share),
         }),
-        warnings: std::iter::once(trust(record).to_owned()).chain(better).collect(),
+        warnings: std::iter::once(trust(record).to_owned()).chain(warnings).collect(),
         version: VERSION,
     };
     serde_json::to_string(&line)

@@ -76,7 +76,8 @@ pub use folded_warnings::{
     weaknesses_in_words,
 };
 pub use grey_box::{
-    CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables, grey_box_text,
+    CheckedFlight, GreyBoxRecord, grey_box_against_truth, grey_box_json, grey_box_notes, grey_box_tables,
+    grey_box_text, grey_box_warnings,
 };
 pub use logged::{log_json, log_text, signal_headers};
 pub use models::{ComparedModel, models_json, models_text, vehicle_model_text};
@@ -84,7 +85,7 @@ pub use motor::{LoggedMotor, MotorRecord, MotorSound, MotorSource, motor_text};
 pub use motor_json::motor_json;
 pub use names::short_names;
 pub use notice::Notice;
-pub use number::{ScaledNumber, fixed, scaled_number, signed, with_uncertainty};
+pub use number::{ScaledNumber, fixed, scaled_number, signed, significant, with_uncertainty};
 pub use planned_experiment::{PlannedExperiment, PlannedLoad, PlannedRecording, PlannedSound, planned_experiment_text};
 pub use printable::{folded, printable, shared_folder, wrapped};
 pub use quote::{Verdict, counted, quoted_constants, rotors_heard_text, tone_of_order};

@@ -34,7 +34,7 @@ pub fn signed(value: f64, decimals: usize) -> String {
 }
 
 /// A value with a given number of digits, for values whose uncertainty is shown elsewhere.
-pub(crate) fn significant(value: f64, digits: usize) -> String {
+pub fn significant(value: f64, digits: usize) -> String {
     let decimals = (digits as i32 - 1 - exponent(value, digits)).clamp(0, DECIMALS_MAX) as usize;
     fixed(value, decimals)
 }

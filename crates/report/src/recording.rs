@@ -196,6 +196,11 @@ impl SpeedRecord {
                     "several rotor speeds explain this sound; count the blades, and give --blades N too: the blade pass shows the speed"
                         .to_owned(),
                 ),
+                Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
+                    "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}: \
+                     they rule out speeds that cannot carry the vehicle",
+                    self.missing_facts()
+                )),
                 Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
                     "several rotor speeds explain this sound; give {}: they rule out speeds that cannot carry the vehicle",
                     self.missing_facts()
@@ -207,6 +212,11 @@ impl SpeedRecord {
                 ),
             },
         }
+    }
+
+    /// Whether one rotor alone is said to turn, as on a bench.
+    fn is_one_rotor(&self) -> bool {
+        self.settings.pointer("/known/rotor_count").and_then(Value::as_u64) == Some(1)
     }
 
     fn is_setting_missing(&self, place: &str) -> bool {

@@ -219,12 +219,21 @@ fn readings_in_a_line(family: &ToneFamily) -> String {
         .collect();
     match words.is_empty() {
         true => {
-            let mut reasons: Vec<&str> = family.readings.iter().map(|reading| reading.why.as_str()).collect();
-            reasons.dedup();
-            format!("{INDENT}no rotor: {}\n", reasons.join("; "))
+            format!("{INDENT}no rotor: {}\n", each_once(family.readings.iter().map(|reading| reading.why.as_str())))
         }
         false => format!("{INDENT}if it is a rotor: {}\n", words.join(" · ")),
     }
+}
+
+/// The reasons of several readings, each once.
+fn each_once<'a>(whys: impl Iterator<Item = &'a str>) -> String {
+    let mut reasons: Vec<&str> = Vec::new();
+    for reason in whys.flat_map(|why| why.split("; ")) {
+        if !reasons.contains(&reason) {
+            reasons.push(reason);
+        }
+    }
+    reasons.join("; ")
 }
 
 #[derive(Serialize)]
@@ -297,6 +306,14 @@ pub fn tones_json(record: &SpeedRecord) -> Result<String, serde_json::Error> {
 mod tests {
     use super::*;
     use hovertone_vehicle::RotorSpeed;
+
+    #[test]
+    fn a_reason_of_several_readings_is_told_once() {
+        assert_eq!(
+            each_once(["too fast; no thrust", "2 blades", "too fast"].into_iter()),
+            "too fast; no thrust; 2 blades"
+        );
+    }
 
     #[test]
     fn readings_with_one_meaning_are_told_by_their_tones() {

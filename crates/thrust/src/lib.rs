@@ -38,7 +38,7 @@ pub use air::{
 pub use budget::{BudgetInput, BudgetLine, UncertaintyBudget};
 pub use campaign::TrialBootstrap;
 pub use drift::{Drift, DriftKind, row_drifts};
-pub use fit::{thrust_from_loads, warnings_of_points};
+pub use fit::{preferred_law, thrust_from_loads, warnings_of_points};
 pub use force::Force;
 pub use outline::{LoadOutline, warnings_of_outline};
 pub use plan::{FlightPlan, PlanError, PlanWish, flight_plan};
@@ -48,9 +48,9 @@ pub use square_law::{
     ForceLaw, ForcePoint, InterceptLaw, LawAgreement, LawProbability, LoadRange, NoScatter, PointNoise, PointVerdict,
     PowerLaw, SquareLawFit, square_law_fit,
 };
-pub use statistics::COVERAGE_FACTOR;
+pub use statistics::{COVERAGE_FACTOR, p_value_text};
 pub use table::{LoadThrust, SampleThrust, ThrustTable, TrialThrust};
 pub use vehicle_model::{ModelAgainstHeard, VehicleModel};
 pub use warning::ThrustWarning;
-pub use warning_words::{compared, p_value_text};
+pub use warning_words::compared;
 pub use weighing::{AcousticScale, DifferentLoads, HeardHover, WeighError, WeighedHover};

@@ -5,6 +5,9 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 /// Coverage factor k of the expanded uncertainty, for a probability of about 95 % (JCGM 100:2008, 6.3.3). *Decision.*
 pub const COVERAGE_FACTOR: f64 = 2.0;
 
+/// Smallest p-value that is printed as a number. *Decision.*
+const P_VALUE_SHOWN_MIN: f64 = 1e-4;
+
 /// Arithmetic mean; `None` without values.
 pub(crate) fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
@@ -46,6 +49,16 @@ pub(crate) fn student_factor(degrees_of_freedom: f64) -> f64 {
         (Ok(covered), Ok(student)) => student.inverse_cdf(covered) / COVERAGE_FACTOR,
         _ => f64::INFINITY,
     }
+}
+
+/// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
+pub fn p_value_text(p_value: f64) -> String {
+    if p_value < P_VALUE_SHOWN_MIN {
+        return format!("p < {P_VALUE_SHOWN_MIN}");
+    }
+    // two digits
+    let decimals = (1.0 - p_value.log10().floor()).clamp(2.0, 5.0) as usize;
+    format!("p = {p_value:.decimals$}")
 }
 
 #[cfg(test)]

@@ -3,8 +3,9 @@
 use crate::drift::{Drift, DriftKind};
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
-use crate::statistics::COVERAGE_FACTOR;
-use crate::warning_words::{drift_text, first_names, is_shifted_point, mass_text, range_text, ratio_text};
+use crate::warning_words::{
+    drift_text, first_names, groups_text, is_shifted_point, mass_text, misfit_text, range_text, ratio_text,
+};
 use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
 use std::fmt;
@@ -262,17 +263,7 @@ impl fmt::Display for ThrustWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::LoadDoesNotFit { name, is_row, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
-                match is_row {
-                    true => write!(f, "{name} of the table does not fit the others")?,
-                    false => write!(f, "load \"{name}\" does not fit the others")?,
-                }
-                match (mass_that_fits_kg, mass_that_fits_std_kg) {
-                    (Some(mass_kg), Some(std_kg)) => {
-                        write!(f, "; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)?;
-                    }
-                    (Some(mass_kg), None) => write!(f, "; {:.1} g would", 1e3 * mass_kg)?,
-                    (None, _) => {}
-                }
+                f.write_str(&misfit_text(name, *is_row, mass_that_fits_kg.map(|mass_kg| (mass_kg, *mass_that_fits_std_kg))))?;
                 if *is_left_out { f.write_str("; it is left out: its constant is more than twice or less than half that of the others") } else { Ok(()) }
             }
             Self::LoadsDisagree { names, are_rows } => {
@@ -285,8 +276,7 @@ impl fmt::Display for ThrustWarning {
                 write!(f, "{recording} of load \"{load}\" needs {percent:.0} % {than} thrust than the others")
             }
             Self::TrialsInGroups { load, groups_rev_s } => {
-                let speeds: Vec<String> = groups_rev_s.iter().map(|rev_s| format!("{rev_s:.1}")).collect();
-                write!(f, "the trials of load \"{load}\" lie in {} groups of speeds: {} rev/s", speeds.len(), speeds.join(", "))
+                write!(f, "the trials of load \"{load}\" lie in {}", groups_text(groups_rev_s))
             }
             Self::ConstantsDiffer { least, most, share } => {
                 write!(f, "the constant of load \"{most}\" is {:.0} % larger than that of \"{least}\"", 100.0 * share)

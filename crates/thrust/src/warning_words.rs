@@ -2,25 +2,13 @@
 
 use crate::drift::{Drift, DriftKind};
 use crate::square_law::LoadRange;
+use crate::statistics::{COVERAGE_FACTOR, p_value_text};
 
 /// Most names in the list of a warning. *Decision.*
 const NAMES_MAX: usize = 5;
 
-/// Smallest p-value that is printed as a number. *Decision.*
-const P_VALUE_SHOWN_MIN: f64 = 1e-4;
-
 /// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
 const POINT_MARGIN: f64 = 1.5;
-
-/// "p = 0.012", or "p < 0.0001" where the number would be printed as zero.
-pub fn p_value_text(p_value: f64) -> String {
-    if p_value < P_VALUE_SHOWN_MIN {
-        return format!("p < {P_VALUE_SHOWN_MIN}");
-    }
-    // two digits
-    let decimals = (1.0 - p_value.log10().floor()).clamp(2.0, 5.0) as usize;
-    format!("p = {p_value:.decimals$}")
-}
 
 pub(crate) fn drift_text(drift: &Drift) -> String {
     let step = match drift.kind {
@@ -74,4 +62,23 @@ pub(crate) fn ratio_text(ratio: f64) -> String {
 pub(crate) fn is_shifted_point(ratio: f64) -> bool {
     let near_ten = 10.0 / POINT_MARGIN..=10.0 * POINT_MARGIN;
     near_ten.contains(&ratio) || near_ten.contains(&ratio.recip())
+}
+
+/// A load or a row that does not fit the others, with the mass that would, and its standard uncertainty where known.
+pub(crate) fn misfit_text(name: &str, is_row: bool, mass_that_fits_kg: Option<(f64, Option<f64>)>) -> String {
+    let of = if is_row { format!("{name} of the table") } else { format!("load \"{name}\"") };
+    let would = match mass_that_fits_kg {
+        Some((mass_kg, Some(std_kg))) => {
+            format!("; {:.1} g ± {:.1} g would", 1e3 * mass_kg, 1e3 * COVERAGE_FACTOR * std_kg)
+        }
+        Some((mass_kg, None)) => format!("; {:.1} g would", 1e3 * mass_kg),
+        None => String::new(),
+    };
+    format!("{of} does not fit the others{would}")
+}
+
+/// Groups of speeds, by their means.
+pub(crate) fn groups_text(groups_rev_s: &[f64]) -> String {
+    let speeds: Vec<String> = groups_rev_s.iter().map(|rev_s| format!("{rev_s:.1}")).collect();
+    format!("{} groups of speeds: {} rev/s", speeds.len(), speeds.join(", "))
 }

@@ -2,8 +2,8 @@
 
 use crate::contradiction::HOVER_REV_S_MIN;
 use crate::{
-    AIR_KG_M3, ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, SOUND_M_S,
-    ShaftSpeedRange, THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range,
+    AIR_KG_M3, ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, RotorSpeed,
+    SOUND_M_S, ShaftSpeedRange, THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range, check_tips,
 };
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -81,6 +81,14 @@ impl KnownRotor {
         Ok(())
     }
 
+    /// Checks that the propellers may turn as fast as the slowest hover of a multirotor.
+    ///
+    /// # Errors
+    /// [`Contradiction::TipsTooFast`].
+    pub fn check_diameter(&self) -> Result<(), Contradiction> {
+        self.diameter_m.map_or(Ok(()), |diameter_m| check_tips(diameter_m, RotorSpeed::from_rev_s(HOVER_REV_S_MIN)))
+    }
+
     /// Checks every number against its limits.
     ///
     /// # Errors
@@ -130,6 +138,13 @@ mod tests {
         assert!(heavy.hint().contains("413 g are 0.413"), "{}", heavy.hint());
         // 360 kg on eight propellers of 1.6 m: there are such vehicles
         KnownRotor { rotor_count: Some(8), ..with(1.6, 360.0) }.check_hover().unwrap();
+    }
+
+    #[test]
+    fn ten_inches_are_not_ten_metres() {
+        let of = |diameter_m| KnownRotor { diameter_m: Some(diameter_m), ..KnownRotor::default() };
+        of(2.0).check_diameter().unwrap();
+        assert!(of(10.0).check_diameter().unwrap_err().hint().contains("10 inches are 0.254"));
     }
 
     #[test]

@@ -130,6 +130,7 @@ impl Said<'_> {
             ..of_vehicle
         };
         known.check()?;
+        known.check_diameter()?;
         let said = SaidOfVehicle { rotors: self.rotors, mass_kg: self.mass_kg, ..SaidOfVehicle::default() };
         self.vehicle.map_or(Ok(()), |vehicle| vehicle.check_said(&said))?;
         // all rotors of a vehicle carry it, also where fewer of them turn on a bench

@@ -27,9 +27,9 @@ pub(crate) struct SpectrogramArguments {
     pub(crate) output: PathBuf,
     #[command(flatten)]
     pub(crate) replace: ReplaceArguments,
-    /// Dots per inch of a PNG
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = whole_number(50u16..=1200), help_heading = "Output")]
-    pub(crate) dpi: u16,
+    /// Dots per inch of a PNG [default: 300]
+    #[arg(long, value_name = "N", value_parser = whole_number(50u16..=1200), help_heading = "Output")]
+    pub(crate) dpi: Option<u16>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
     #[command(flatten)]

@@ -13,7 +13,7 @@ use crate::args::BatchArguments;
 use crate::failure::{Ending, Failure};
 use crate::outputs::Outputs;
 use crate::recording::{Hearing, Requests};
-use crate::settings::config_of;
+use crate::settings::{config_of, idle_mass};
 use crate::terminal::Terminal;
 use counts::Counts;
 use folder::{BatchFolder, identity_in};
@@ -31,6 +31,9 @@ pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result
         return Err(Failure::usage(what, "leave --force out, or remove the folder before the jobs start"));
     }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
+    if let Some(notice) = idle_mass(&arguments.known, &config.known) {
+        terminal.tip(&notice);
+    }
     let requests = requests_of(arguments);
     let hearing = Hearing { wants_thumbnail: true, ..hearing_of(arguments) };
     let before = identity_in(&arguments.output).filter(|_| !arguments.replace.force);

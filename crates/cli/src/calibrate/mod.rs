@@ -231,6 +231,10 @@ fn resolve(arguments: &CalibrateArguments) -> Result<Plan, Failure> {
         ),
         _ => None,
     };
+    if let Some(count) = tone.harmonics.filter(|_| line_band_hz.is_some()) {
+        let what = format!("--harmonics {count} changes nothing: --true-hz compares one line, that of the generator");
+        return Err(Failure::usage(what, "leave it out, or name the rotor's tone, such as --blades 2"));
+    }
     // the clock is what is sought, and a bench does not move
     let analysis = AnalysisArguments {
         clock_ppm: Some(0.0),

@@ -77,10 +77,24 @@ impl Draft {
         let Some(heavy_kg) = masses_kg().find(|mass_kg| !are_masses_of_one_vehicle(*mass_kg, lightest_kg)) else {
             return Ok(());
         };
+        let of_vehicle = vehicle.and_then(|vehicle| Some((vehicle.id, vehicle.mass_kg?.value)));
+        let weighs = of_vehicle.map_or_else(String::new, |(id, mass_kg)| {
+            format!(", and the vehicle \"{id}\" weighs {}", mass_words(mass_kg))
+        });
         let what = format!(
-            "--mass {heavy_kg} and --mass {lightest_kg}: the loads of one vehicle differ by no more than {MASS_FACTOR_MAX} times"
+            "--mass {} and --mass {}: the loads of one vehicle differ by no more than {MASS_FACTOR_MAX} times{weighs}",
+            mass_words(heavy_kg),
+            mass_words(lightest_kg)
         );
-        Err(Failure::usage(what, format!("masses are in kilograms: write {heavy_kg}g for grams")))
+        let hint = match of_vehicle {
+            Some((_, mass_kg)) => {
+                let is_light = mass_kg / lightest_kg > heavy_kg / mass_kg;
+                let far = mass_words(if is_light { lightest_kg } else { heavy_kg });
+                format!("check --mass {far}: its decimal point and its unit")
+            }
+            None => "check both, their decimal points and their units: 0.413 and 413g are the same".to_owned(),
+        };
+        Err(Failure::usage(what, hint))
     }
 
     /// Refuses propellers that cannot carry the loads.

@@ -228,13 +228,20 @@ pub(crate) fn fit_of(
 ) -> Result<Heard, Failure> {
     let start = vehicle.start();
     let stopped = |stop: GreyBoxStop| {
+        let what = match stop {
+            GreyBoxStop::NotConverged => format!("no model of the vehicle \"{}\" explains this flight", vehicle.id()),
+            _ => stop.to_string(),
+        };
         let hint = match stop {
+            GreyBoxStop::NotConverged => {
+                "is --vehicle right, and --log-axes? If both are, fly a minute of doublets about all axes"
+            }
             GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
                 "give the time between their clocks with --log-offset-s, and the log of this recording; fly doublets for a minute"
             }
             _ => "log commands and attitude over a minute of doublets about all axes",
         };
-        Failure::Usage { what: stop.to_string(), hint: hint.to_owned(), path: Some(files.log.clone()) }
+        Failure::Usage { what, hint: hint.to_owned(), path: Some(files.log.clone()) }
     };
     match &files.recording {
         None => {

@@ -15,11 +15,10 @@ use crate::outputs::{Outputs, is_recording, written};
 use crate::progress::Progress;
 use crate::recording::Hearing;
 use crate::terminal::Terminal;
-use hovertone::speed::Warning;
 use hovertone_dynamics::{YawInertia, advice_of, checked, torque_constant};
 use hovertone_figures::{DOTS_PER_INCH, DrawnSpeeds, grey_box_figure};
 use hovertone_logs::RateAxes;
-use hovertone_report::{CheckedFlight, GreyBoxRecord, Notice, grey_box_json, grey_box_text};
+use hovertone_report::{CheckedFlight, GreyBoxRecord, grey_box_json, grey_box_text, grey_box_warnings};
 use std::path::{Path, PathBuf};
 
 /// Fits, prints, and writes what was asked for.
@@ -46,14 +45,14 @@ pub(crate) fn run(arguments: &GreyBoxArguments, terminal: &mut Terminal) -> Resu
     let compared =
         other.as_ref().zip(checked_speeds.as_ref()).map(|(files, speeds)| OtherFlight { files, speeds, moved_s });
     let record = record_of(&files, &flown, &heard, &vehicle, compared);
+    let warnings = grey_box_warnings(&record);
+    terminal.warning_count(warnings.len());
+    warnings.iter().for_each(|notice| terminal.warning(notice, ""));
     match arguments.json {
         true => terminal.data(&grey_box_json(&record).map_err(Failure::internal)?)?,
         false => terminal.text(&grey_box_text(&record, terminal.fold_width()))?,
     }
     terminal.flush()?;
-    if let Some(better) = heard.better.map(Warning::FitsElsewhere) {
-        terminal.warning(&Notice::new(better.to_string(), better.hint()), "");
-    }
     if let Some(place) = &arguments.scenario {
         outputs.write(place, scenario_toml(&heard.fit, &vehicle)?)?;
         terminal.say(&written(place));

@@ -7,8 +7,9 @@ use crate::args::InitArguments;
 use crate::draft::{Draft, recordings_from};
 use crate::failure::{Ending, Failure};
 use crate::files::files_of;
-use crate::identify::ExperimentSource;
+use crate::identify::{ExperimentSource, jobs_of};
 use crate::outputs::{Outputs, written};
+use crate::recording::Hearing;
 use crate::recording_files::recordings_of;
 use crate::rights::{CLOSED_FOLDER, GET_RIGHT, closed_folder};
 use crate::terminal::{Terminal, width_of};
@@ -43,6 +44,15 @@ pub(crate) fn run(arguments: &InitArguments, terminal: &mut Terminal) -> Result<
     let text = file_text(&draft, vehicle, &arguments.output)?;
     // a draft that means nothing is refused with its reason, and not written
     let source = ExperimentSource::of_flags(&text, arguments.output.clone(), "init")?;
+    let recordings = jobs_of(&source, None).map_err(|failure| match failure {
+        // the file that would name it twice is not there yet
+        Failure::Usage { what, .. } => Failure::usage(what, "name each recording once"),
+        failure => failure,
+    })?;
+    for recording in recordings {
+        let opened = recording.job.open(Hearing::default());
+        opened.map_err(|error| Failure::failed(error.to_string(), "", Path::new(&recording.job.name)))?;
+    }
     let recordings = draft.loads.iter().flat_map(|load| &load.recordings).flat_map(|name| files_of(Path::new(name)));
     Outputs::beside(recordings, arguments.replace.force).write(&arguments.output, &text)?;
     terminal.say(&written(&arguments.output));

@@ -11,7 +11,7 @@ mod view;
 
 use crate::args::{AnalysisArguments, ListenArguments};
 use crate::failure::{Ending, Failure};
-use crate::settings::config_of;
+use crate::settings::{config_of, idle_mass};
 use crate::terminal::Terminal;
 use hovertone::live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
 use hovertone_vehicle::check_range;
@@ -39,6 +39,9 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
     check_range("--speed", arguments.speed, SPEED_MIN, SPEED_MAX)?;
     let analysis = AnalysisArguments { mean_only: arguments.mean_only, ..AnalysisArguments::default() };
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &analysis)?;
+    if let Some(notice) = idle_mass(&arguments.known, &config.known) {
+        terminal.tip(&notice);
+    }
     let mut sound = LiveSound::open(arguments.from_file.as_deref(), arguments.channel)?;
     let config = LiveConfig::of_analysis(config, discovery);
     let block_samples = (config.every_s * sound.sample_rate_hz()) as usize;

@@ -51,6 +51,21 @@ fn a_log_with_speeds_tells_a_model_that_can_be_flown_and_predicts_another_flight
 }
 
 #[test]
+fn another_vehicle_and_exchanged_axes_are_said() {
+    let folder = tempfile::tempdir().unwrap();
+    let log = format!("{}/truth.csv", flown(folder.path(), "flight", 1, 12.0));
+    let words = ["no model of the vehicle \"crazyflie\" explains this flight", "is --vehicle right"];
+    refused_with(&["greybox", &log, "--vehicle", "crazyflie"], &words);
+    let frd = ["greybox", &log, "--vehicle", "ardrone", "--log-axes", "frd"];
+    let said = hovertone(&frd).ends_with(0).stderr;
+    assert!(said.contains("k_p of pitch and yaw are negative") && said.contains("check --log-axes"), "{said}");
+    let line = hovertone(&[&frd[..], &["--json"]].concat()).ends_with(0).json_lines().remove(0);
+    assert!(line["warnings"].to_string().contains("are negative"), "{}", line["warnings"]);
+    let right = hovertone(&["greybox", &log, "--vehicle", "ardrone"]).ends_with(0).stderr;
+    assert!(!right.contains("negative"), "{right}");
+}
+
+#[test]
 fn what_is_no_flight_is_refused_in_one_line() {
     let folder = tempfile::tempdir().unwrap();
     let log = |name: &str, content: &str| {

@@ -31,8 +31,8 @@ fn a_log_of_another_clock_is_answered_with_the_flag_for_it() {
     write_noise(&sound, 3.0);
     let rows = (0..60).map(|row| format!("{}.{},0,0\n", 1000 + row / 10, row % 10)).collect::<String>();
     let log = written(folder.path(), "log.csv", &("time_s,command_roll,roll_deg\n".to_owned() + &rows));
-    let words = ["speeds lie within the log", "--log-offset-s"];
-    refused_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
+    let words = ["does not follow this log", "--log-offset-s"];
+    failed_with(&["greybox", text(&sound), &log, "--vehicle", "ardrone"], &words);
 }
 
 #[test]
@@ -89,6 +89,16 @@ fn names_of_groups_are_told_from_each_other() {
         "{}",
         airsim.stderr
     );
+}
+
+#[test]
+fn a_bench_is_asked_for_a_band_and_for_no_mass_first() {
+    let Some(bench) = recordings("crazyflie-propeller") else { return };
+    let sound = bench.join("64000.wav");
+    let said = hovertone(&["speed", "--blades", "2", "--rotors", "1", text(&sound)]).ends_with(3).stderr;
+    assert!(said.contains("on a bench, give --band LOW:HIGH around the blade pass"), "{said}");
+    let band = ["speed", "--blades", "2", "--rotors", "1", "--band", "780:840", text(&sound)];
+    hovertone(&band).ends_with(0);
 }
 
 #[test]

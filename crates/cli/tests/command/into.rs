@@ -49,6 +49,45 @@ fn facts_that_a_format_does_not_hold_are_named() {
 }
 
 #[test]
+fn facts_that_a_model_does_not_hold_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let (model, bare) = (folder.path().join("iris.sdf"), folder.path().join("bare.sdf"));
+    fs::write(&model, IRIS).unwrap();
+    fs::write(&bare, IRIS.replace("<momentConstant>0.06</momentConstant>", "")).unwrap();
+    for (model, flag, value, is_used) in [
+        (&model, "--torque-constant-n-m-s2", "1e-8", true),
+        (&bare, "--torque-constant-n-m-s2", "1e-8", false),
+        (&bare, "--hover-command", "0.5", false),
+        (&bare, "--diameter-m", "0.2", false),
+        (&bare, "--air-density-kg-m3", "1.2", false),
+    ] {
+        let copy = folder.path().join(format!("{}.sdf", flag.trim_start_matches('-')));
+        let words = ["--into", text(model), flag, value, "--force", "-o", text(&copy)];
+        let said = export(&results, &words).ends_with(0).stderr;
+        assert_eq!(said.contains(&format!("{flag} changes nothing")), !is_used, "{words:?}: {said}");
+    }
+}
+
+#[test]
+fn a_constant_that_is_an_expression_is_said_to_be() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let sdf = IRIS.replace("5.84e-06", "${kf}");
+    let urdf = "<robot name='a'><properties kf='${2 * 3e-10}' km='1e-12' /></robot>";
+    let xacro = "<robot><xacro:property name='motor_constant' value='${kf}' /></robot>";
+    for (name, content) in [("a.sdf", sdf.as_str()), ("b.urdf", urdf), ("c.xacro", xacro)] {
+        let model = folder.path().join(name);
+        fs::write(&model, content).unwrap();
+        let (into, compare) =
+            (export(&results, &["--into", text(&model)]), hovertone(&["compare", text(&results), text(&model)]));
+        for said in [into.ends_with(1).stderr, compare.ends_with(1).stderr] {
+            assert!(said.contains("is the expression `${") && said.contains("write the number"), "{said}");
+        }
+    }
+}
+
+#[test]
 fn only_the_constant_of_a_model_changes_and_the_difference_is_a_patch() {
     let folder = tempfile::tempdir().unwrap();
     let results = write_results(folder.path());
@@ -136,7 +175,7 @@ fn a_changed_model_goes_elsewhere_by_the_rules_of_outputs() {
     let both = hovertone(&["export", results, "--to", "gazebo", "--into", text(&model)]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     fs::write(&model, IRIS.replace("5.84e-06", "${motor_constant}")).unwrap();
-    assert!(hovertone(&["export", results, "--into", text(&model)]).ends_with(1).stderr.contains("no thrust constant"));
+    assert!(hovertone(&["export", results, "--into", text(&model)]).ends_with(1).stderr.contains("expression"));
 }
 
 #[test]

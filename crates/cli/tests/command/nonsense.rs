@@ -77,7 +77,8 @@ fn times_and_lengths_are_not_negative() {
         [("--window-s", "-1"), ("--drift-m-max", "-1"), ("--clock-ppm", "-1"), ("--radial-speed-m-s-max", "-1")]
     {
         let name = flag.trim_start_matches("--").replace('-', "_");
-        refused_with(&["speed", "a.wav", "--blades", "2", flag, value], &[&format!("{name} = -1")]);
+        let trace: &[&str] = if flag == "--window-s" { &["--method", "maximum_trace"] } else { &[] };
+        refused_with(&[&["speed", "a.wav", "--blades", "2", flag, value], trace].concat(), &[&format!("{name} = -1")]);
     }
     for flag in ["--correlation-s", "--mass-std-kg", "--diameter-m"] {
         refused_with(&["fit", "--plan", "--mass-kg", "0.413", flag, "-1"], &["= -1"]);
@@ -321,17 +322,8 @@ fn a_thrust_that_no_propeller_has_is_said() {
     assert!(!run("rpm,thrust_n\n4000,1.26\n6000,2.81\n8000,5.01\n").contains(words));
     let gram_force = run("rpm,thrust_n\n4000,128\n6000,287\n8000,511\n");
     assert!(gram_force.contains(words) && gram_force.contains("check the units"), "{gram_force}");
-}
-
-#[test]
-fn a_flag_that_changes_nothing_is_refused() {
-    let speed = ["speed", "a.wav", "--blades", "2"];
-    refused_with(&[&speed[..], &["--hop-share", "0.3"]].concat(), &["--hop-share changes nothing", "maximum_trace"]);
-    let trace = [&speed[..], &["--method", "maximum_trace", "--gaussian-threshold-share", "0.5"]].concat();
-    refused_with(&trace, &["--gaussian-threshold-share changes nothing", "give --method gaussian"]);
-    let plan = ["fit", "--plan", "--mass-kg", "0.413"];
-    for flag in ["--temperature-c", "--pressure-hpa", "--humidity-percent"] {
-        refused_with(&[&plan[..], &[flag, "20"]].concat(), &[flag, "a plan does not use the air"]);
-    }
-    refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not tell gravity"]);
+    let table = folder.path().join("rev_s.csv");
+    fs::write(&table, "rpm,thrust_n\n67,1.26\n100,2.81\n133,5.01\n").unwrap();
+    let fitted = hovertone(&["fit", text(&table), "--diameter-m", "0.254"]).ends_with(0).stderr;
+    assert!(fitted.contains("C_T would be") && fitted.contains("rev/s or rad/s"), "{fitted}");
 }

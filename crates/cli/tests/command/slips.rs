@@ -34,6 +34,44 @@ fn init_by_flags_writes_what_identify_can_read() {
 }
 
 #[test]
+fn a_slip_of_a_mass_or_a_comma_is_named() {
+    let check = ["identify", "--vehicle", "ardrone", "--mass", "41.3g=a.wav", "--mass", "444g=b.wav", "--check"];
+    refused_with(&check, &["the vehicle \"ardrone\" weighs 413 g", "check --mass 41.3 g"]);
+    let place = ["identify", "--vehicle", "ardrone", "--mass", "413g=a.wav", "--latitude-deg", "-20,3"];
+    refused_with(&place, &["--latitude-deg -20,3: the decimal sign is a point", "write -20.3"]);
+}
+
+#[test]
+fn init_refuses_what_identify_would_refuse() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, other) = (folder.path().join("a.wav"), folder.path().join("results.json"));
+    write_noise(&sound, 0.5);
+    fs::write(&other, "{}").unwrap();
+    let place = folder.path().join("new.toml");
+    let init = |more: &[&str]| hovertone(&[&["init", "--vehicle", "ardrone", "-o", text(&place)], more].concat());
+    let no_sound = init(&["--mass", "413g", text(&other)]).ends_with(1).stderr;
+    assert!(no_sound.contains("not an audio or video file"), "{no_sound}");
+    let twice = init(&["--mass", "413g", text(&sound), "--mass", "444g", text(&sound)]).ends_with(2).stderr;
+    assert!(twice.contains("is given twice") && twice.contains("name each recording once"), "{twice}");
+    assert!(!place.exists());
+}
+
+#[test]
+fn slips_in_an_experiment_file_are_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().join("e.toml");
+    let check = |load: &str, words: &[&str]| {
+        let file = format!("[vehicle]\npreset = \"ardrone\"\n[[load]]\nname = \"a\"\n{load}\n");
+        fs::write(&place, file).unwrap();
+        refused_with(&["identify", text(&place), "--check"], words);
+    };
+    check("recordings = [\"flights\\data.wav\"]", &["backslash", "in a path write /"]);
+    check("mass_kg = 0.462\nrecordings = []", &["what it adds to the vehicle", "added_mass_kg = 0.049"]);
+    let run = hovertone(&["export", text(&place), "--to", "gazebo"]).ends_with(1);
+    assert!(run.stderr.contains("this is an experiment file"), "{}", run.stderr);
+}
+
+#[test]
 fn lengths_and_masses_are_typed_with_their_units() {
     let plan =
         |more: &[&str]| hovertone(&[&["fit", "--plan", "--wanted-share", "0.1"], more].concat()).ends_with(0).stdout;

@@ -1,7 +1,7 @@
 //! The start: from an empty folder to a constant, with `init`, with flags alone, and the look before it.
 
 use crate::movie::write_movie;
-use crate::testkit::{Run, hovertone_with, steady_hover, text, write_hover};
+use crate::testkit::{Run, hovertone_with, steady_hover, text, write_hover, write_noise};
 use hovertone_sim::HoverSettings;
 use hovertone_sim::prescribed::RotorSound;
 use hovertone_vehicle::RotorSpeed;
@@ -117,7 +117,10 @@ fn flags_that_are_no_experiment_say_what_is_missing() {
         assert!(!run.stderr.contains("experiment.toml"), "no file was typed: {}", run.stderr);
     };
     flags("identify --mass 0.0005=a.wav --vehicle ardrone", &["--mass 0.0005=a.wav: ", "from 0.001"]);
-    flags("identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone", &["--mass 9 and --mass 0.4: ", "9g"]);
+    flags(
+        "identify --mass 0.4=a.wav --mass 9=b.wav --vehicle ardrone",
+        &["--mass 9000 g and --mass 400 g: ", "check --mass 9000 g"],
+    );
     flags("identify --mass 0.4=a.wav --vehicle ardrone --height-m 40", &["--height-m 40 alone", "--latitude-deg"]);
     refuses(&["init"], &["no terminal", "--mass"]);
     refuses(&["init", "--vehicle", "ardron", "--mass", "0.4=a.wav"], &["did you mean \"ardrone\""]);
@@ -162,8 +165,8 @@ fn init_asks_in_a_terminal() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     fs::create_dir_all(at.join("no_hull")).unwrap();
-    fs::write(at.join("no_hull/1.MOV"), "one").unwrap();
-    fs::write(at.join("small.mov"), "another").unwrap();
+    write_noise(&at.join("no_hull/1.MOV"), 0.5);
+    write_noise(&at.join("small.mov"), 0.6);
     let program = format!("'{}' init", env!("CARGO_BIN_EXE_hovertone"));
     let mut command = Command::new("script");
     command.args(["-qec", &program, "/dev/null"]).current_dir(at).stdin(Stdio::piped()).stdout(Stdio::piped());

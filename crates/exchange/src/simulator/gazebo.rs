@@ -1,7 +1,7 @@
 //! SDF of Gazebo (gz-sim and classic) and PX4: one motor plugin for each rotor, motorConstant in N/(rad/s)², momentConstant in m.
 
 use super::header::{missing_torque, number, plain, xml_comment};
-use super::xml::{indented, model_name, numbers_in, parsed, rooted, shared};
+use super::xml::{constant_in, indented, model_name, numbers_in, parsed, rooted, shared};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 
@@ -49,7 +49,9 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let rooted = rooted(text);
     let document = parsed(&rooted, "SDF")?;
-    let constants = numbers_in(&document, "motorConstant");
+    let elements = document.descendants().filter(|node| node.tag_name().name() == "motorConstant");
+    let constants: Vec<f64> =
+        elements.map(|node| constant_in("motorConstant", node.text())).collect::<Result<_, _>>()?;
     let masses = numbers_in(&document, "mass");
     Ok(SimulatorModel {
         rotor_count: u32::try_from(constants.len()).ok(),

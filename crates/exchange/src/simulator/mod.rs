@@ -174,7 +174,7 @@ pub enum ModelError {
         most: f64,
     },
     /// A number that is written as an expression, which only its author can change.
-    #[error("{name} is `{value}`, and not a number that could be replaced")]
+    #[error("{name} is the expression `{value}`, and a number is needed")]
     Expression {
         /// Name of the element or the key.
         name: String,

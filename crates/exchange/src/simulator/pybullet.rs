@@ -1,7 +1,7 @@
 //! URDF of gym-pybullet-drones: `<properties kf=… km=…>`, kf in N/rpm², km in N m/rpm².
 
 use super::header::{missing_torque, number, plain, xml_comment};
-use super::xml::{indented, model_name, parsed, rooted};
+use super::xml::{constant_in, indented, model_name, parsed, rooted};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 use crate::units::ConstantUnits;
@@ -45,7 +45,8 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         elements.filter_map(|node| node.attribute(name)?.trim().parse().ok()).collect()
     };
     let first = |name: &str| attribute("properties", name).first().copied();
-    let kf = first("kf").ok_or(ModelError::Unknown)?;
+    let mut properties = document.descendants().filter(|node| node.tag_name().name() == "properties");
+    let kf = constant_in("kf", properties.find_map(|node| node.attribute("kf")))?;
     let masses = attribute("mass", "value");
     Ok(SimulatorModel {
         rotor_count: Some(ROTOR_COUNT),

@@ -1,7 +1,7 @@
 //! xacro of RotorS: properties, motor_constant in N/(rad/s)² (its files say kg·m/s² by mistake), moment_constant in m.
 
 use super::header::{missing_torque, number, plain, xml_comment};
-use super::xml::{indented, model_name, parsed, rooted};
+use super::xml::{constant_in, indented, model_name, parsed, rooted};
 use super::{ModelError, SimulatorFormat, SimulatorModel};
 use crate::identified::IdentifiedRotor;
 
@@ -31,12 +31,14 @@ pub(super) fn write(rotor: &IdentifiedRotor) -> String {
 pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
     let rooted = rooted(text);
     let document = parsed(&rooted, "xacro")?;
-    let property = |name: &str| -> Option<f64> {
+    let text_of = |name: &str| {
         let named = document
             .descendants()
             .find(|node| node.tag_name().name() == "property" && node.attribute("name") == Some(name));
-        named?.attribute("value")?.trim().parse().ok()
+        named?.attribute("value")
     };
+    let property = |name: &str| -> Option<f64> { text_of(name)?.trim().parse().ok() };
+    let constant = constant_in("motor_constant", text_of("motor_constant"))?;
     let rotors = document.descendants().filter(|node| node.tag_name().name() == "vertical_rotor").count();
     Ok(SimulatorModel {
         rotor_count: u32::try_from(rotors).ok().filter(|count| *count > 0),
@@ -44,6 +46,6 @@ pub(super) fn read(text: &str) -> Result<SimulatorModel, ModelError> {
         mass_kg: property("mass").map(|frame_kg| frame_kg + rotors as f64 * property("mass_rotor").unwrap_or(0.0)),
         propeller_diameter_m: property("radius_rotor").map(|radius_m| 2.0 * radius_m),
         moment_constant_m: property("moment_constant"),
-        ..SimulatorModel::square(SimulatorFormat::Rotors, property("motor_constant").ok_or(ModelError::Unknown)?)
+        ..SimulatorModel::square(SimulatorFormat::Rotors, constant)
     })
 }

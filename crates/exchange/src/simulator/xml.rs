@@ -60,6 +60,13 @@ pub(super) fn numbers_in(document: &Document<'_>, name: &str) -> Vec<f64> {
     elements.filter_map(|node| node.text()?.trim().parse().ok()).collect()
 }
 
+/// The number that an element or an attribute holds; unknown where there is none.
+pub(super) fn constant_in(name: &str, text: Option<&str>) -> Result<f64, ModelError> {
+    let text = text.ok_or(ModelError::Unknown)?.trim();
+    let expression = || ModelError::Expression { name: name.to_owned(), value: text.to_owned() };
+    text.parse().map_err(|_| expression())
+}
+
 /// A constant that all rotors have in common.
 pub(super) fn shared(constants: &[f64]) -> Result<f64, ModelError> {
     let least = constants.iter().copied().fold(f64::INFINITY, f64::min);

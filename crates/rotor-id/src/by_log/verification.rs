@@ -113,7 +113,8 @@ pub fn verification_from_log(
     // steady speeds fit anywhere
     let is_worse = |cost: f64| cost.is_finite() && cost > ELSEWHERE_FACTOR * costs[best];
     let is_offset_told = is_worse(elsewhere) && is_worse(comparison.cost_of_constants(offsets[best], COARSE_POINTS));
-    let offset_s = comparison.fine_offset(offsets[best]);
+    let fine_s = comparison.fine_offset(offsets[best]);
+    let offset_s = offsets_s.map_or(fine_s, |[low_s, high_s]| fine_s.min(high_s).max(low_s));
     let mut rotors = comparison.rotors(offset_s);
     rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
     let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
@@ -172,7 +173,7 @@ impl Comparison<'_> {
         if count > OFFSETS_MAX as f64 {
             return Err(NotVerified::TooLong);
         }
-        Ok((0..count as usize).map(|at| low_s + at as f64 * OFFSET_STEP_S).collect())
+        Ok((0..count as usize).map(|at| (low_s + at as f64 * OFFSET_STEP_S).min(high_s.max(low_s))).collect())
     }
 
     /// Heard less logged speed at the points of a track that the log covers.

@@ -26,6 +26,8 @@ use crate::warning::ThrustWarning;
 use hovertone_analysis::Method;
 use hovertone_vehicle::{Ending, Estimate, RotorSpeed};
 
+/// A law that is so many times as probable as another is clearly preferred to it. *Decision.*
+const PREFERRED_FACTOR: f64 = 3.0;
 /// Up to this many misfits of a table have a warning each; more are listed in one. *Decision.*
 const MISFITS_BY_NAME: usize = 3;
 
@@ -336,8 +338,24 @@ pub fn warnings_of_points(points: &[ForcePoint], fit: &SquareLawFit, gravity_m_s
     warnings
 }
 
-/// The warning that the evidence prefers another law to the square law, which simulators use.
+/// The warning that another law is preferred to the square law, which simulators use. Its probability is that of these two laws alone.
 fn law_warning(fit: &SquareLawFit) -> Option<ThrustWarning> {
-    let law = fit.laws.iter().find(|law| law.law == fit.preferred && law.law != ForceLaw::Square)?;
-    Some(ThrustWarning::OtherLawPreferred { law: law.law, probability: law.probability })
+    let law = preferred_law(fit).filter(|law| *law != ForceLaw::Square)?;
+    let (other, square) = (probability_of(fit, law), probability_of(fit, ForceLaw::Square));
+    Some(ThrustWarning::OtherLawPreferred { law, probability: other / (other + square) })
+}
+
+/// The law that is clearly preferred: another law where it is [`PREFERRED_FACTOR`] times as probable as the square law, and the square law
+/// where it is as much more probable than each other. `None` where no law is, or nothing is compared.
+pub fn preferred_law(fit: &SquareLawFit) -> Option<ForceLaw> {
+    let rivals = fit.laws.iter().filter(|rival| match fit.preferred {
+        ForceLaw::Square => rival.law != ForceLaw::Square,
+        _ => rival.law == ForceLaw::Square,
+    });
+    let rival = rivals.map(|rival| rival.probability).reduce(f64::max)?;
+    (probability_of(fit, fit.preferred) > PREFERRED_FACTOR * rival).then_some(fit.preferred)
+}
+
+fn probability_of(fit: &SquareLawFit, law: ForceLaw) -> f64 {
+    fit.laws.iter().find(|known| known.law == law).map_or(0.0, |known| known.probability)
 }

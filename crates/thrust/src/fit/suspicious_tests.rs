@@ -89,6 +89,10 @@ fn a_power_law_is_seen_over_a_wide_range() {
     let fit = fitted(&loads).fit.unwrap();
     assert!((fit.power_law.unwrap().exponent.value - 2.3).abs() < 0.01, "{:?}", fit.power_law);
     assert_ne!(fit.preferred, ForceLaw::Square);
+    assert_eq!(preferred_law(&fit), Some(fit.preferred));
+    let mut even = fit.clone();
+    even.laws.iter_mut().for_each(|law| law.probability = if law.law == fit.preferred { 0.5 } else { 0.25 });
+    assert_eq!(preferred_law(&even), None, "twice as probable is not clearly better");
     let sum: f64 = fit.laws.iter().map(|law| law.probability).sum();
     assert!((sum - 1.0).abs() < 1e-12 && fit.laws.len() == 3);
     let square = fitted(&exact_hovers(&added_kg, 5)).fit.unwrap();

@@ -29,7 +29,7 @@ fn lists_patterns_and_names_are_inputs_and_a_missing_one_is_a_row() {
         assert!(!folder.path().join("none").exists());
     }
     let words = ["batch", text(&archive), "-o", "none", "--shard"];
-    refused_with(&[&words[..], &["3/2"]].concat(), &["--shard", "1/8"]);
+    refused_with(&[&words[..], &["3/2"]].concat(), &["--shard", "there are 2 jobs, so write 1/2 or 2/2"]);
     refused_with(&[&words[..], &["1/2", "--force"]].concat(), &["other jobs"]);
 }
 

@@ -55,6 +55,19 @@ fn a_steady_recording_has_no_offset() {
     assert!(!verification_from_log(&[&steady], log, None).unwrap().is_offset_told);
 }
 
+/// The right offset lies outside of the limits: the offset that is used lies within them.
+#[test]
+fn an_offset_stays_within_its_limits() {
+    let time_s: Vec<f64> = (0..1000).map(|row| 0.1 * f64::from(row)).collect();
+    let speeds_rev_s = [time_s.iter().map(|&row_s| speed_rev_s(0, row_s)).collect()];
+    let names = ["motor 1".to_owned()];
+    let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+    for [low_s, high_s] in [[0.02, 5.0], [-5.0, -0.02]] {
+        let found = verification_from_log(&[&track(0, 1.0)], log, Some([low_s, high_s])).unwrap();
+        assert!((low_s..=high_s).contains(&found.offset_s), "{}", found.offset_s);
+    }
+}
+
 /// A log that never changes: the offset at which it covers the calm part of the recording fits best, and tells nothing.
 #[test]
 fn a_steady_log_has_no_offset() {
