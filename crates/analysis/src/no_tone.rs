@@ -90,7 +90,7 @@ impl fmt::Display for NoTone {
                 )
             }
             Self::NoSeries { only_rev_s: None, .. } => {
-                f.write_str("nothing sounds like a rotor; place the microphone nearer; where the speed changes in steps, choose a part with --from and --to, or use `hovertone motor`")
+                f.write_str("nothing sounds like a rotor; go nearer, or choose a steady part with --from and --to")
             }
             Self::NoSeries { only_rev_s: Some((low, high)), .. } => {
                 write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; check the given facts: the vehicle or the band; else go nearer")
