@@ -345,7 +345,7 @@ fn law_warning(fit: &SquareLawFit) -> Option<ThrustWarning> {
     Some(ThrustWarning::OtherLawPreferred { law, probability: other / (other + square) })
 }
 
-/// The law that is clearly preferred: another law where it is [`PREFERRED_FACTOR`] times as probable as the square law, and the square law
+/// The law that is clearly preferred: another law where it is three times as probable as the square law, and the square law
 /// where it is as much more probable than each other. `None` where no law is, or nothing is compared.
 pub fn preferred_law(fit: &SquareLawFit) -> Option<ForceLaw> {
     let rivals = fit.laws.iter().filter(|rival| match fit.preferred {
