@@ -48,7 +48,7 @@ def export(results: Results, to: Simulator | None = None, **flags: Unpack[Export
     >>> from hovertone import fit
     >>> found = fit({"rpm": [3000, 4000, 5000, 6000], "thrust_g": [70, 125, 194, 281]})
     >>> print(next(line for line in export(found, "gazebo").splitlines() if "<motorConstant>" in line).strip())
-    <motorConstant>6.9687271e-6</motorConstant>...
+    <motorConstant>6.9652450e-6</motorConstant>...
     """
     with as_file(results) as path:
         paths = [] if path is None else [path]
