@@ -10,13 +10,12 @@ use crate::typeset::TitledTable;
 use crate::version::VERSION;
 use hovertone_analysis::{OtherRotor, Warning};
 use hovertone_dynamics::{Advice, Checked, Correlation, GreyBoxFit, Parameter, TorqueConstant};
+use hovertone_thrust::COVERAGE_FACTOR;
 use hovertone_vehicle::{Axis, Estimate, RotorSpeed};
 use serde::Serialize;
 
 const MS_PER_S: f64 = 1e3;
 const PERCENT: f64 = 100.0;
-/// Coverage factor of an expanded uncertainty.
-const EXPANDED: f64 = 2.0;
 
 /// A fitted grey box and what belongs to it.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +112,7 @@ pub fn grey_box_notes(record: &GreyBoxRecord) -> Vec<String> {
 pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     let is_negative = |axis: &Axis| {
         let told = record.fit.estimate(Parameter::Proportional(*axis));
-        told.is_some_and(|told| told.value < -EXPANDED * told.std_uncertainty.unwrap_or(0.0))
+        told.is_some_and(|told| told.value < -COVERAGE_FACTOR * told.std_uncertainty.unwrap_or(0.0))
     };
     let axes: Vec<&str> = Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect();
     let gains = (!axes.is_empty()).then(|| {

@@ -2,11 +2,9 @@
 
 use super::along::{NEAR_SHARE, SoundConfig, WIDE_SHARE, windows_within};
 use super::heard_lines::HeardLines;
-use super::search::{HoverListener, ORDER_MAX, with_same_hover};
-use super::turns::Turns;
-use super::window::{Window, likelihood_value};
+use super::search::{HoverListener, ORDER_MAX, nats_along, with_same_hover};
+use super::window::Window;
 use crate::grey_box::{GreyBoxModel, LoopInputs, SpeedPrediction};
-use nalgebra::Vector4;
 
 /// Largest shift that is tried, s. *Decision*: recording and log are started by hand, one after the other.
 const REACH_S: f64 = 10.0;
@@ -36,12 +34,13 @@ pub fn log_offset_s(
     let mut listener = HoverListener::new(&wide, ORDER_MAX, start, &hover, &windows);
     let model = with_same_hover(&mut listener, start, config);
     let near = heard.followed(&still(heard, &model), NEAR_SHARE);
-    let prediction = SpeedPrediction::new(inputs, &model);
+    let mut prediction = SpeedPrediction::new(inputs, &model);
+    let start_s = prediction.start_s;
     let steps = (REACH_S / STEP_S) as i32;
     let shifts = (-steps..=steps).map(|step| {
         let offset_s = STEP_S * f64::from(step);
-        let moved = SpeedPrediction { start_s: prediction.start_s + offset_s, ..prediction.clone() };
-        Shift { offset_s, nats: nats_along(&near, &moved, &windows) }
+        prediction.start_s = start_s + offset_s;
+        Shift { offset_s, nats: nats_along(&near, ORDER_MAX, &prediction, &windows) }
     });
     standing_out(&shifts.collect::<Vec<_>>())
 }
@@ -69,12 +68,6 @@ fn standing_out(shifts: &[Shift]) -> Option<f64> {
 fn still(heard: &HeardLines, model: &GreyBoxModel) -> SpeedPrediction {
     let step_s = (heard.end_s - heard.start_s).max(f64::MIN_POSITIVE);
     SpeedPrediction { start_s: heard.start_s, step_s, speed_rad_s: vec![[model.mean_hover_rad_s(); 4]; 2] }
-}
-
-/// Logarithm of the likelihood of the windows along a prediction.
-fn nats_along(heard: &HeardLines, prediction: &SpeedPrediction, windows: &[Window]) -> f64 {
-    let turns = Turns::of(prediction);
-    windows.iter().map(|window| likelihood_value(heard, ORDER_MAX, &turns, *window, &Vector4::zeros())).sum()
 }
 
 #[cfg(test)]

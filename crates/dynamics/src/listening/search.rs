@@ -37,8 +37,12 @@ const SWEEPS: usize = 2;
 
 /// Logarithm of the likelihood of the windows along a model's prediction.
 fn score(heard: &HeardLines, order_max: f64, inputs: &LoopInputs, model: &GreyBoxModel, windows: &[Window]) -> f64 {
-    let prediction = SpeedPrediction::new(inputs, model);
-    let turns = Turns::of(&prediction);
+    nats_along(heard, order_max, &SpeedPrediction::new(inputs, model), windows)
+}
+
+/// Logarithm of the likelihood of the windows along a prediction.
+pub(super) fn nats_along(heard: &HeardLines, order_max: f64, prediction: &SpeedPrediction, windows: &[Window]) -> f64 {
+    let turns = Turns::of(prediction);
     windows.iter().map(|window| likelihood_value(heard, order_max, &turns, *window, &Vector4::zeros())).sum()
 }
 
