@@ -75,12 +75,12 @@ fn speed_from_candidates(
     candidates: &Candidates,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let several = candidates.are_several.then(|| config.with_several_rotors());
+    let several = candidates.are_several(config).then(|| config.with_several_rotors());
     if let Some(several) = &several {
         passes.expect_more(passes_after_survey(several) - passes_after_survey(config));
     }
     let config = several.as_ref().unwrap_or(config);
-    speed_of_candidate(passes, surveyed, candidates, candidates.leading_rev_s, config)
+    speed_of_candidate(passes, surveyed, candidates, config)
 }
 
 /// The stages after the survey, for a rotor that was heard at this speed.
@@ -94,7 +94,7 @@ pub(crate) fn speed_of_heard_rotor(
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
     let candidates = Candidates::of_heard_rotor(surveyed, rotor, passes.sample_rate_hz(), config)?;
-    speed_of_candidate(passes, surveyed, &candidates, rotor.speed_rev_s, config)
+    speed_from_candidates(passes, surveyed, &candidates, config)
 }
 
 /// The rotors in the hover of the leading candidate, separated without a decision whether they are rotors; two passes. For analyses that
@@ -135,9 +135,9 @@ fn speed_of_candidate(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
     candidates: &Candidates,
-    speed_rev_s: f64,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
+    let speed_rev_s = candidates.leading_rev_s;
     let hover = hover_from_candidate(surveyed, candidates, speed_rev_s, config);
     let middle_rev_s = candidates.middle_rev_s(surveyed, &hover, speed_rev_s, config);
     let rotors_rev_s = candidates.rotors_rev_s(speed_rev_s, config);

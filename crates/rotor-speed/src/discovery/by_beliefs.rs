@@ -67,7 +67,8 @@ impl Believed {
     ) -> Result<BelievedSpeed, Error> {
         let first = &self.readings[0];
         let found = config_for(config, first);
-        let rotor = HeardRotor { speed_rev_s: first.speed.rev_s(), is_faint: self.beliefs.is_faint };
+        let companions = self.beliefs.companions(&surveyed.looks, &config.evidence);
+        let rotor = HeardRotor { speed_rev_s: first.speed.rev_s(), is_faint: self.beliefs.is_faint, companions };
         let analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
         // the analysis knows the speed better
         let ratio = speed_of(&analysis, &found).map(|it| it.speed.rad_s() / first.speed.rad_s());

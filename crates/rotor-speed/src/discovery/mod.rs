@@ -172,7 +172,7 @@ fn with_refined_line(
     let Ok(once_a_turn) = Order::new(1.0) else { return Ok(families) };
     let speed = RotorSpeed::from_tone_hz(line.fundamental_hz, once_a_turn);
     let found = config_for(config, &reading_at(speed, once_a_turn, Meaning::GivenOrder));
-    let rotor = HeardRotor { speed_rev_s: speed.rev_s(), is_faint: false };
+    let rotor = HeardRotor { speed_rev_s: speed.rev_s(), is_faint: false, companions: None };
     let analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
     let ratio = speed_of(&analysis, &found).map(|found| found.speed.rad_s() / speed.rad_s());
     if let Some(ratio) = ratio.filter(|ratio| (ratio - 1.0).abs() < SAME_LINE_SHARE) {

@@ -1,6 +1,6 @@
 //! The beliefs in the speeds of a rotor, and what follows from them.
 
-use super::companions::companion_nats;
+use super::companions::Companions;
 use super::excess::Looks;
 use super::hypotheses::Hypothesis;
 use super::levels::NoiseLevel;
@@ -33,15 +33,14 @@ impl Beliefs {
         lines.filter(|line| self.noise.is_below(line.level_db)).map(|line| line.order)
     }
 
-    /// Whether the most probable rotor is one of several, which turn at other speeds. Beside a faint one no other is heard.
-    pub(crate) fn are_several(&self, looks: &Looks, config: &EvidenceConfig) -> bool {
-        let first = self.hypotheses.first().filter(|_| !self.is_faint);
-        let first = first.and_then(|first| Some((first, first.lines.blades?)));
-        first.is_some_and(|(first, blades)| {
-            let propeller = OwnPropeller { blades, prior: &config.levels };
-            let nats = companion_nats(looks, &first.speeds_rev_s, &propeller);
-            nats.is_some_and(|nats| nats >= config.companion_nats_min)
-        })
+    /// What is heard of other rotors beside the most probable one. `None` where its propeller is not followed.
+    pub(crate) fn companions(&self, looks: &Looks, config: &EvidenceConfig) -> Option<Companions> {
+        let first = self.hypotheses.first()?;
+        if self.is_faint {
+            return Some(Companions::UNHEARD);
+        }
+        let propeller = OwnPropeller { blades: first.lines.blades?, prior: &config.levels };
+        Companions::beside(looks, &first.speeds_rev_s, &propeller, config)
     }
 
     /// Where the lines are without which the most probable rotor would not be heard: of its gear mesh, and of its blade pass. Beside a mesh that is

@@ -37,8 +37,8 @@ impl RotorTracks {
     /// Decides whether the rotors count as separated, as one group, or not at all, with the speed `all` of all rotors together.
     ///
     /// Where at most half of the rotors are resolved, they form one group with a mean: the others turn at the same speeds, or the search would
-    /// have heard them. No rotors remain where the search would not have heard them, or where all rotors that count lie on one side of the
-    /// speed of all together, because then they may be parts of one rotor.
+    /// have heard them. No rotors remain where the search would not have heard them, or found some elsewhere whose own lines are not heard, or
+    /// where all rotors that count lie on one side of the speed of all together, because then they may be parts of one rotor.
     pub(crate) fn unless_doubtful_beside(mut self, all: &HarmonicTrack, order: Order) -> Self {
         self.are_one_group = 2 * self.resolved(None).count() <= self.rotors.len();
         let heard = self.heard(None).filter(|rotor| self.are_one_group || self.is_resolved(rotor, None));
@@ -50,7 +50,9 @@ impl RotorTracks {
             let mean_rev_s = all.speed.rev_s();
             mean_rev_s < slowest * (1.0 - BEYOND_SHARE_MAX) || mean_rev_s > fastest * (1.0 + BEYOND_SHARE_MAX)
         });
-        if is_far || self.are_one_group && !self.would_hear_faint() { Self::default() } else { self }
+        let is_denied = |rotor: &RotorTrack| rotor.track.blocks.is_empty() && self.is_resolved(rotor, None);
+        let is_group = self.would_hear_faint() && !self.rotors.iter().any(is_denied);
+        if is_far || self.are_one_group && !is_group { Self::default() } else { self }
     }
 
     /// Longest time between points of a track.

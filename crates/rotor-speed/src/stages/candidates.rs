@@ -6,7 +6,7 @@ use super::{Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
-use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
+use crate::evidence::{Beliefs, Companions, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, DiscoveryConfig, blades_of_tone, reading_at, search_range_rev_s};
 use hovertone_analysis::{Hover, Meaning, NoTone, OtherRotor, Reading, Span, Warning, WeighedSpeed};
 use hovertone_vehicle::{AIR_KG_M3, KnownRotor, Order, RotorSpeed};
@@ -18,6 +18,8 @@ pub(crate) struct HeardRotor {
     pub(crate) speed_rev_s: f64,
     /// Whether only long frames hear it.
     pub(crate) is_faint: bool,
+    /// What is heard of other rotors beside it; `None` where that is not known.
+    pub(crate) companions: Option<Companions>,
 }
 
 /// Shaft speeds that may explain the lines of a survey.
@@ -30,10 +32,8 @@ pub(crate) struct Candidates {
     beliefs: Option<Beliefs>,
     /// A rotor that something known leaves out, whose lines are far more probable.
     pub(crate) better: Option<OtherRotor>,
-    /// Whether other rotors are heard, though one alone is said to turn.
-    others: bool,
-    /// Whether several rotors are heard, where their number is not known.
-    pub(crate) are_several: bool,
+    /// What is heard of other rotors beside the leading one; `None` where that is not known.
+    companions: Option<Companions>,
     /// Whether only long frames hear the rotor: then it must keep its phase.
     pub(crate) is_faint: bool,
 }
@@ -45,7 +45,7 @@ impl Candidates {
     /// A tone above half the sample rate.
     pub(crate) fn of_heard_rotor(
         surveyed: &Surveyed,
-        HeardRotor { speed_rev_s, is_faint }: HeardRotor,
+        HeardRotor { speed_rev_s, is_faint, companions }: HeardRotor,
         sample_rate_hz: f64,
         config: &Config,
     ) -> Result<Self, Error> {
@@ -55,8 +55,7 @@ impl Candidates {
             leading_rev_s: speed_rev_s,
             beliefs: None,
             better: None,
-            others: false,
-            are_several: false,
+            companions,
             is_faint,
         })
     }
@@ -90,9 +89,28 @@ impl Candidates {
         }
     }
 
+    /// Whether several rotors are heard, where their number is not known.
+    pub(crate) fn are_several(&self, config: &Config) -> bool {
+        !config.rotors.is_count_known && self.are_others_heard(config)
+    }
+
+    fn are_others_heard(&self, config: &Config) -> bool {
+        self.companions.is_some_and(|companions| companions.are_heard(&config.evidence))
+    }
+
+    /// Standard deviation of the speeds of the rotors for which one line stands, as a share: by what is heard beside it, and at least that of
+    /// the settings. That a known number of rotors turn beside it is no less probable than that they do not.
+    pub(crate) fn spread_share(&self, config: &Config) -> f64 {
+        let even_nats = if config.rotors.is_count_known { 0.0 } else { config.evidence.even_companion_nats() };
+        let heard = self.companions.map_or(0.0, |companions| companions.spread_share(even_nats));
+        heard.max(config.budget.rotor_spread_share)
+    }
+
     /// What the lines say against what is known.
-    pub(crate) fn warnings(&self) -> impl Iterator<Item = Warning> {
-        self.better.map(Warning::FitsElsewhere).into_iter().chain(self.others.then_some(Warning::OtherRotorsHeard))
+    pub(crate) fn warnings(&self, config: &Config) -> impl Iterator<Item = Warning> {
+        let is_one = config.rotors.is_count_known && config.rotors.count == 1;
+        let others = (is_one && self.are_others_heard(config)).then_some(Warning::OtherRotorsHeard);
+        self.better.map(Warning::FitsElsewhere).into_iter().chain(others)
     }
 
     /// The chosen speed and its runner-up.
@@ -162,15 +180,11 @@ pub(crate) fn candidates_from_survey(
         let instead = heard_instead(surveyed, sample_rate_hz, config);
         return Err(Silence::because(or_mains_hum(no_series(&config.tone, instead), &surveyed.survey)).into());
     };
-    let wants_count = !config.rotors.is_count_known;
-    let are_several =
-        (wants_count || config.rotors.count == 1) && beliefs.are_several(&surveyed.looks, &config.evidence);
     Ok(Candidates {
         map: CombMap::from_survey(&surveyed.survey, &config.tone, &search_rev_s),
         leading_rev_s,
         is_faint: beliefs.is_faint,
-        are_several: are_several && wants_count,
-        others: are_several && !wants_count,
+        companions: beliefs.companions(&surveyed.looks, &config.evidence),
         better: beliefs.better.or_else(|| better_without_gear(surveyed, &beliefs, sample_rate_hz, config)),
         beliefs: Some(beliefs),
     })

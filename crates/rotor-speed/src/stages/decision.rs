@@ -19,6 +19,8 @@ pub(crate) struct Decision {
     pub(crate) alternatives: Vec<Reading>,
     /// The chosen speed and its runner-up.
     pub(crate) weighed: Vec<WeighedSpeed>,
+    /// Standard deviation of the speeds of the rotors for which one line stands, as a share.
+    pub(crate) spread_share: f64,
 }
 
 /// Decides whether the lines belong to a rotor, and separates the rotors where the settings ask for it.
@@ -46,6 +48,7 @@ pub(crate) fn decision_from_lines(
         if wants_rotors { heard_rotors(passes, surveyed, hover, speed_rev_s, config)? } else { RotorTracks::default() };
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
     let alternatives = candidates.alternatives(config);
-    lines.warnings.extend(candidates.warnings());
-    Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed() })
+    lines.warnings.extend(candidates.warnings(config));
+    let spread_share = candidates.spread_share(config);
+    Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed(), spread_share })
 }

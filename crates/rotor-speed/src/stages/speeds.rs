@@ -19,12 +19,12 @@ pub(crate) fn speeds_from_decision(
     decision: Decision,
     config: &Config,
 ) -> Result<SpeedAnalysis, Stop> {
-    let Decision { lines, rotors: rotor_tracks, alternatives, weighed } = decision;
+    let Decision { lines, rotors: rotor_tracks, alternatives, weighed, spread_share } = decision;
     let mut warnings = lines.warnings.clone();
     let order = config.tone.order;
     let weights = HarmonicWeights::from_ridges(&lines.ridges, &config.ridge, &mut warnings);
     // harmonics that differ follow different rotors: half of the distance is the standard deviation of two
-    let rotor_spread_share = config.budget.rotor_spread_share.max(weights.difference_share / 2.0);
+    let rotor_spread_share = spread_share.max(weights.difference_share / 2.0);
     let config = &Config { budget: BudgetConfig { rotor_spread_share, ..config.budget }, ..config.clone() };
     let tracks: Vec<Track> = config.methods().filter_map(|method| weights.track(method, order)).collect();
     let keeps_phase = lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
