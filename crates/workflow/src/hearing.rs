@@ -151,8 +151,11 @@ fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
         let why = "the audio samples are NaN or infinite, which are no sound; look at the program that wrote the file";
         return Some(why.to_owned());
     }
-    if let Some(overdriven) = warnings.iter().find(|warning| matches!(warning, MediaWarning::Overdriven { .. })) {
-        return Some(format!("{overdriven}; {}", overdriven.hint()));
+    let explains = |warning: &&MediaWarning| {
+        matches!(warning, MediaWarning::Overdriven { .. } | MediaWarning::ChannelsCancel { .. })
+    };
+    if let Some(fault) = warnings.iter().find(explains) {
+        return Some(format!("{fault}; {}", fault.hint()));
     }
     // the search goes beyond the known speeds of the vehicle by a margin
     let tone = &analysed.config.tone;

@@ -74,6 +74,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         terminal.data(&lines.closing_line().unwrap_or_default())?;
         terminal.flush()?;
     }
+    sound.notices().iter().for_each(|notice| terminal.warning(notice, ""));
     Ok(if has_told { Ending::Done } else { Ending::Incomplete })
 }
 
