@@ -118,7 +118,8 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     let families =
         |rotor_hz: Option<f64>| families_from_surveys(survey, detail.as_ref(), rotor_hz, &discovery.known, &scanned);
     let sample_rate_hz = passes.sample_rate_hz();
-    let instead = || discovery.known.blade_count.and_then(|_| heard_instead(&surveyed, sample_rate_hz, config));
+    let is_known = discovery.known != KnownRotor::default();
+    let instead = || is_known.then(|| heard_instead(&surveyed, sample_rate_hz, config)).flatten();
     let no_series =
         || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s(), instead: instead() }, survey);
     let believed = Believed::of(&surveyed, sample_rate_hz, config, discovery);
