@@ -207,7 +207,7 @@ impl ThrustWarning {
             }
             Self::EqualLoads { .. } => "measure loads as far apart as is safe: equal ones show nothing of the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
-                "check the masses, and which recording belongs to which load"
+                "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
             }
             Self::NarrowLoadRange(_) => {
                 "C_f is still valid near these forces; a wider range of forces tests the law, and for hovers `hovertone fit --plan` plans it"
