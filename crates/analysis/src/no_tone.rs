@@ -86,7 +86,7 @@ impl fmt::Display for NoTone {
                 write!(
                     f,
                     ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; if it has {blades} blades, give --blades {blades} \
-                     alone, in place of the vehicle, the gear, the order or the band; if not, check these facts"
+                     alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass; if not, check these facts"
                 )
             }
             Self::NoSeries { only_rev_s: None, .. } => {
@@ -138,7 +138,9 @@ mod tests {
         assert!(other.starts_with("no such rotor is heard at 200 to 400 rev/s, but one with 2 blades"), "{other}");
         assert!(said(None).starts_with("no such rotor is heard, but one with 2 blades may turn at 60.2 rev/s"));
         assert!(
-            other.contains("give --blades 2 alone, in place of the vehicle, the gear, the order or the band"),
+            other.contains(
+                "give --blades 2 alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass"
+            ),
             "{other}"
         );
     }

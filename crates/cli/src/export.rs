@@ -37,7 +37,13 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
     };
     let text = export_text(&rotor, format)
         .map_err(|error| Failure::usage(error.to_string(), "see `hovertone export --help`"))?;
-    let why = Notice::new(format!("{} has no place for it", format.name()), "leave it out, or choose another format");
+    let why = Unused {
+        without_place: Notice::new(
+            format!("{} has no place for it", format.name()),
+            "leave it out, or choose another format",
+        ),
+        same: Notice::new("the results have this number already", "leave it out"),
+    };
     say_unused(&rotor, arguments, &why, |rotor| export_text(rotor, format), terminal);
     match &arguments.output {
         Some(path) => {
@@ -49,34 +55,59 @@ pub(crate) fn run(arguments: &ExportArguments, terminal: &mut Terminal) -> Resul
     Ok(Ending::Done)
 }
 
-/// Names the given facts without which the text that is made of the rotor is the same.
+/// Why a given fact changes nothing.
+struct Unused {
+    /// Where the text has no place for it.
+    without_place: Notice,
+    /// Where the text has this very number already.
+    same: Notice,
+}
+
+/// Names the given facts without which the text that is made of the rotor is the same. Another value tells whether the text has a place for it.
 fn say_unused(
     rotor: &IdentifiedRotor,
     arguments: &ExportArguments,
-    why: &Notice,
+    why: &Unused,
     text_of: impl Fn(&IdentifiedRotor) -> Result<String, ModelError>,
     terminal: &mut Terminal,
 ) {
-    let without = |change: fn(&mut IdentifiedRotor)| {
-        let mut rotor = rotor.clone();
-        change(&mut rotor);
-        rotor
-    };
     let Ok(text) = text_of(rotor) else { return };
-    for (flag, is_given, other) in [
-        (
-            "--torque-constant-n-m-s2",
-            arguments.torque_constant_n_m_s2.is_some(),
-            without(|rotor| rotor.torque_constant_n_m_s2 = None),
-        ),
-        ("--hover-command", arguments.hover_command.is_some(), without(|rotor| rotor.hover_command = None)),
-        ("--diameter-m", arguments.diameter_m.is_some(), without(|rotor| rotor.propeller_diameter_m = None)),
-        ("--air-density-kg-m3", arguments.air_density_kg_m3.is_some(), without(|rotor| rotor.air_density_kg_m3 = None)),
+    for (flag, given, fact) in [
+        ("--torque-constant-n-m-s2", arguments.torque_constant_n_m_s2, torque_of as Fact),
+        ("--hover-command", arguments.hover_command, command_of),
+        ("--diameter-m", arguments.diameter_m, diameter_of),
+        ("--air-density-kg-m3", arguments.air_density_kg_m3, density_of),
     ] {
-        if is_given && text_of(&other).is_ok_and(|other| other == text) {
+        let Some(value) = given else { continue };
+        let is_same_with = |value: Option<f64>| {
+            let mut other = rotor.clone();
+            *fact(&mut other) = value;
+            text_of(&other).is_ok_and(|other| other == text)
+        };
+        if is_same_with(None) {
+            let why = if is_same_with(Some(0.5 * value)) { &why.without_place } else { &why.same };
             terminal.warning(&Notice::new(format!("{flag} changes nothing: {}", why.text), &why.hint), "");
         }
     }
+}
+
+/// A fact of a rotor, to be changed.
+type Fact = fn(&mut IdentifiedRotor) -> &mut Option<f64>;
+
+fn torque_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
+    &mut rotor.torque_constant_n_m_s2
+}
+
+fn command_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
+    &mut rotor.hover_command
+}
+
+fn diameter_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
+    &mut rotor.propeller_diameter_m
+}
+
+fn density_of(rotor: &mut IdentifiedRotor) -> &mut Option<f64> {
+    &mut rotor.air_density_kg_m3
 }
 
 /// Changes the numbers of a model: in place, which is what was asked for, or into another file. Prints the difference.
@@ -92,7 +123,10 @@ fn change(
     let text = read_text(model, "the model")?;
     let before = model_from_text(&text).map_err(|error| model_failure(&error, model))?;
     let updated = updated_model(&text, rotor).map_err(|error| unchanged(&error, model, arguments))?;
-    let why = Notice::new("the model has no such number, or has this one already", "leave it out");
+    let why = Unused {
+        without_place: Notice::new("this model has no such number, and --into adds none", "leave it out"),
+        same: Notice::new("this model has the same number already", "leave it out"),
+    };
     say_unused(rotor, arguments, &why, |rotor| Ok(updated_model(&text, rotor)?.text), terminal);
     let place = arguments.output.as_deref().unwrap_or(model);
     if updated.changes.is_empty() && arguments.output.is_none() {

@@ -127,11 +127,12 @@ impl<'a> Plan<'a> {
             Failure::failed(what, "give a log, or a video or audio file", file)
         })?;
         let mut sound = MotorSound { has_commands: commands.is_some(), ..MotorSound::default() };
-        let (mut motors, mut rows) = (Vec::new(), Vec::new());
+        let (mut motors, mut rows, mut misaligned) = (Vec::new(), Vec::new(), None);
         match heard.motor {
             Err(reason) => sound.no_tone = Some(reason.to_string()),
             Ok(motor) => {
                 (sound.frame_s, sound.offset_s) = (motor.frame_s, motor.offset_s);
+                misaligned = self.misaligned(motor.other_offset_s);
                 let is_used = motor.model.as_ref().is_some_and(|model| model.static_map.is_some());
                 let command = commands.and_then(|(commands, _)| commands.names.first()).filter(|_| is_used).cloned();
                 let name = if self.arguments.known.rotors == Some(1) { ONE_ROTOR } else { ALL_ROTORS };
@@ -140,8 +141,21 @@ impl<'a> Plan<'a> {
             }
         }
         let record = MotorRecord { file: file.display().to_string(), source: MotorSource::Sound(sound), motors };
-        let notices = idle_mass(&self.arguments.known, &self.config.known).into_iter().chain(heard.notices).collect();
+        let idle_mass = idle_mass(&self.arguments.known, &self.config.known);
+        let notices = idle_mass.into_iter().chain(heard.notices).chain(misaligned).collect();
         Ok(Told { record, rows, notices, is_whole: true })
+    }
+}
+
+impl Plan<'_> {
+    /// That the steps of commands and sound agree at another offset than the given one.
+    fn misaligned(&self, other_offset_s: Option<f64>) -> Option<Notice> {
+        let (given_s, other_s) = self.arguments.offset.zip(other_offset_s)?;
+        let what = format!(
+            "with --offset {given_s} the steps of the commands are not where the speed steps, so the commands are not used"
+        );
+        let hint = format!("the steps agree at an offset of about {other_s:.2} s: leave --offset out, or correct it");
+        Some(Notice::new(what, hint))
     }
 }
 

@@ -5,10 +5,10 @@ use crate::caller::typed_words;
 use crate::failure::Failure;
 use crate::see_help::see_help;
 use crate::vehicles::preset;
-use hovertone::speed::{Config, Method, SpanConfig, ToneConfig};
+use hovertone::speed::{Config, Method, NoTone, Outcome, SpanConfig, ToneConfig};
 use hovertone::tones::{Discovery, KnownRotor};
 use hovertone_report::{Notice, SpeedRecord};
-use hovertone_vehicle::{check_not_negative, check_tips};
+use hovertone_vehicle::{RotorSpeed, check_not_negative, check_tips};
 use hovertone_workflow::{NoSettings, Said};
 
 /// The settings of an analysis. The second part is the search for the tone, where the arguments do not name its order.
@@ -135,6 +135,21 @@ pub(crate) fn check_tips_heard(known: &KnownArguments, records: &[SpeedRecord]) 
     let Some(diameter_m) = known.diameter_m else { return Ok(()) };
     let mut speeds = records.iter().filter_map(|record| Some(record.speed()?.speed));
     Ok(speeds.try_for_each(|speed| check_tips(diameter_m, speed))?)
+}
+
+/// The same where the diameter rules out the one rotor that is heard, with the blades that are given or any.
+pub(crate) fn check_tips_ruled_out(
+    known: &KnownArguments,
+    blades: Option<u32>,
+    records: &[SpeedRecord],
+) -> Result<(), Failure> {
+    let Some(diameter_m) = known.diameter_m else { return Ok(()) };
+    let instead = records.iter().filter_map(|record| match &record.analysis()?.outcome {
+        Outcome::NoRotorTone { reason: NoTone::NoSeries { instead, .. } } => *instead,
+        _ => None,
+    });
+    let mut fitting = instead.filter(|other| blades.is_none_or(|blades| blades == other.blades));
+    Ok(fitting.try_for_each(|other| check_tips(diameter_m, RotorSpeed::from_rev_s(other.speed_rev_s)))?)
 }
 
 /// The search for all families of tones with the facts about the vehicle, and settings for it whose order is a placeholder.

@@ -8,7 +8,7 @@ use crate::microphones::{ArrayPlan, label_all};
 use crate::outputs::Outputs;
 use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, hear_all, in_memory};
-use crate::settings::{check_tips_heard, config_of, idle_mass};
+use crate::settings::{check_tips_heard, check_tips_ruled_out, config_of, idle_mass};
 use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use hovertone::speed::RotorsConfig;
@@ -94,6 +94,7 @@ fn hear(plan: &Plan, arguments: &SpeedArguments) -> Result<Vec<SpeedRecord>, Fai
     }
     let records: Vec<SpeedRecord> = heard.into_iter().map(|heard| heard.record).collect();
     check_tips_heard(&arguments.known, &records)?;
+    check_tips_ruled_out(&arguments.known, arguments.tone.blades, &records)?;
     Ok(records)
 }
 

@@ -5,7 +5,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, in_memory, opened, records_of};
-use crate::settings::{idle_mass, search_of, span_of};
+use crate::settings::{check_tips_ruled_out, idle_mass, search_of, span_of};
 use crate::terminal::Terminal;
 use hovertone::speed::Config;
 use hovertone_media::{Recording, Samples};
@@ -18,7 +18,7 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
     if let Some(notice) = known.and_then(|known| idle_mass(&arguments.known, &known)) {
         terminal.tip(&notice);
     }
-    let records = hear(&plan, arguments);
+    let records = hear(&plan, arguments)?;
     terminal.counted_notes(&records.iter().collect::<Vec<_>>());
     if arguments.json {
         for record in &records {
@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result
 pub(crate) fn called(arguments: &TonesArguments, samples: Option<Samples>) -> Result<HeardJobs, Failure> {
     let mut plan = resolve(arguments)?;
     in_memory(&mut plan.jobs, samples);
-    let records = hear(&plan, arguments);
+    let records = hear(&plan, arguments)?;
     Ok(HeardJobs { jobs: plan.jobs, records, hearing: plan.hearing })
 }
 
@@ -62,9 +62,10 @@ fn resolve(arguments: &TonesArguments) -> Result<Plan, Failure> {
     Ok(Plan { jobs, hearing: Hearing { wants_hash: arguments.json, ..Hearing::of(&arguments.hearing) } })
 }
 
-fn hear(plan: &Plan, arguments: &TonesArguments) -> Vec<SpeedRecord> {
+fn hear(plan: &Plan, arguments: &TonesArguments) -> Result<Vec<SpeedRecord>, Failure> {
     let progress = Progress::new("listening to", plan.jobs.len(), !arguments.hearing.no_progress);
     let records = records_of(&plan.jobs, plan.hearing, &progress);
     progress.finish();
-    records
+    check_tips_ruled_out(&arguments.known, arguments.blades, &records)?;
+    Ok(records)
 }

@@ -43,3 +43,15 @@ pub fn offset_of_commands(steps: &[MotorStep], command: &CommandSeries, config: 
     let runner_up = found.iter().find(is_other).map_or(0, Vec::len);
     (runner_up < best.len()).then_some(offset_s)
 }
+
+/// The offset at which most steps agree, where that of the clocks is said to be another: at `said_s` an effect would come before its command, or
+/// later than the longest dead time. `None` where the said offset is possible, or no offset is clear.
+pub fn other_offset_of_commands(
+    steps: &[MotorStep],
+    command: &CommandSeries,
+    said_s: f64,
+    config: &MotorConfig,
+) -> Option<f64> {
+    let possible_s = said_s - SCATTER_S_MAX..=said_s + config.dead_time_s_max + SCATTER_S_MAX;
+    offset_of_commands(steps, command, config).filter(|offset_s| !possible_s.contains(offset_s))
+}

@@ -25,7 +25,7 @@ mod static_map;
 mod step;
 mod transitions;
 
-pub use alignment::offset_of_commands;
+pub use alignment::{offset_of_commands, other_offset_of_commands};
 pub use combined::CombinedEstimate;
 pub use config::MotorConfig;
 pub use grey_box::*;

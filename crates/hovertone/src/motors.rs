@@ -5,7 +5,9 @@
 //! likelihood of the sound is highest.
 
 use hovertone_analysis::{Method, NoTone, Outcome, SpeedAnalysis};
-use hovertone_dynamics::{CommandSeries, MotorConfig, MotorModel, MotorSeries, MotorStep, offset_of_commands};
+use hovertone_dynamics::{
+    CommandSeries, MotorConfig, MotorModel, MotorSeries, MotorStep, offset_of_commands, other_offset_of_commands,
+};
 use hovertone_rotor_speed::{
     Config, Error, QuickTrack, SpanConfig, SpeedPath, ToneConfig, held_spans_from_passes, passes_of_speed,
     quick_track_along, quick_track_from_passes, speed_from_passes,
@@ -97,6 +99,8 @@ pub struct HeardMotor {
     pub model: Option<MotorModel>,
     /// Time that was added to commands on a clock of their own; `None` where no such commands are given, or no offset is clear.
     pub offset_s: Option<f64>,
+    /// Offset at which the steps of commands and sound agree, where the given one is impossible: the commands are not used then.
+    pub other_offset_s: Option<f64>,
 }
 
 /// The steps of the motors in a recording; [`PASSES_OF_MOTOR`] passes.
@@ -136,12 +140,16 @@ fn model_of(motor: &HeardMotor, command: Option<CommandSeries<'_>>) -> Option<Mo
 fn with_commands(motor: HeardMotor, commands: HeardCommands<'_>) -> HeardMotor {
     let shifted =
         |offset_s: f64| -> Vec<f64> { commands.series.time_s.iter().map(|time_s| time_s + offset_s).collect() };
+    let steps = motor.model.as_ref().map_or(&[][..], |model| &model.steps);
     if let Some(offset_s) = commands.offset_s {
+        let other_offset_s = other_offset_of_commands(steps, &commands.series, offset_s, &MotorConfig::default());
+        if other_offset_s.is_some() {
+            return HeardMotor { other_offset_s, ..motor };
+        }
         let time_s = shifted(offset_s);
         let series = CommandSeries { time_s: &time_s, ..commands.series };
         return HeardMotor { model: model_of(&motor, Some(series)), ..motor };
     }
-    let steps = motor.model.as_ref().map_or(&[][..], |model| &model.steps);
     let Some(offset_s) = offset_of_commands(steps, &commands.series, &MotorConfig::default()) else { return motor };
     let time_s = shifted(offset_s - ASSUMED_DEAD_TIME_S);
     let mut model = model_of(&motor, Some(CommandSeries { time_s: &time_s, ..commands.series }));

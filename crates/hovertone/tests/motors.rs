@@ -2,10 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // what tests share has no attribute of a test
 
-use hovertone::motors::{HeardMotor, HeardTone, StepVerdict, constants_of, level_of_rotors, motor_from_sound};
+use hovertone::motors::{
+    HeardCommands, HeardMotor, HeardTone, StepVerdict, constants_of, level_of_rotors, motor_from_sound,
+};
 use hovertone::sound::{Passes, Signal};
 use hovertone::speed::{Config, ToneConfig};
 use hovertone::vehicle::Order;
+use hovertone_dynamics::CommandSeries;
 use hovertone_sim::prescribed::{Line, Noise, Recording, Rotor, Sampling, seeded};
 use rand::RngExt;
 
@@ -32,6 +35,10 @@ impl TrueMotor {
 }
 
 fn heard(motor: TrueMotor, shares: &[f64], seed: u64) -> HeardMotor {
+    heard_with(motor, shares, seed, None)
+}
+
+fn heard_with(motor: TrueMotor, shares: &[f64], seed: u64, commands: Option<HeardCommands<'_>>) -> HeardMotor {
     let random = &mut seeded(seed);
     let rotors: Vec<Rotor> = shares
         .iter()
@@ -50,7 +57,7 @@ fn heard(motor: TrueMotor, shares: &[f64], seed: u64) -> HeardMotor {
     let config = Config::for_tone(ToneConfig::of_order(Order::new(2.0).unwrap()));
     let speed_rev_s = level_of_rotors(&mut passes, &config).unwrap().unwrap();
     let heard = HeardTone { tone: &config.tone, speed_rev_s, span_s: 0.0..f64::INFINITY };
-    motor_from_sound(&mut passes, &heard, None).unwrap()
+    motor_from_sound(&mut passes, &heard, commands).unwrap()
 }
 
 #[test]
@@ -79,6 +86,29 @@ fn time_constants_of_one_rotor_and_of_four_are_right() {
             let error = told.estimate.value / truth_s - 1.0;
             assert!(error.abs() < 0.03, "{spread}: {error}");
         }
+    }
+}
+
+/// The commands come 40 ms before their effects, which is a dead time. Two seconds away no command is where the speed steps.
+#[test]
+fn commands_at_an_impossible_offset_are_not_used_and_the_possible_one_is_told() {
+    let dead_time_s = 0.04;
+    let time_s: Vec<f64> = (0..900).map(|row| 0.01 * f64::from(row)).collect();
+    let level = |time_s: &f64| (((time_s + dead_time_s) / HOLD_S) as usize).min(LEVELS_REV_S.len() - 1);
+    let command: Vec<f64> = time_s.iter().map(|time_s| 20.0 * LEVELS_REV_S[level(time_s)]).collect();
+    let motor = TrueMotor { up_s: 0.06, down_s: 0.09 };
+    let at = |offset_s: f64| {
+        let series = CommandSeries { time_s: &time_s, command: &command };
+        heard_with(motor, &[1.0], 1, Some(HeardCommands { series, offset_s: Some(offset_s) }))
+    };
+    let has_map = |motor: &HeardMotor| motor.model.as_ref().is_some_and(|model| model.static_map.is_some());
+    let right = at(0.0);
+    assert!(right.other_offset_s.is_none() && has_map(&right));
+    for wrong_s in [2.0, -0.5] {
+        let wrong = at(wrong_s);
+        assert!(!has_map(&wrong), "{wrong_s}");
+        let told_s = wrong.other_offset_s.unwrap();
+        assert!((told_s - dead_time_s).abs() < 0.02, "{wrong_s}: {told_s}");
     }
 }
 

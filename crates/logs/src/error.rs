@@ -84,6 +84,16 @@ pub enum LogError {
         /// The time in that line.
         time_s: f64,
     },
+    /// A row with more cells than the header has, so that no cell is known to stand in its column.
+    #[error("line {line}: the row has {cell_count} cells, but the header has {header_count}")]
+    LongRow {
+        /// Line, counted from 1.
+        line: u64,
+        /// Cells of the row, up to the last that is not empty.
+        cell_count: usize,
+        /// Cells of the header.
+        header_count: usize,
+    },
     /// A name for a column that is not there.
     #[error("there is no column \"{header}\"; the columns are: {columns}")]
     NoSuchColumn {
@@ -156,6 +166,9 @@ impl LogError {
             }
             Self::Twice { .. } => "remove one of the columns",
             Self::NotInOrder { .. } => "sort the log by its time, and give the log of one flight",
+            Self::LongRow { .. } => {
+                "correct or remove the row; where commas are decimal, separate the cells by semicolons: 3,5 is two cells"
+            }
             Self::NoSuchColumn { .. } => "copy the header as the file has it",
             Self::NameWithoutMeaning { .. } => {
                 "name it as time_s, rotor1_rpm, motor1_pwm or gyro_x_rad_s (docs/logs.md)"

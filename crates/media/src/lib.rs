@@ -8,7 +8,7 @@
 //! container   recognises the content                  wave, matroska, ogg, iso, mpeg_audio: facts in the headers
 //! tracks      the audio tracks, a plan for each       choose: the first that is not silent
 //! plan        how one track is decoded                native, opus, wave, quicktime, ffmpeg: packets or samples → frames
-//! recording   trims, mixes, counts errors             frames, mix, warning
+//! recording   trims, mixes, counts errors             frames, mix, mix_loss, warning
 //! coded_file  needs another decoder                   coded, packets: packets for it; decoded: its samples
 //! ```
 //!
@@ -32,6 +32,7 @@ mod guard;
 mod iso;
 mod matroska;
 mod mix;
+mod mix_loss;
 mod mpeg_audio;
 mod native;
 mod ogg;

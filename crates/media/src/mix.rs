@@ -1,6 +1,7 @@
 //! From interleaved channels to one channel of finite samples.
 
 use crate::error::MediaError;
+use crate::mix_loss::MixLoss;
 
 /// Selects one channel, or averages all.
 #[derive(Clone, Copy, Debug)]
@@ -25,8 +26,8 @@ impl Mix {
     }
 
     /// Appends one sample for each frame of `interleaved`. Returns the number of samples that were not finite and became 0. The content
-    /// of `interleaved` is undefined afterwards.
-    pub(crate) fn append(&self, interleaved: &mut Vec<f32>, mono: &mut Vec<f32>) -> u64 {
+    /// of `interleaved` is undefined afterwards. Where channels are averaged, `loss` counts the power that they lose.
+    pub(crate) fn append(&self, interleaved: &mut Vec<f32>, mono: &mut Vec<f32>, loss: &mut MixLoss) -> u64 {
         let first = mono.len();
         match (self.channel, self.channel_count) {
             (_, 0 | 1) if mono.is_empty() => std::mem::swap(mono, interleaved),
@@ -37,6 +38,9 @@ impl Mix {
                 let sum: f64 = frame.iter().map(|sample| f64::from(*sample)).sum();
                 (sum / count as f64) as f32
             })),
+        }
+        if self.channel.is_none() && self.channel_count > 1 {
+            loss.push(interleaved, self.channel_count, &mono[first..]);
         }
         // almost always zero, so it is counted without a branch for each sample
         let replaced: u32 = mono[first..].iter().map(|sample| u32::from(!sample.is_finite())).sum();

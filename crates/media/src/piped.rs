@@ -13,12 +13,15 @@ use crate::error::MediaError;
 use crate::frames::{Frames, Incidents};
 use crate::guard::guarded;
 use crate::mix::Mix;
+use crate::mix_loss::MixLoss;
 use crate::native::{NativeFrames, audio_parameters};
+use crate::warning::MediaWarning;
 
 /// The first audio track of a stream of bytes that cannot seek: WAVE, FLAC, Ogg, Matroska, WebM, MP3 or ADTS.
 pub struct PipedSound {
     frames: NativeFrames,
     mix: Mix,
+    mix_loss: MixLoss,
     incidents: Incidents,
     interleaved: Vec<f32>,
     block: Vec<f32>,
@@ -43,6 +46,7 @@ impl PipedSound {
         Ok(Self {
             frames,
             mix,
+            mix_loss: MixLoss::default(),
             incidents: Incidents::default(),
             interleaved: Vec::new(),
             block: Vec::new(),
@@ -55,6 +59,11 @@ impl PipedSound {
         self.frames.sample_rate_hz()
     }
 
+    /// That the channels cancel each other in the sound so far, where they do.
+    pub fn warning(&self) -> Option<MediaWarning> {
+        MediaWarning::of_mix(&self.mix_loss)
+    }
+
     /// The samples of the next packets, as soon as they are there. `None` at the end of the stream.
     ///
     /// # Errors
@@ -64,7 +73,7 @@ impl PipedSound {
         while !self.has_ended && self.block.is_empty() {
             self.has_ended =
                 !self.frames.next_frames(&mut self.interleaved, &mut self.incidents).map_err(MediaError::Read)?;
-            self.mix.append(&mut self.interleaved, &mut self.block);
+            self.mix.append(&mut self.interleaved, &mut self.block, &mut self.mix_loss);
         }
         Ok((!self.block.is_empty()).then_some(self.block.as_slice()))
     }
@@ -128,6 +137,19 @@ mod tests {
         assert!((right[100] - 200.0 / 32_768.0).abs() < 1e-6);
         assert_eq!(open(None).unwrap().sample_rate_hz(), 8000.0);
         assert!(matches!(open(Some(3)), Err(MediaError::NoSuchChannel { asked: 3, count: 2 })));
+    }
+
+    #[test]
+    fn channels_of_opposite_sign_are_said_to_cancel() {
+        let open = |right: i16, channel| {
+            let frames: Vec<[i16; 2]> = (0..5000).map(|n| [n % 100, right * (n % 100)]).collect();
+            let mut sound = PipedSound::open(Drops(Cursor::new(endless_wave(&frames))), channel).unwrap();
+            while sound.next_block().unwrap().is_some() {}
+            sound.warning()
+        };
+        assert!(matches!(open(-1, None), Some(MediaWarning::ChannelsCancel { .. })));
+        assert_eq!(open(1, None), None);
+        assert_eq!(open(-1, Some(1)), None);
     }
 
     #[test]

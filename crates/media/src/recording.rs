@@ -17,6 +17,7 @@ use crate::ffmpeg::FfmpegUse;
 use crate::file_access::{FileAccess, OpenFile};
 use crate::frames::{Frames, Incidents, Trim};
 use crate::mix::Mix;
+use crate::mix_loss::MixLoss;
 use crate::plan::{Plan, Route};
 use crate::samples::Samples;
 use crate::tracks::Tracks;
@@ -109,6 +110,7 @@ struct Pass {
     non_finite_samples: u64,
     /// Samples at full scale.
     full_samples: u64,
+    mix_loss: MixLoss,
     heard_frames: u64,
     has_ended: bool,
     /// The block was already decoded, to prove that there is one.
@@ -190,7 +192,6 @@ impl Recording {
         options: &OpenOptions,
         warnings: Warnings,
     ) -> Result<Self, MediaError> {
-        let channel = options.channel;
         let pass = Pass::start(&*file, &plan)?;
         let (sample_rate_hz, channel_count) = (pass.frames.sample_rate_hz(), pass.frames.channel_count());
         let container = plan.container;
@@ -202,13 +203,13 @@ impl Recording {
             let (field, limit) = ("the number of channels", "1 to 256");
             return Err(MediaError::BadHeader { container, field, value: channel_count as u64, limit });
         }
-        let mix = Mix::of(channel_count, channel)?;
+        let mix = Mix::of(channel_count, options.channel)?;
         let info = RecordingInfo {
             container,
             codec: plan.codec.clone(),
             sample_rate_hz: sample_rate_hz * (1.0 + options.clock_correction_ppm / MILLION),
             channel_count,
-            channel,
+            channel: options.channel,
             audio_track: index + 1,
             audio_track_count,
             declared_duration_s: plan.declared_s.or(plan.approximate_s),
@@ -269,7 +270,7 @@ impl Recording {
         while !pass.has_ended && self.block.len() < BLOCK_FRAMES_MIN {
             let has_more = pass.frames.next_frames(&mut pass.interleaved, &mut pass.incidents)?;
             let wants_more = pass.trim.apply(&mut pass.interleaved, self.mix.channel_count);
-            pass.non_finite_samples += self.mix.append(&mut pass.interleaved, &mut self.block);
+            pass.non_finite_samples += self.mix.append(&mut pass.interleaved, &mut self.block, &mut pass.mix_loss);
             pass.has_ended = !(has_more && wants_more);
         }
         let decoded_failure = match &self.plan.route {
@@ -308,6 +309,8 @@ impl Recording {
         if *has_ended && full_share > OVERDRIVEN_SHARE && full_s > OVERDRIVEN_S {
             self.warnings.put(MediaWarning::Overdriven { share: full_share });
         }
+        let of_mix = MediaWarning::of_mix(&self.pass.mix_loss).filter(|_| *has_ended);
+        of_mix.into_iter().for_each(|warning| self.warnings.put(warning));
         if *has_ended {
             let decoded_s = *heard_frames as f64 / rate;
             let declared_s = self.plan.declared_s;
@@ -361,6 +364,7 @@ impl Pass {
             incidents: Incidents::default(),
             non_finite_samples: 0,
             full_samples: 0,
+            mix_loss: MixLoss::default(),
             heard_frames: 0,
             has_ended: false,
             is_block_ahead: false,

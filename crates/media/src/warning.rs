@@ -4,6 +4,10 @@ use std::fmt;
 use std::mem::discriminant;
 
 use crate::container::Container;
+use crate::mix_loss::MixLoss;
+
+/// Channels cancel each other where their mean has less than this share of the power that it would have if they had nothing in common. *Decision.*
+const CANCELLED_SHARE: f64 = 0.1;
 
 /// A warning. [`MediaWarning::hint`] has the advice.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,6 +51,11 @@ pub enum MediaWarning {
         /// Their share of all.
         share: f64,
     },
+    /// The channels have opposite signs, so that their mean has lost most of their power.
+    ChannelsCancel {
+        /// Loss against the mean power of the channels in dB; infinite where nothing is left.
+        lost_db: f64,
+    },
     /// The file has several audio tracks, and none was requested.
     SeveralAudioTracks {
         /// Number of the chosen track, counted from 1.
@@ -76,6 +85,11 @@ pub enum MediaWarning {
 }
 
 impl MediaWarning {
+    /// That channels cancel each other, where they do.
+    pub(crate) fn of_mix(loss: &MixLoss) -> Option<Self> {
+        loss.lost_db(CANCELLED_SHARE).map(|lost_db| Self::ChannelsCancel { lost_db })
+    }
+
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
@@ -87,6 +101,7 @@ impl MediaWarning {
             Self::CorruptPackets { .. } => "leave the damaged part out, or copy the file again",
             Self::NonFiniteSamples { .. } => "look at the program that wrote the file; a hover needs a clean stretch",
             Self::Overdriven { .. } => "record again with less gain, or from further away",
+            Self::ChannelsCancel { .. } => "use one channel: --channel 1",
             Self::SeveralAudioTracks { .. } => "choose another with --audio-track N",
             Self::HalfRateAac { .. } => {
                 "tones above half the rate are missing; record as AAC-LC or PCM if you need them"
@@ -123,6 +138,13 @@ impl fmt::Display for MediaWarning {
             }
             Self::Overdriven { share } => {
                 write!(f, "the recording is overdriven: {:.0} % of its audio samples are at full scale", 100.0 * share)
+            }
+            Self::ChannelsCancel { lost_db } => {
+                f.write_str("the channels cancel each other, because they have opposite signs: ")?;
+                match lost_db.is_finite() {
+                    true => write!(f, "their mean, which is used, has {lost_db:.0} dB less power than one channel"),
+                    false => f.write_str("their mean, which is used, is silent"),
+                }
             }
             Self::SeveralAudioTracks { chosen, count, silent } => {
                 write!(f, "audio track {chosen} of {count} is used")?;

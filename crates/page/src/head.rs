@@ -63,7 +63,7 @@ mod tests {
             ThrustWarning::LoadsDisagree { names: names(), are_rows: false },
             ThrustWarning::TrialFarFromOthers { load: name(), recording: recording(), thrust_share: -123.0 },
             ThrustWarning::TrialsInGroups { load: name(), groups_rev_s: vec![123.4; 4] },
-            ThrustWarning::ConstantsDiffer { least: name(), most: name(), share: 123.0 },
+            ThrustWarning::ConstantsDiffer { least: name(), most: name(), share: 123.0, stated_share: 12.3 },
             ThrustWarning::TrialsDiffer { load: name(), least: recording(), most: recording(), thrust_share: 123.0 },
             ThrustWarning::HeavierTurnedSlower { heavy: name(), light: name() },
             ThrustWarning::MassFarFromKnown { load: name(), mass_kg: 12_345.678, known_kg: 0.001 },

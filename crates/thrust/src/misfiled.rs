@@ -87,18 +87,27 @@ fn in_groups(load: String, trials: &[TrialSquare<'_>]) -> Option<ThrustWarning> 
         .then(|| ThrustWarning::TrialsInGroups { load, groups_rev_s: groups.iter().map(mean_rev_s).collect() })
 }
 
-/// The loads with the smallest and the largest constant, where each has one recording, and the constants differ by more than flights do. Constants
-/// that are off by a factor are another warning.
+/// The two loads whose constants differ most, where each load has one recording, and the constants differ by more than flights do and the stated
+/// uncertainties of the forces explain. Constants that are off by a factor are another warning.
 fn different_constants(campaign: &Campaign<'_>) -> Option<ThrustWarning> {
     if campaign.loads.iter().any(|load| load.trials_rad_s.len() > 1) {
         return None;
     }
-    let constant = |point: &&ForcePoint| ForcePoint::thrust_constant_n_s2(point);
-    let least = campaign.points.iter().min_by(|a, b| constant(a).total_cmp(&constant(b)))?;
-    let most = campaign.points.iter().max_by(|a, b| constant(a).total_cmp(&constant(b)))?;
-    let share = constant(&most) / constant(&least) - 1.0;
-    let differ = share > DIFFERENT_SHARE && !is_off_by_a_factor(constant(&most), constant(&least));
-    differ.then(|| ThrustWarning::ConstantsDiffer { least: least.name.clone(), most: most.name.clone(), share })
+    let constant = |point: &ForcePoint| point.thrust_constant_n_s2();
+    let force_std_share = |point: &ForcePoint| point.force_std_n / point.force_n;
+    let differ = |least: &ForcePoint, most: &ForcePoint| {
+        let share = constant(most) / constant(least) - 1.0;
+        let stated_share = COVERAGE_FACTOR * force_std_share(most).hypot(force_std_share(least));
+        let differ =
+            share > DIFFERENT_SHARE.hypot(stated_share) && !is_off_by_a_factor(constant(most), constant(least));
+        differ.then(|| {
+            let (least, most) = (least.name.clone(), most.name.clone());
+            (share, ThrustWarning::ConstantsDiffer { least, most, share, stated_share })
+        })
+    };
+    let pairs = campaign.points.iter().flat_map(|least| campaign.points.iter().map(move |most| (least, most)));
+    let differing = pairs.filter_map(|(least, most)| differ(least, most));
+    differing.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, warning)| warning)
 }
 
 /// The rows of two masses, of which the heavier turned slower by the largest share, more than hovers of one mass differ. `points` are hovers with

@@ -4,7 +4,7 @@ use crate::drift::{Drift, DriftKind};
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::warning_words::{
-    drift_text, first_names, groups_text, is_shifted_point, mass_text, misfit_text, range_text, ratio_text,
+    differ_text, drift_text, first_names, groups_text, is_shifted_point, mass_text, misfit_text, range_text, ratio_text,
 };
 use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
@@ -59,6 +59,8 @@ pub enum ThrustWarning {
         most: String,
         /// Largest over smallest constant, minus 1.
         share: f64,
+        /// The share that the stated uncertainties of both forces explain, k = 2.
+        stated_share: f64,
     },
     /// The few trials of a load need different thrusts.
     TrialsDiffer {
@@ -205,7 +207,7 @@ impl ThrustWarning {
             }
             Self::EqualLoads { .. } => "measure loads as far apart as is safe: equal ones show nothing of the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
-                "check the masses, and which recording belongs to which load"
+                "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
             }
             Self::NarrowLoadRange(_) => {
                 "C_f is still valid near these forces; a wider range of forces tests the law, and for hovers `hovertone fit --plan` plans it"
@@ -278,8 +280,8 @@ impl fmt::Display for ThrustWarning {
             Self::TrialsInGroups { load, groups_rev_s } => {
                 write!(f, "the trials of load \"{load}\" lie in {}", groups_text(groups_rev_s))
             }
-            Self::ConstantsDiffer { least, most, share } => {
-                write!(f, "the constant of load \"{most}\" is {:.0} % larger than that of \"{least}\"", 100.0 * share)
+            Self::ConstantsDiffer { least, most, share, stated_share } => {
+                f.write_str(&differ_text([least, most], *share, *stated_share))
             }
             Self::TrialsDiffer { load, least, most, thrust_share } => {
                 write!(f, "{most} of load \"{load}\" needs {:.0} % more thrust than {least}", 100.0 * thrust_share)

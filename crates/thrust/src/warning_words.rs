@@ -10,6 +10,17 @@ const NAMES_MAX: usize = 5;
 /// Ratios of masses within this factor about ten are called a shifted decimal point: loads differ from the bare vehicle. *Decision.*
 const POINT_MARGIN: f64 = 1.5;
 
+/// Two loads whose constants differ by a share, of which the stated uncertainties of their forces explain another.
+pub(crate) fn differ_text([least, most]: [&String; 2], share: f64, stated_share: f64) -> String {
+    let words = format!("the constant of load \"{most}\" is {:.0} % larger than that of \"{least}\"", 100.0 * share);
+    match 100.0 * stated_share {
+        small if small < 0.5 => words,
+        percent => {
+            format!("{words}; the stated uncertainties of their forces explain {percent:.0} % (k = {COVERAGE_FACTOR})")
+        }
+    }
+}
+
 pub(crate) fn drift_text(drift: &Drift) -> String {
     let step = match drift.kind {
         DriftKind::PerTrial => "from trial to trial",
@@ -26,7 +37,7 @@ pub(crate) fn drift_text(drift: &Drift) -> String {
 
 pub(crate) fn range_text(range: &LoadRange) -> String {
     let Some(needed) = range.force_ratio_needed else {
-        return "the loads scatter too much about F = C_f ω² to test it".to_owned();
+        return "the forces and speeds are too uncertain to test F = C_f ω²: they scatter too much, or their stated uncertainties are too large".to_owned();
     };
     let [ratio, needed] = compared([range.force_ratio, needed]);
     format!(

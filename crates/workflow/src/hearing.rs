@@ -6,7 +6,7 @@ use hovertone::speed::{Config, Error, NoTone, Outcome, SpeedAnalysis, Warning, p
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
 use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
-use hovertone_vehicle::KNOWN_RANGE_MARGIN;
+use hovertone_vehicle::{KNOWN_RANGE_MARGIN, check_tips};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -105,7 +105,15 @@ pub fn hear(
     let of_analysis = record.analysis().into_iter().flat_map(|analysis| &analysis.warnings).filter(matters);
     record.notices = notices_of(recording).into_iter().chain(of_analysis.map(Notice::from)).collect();
     record.notices.extend(notice_of_reading(&record).filter(|_| follows_a_tone));
+    let diameter_m = config.known.diameter_m.or(task.discovery.and_then(|discovery| discovery.known.diameter_m));
+    record.notices.extend(notice_of_tips(&record, diameter_m));
     Ok(Heard { record, config, spin_up })
+}
+
+/// That the blade tips would be too fast at the heard speed.
+fn notice_of_tips(record: &SpeedRecord, diameter_m: Option<f64>) -> Option<Notice> {
+    let contradiction = check_tips(diameter_m?, record.speed()?.speed).err()?;
+    Some(Notice::new(contradiction.to_string(), contradiction.hint()))
 }
 
 /// The record of a recording that could not be heard: its reason stands in place of an answer.
@@ -151,8 +159,11 @@ fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
         let why = "the audio samples are NaN or infinite, which are no sound; look at the program that wrote the file";
         return Some(why.to_owned());
     }
-    if let Some(overdriven) = warnings.iter().find(|warning| matches!(warning, MediaWarning::Overdriven { .. })) {
-        return Some(format!("{overdriven}; {}", overdriven.hint()));
+    let explains = |warning: &&MediaWarning| {
+        matches!(warning, MediaWarning::Overdriven { .. } | MediaWarning::ChannelsCancel { .. })
+    };
+    if let Some(fault) = warnings.iter().find(explains) {
+        return Some(format!("{fault}; {}", fault.hint()));
     }
     // the search goes beyond the known speeds of the vehicle by a margin
     let tone = &analysed.config.tone;

@@ -14,7 +14,8 @@ use crate::failure::{Ending, Failure};
 use crate::settings::{config_of, idle_mass};
 use crate::terminal::Terminal;
 use hovertone::live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
-use hovertone_vehicle::check_range;
+use hovertone_report::Notice;
+use hovertone_vehicle::{RotorSpeed, check_range, check_tips};
 use lines::{PlainLines, json_line};
 use pace::Pace;
 use screen::{Key, Screen};
@@ -52,7 +53,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         (false, false) => Output::Screen(Box::new(Screen::open()?), Box::new(View::new(sound.name()))),
     };
     let pace = Pace::new(arguments.speed);
-    let mut has_told = false;
+    let (mut has_told, mut too_fast) = (false, None);
     while let Some(samples) = sound.next_block()? {
         for mut rest in samples.chunks(block_samples.max(1)) {
             while !rest.is_empty() {
@@ -63,6 +64,7 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
                     listener.review().map_err(unheard)?;
                 }
                 has_told |= arrived.is_some_and(|speed| speed.status == LiveStatus::Ok);
+                too_fast = too_fast.or_else(|| tips_too_fast(arguments.known.diameter_m, &arrived?));
                 let wait = pace.time_left(listener.heard_s());
                 if !tell(&mut output, arrived, is_reviewed, wait, &mut listener, terminal)? {
                     return Ok(Ending::Done);
@@ -74,7 +76,15 @@ pub(crate) fn run(arguments: &ListenArguments, terminal: &mut Terminal) -> Resul
         terminal.data(&lines.closing_line().unwrap_or_default())?;
         terminal.flush()?;
     }
+    sound.notices().iter().chain(&too_fast).for_each(|notice| terminal.warning(notice, ""));
     Ok(if has_told { Ending::Done } else { Ending::Incomplete })
+}
+
+/// That the blade tips would be too fast at a live speed.
+fn tips_too_fast(diameter_m: Option<f64>, live: &LiveSpeed) -> Option<Notice> {
+    let rev_s = live.speed_rev_s.filter(|_| live.status == LiveStatus::Ok)?;
+    let contradiction = check_tips(diameter_m?, RotorSpeed::from_rev_s(rev_s)).err()?;
+    Some(Notice::new(contradiction.to_string(), contradiction.hint()))
 }
 
 /// Tells a speed, and waits until the sound so far has been played. `false` where a person ends it.

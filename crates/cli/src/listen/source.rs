@@ -6,6 +6,8 @@ use crate::inputs::is_stdin;
 use crate::listen::microphone::Microphone;
 use hovertone::sound::SignalSource;
 use hovertone_media::{OpenOptions, PipedSound, Recording};
+use hovertone_report::Notice;
+use hovertone_workflow::notices_of;
 use std::path::{Path, PathBuf};
 
 /// Name of the pipe in messages.
@@ -49,6 +51,16 @@ impl LiveSound {
             Self::Pipe(_) => "a pipe".to_owned(),
             #[cfg(feature = "microphone")]
             Self::Microphone(microphone) => microphone.name(),
+        }
+    }
+
+    /// What weakens the sound that was heard to its end.
+    pub(crate) fn notices(&self) -> Vec<Notice> {
+        match self {
+            Self::File { recording, .. } => notices_of(recording),
+            Self::Pipe(pipe) => pipe.warning().iter().map(|it| Notice::new(it.to_string(), it.hint())).collect(),
+            #[cfg(feature = "microphone")]
+            Self::Microphone(_) => Vec::new(),
         }
     }
 

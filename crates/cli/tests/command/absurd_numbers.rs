@@ -1,7 +1,7 @@
 //! Every flag with a number, of every command, as its help lists them: what no recording, rotor or place has is refused.
 
 use crate::contradictions::results_of_four_rotors;
-use crate::testkit::{hovertone, hovertone_with, write_noise};
+use crate::testkit::{hovertone, hovertone_with, text, write_noise};
 use std::fs;
 
 /// Names of values that are numbers, in the help.
@@ -86,4 +86,22 @@ fn absurd_numbers_are_refused() {
         }
     }
     assert!(wrong.is_empty() && tried > 300, "of {tried}:\n{}", wrong.join("\n"));
+}
+
+/// Rows that lie on the law and have ten times their own size as uncertainty: the ± that was stated is to blame, not the scatter.
+#[test]
+fn stated_uncertainties_that_are_too_large_are_named_where_the_law_cannot_be_tested() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("stand.csv");
+    let with = |thrust_std_n: f64| {
+        let rows: String = [3000, 3600, 4200, 5000]
+            .map(|rpm| format!("{rpm},{},{thrust_std_n}\n", 7.7e-8 * f64::from(rpm * rpm)))
+            .concat();
+        fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{rows}")).unwrap();
+        hovertone(&["fit", text(&table)]).ends_with(0).stderr
+    };
+    let said = with(10.0);
+    assert!(said.contains("their stated uncertainties are too large"), "{said}");
+    assert!(said.contains("the uncertainties that you stated"), "{said}");
+    assert!(!with(0.001).contains("too uncertain"), "{}", with(0.001));
 }

@@ -69,6 +69,24 @@ fn facts_that_a_model_does_not_hold_are_named() {
     }
 }
 
+/// A number that is not there, and one that is there already, are two different things.
+#[test]
+fn a_number_that_a_model_has_already_is_said_to_be_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = write_results(folder.path());
+    let (model, bare) = (folder.path().join("iris.sdf"), folder.path().join("bare.sdf"));
+    fs::write(&model, IRIS).unwrap();
+    fs::write(&bare, IRIS.replace("<momentConstant>0.06</momentConstant>", "")).unwrap();
+    let torque = ["--torque-constant-n-m-s2", "1e-8"];
+    let (there, absent) = ("this model has the same number already", "this model has no such number");
+    let first = export(&results, &[&["--into", text(&model)], &torque[..]].concat()).ends_with(0);
+    assert!(!first.stderr.contains("changes nothing"), "{}", first.stderr);
+    let again = export(&results, &[&["--into", text(&model)], &torque[..]].concat()).ends_with(0);
+    assert!(again.stderr.contains(there) && !again.stderr.contains(absent), "{}", again.stderr);
+    let without = export(&results, &[&["--into", text(&bare)], &torque[..]].concat()).ends_with(0);
+    assert!(without.stderr.contains(absent) && !without.stderr.contains(there), "{}", without.stderr);
+}
+
 #[test]
 fn a_constant_that_is_an_expression_is_said_to_be() {
     let folder = tempfile::tempdir().unwrap();

@@ -9,6 +9,7 @@ mod batch;
 #[cfg(feature = "archive")]
 mod batch_docs;
 mod calibrate;
+mod cancelled_channels;
 mod changes_nothing;
 mod chromium;
 mod codecs;

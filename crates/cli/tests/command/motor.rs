@@ -238,6 +238,10 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
     let on_clock = ["motor", "--json", &wav, "--blades", "2", "--commands", &commands, "--offset", "0"];
     let dead_time_s = &hovertone(&on_clock).ends_with(0).json_lines()[0]["dead_time_s"]["value"];
     assert!((dead_time_s.as_f64().unwrap() - 0.035).abs() < 0.02, "{dead_time_s}");
+    let shifted = ["motor", &wav, "--blades", "2", "--commands", &commands, "--offset", "2"];
+    let shifted = hovertone(&shifted).ends_with(0);
+    assert!(!shifted.stdout.contains("saturated"), "{}", shifted.stdout);
+    assert!(shifted.stderr.contains("the steps agree at an offset of about 0.0"), "{}", shifted.stderr);
 }
 
 #[test]

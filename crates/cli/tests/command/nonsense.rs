@@ -157,6 +157,13 @@ fn tips_faster_than_mach_0_6_are_refused_also_with_blades() {
     // 45 mm, and 4.5 m by a slip
     hovertone(&[&speed[..], &["0.045"]].concat()).ends_with(0);
     refused_with(&[&speed[..], &["4.5"]].concat(), &["diameter_m = 4.5", "300", "Mach 0.6", "in metres"]);
+    refused_with(&["tones", "--blades", "2", text(&wav), "--diameter-m", "4.5"], &["diameter_m = 4.5", "Mach 0.6"]);
+    hovertone(&["tones", "--blades", "2", text(&wav), "--diameter-m", "0.045"]).ends_with(0);
+    // sound that arrives was told already
+    let live = ["listen", "--blades", "2", "--speed", "1000", "--from-file", text(&wav), "--diameter-m"];
+    let told = |diameter_m: &str| hovertone(&[&live[..], &[diameter_m]].concat()).ends_with(0).stderr;
+    assert!(told("4.5").contains("the blade tips would move at Mach"), "{}", told("4.5"));
+    assert!(!told("0.045").contains("Mach"), "{}", told("0.045"));
     let png = folder.path().join("x.png");
     let picture =
         ["spectrogram", "--blades", "2", "--rotors", "1", text(&wav), "-o", text(&png), "--diameter-m", "4.5"];

@@ -10,7 +10,8 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 use std::f64::consts::TAU;
 
-fn find(samples: Vec<f32>, rate_hz: f64, known: KnownRotor) -> FoundSpeed {
+/// The tones of a recording of which only these facts are known.
+pub(crate) fn find(samples: Vec<f32>, rate_hz: f64, known: KnownRotor) -> FoundSpeed {
     let config = Config::for_tone(ToneConfig::of_order(Order::new(1.0).expect("an order")));
     let discovery = Discovery { config: DiscoveryConfig::default(), known, wants_all: false };
     let mut source = Signal::new(samples, rate_hz);

@@ -1,5 +1,6 @@
 //! Rotors of a vehicle whose mass, diameter and number of rotors are known: there the evidence of all orders decides the octave.
-use crate::testkit::{analyse, config, hears_nothing, rotor, sound, tone, unlike_blades};
+use crate::discovery::find;
+use crate::testkit::{SAMPLE_RATE_HZ, analyse, config, hears_nothing, rotor, sound, tone, unlike_blades};
 use hovertone::speed::{Config, NoTone, OtherRotor, Outcome, SpeedAnalysis, Warning};
 use hovertone::tones::KnownRotor;
 use hovertone::vehicle::RotorSpeed;
@@ -139,5 +140,22 @@ fn noise_holds_no_rotor_whatever_is_known() {
     for seed in 0..8 {
         let analysis = analyse(sound(&[], LENGTH_S, 0.05, seed), &known(0.1));
         assert!(hears_nothing(&analysis), "{seed}: {:?}", matches!(analysis.outcome, Outcome::Ok(_)));
+    }
+}
+
+#[test]
+fn a_list_of_tones_says_the_same_of_a_wrong_number_of_blades_as_the_speed() {
+    let lines = unlike_blades(&[0.05, 0.04, 0.03, 0.025, 0.02, 0.015]);
+    let wrong = Config { all_methods: false, ..config(3.0) };
+    for seed in 0..4 {
+        let listed = |blades: u32| {
+            let known = KnownRotor { blade_count: Some(blades), ..KnownRotor::default() };
+            left_out(&find(flight(&lines, seed), SAMPLE_RATE_HZ, known).analysis)
+        };
+        assert_eq!(listed(2), None, "{seed}");
+        let of_speed = left_out(&analyse(flight(&lines, seed), &wrong)).expect("another rotor, for `speed`");
+        let of_list = listed(3).unwrap_or_else(|| panic!("{seed}: nothing is said"));
+        assert_eq!(of_list.blades, of_speed.blades, "{seed}");
+        assert!((of_list.speed_rev_s / of_speed.speed_rev_s - 1.0).abs() < 0.01, "{seed}: {of_list:?} {of_speed:?}");
     }
 }

@@ -101,6 +101,7 @@ pub(crate) fn read<R: Read>(
     let mut about_rotors = vec![f64::NAN; signals.len()];
     let mut before_s = f64::NEG_INFINITY;
     while reader.read_byte_record(&mut record)? {
+        refuse_long(&record, headers.len())?;
         let Some(time_s) = number(&cells, time, &record)? else { continue };
         if time_s < before_s {
             return Err(LogError::NotInOrder { line: line_of(&record), time_s });
@@ -124,6 +125,18 @@ pub(crate) fn read<R: Read>(
 pub(crate) fn names_of(headers: &[String]) -> String {
     let headers = headers.iter().map(String::as_str).filter(|header| !header.is_empty());
     headers.collect::<Vec<_>>().join(", ")
+}
+
+/// Refuses a row with something beyond the last header. A row may be shorter: its other cells are gaps.
+fn refuse_long(record: &ByteRecord, header_count: usize) -> Result<(), LogError> {
+    if record.len() <= header_count {
+        return Ok(());
+    }
+    let cell_count = record.iter().rposition(|cell| !cell.trim_ascii().is_empty()).map_or(0, |last| last + 1);
+    match cell_count > header_count {
+        true => Err(LogError::LongRow { line: line_of(record), cell_count, header_count }),
+        false => Ok(()),
+    }
 }
 
 /// Line of a row, counted from 1.

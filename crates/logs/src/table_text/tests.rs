@@ -48,6 +48,7 @@ fn what_means_nothing_is_refused_with_what_to_do() {
         ("time_s,x_m\n0,1\n", ["motors or body rates", "time_s, x_m"]),
         ("time_s,gyro_x_rad_s\n0,1\n", ["motors or body rates", "gyro_x_rad_s"]),
         ("time_s,motor1_pwm,m1\n0,1,2\n", ["motor1_pwm", "m1"]),
+        ("time_s,motor1_rpm\n0,3600\n0,1,3600,5\n", ["line 3", "4 cells, but the header has 2"]),
         ("time_s,motor1_pwm\n0,fast\n", ["line 2", "fast"]),
         ("time_s,motor1_pwm\n0,inf\n", ["line 2", "inf"]),
         ("time_s,motor1_pwm\n1,1\n0.5,1\n", ["line 3", "before"]),
@@ -58,4 +59,11 @@ fn what_means_nothing_is_refused_with_what_to_do() {
         assert!(words.iter().all(|word| message.contains(word)), "{text:?}: {message}");
         assert!(!error.hint().is_empty());
     }
+}
+
+/// Some programs end each row with a comma, and a log that was cut off ends within a row.
+#[test]
+fn empty_cells_behind_the_last_header_and_missing_cells_are_no_fault() {
+    let log = flight_log_from_csv("time_s,motor1_pwm\n0,1,\n1,2, ,\n2\n").unwrap();
+    assert_eq!(log.commands.unwrap().values[0][..2], [1.0, 2.0]);
 }

@@ -5,9 +5,9 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::pipeline::speed_of_heard_rotor;
-use crate::stages::{HeardRotor, Surveyed, at_ratio, geared_propellers, known_gears, reading_of};
+use crate::stages::{HeardRotor, Surveyed, any_propellers, at_ratio, geared_propellers, known_gears, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, reading_at, rule_out, search_range_rev_s};
-use hovertone_analysis::{Meaning, NoTone, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily};
+use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily, Warning};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::{Gear, Order, RotorSpeed};
 
@@ -39,7 +39,10 @@ impl Believed {
         discovery: &Discovery,
     ) -> Result<Option<Self>, NoTone> {
         let propellers = propellers(sample_rate_hz, config, discovery);
-        let wanted = WantedRotor { propellers, known: discovery.known, may_be_slow: false, where_unknown: Vec::new() };
+        // where the blades are not known, all propellers are compared already
+        let where_unknown =
+            if discovery.known.blade_count.is_some() { any_propellers(sample_rate_hz) } else { Vec::new() };
+        let wanted = WantedRotor { propellers, known: discovery.known, may_be_slow: false, where_unknown };
         let Some(beliefs) = surveyed.beliefs(&wanted, config)? else { return Ok(None) };
         let readings = readings_of(&beliefs, discovery);
         let is_heard = readings.first().is_some_and(|first| first.plausibility > 0.0);
@@ -55,7 +58,7 @@ impl Believed {
         if common > 0 { f64::from(common) * first.speed.rev_s() } else { first.tone_hz }
     }
 
-    /// The speed of the rotor.
+    /// The speed of the rotor, with a warning where a rotor with other blades is far more probable.
     ///
     /// # Errors
     /// A source that fails.
@@ -69,7 +72,10 @@ impl Believed {
         let found = config_for(config, first);
         let companions = self.beliefs.companions(&surveyed.looks, &config.evidence);
         let rotor = HeardRotor { speed_rev_s: first.speed.rev_s(), is_faint: self.beliefs.is_faint, companions };
-        let analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
+        let mut analysis = speed_of_heard_rotor(passes, surveyed, rotor, &found)?;
+        if matches!(analysis.outcome, Outcome::Ok(_)) {
+            analysis.warnings.extend(self.beliefs.better.map(Warning::FitsElsewhere));
+        }
         // the analysis knows the speed better
         let ratio = speed_of(&analysis, &found).map(|it| it.speed.rad_s() / first.speed.rad_s());
         let ratio = ratio.map(|ratio| if (ratio - 1.0).abs() < SAME_LINE_SHARE { ratio } else { 1.0 });

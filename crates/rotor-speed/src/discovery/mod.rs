@@ -7,7 +7,7 @@ use crate::config::Config;
 use crate::detection::or_mains_hum;
 use crate::error::Error;
 use crate::pipeline::{passes_after_survey, passes_of_speed, speed_of_heard_rotor};
-use crate::stages::{HeardRotor, Silence, Surveyed, at_ratio, survey_from_source};
+use crate::stages::{HeardRotor, Silence, Surveyed, at_ratio, heard_instead, survey_from_source};
 use crate::survey::{RowSettings, RowsBuilder, Survey};
 use crate::tone::{DiscoveryConfig, families_from_surveys, reading_at};
 use by_beliefs::{Believed, BelievedSpeed, SAME_LINE_SHARE};
@@ -117,8 +117,12 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     let scanned = DiscoveryConfig { fundamental_hz_min, fundamental_hz_max, ..discovery.config };
     let families =
         |rotor_hz: Option<f64>| families_from_surveys(survey, detail.as_ref(), rotor_hz, &discovery.known, &scanned);
-    let no_series = || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s(), instead: None }, survey);
-    let believed = Believed::of(&surveyed, passes.sample_rate_hz(), config, discovery);
+    let sample_rate_hz = passes.sample_rate_hz();
+    let is_known = discovery.known != KnownRotor::default();
+    let instead = || is_known.then(|| heard_instead(&surveyed, sample_rate_hz, config)).flatten();
+    let no_series =
+        || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s(), instead: instead() }, survey);
+    let believed = Believed::of(&surveyed, sample_rate_hz, config, discovery);
     let believed = match believed.and_then(|believed| believed.ok_or_else(no_series)) {
         Ok(believed) => believed,
         Err(reason) => {

@@ -27,7 +27,7 @@ pub(super) fn better_without_gear(
 }
 
 /// The rotor that is heard where nothing is known. `None` where none is.
-pub(super) fn heard_instead(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<OtherRotor> {
+pub(crate) fn heard_instead(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> Option<OtherRotor> {
     rotor_of(blind_beliefs(surveyed, sample_rate_hz, config)?.hypotheses.first()?)
 }
 

@@ -5,7 +5,7 @@ use crate::tone::{BLADES, DiscoveryConfig, ToneConfig, search_range_rev_s};
 use hovertone_vehicle::{Gear, Order, presets};
 
 /// The propellers that are possible where nothing is known, without a gear.
-pub(super) fn any_propellers(sample_rate_hz: f64) -> Vec<WantedPropeller> {
+pub(crate) fn any_propellers(sample_rate_hz: f64) -> Vec<WantedPropeller> {
     let shares = BLADES.into_iter().zip(DiscoveryConfig::default().blade_shares);
     let propeller = |(blades, share)| {
         let tone = ToneConfig::of_order(Order::from_blades(blades).ok()?);

@@ -30,14 +30,15 @@ impl ScenarioFile {
     ///
     /// # Errors
     /// On a preset without flight parameters, a faulty table, maneuvers that cannot follow each other, and numbers out of
-    /// bounds. Numbers of the flight and of the sound are checked later
-    /// ([`ScenarioRun::new`](super::ScenarioRun::new)).
+    /// bounds. Numbers of the sound are checked later ([`ScenarioRun::new`](super::ScenarioRun::new)).
     pub fn resolve(&self, tables: &BTreeMap<String, String>) -> Result<Scenario, ScenarioError> {
         let mut vehicle = vehicle_of(&self.vehicle)?;
         if let Some(controller) = &self.controller {
             controller.apply(&mut vehicle.controller);
         }
         let flight = self.flight_of(vehicle)?;
+        // what follows computes with these numbers
+        flight.check()?;
         let start = match flight.start {
             Start::Hover(setpoint) => setpoint,
             Start::Ground { place_m: [x, y], yaw_rad } => Setpoint { position_m: [x, y, 0.0], yaw_rad },

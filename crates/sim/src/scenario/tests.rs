@@ -152,6 +152,10 @@ fn numbers_and_names_without_meaning_are_refused() {
     assert!(refused("[vehicle]\npreset = \"ardrome\"").contains("ardrome"));
     assert!(refused("[vehicle]\nmass_kg = -1.0").contains("mass_kg"));
     assert!(refused("[vehicle]\nmass_kg = 5.0").contains("hover voltage"));
+    for gravity in ["-9.8", "0.0", "nan"] {
+        let said = refused(&format!("[flight]\ngravity_m_s2 = {gravity}"));
+        assert!(said.starts_with("gravity_m_s2 = ") && said.contains("above 0"), "{said}");
+    }
     assert!(refused("duration_s = 0.0").contains("duration_s"));
     assert!(refused("duration_s = 80000.0").contains("4 GiB"));
     assert!(refused("truth_rate_hz = 300.0").contains("truth_rate_hz"));

@@ -186,6 +186,25 @@ fn constants_of_single_recordings_that_differ_are_told() {
     assert!(differ.is_some(), "{:?}", table.warnings);
 }
 
+/// A table of thrust that is right to a tenth cannot show constants that differ by less.
+#[test]
+fn constants_that_differ_within_the_stated_uncertainty_are_no_contradiction() {
+    let differing = |stated_share: f64, constant_share: f64| {
+        let mut loads = exact_hovers(&[0.0, 0.05], 1);
+        for (load, factor) in loads.iter_mut().zip([1.0, 1.0 + constant_share]) {
+            let thrust_n = factor * load.force.newtons();
+            load.force = Force::Thrust { thrust_n, thrust_std_n: stated_share * thrust_n };
+        }
+        let warnings = fitted(&loads).warnings;
+        warnings.into_iter().find(|warning| matches!(warning, ThrustWarning::ConstantsDiffer { .. }))
+    };
+    assert!(differing(0.0, 0.14).is_some());
+    assert_eq!(differing(0.1, 0.14), None, "twice the root of two tenths squared is 28 %");
+    let told = differing(0.1, 0.4).unwrap().to_string();
+    assert!(told.ends_with("; the stated uncertainties of their forces explain 28 % (k = 2)"), "{told}");
+    assert!(!differing(0.0, 0.14).unwrap().to_string().contains("explain"));
+}
+
 /// One of two loads is wrong, or half of the trials of each: nothing shows which, and the result says so.
 #[test]
 fn halves_that_are_off_by_a_factor_are_not_averaged_in_silence() {
