@@ -304,10 +304,15 @@ fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
-    let Some(&Hypothesis { path: best, speed_rev_s, votes_nats, .. }) = best else { return paths };
-    let is_family = |path: &Hypothesis| is_family(path.speed_rev_s, speed_rev_s);
+    let Some(Hypothesis { path: best, speed_rev_s, votes_nats, speeds_rev_s, .. }) = best.cloned() else { return paths };
     let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
-    paths.retain(|path| path.path == best || is_family(path) || path.votes_nats >= least_nats);
+    // a path that changes between octaves of the best one is no other rotor
+    let changes_octave = |path: &Hypothesis| {
+        let of_best = path.speeds_rev_s.iter().zip(&speeds_rev_s).filter(|&(own, best)| is_family(*own, *best));
+        2 * of_best.count() > speeds_rev_s.len()
+    };
+    let is_other = |path: &Hypothesis| path.votes_nats >= least_nats && !changes_octave(path);
+    paths.retain(|path| path.path == best || is_family(path.speed_rev_s, speed_rev_s) || is_other(path));
     paths.sort_by(|a, b| (b.path == best).cmp(&(a.path == best)).then(b.nats.total_cmp(&a.nats)));
     let mut hypotheses: Vec<Hypothesis> = Vec::new();
     for path in paths {
@@ -334,4 +339,38 @@ fn with_beliefs(mut all: Vec<Hypothesis>) -> Vec<Hypothesis> {
     let sum = log_sum_exp(hypotheses.iter().map(|hypothesis| hypothesis.nats));
     hypotheses.iter_mut().for_each(|hypothesis| hypothesis.belief = (hypothesis.nats - sum).exp());
     hypotheses
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(path: usize, speeds_rev_s: &[f64], votes_nats: f64) -> Hypothesis {
+        Hypothesis {
+            lines: RotorLines::of_blades(2),
+            speeds_rev_s: speeds_rev_s.to_vec(),
+            speed_rev_s: mean(speeds_rev_s).expect("speeds"),
+            hover_rev_s: speeds_rev_s[0],
+            path,
+            factor: 1.0,
+            votes_nats,
+            levels_nats: 0.0,
+            nats: 0.0,
+            levels: RotorLevels::default(),
+            near_levels: None,
+            belief: 0.0,
+        }
+    }
+
+    #[test]
+    fn a_path_that_changes_between_octaves_of_the_best_one_is_no_other_rotor() {
+        let best = along(0, &[100.0; 10], 13.0);
+        let changing = along(1, &[150.0, 150.0, 150.0, 150.0, 125.0, 100.0, 100.0, 100.0, 100.0, 100.0], 10.0);
+        let octave = along(2, &[50.0; 10], 1.0);
+        let other = along(3, &[118.0; 10], 10.0);
+        let kept = one_of_each_speed(vec![best, changing, octave, other]);
+        let mut paths: Vec<usize> = kept.iter().map(|it| it.path).collect();
+        paths.sort_unstable();
+        assert_eq!(paths, [0, 2, 3]);
+    }
 }
