@@ -7,7 +7,7 @@ use crate::stages::{
     lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
 };
 use crate::tone::search_range_rev_s;
-use hovertone_analysis::{Hover, Method, OtherRotor, RotorEstimate, SpeedAnalysis};
+use hovertone_analysis::{Hover, Method, OtherRotor, Outcome, RotorEstimate, SpeedAnalysis};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
 
@@ -69,18 +69,32 @@ pub fn speed_from_survey(
     }
 }
 
+/// Where other rotors are heard beside the first, and their number is not known, several are told apart. The same where a faint one alone does
+/// not keep its phase: it may be several.
 fn speed_from_candidates(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
     candidates: &Candidates,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let several = candidates.are_several(config).then(|| config.with_several_rotors());
-    if let Some(several) = &several {
-        passes.expect_more(passes_after_survey(several) - passes_after_survey(config));
+    let as_several = |passes: &mut Passes<'_>| {
+        let several = config.with_several_rotors();
+        passes.expect_more(passes_after_survey(&several) - passes_after_survey(config));
+        speed_of_candidate(passes, surveyed, candidates, &several)
+    };
+    if candidates.are_several(config) {
+        return as_several(passes);
     }
-    let config = several.as_ref().unwrap_or(config);
-    speed_of_candidate(passes, surveyed, candidates, config)
+    let analysis = speed_of_candidate(passes, surveyed, candidates, config)?;
+    let may_be_several = candidates.is_faint && !config.rotors.is_count_known && config.method == Method::Separated;
+    if may_be_several && matches!(analysis.outcome, Outcome::NoRotorTone { .. }) {
+        passes.expect_more(passes_after_survey(config));
+        let again = as_several(passes)?;
+        if matches!(again.outcome, Outcome::Ok(_)) {
+            return Ok(again);
+        }
+    }
+    Ok(analysis)
 }
 
 /// The stages after the survey, for a rotor that was heard at this speed.

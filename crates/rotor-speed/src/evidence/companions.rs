@@ -188,7 +188,8 @@ mod tests {
 
     #[test]
     fn only_rotors_that_would_be_heard_are_excluded() {
-        let spread_share = |harmonics: u32, speeds_rev_s: &[f64]| companions(harmonics, speeds_rev_s).spread_share(13.8);
+        let spread_share =
+            |harmonics: u32, speeds_rev_s: &[f64]| companions(harmonics, speeds_rev_s).spread_share(13.8);
         assert!(spread_share(12, &[90.0]) < 0.01, "{}", spread_share(12, &[90.0]));
         // one harmonic tells little
         assert!(spread_share(1, &[90.0]) > 0.06, "{}", spread_share(1, &[90.0]));

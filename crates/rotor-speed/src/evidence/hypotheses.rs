@@ -304,7 +304,9 @@ fn one_of_each_speed(mut paths: Vec<Hypothesis>) -> Vec<Hypothesis> {
     // octaves are compared along one path; another path that is no family of it explains the frames as well, or it is none
     let sum_nats = |path: &Hypothesis| path.nats + path.votes_nats;
     let best = paths.iter().max_by(|a, b| sum_nats(a).total_cmp(&sum_nats(b)));
-    let Some(Hypothesis { path: best, speed_rev_s, votes_nats, speeds_rev_s, .. }) = best.cloned() else { return paths };
+    let Some(Hypothesis { path: best, speed_rev_s, votes_nats, speeds_rev_s, .. }) = best.cloned() else {
+        return paths;
+    };
     let least_nats = OTHER_VOTES_SHARE_MIN * votes_nats - VOTES_NATS_APART;
     // a path that changes between octaves of the best one is no other rotor
     let changes_octave = |path: &Hypothesis| {

@@ -55,6 +55,11 @@ impl RotorTracks {
         if is_far || self.are_one_group && !is_group { Self::default() } else { self }
     }
 
+    /// Whether at least two rotors are separated, each with its own speed.
+    pub(crate) fn are_told_apart(&self) -> bool {
+        !self.are_one_group && self.resolved(None).count() >= 2
+    }
+
     /// Longest time between points of a track.
     pub(crate) fn step_s(&self) -> f64 {
         self.rotors.iter().map(|rotor| rotor.track.step_s).fold(0.0, f64::max)

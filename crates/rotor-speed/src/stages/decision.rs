@@ -7,7 +7,7 @@ use crate::config::Config;
 use crate::detection::{no_series, not_held_reason, or_mains_hum};
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use hovertone_analysis::{Hover, Method, Reading, WeighedSpeed};
+use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 
 /// A candidate that is one rotor, or several.
@@ -38,15 +38,24 @@ pub(crate) fn decision_from_lines(
 ) -> Result<Decision, Stop> {
     let tone_hz = speed_rev_s * config.tone.order.lines_per_turn();
     let restless_s = restless_s(hover, &surveyed.survey, &candidates.map);
-    let is_lost = candidates.is_faint && lines.harmonic.steady_share(hover.length_s()) < config.ridge.steady_share_min;
-    let is_lost = is_lost.then(|| or_mains_hum(no_series(&config.tone, None), &surveyed.survey));
-    if let Some(reason) = is_lost.or_else(|| not_held_reason(restless_s, hover, tone_hz, &config.hover)) {
-        return Err(Silence { reason, hover: hover.clone(), warnings: lines.warnings }.into());
-    }
+    let silence = |reason: NoTone| Silence { reason, hover: hover.clone(), warnings: lines.warnings.clone() };
+    let lost = || silence(or_mains_hum(no_series(&config.tone, None), &surveyed.survey));
     let wants_rotors = config.methods().any(|method| method == Method::Separated);
+    // a faint rotor must keep its phase; where several sound, each keeps its own
+    let keeps_phase =
+        !candidates.is_faint || lines.harmonic.steady_share(hover.length_s()) >= config.ridge.steady_share_min;
+    if !keeps_phase && !wants_rotors {
+        return Err(lost().into());
+    }
+    if let Some(reason) = not_held_reason(restless_s, hover, tone_hz, &config.hover) {
+        return Err(silence(reason).into());
+    }
     let rotors =
         if wants_rotors { heard_rotors(passes, surveyed, hover, speed_rev_s, config)? } else { RotorTracks::default() };
     let rotors = rotors.unless_doubtful_beside(&lines.harmonic, config.tone.order);
+    if !keeps_phase && !rotors.are_told_apart() {
+        return Err(lost().into());
+    }
     let alternatives = candidates.alternatives(config);
     lines.warnings.extend(candidates.warnings(config));
     let spread_share = candidates.spread_share(config);
