@@ -270,6 +270,23 @@ fn more_rotors_than_those_of_a_quadrotor_are_found() {
 }
 
 #[test]
+fn faint_rotors_that_only_long_frames_hear_are_told_apart() {
+    let lines: Vec<(f64, f64)> = (1..=6).map(|k| (2.0 * f64::from(k), 0.6f64.powi(k - 1))).collect();
+    for (noise_std, seed) in [11.0, 14.0, 17.0].into_iter().zip(70..) {
+        let rotors = [133.0, 129.0, 125.0, 121.0].map(Motion::swinging);
+        let mut config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
+        config.rotors.is_count_known = false;
+        let heard = heard_with(&rotors, &Sound { lines: &lines, noise_std, ..SOUND }, config, seed);
+        let tone = heard.tone();
+        assert_eq!(tone.rotors.len(), 4, "noise {noise_std}");
+        for (index, found) in tone.rotors.iter().enumerate() {
+            let error = found.speed.speed.rev_s() / heard.true_mean_rev_s(index) - 1.0;
+            assert!(error.abs() < 1e-3, "noise {noise_std}: {error}");
+        }
+    }
+}
+
+#[test]
 fn rotors_in_loud_noise_say_how_little_is_known_of_them() {
     let (mut answered, mut apart, mut within) = (0, 0, 0);
     for (noise_std, seed) in [6.0, 9.0, 12.0, 20.0].into_iter().flat_map(|noise| (0..6).map(move |seed| (noise, seed)))
