@@ -124,7 +124,7 @@ impl Plan {
         let is_by_ridge = self.method_of_constant.is_some_and(|method| method != Method::Separated);
         let unknown = speeds.iter().map(|speed| speed.rotors_std_share()).sum::<f64>() / speeds.len().max(1) as f64;
         let unknown = if is_by_ridge || rotor_count == 1 { 0.0 } else { unknown.hypot(self.rotors_std_share) };
-        AcousticScale { loudest_std_share: if is_alike { unknown } else { loudest }, ..self.scale }
+        AcousticScale { loudest_std_share: if is_alike { unknown } else { loudest.max(unknown) }, ..self.scale }
     }
 }
 

@@ -57,14 +57,13 @@ impl Identified {
         check_tips_of(&experiment, &inputs)?;
         let has_rotors = inputs.iter().filter_map(|input| input.record.speed_by(Method::Separated)).any(is_separated);
         let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
-        let unresolved_std_share = unresolved_std_share(&experiment, &inputs);
         let tables = Method::ALL
             .into_iter()
             .filter(|&method| method != Method::Separated || has_rotors)
             .map(|method| {
                 let settings = ThrustSettings {
                     follows_loudest: method != Method::Separated,
-                    unresolved_std_share,
+                    unresolved_std_share: unresolved_std_share(&experiment, &inputs, method),
                     ..experiment.thrust_settings()
                 };
                 thrust_from_loads(&loads_of(&experiment, &inputs, method), method, &settings)
@@ -197,15 +196,14 @@ fn check_tips_of(experiment: &Experiment, inputs: &[InputRecord]) -> Result<(), 
     Ok(())
 }
 
-/// Standard deviation of the difference between the mean of all rotors and the mean of the separated rotors, as a share. It is the mean
-/// over all recordings, since the rotors are the same in each of them.
-fn unresolved_std_share(experiment: &Experiment, inputs: &[InputRecord]) -> f64 {
+/// Standard deviation of the difference between the mean of all rotors and the speed by a method, as a share. It is the mean over all
+/// recordings, since the rotors are the same in each of them.
+fn unresolved_std_share(experiment: &Experiment, inputs: &[InputRecord], method: Method) -> f64 {
     let running = |input: &InputRecord| {
         let load = experiment.loads.iter().find(|load| load.name == input.load);
         load.map_or(1, |load| load.rotors_running)
     };
-    let speeds =
-        inputs.iter().filter(|input| running(input) > 1).filter_map(|input| input.record.speed_by(Method::Separated));
+    let speeds = inputs.iter().filter(|input| running(input) > 1).filter_map(|input| input.record.speed_by(method));
     let shares: Vec<f64> = speeds.map(SpeedEstimate::rotors_std_share).collect();
     shares.iter().sum::<f64>() / shares.len().max(1) as f64
 }

@@ -69,8 +69,10 @@ impl Companions {
     /// Standard deviation of the speeds of all rotors about that of the heard one, as a share.
     ///
     /// All rotors lie within a distance of the heard one, evenly: `d / √3`. It is the distance from which on no other rotor turns, or that of a
-    /// found one, where this is larger: with the probability `1 / (1 + e^(n₀ − n))` for `n` nats, where `n₀` nats make both equally probable.
-    pub(crate) fn spread_share(&self, even_nats: f64) -> f64 {
+    /// found one, where this is larger: with the probability `1 / (1 + e^(n₀ − n))` for `n` nats. Where the number of rotors is known, others turn
+    /// somewhere, and `n₀` is 0. Else it is the logarithm of the number of places where a path may lie by chance.
+    pub(crate) fn spread_share(&self, is_count_known: bool) -> f64 {
+        let even_nats = if is_count_known { 0.0 } else { (2.0 * DISTANCE_MAX / STEP).ln() };
         let within = self.excluded_from;
         let square = self.found.map_or(within.powi(2), |Companion { nats, distance }| {
             let probability = 1.0 / (1.0 + (even_nats - nats).exp());
@@ -189,14 +191,14 @@ mod tests {
     #[test]
     fn only_rotors_that_would_be_heard_are_excluded() {
         let spread_share =
-            |harmonics: u32, speeds_rev_s: &[f64]| companions(harmonics, speeds_rev_s).spread_share(13.8);
+            |harmonics: u32, speeds_rev_s: &[f64]| companions(harmonics, speeds_rev_s).spread_share(false);
         assert!(spread_share(12, &[90.0]) < 0.01, "{}", spread_share(12, &[90.0]));
         // one harmonic tells little
         assert!(spread_share(1, &[90.0]) > 0.06, "{}", spread_share(1, &[90.0]));
         // 6.5 % apart, over √3
         let apart = spread_share(12, &[90.0, 96.0]);
         assert!((apart - 0.0373).abs() < 0.002, "{apart}");
-        assert!((Companions::UNHEARD.spread_share(0.0) - 0.0635).abs() < 1e-3);
+        assert!((Companions::UNHEARD.spread_share(true) - 0.0635).abs() < 1e-3);
     }
 
     #[test]

@@ -41,11 +41,6 @@ impl Default for EvidenceConfig {
 }
 
 impl EvidenceConfig {
-    /// The evidence in nats at which another rotor of the vehicle is as probable as none: the smallest that decides, less the odds of a decision.
-    pub(crate) fn even_companion_nats(&self) -> f64 {
-        self.companion_nats_min - (self.belief_min / (1.0 - self.belief_min)).ln()
-    }
-
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
         check_range("votes_nats_min", self.votes_nats_min, 0.0, 100.0)?;
         check_range("levels_nats_min", self.levels_nats_min, 0.0, 100.0)?;

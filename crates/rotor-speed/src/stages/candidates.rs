@@ -99,10 +99,9 @@ impl Candidates {
     }
 
     /// Standard deviation of the speeds of the rotors for which one line stands, as a share: by what is heard beside it, and at least that of
-    /// the settings. That a known number of rotors turn beside it is no less probable than that they do not.
+    /// the settings.
     pub(crate) fn spread_share(&self, config: &Config) -> f64 {
-        let even_nats = if config.rotors.is_count_known { 0.0 } else { config.evidence.even_companion_nats() };
-        let heard = self.companions.map_or(0.0, |companions| companions.spread_share(even_nats));
+        let heard = self.companions.map_or(0.0, |companions| companions.spread_share(config.rotors.is_count_known));
         heard.max(config.budget.rotor_spread_share)
     }
 

@@ -287,11 +287,9 @@ fn of_speeds(campaign: &Campaign<'_>, sensitivity: &Sensitivity, settings: &Thru
         ..line(input, "rad/s", rad_s, contribution / per_rad_s.abs(), per_rad_s)
     };
     let clock_std_rad_s = rad_s * settings.clock_ppm / 1e6 / 3f64.sqrt();
-    let loudest = if settings.follows_loudest {
-        loudest_std_share(campaign, &settings.uncertainty)
-    } else {
-        settings.unresolved_std_share
-    };
+    // the sound may tell that the rotors differ by more than it is assumed where nothing is known
+    let assumed = if settings.follows_loudest { loudest_std_share(campaign, &settings.uncertainty) } else { 0.0 };
+    let loudest = settings.unresolved_std_share.max(assumed);
     let several = |load: &HeardLoad<'_>| if load.load.rotors_running > 1 { 1.0 } else { 0.0 };
     vec![
         speed(BudgetInput::SpeedStatistics, statistics),

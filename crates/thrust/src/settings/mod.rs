@@ -20,8 +20,8 @@ pub struct ThrustSettings {
     pub clock_ppm: f64,
     /// Whether the speeds come from a single ridge, which follows the loudest rotor.
     pub follows_loudest: bool,
-    /// Without a single ridge: standard deviation of the difference between the speed and the mean of all rotors, as a share.
-    /// It is above 0 where not all rotors were separated.
+    /// Standard deviation of the difference between the speed and the mean of all rotors, as a share, by what is heard. It is above 0 where
+    /// not all rotors were separated.
     pub unresolved_std_share: f64,
     /// Whether this vehicle was weighed. The mass of a preset or of a model belongs to another specimen.
     pub is_weighed: bool,
