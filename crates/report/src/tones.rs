@@ -7,7 +7,7 @@ use crate::recording::{Found, RecordingFacts, SpeedRecord};
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
-use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
+use hovertone_analysis::{Meaning, Reading, Remark, SeenHarmonic, SpeedEstimate, ToneFamily};
 use hovertone_vehicle::{Gear, Order};
 use serde::Serialize;
 use serde_json::Value;
@@ -73,9 +73,7 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
     let verdict = match (rotor, remark) {
         (Some(_), Some(Remark::SingleLine)) => "one tone: of a rotor, or of something else".to_owned(),
         (Some(_), _) if record.is_ambiguous() => "a rotor; the sound does not tell its speed".to_owned(),
-        (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| {
-            format!("a rotor at {} rev/s", significant(heard.speed.rev_s(), DIGITS))
-        }),
+        (Some(_), _) => record.speed().map_or("a rotor".to_owned(), |heard| heard_in_words(record, heard)),
         (None, _) if found.families.is_empty() => "no rotor tone, and no other tone".to_owned(),
         (None, _) => "no rotor tone".to_owned(),
     };
@@ -99,6 +97,15 @@ pub fn tones_text(record: &SpeedRecord, width: Option<usize>) -> String {
         text += &format!("\n{}\n{readings}", kind_and_place(kind, family));
     }
     text
+}
+
+/// "a rotor at 83.14 rev/s", or several with their mean.
+fn heard_in_words(record: &SpeedRecord, heard: &SpeedEstimate) -> String {
+    let rev_s = significant(heard.speed.rev_s(), DIGITS);
+    match record.tone().map_or(&[][..], |tone| &tone.rotors) {
+        [] | [_] => format!("a rotor at {rev_s} rev/s"),
+        several => format!("{} rotors at {rev_s} rev/s on average; the tone of the loudest is listed", several.len()),
+    }
 }
 
 /// A tone that moves by more (standard deviation) has no single frequency.

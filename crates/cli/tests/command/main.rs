@@ -61,5 +61,6 @@ mod start;
 mod testkit;
 mod thrust;
 mod tones;
+mod unseparated;
 mod usage;
 mod verify;

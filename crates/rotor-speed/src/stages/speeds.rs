@@ -51,8 +51,8 @@ pub(crate) fn speeds_from_decision(
     warnings.extend(warning_of_samples(&samples));
     let rotors = rotor_tracks.rotors(order, &config.budget);
     if is_of_all {
-        // the result is the mean of all rotors, and does not follow the loudest
-        warnings.retain(|warning| !matches!(warning, Warning::SeveralLines { .. }));
+        // the result is the mean of all rotors: it follows neither the loudest nor any harmonic of all together
+        warnings.retain(|warning| !matches!(warning, Warning::SeveralLines { .. } | Warning::HarmonicLeftOut { .. }));
     }
     let wants_rotors = config.methods().any(|method| method == Method::Separated);
     warnings.extend(warning_of_rotors(
