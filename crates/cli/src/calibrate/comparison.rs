@@ -82,6 +82,12 @@ impl Comparison {
         self.check.relation == Relation::Agrees
     }
 
+    /// Whether the known number has more of the ± than the heard one.
+    fn is_known_the_less_exact(&self) -> bool {
+        let (Reference::Speed { std_share, .. } | Reference::Tone { std_share, .. }) = self.reference;
+        std_share >= self.heard.std_rev_s.unwrap_or(0.0) / self.heard.speed.rev_s()
+    }
+
     /// The band around the tone that the known speed and the given order mean.
     fn band(&self) -> String {
         let tone_hz = self.heard.speed.tone_hz(self.heard.order) / self.check.heard_over_known;
@@ -135,7 +141,8 @@ pub(super) fn in_words(name: &str, comparison: &Comparison, arguments: &Calibrat
     let order = if comparison.heard.is_rotor { format!(", order {}", comparison.heard.order) } else { String::new() };
     let mut text = format!("{}: known {known}, heard {heard} (± is k = 2){order}\n", printable(name));
     text += &order_in_words(comparison, arguments);
-    if comparison.check.relation != Relation::None && comparison.slip(arguments).is_none() {
+    // of a speed that may be another one, no clock is told
+    if comparison.agrees() {
         text += &clock_in_words(comparison, arguments);
     }
     text + &result_in_words(comparison, arguments.clock_ppm)
@@ -187,7 +194,7 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
             format!("order: fail. The heard {what} is {ratio} times the known {what}. {slip}\n")
         }
         Relation::OtherOrder(fitting) if *is_rotor => {
-            format!("order: fail. The heard {what} is {ratio} times the known {what}")
+            format!("order: fail. The heard {what} is {ratio} times the known {what}. One of these is wrong:\n")
                 + &other_order_in_words(comparison, fitting, arguments)
         }
         _ if !is_rotor => format!(
@@ -196,14 +203,22 @@ fn order_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         ),
         _ => format!(
             "order: fail. The heard {what} is {ratio} times the known {what}. No other order of the tone gives this ratio, and no clock is off by \
-             more than {CLOCK_PERCENT_MAX} %. Was another rotor heard? Was the file resampled or slowed down?\n"
+             more than {CLOCK_PERCENT_MAX} %. Check the known {what}: was it read during this recording, and to the last digit? If it is right, \
+             another rotor was heard, or the file was resampled or slowed down.\n"
         ),
     }
 }
 
-/// What to give where another order fits.
+/// What may be wrong where another order fits, and what to give then: one line each.
 fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &CalibrateArguments) -> String {
     let order = comparison.heard.order;
+    let known = match comparison.reference {
+        Reference::Speed { rpm, .. } => format!(
+            "  the known speed: a tachometer that sees each blade reads a multiple. Then give --tachometer-rpm {}\n",
+            to_tenths(rpm * fitting.lines_per_turn() / order.lines_per_turn())
+        ),
+        Reference::Tone { .. } => "  the known frequency: it may be that of another harmonic\n".to_owned(),
+    };
     let without_vehicle = if arguments.tone.vehicle.is_some() { "leave --vehicle out and " } else { "" };
     let as_blades = if fitting.lines_per_turn() <= BLADES_MAX && fitting.lines_per_turn().fract() == 0.0 {
         format!(" (for a blade pass --blades {fitting})")
@@ -211,8 +226,8 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
         String::new()
     };
     format!(
-        ", as if the order were {fitting} and not {order}. If {fitting} is right, {without_vehicle}give --order {fitting}{as_blades}, or in an \
-         experiment file [tone] order = {fitting}. If {order} is right, its tone lies in --band {}\n",
+        "{known}  the order, {order}: it may be {fitting}. Then {without_vehicle}give --order {fitting}{as_blades}, or in an experiment file \
+         [tone] order = {fitting}\n  the tone that was heard: that of the known one lies in --band {}\n",
         comparison.band()
     )
 }
@@ -241,21 +256,16 @@ fn clock_in_words(comparison: &Comparison, arguments: &CalibrateArguments) -> St
         format!("it is off by {off}")
     };
     let advice = match judgement {
-        Judgement::Undecided if check.expanded_ppm() >= arguments.clock_ppm => {
-            "; the ± is too wide for this limit: record longer, measure the speed more exactly, or raise --clock-ppm"
+        Judgement::Undecided if comparison.is_known_the_less_exact() => {
+            "; the ± comes from the known number: measure it more exactly (--known-std-ppm says how exact it is)"
         }
-        Judgement::Undecided => "; the limit lies within the ±: record longer, or measure the speed more exactly",
+        Judgement::Undecided => "; the ± comes from the sound: record longer",
         _ => "",
     };
     let verdict = word(judgement);
     let limit_ppm = arguments.clock_ppm;
-    let condition = match check.relation {
-        Relation::OtherOrder(fitting) if comparison.heard.is_rotor => format!(", if the order is {fitting}"),
-        _ => String::new(),
-    };
-    let mut text = format!(
-        "clock{condition}: {verdict}, {off} (millionths, k = 2); the limit is {limit_ppm} ppm (--clock-ppm){advice}\n"
-    );
+    let mut text =
+        format!("clock: {verdict}, {off} (millionths, k = 2); the limit is {limit_ppm} ppm (--clock-ppm){advice}\n");
     let whole_ppm = comparison.whole_correction_ppm(before_ppm);
     text += &if check.is_significant() && whole_ppm.abs() > CLOCK_CORRECTION_PPM_MAX {
         format!(
