@@ -157,6 +157,7 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
     let mass_std_kg = arguments.mass_std_kg.unwrap_or(MASS_STD_KG);
     let mut config = Config::for_tone(tone_to_hear(arguments, results)?);
     config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
+    config.known = known_of(arguments, results, rotor_count)?;
     let method_of_constant = results
         .and_then(|rotor| rotor.method.as_deref())
         .and_then(|name| Method::ALL.into_iter().find(|method| method.name() == name));
@@ -174,6 +175,23 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
     scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
     Ok(Plan { scale, config, method_of_constant, rotors_std_share })
+}
+
+/// What is known of the rotors. The mass is that without the payload: C_T has a wider range than a payload makes.
+fn known_of(
+    arguments: &WeighArguments,
+    results: Option<&IdentifiedRotor>,
+    rotor_count: Option<u32>,
+) -> Result<KnownRotor, Failure> {
+    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    let of_vehicle = vehicle.map(KnownRotor::of_vehicle).unwrap_or_default();
+    let flown = vehicle_of(results);
+    Ok(KnownRotor {
+        mass_kg: arguments.mass_kg.or_else(|| flown?.mass_kg).or(of_vehicle.mass_kg),
+        diameter_m: flown.and_then(|rotor| rotor.propeller_diameter_m).or(of_vehicle.diameter_m),
+        rotor_count: rotor_count.or(of_vehicle.rotor_count),
+        ..of_vehicle
+    })
 }
 
 /// Number of rotors of the weighed vehicle. The constant of a single rotor on a stand does not contain it. All rotors of a vehicle carry it

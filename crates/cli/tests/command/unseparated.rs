@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// A hover in a room, with rotors that are 7 % slower or faster than their mean. Its mass is 0.429 kg.
+/// A hover of an AR.Drone 2.0 (0.429 kg) in a room, with rotors that are 7 % slower or faster than their mean.
 const FLIGHT: &str = r#"
 seed = 32
 [vehicle]
@@ -31,9 +31,9 @@ kind = "hover"
 duration_s = 10.0
 "#;
 
-fn flown(folder: &Path) -> PathBuf {
+fn flown(folder: &Path, flight: &str) -> PathBuf {
     let scenario = folder.join("scenario.toml");
-    fs::write(&scenario, FLIGHT).unwrap();
+    fs::write(&scenario, flight).unwrap();
     let output = folder.join("flown");
     hovertone(&["simulate", text(&scenario), "-o", text(&output)]).ends_with(0);
     output.join("sound.wav")
@@ -42,7 +42,7 @@ fn flown(folder: &Path) -> PathBuf {
 #[test]
 fn the_constant_has_the_uncertainty_of_the_speed_of_all_rotors() {
     let folder = tempfile::tempdir().unwrap();
-    let sound = flown(folder.path());
+    let sound = flown(folder.path(), FLIGHT);
     let vehicle = ["--vehicle", "ardrone2"];
     let line = &hovertone(&[&["speed", "--json", text(&sound)], &vehicle[..]].concat()).ends_with(0).json_lines()[0];
     assert_eq!(line["rotors_heard"], "one_tone");
@@ -64,4 +64,16 @@ fn the_constant_has_the_uncertainty_of_the_speed_of_all_rotors() {
     let (mass_kg, std_kg) = (of(&weighed["mass_kg"]["value"]), of(&weighed["mass_kg"]["std_uncertainty"]));
     assert!(std_kg / mass_kg > 0.99 * 2.0 * speed_share, "{mass_kg} ± {std_kg} kg");
     assert!((mass_kg - 0.429).abs() < 2.0 * std_kg, "{mass_kg} ± {std_kg} kg");
+}
+
+/// Of a vehicle that is known, mass and diameter tell the octave, also where its payload is asked for.
+#[test]
+fn a_payload_is_weighed_by_all_that_is_known_of_the_vehicle() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = flown(folder.path(), &FLIGHT.replace("ardrone2", "crazyflie").replace("seed = 32", "seed = 24"));
+    let by_constant = ["--constant-n-s2", "9.168e-8", "--constant-std-n-s2", "1e-12"];
+    let weigh = [&["weigh", "--json", text(&sound), "--vehicle", "crazyflie"], &by_constant[..]].concat();
+    let weighed: Value = serde_json::from_str(&hovertone(&weigh).ends_with(0).stdout).unwrap();
+    let of = |name: &str| weighed["mass_kg"][name].as_f64().unwrap();
+    assert!((of("value") - 0.027).abs() < 2.0 * of("std_uncertainty"), "{weighed}");
 }
