@@ -82,9 +82,9 @@ fn a_person_decides_for_one_of_two_octaves() {
 
     // the same of the microphone, by the same blades
     click(&mut browser, LISTEN);
-    let live = format!("{CHOICES}.find((each) => each.innerText.match(/(179|180)[.]/))");
+    let live = format!("{CHOICES}.find((each) => each.innerText.match(/(179|180)\\b/))");
     browser.wait_for(&live, PATIENCE);
     browser.value(&format!("{live}.click()"));
-    browser.wait_for("document.querySelector('.now.ok strong')?.innerText.match(/^(179|180)[.]/)", PATIENCE);
+    browser.wait_for("document.querySelector('.now.ok strong')?.innerText.match(/^(179|180)\\b/)", PATIENCE);
     stayed_at_home(&browser, &served);
 }
