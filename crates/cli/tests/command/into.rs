@@ -2,7 +2,7 @@
 
 use crate::testkit::{Run, hovertone, refused_with, text};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const IRIS: &str = "<?xml version=\"1.0\" ?>\n<!-- my model, from PX4 -->\n<sdf version='1.6'>\n  <model name='iris'>\n    \
@@ -48,13 +48,19 @@ fn facts_that_a_format_does_not_hold_are_named() {
     }
 }
 
+/// The model with its torque constant, and without.
+fn models_with_and_without_torque(folder: &Path) -> (PathBuf, PathBuf) {
+    let (model, bare) = (folder.join("iris.sdf"), folder.join("bare.sdf"));
+    fs::write(&model, IRIS).unwrap();
+    fs::write(&bare, IRIS.replace("<momentConstant>0.06</momentConstant>", "")).unwrap();
+    (model, bare)
+}
+
 #[test]
 fn facts_that_a_model_does_not_hold_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let results = write_results(folder.path());
-    let (model, bare) = (folder.path().join("iris.sdf"), folder.path().join("bare.sdf"));
-    fs::write(&model, IRIS).unwrap();
-    fs::write(&bare, IRIS.replace("<momentConstant>0.06</momentConstant>", "")).unwrap();
+    let (model, bare) = models_with_and_without_torque(folder.path());
     for (model, flag, value, is_used) in [
         (&model, "--torque-constant-n-m-s2", "1e-8", true),
         (&bare, "--torque-constant-n-m-s2", "1e-8", false),
@@ -74,9 +80,7 @@ fn facts_that_a_model_does_not_hold_are_named() {
 fn a_number_that_a_model_has_already_is_said_to_be_there() {
     let folder = tempfile::tempdir().unwrap();
     let results = write_results(folder.path());
-    let (model, bare) = (folder.path().join("iris.sdf"), folder.path().join("bare.sdf"));
-    fs::write(&model, IRIS).unwrap();
-    fs::write(&bare, IRIS.replace("<momentConstant>0.06</momentConstant>", "")).unwrap();
+    let (model, bare) = models_with_and_without_torque(folder.path());
     let torque = ["--torque-constant-n-m-s2", "1e-8"];
     let (there, absent) = ("this model has the same number already", "this model has no such number");
     let first = export(&results, &[&["--into", text(&model)], &torque[..]].concat()).ends_with(0);
