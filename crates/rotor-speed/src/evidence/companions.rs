@@ -1,4 +1,4 @@
-//! Other rotors of the same vehicle, beside one or several that are heard.
+//! Other rotors of the same vehicle, beside one that is heard.
 
 use super::excess::{Excess, Looks};
 use super::own_lines::{OwnPropeller, is_apart, loudness_db, own_lines_nats};
@@ -7,8 +7,7 @@ use super::rotor_lines::RotorLines;
 use super::second_look::path_in_long_frames;
 use super::settings::EvidenceConfig;
 use super::votes::{HARMONICS, VoteTable};
-use hovertone_signal::statistics::{mean, median};
-use std::ops::Range;
+use hovertone_signal::statistics::mean;
 
 /// Largest distance of a rotor of the same vehicle, as a logarithm of the speed. *Decision.*
 const DISTANCE_MAX: f64 = 0.15;
@@ -30,12 +29,12 @@ pub(crate) struct Companions {
     excluded_from: f64,
 }
 
-/// A path beside those of the rotors that are heard.
+/// A path beside that of the rotor that is heard.
 #[derive(Clone, Copy, Debug)]
 struct Companion {
     /// Evidence in nats that a rotor turns there.
     nats: f64,
-    /// Its mean distance from the middle of the heard rotors, as a logarithm of the speed.
+    /// Its mean distance from the heard rotor, as a logarithm of the speed.
     distance: f64,
 }
 
@@ -56,7 +55,7 @@ impl Companions {
     ) -> Option<Self> {
         let table = VoteTable::of(&RotorLines::of_blades(propeller.blades));
         let heard_rev_s = path_in_long_frames(looks, speeds_rev_s, &table)?;
-        let found = companion(&looks.long, std::slice::from_ref(&heard_rev_s), propeller);
+        let found = companion(&looks.long, &heard_rev_s, propeller);
         let nats_min = found.map_or(0.0, |found| found.nats.max(0.0)) + config.levels_nats_min;
         Some(Self { found, excluded_from: excluded_from(&looks.long, &heard_rev_s, propeller, nats_min) })
     }
@@ -95,63 +94,37 @@ fn excluded_from(long: &Excess, heard_rev_s: &[f64], propeller: &OwnPropeller<'_
     steps.map(|step| STEP * f64::from(step)).find(|&distance| is_heard(distance)).unwrap_or(HALF_RANGE_MAX)
 }
 
-/// The evidence in nats for another rotor beside all that are heard: that of the path with the most votes from blade passes which stand apart
-/// from all lines of the heard rotors. Between two of them, and beyond the outermost ones, each has a path. `None` where there is none.
+/// The path beside the heard rotor whose lines stand out most: of those slower and those faster, the one with the most votes from blade passes
+/// that stand apart from all lines of the heard rotor. `None` where there is none.
 ///
-/// - `heard_rev_s`: speed of each heard rotor in each long frame.
-pub(crate) fn nats_beside(long: &Excess, heard_rev_s: &[Vec<f64>], propeller: &OwnPropeller<'_>) -> Option<f64> {
-    companion(long, heard_rev_s, propeller).map(|found| found.nats)
-}
-
-/// The path beside all heard rotors whose lines stand out most.
-fn companion(long: &Excess, heard_rev_s: &[Vec<f64>], propeller: &OwnPropeller<'_>) -> Option<Companion> {
+/// - `heard_rev_s`: speed of the heard rotor in each long frame.
+fn companion(long: &Excess, heard_rev_s: &[f64], propeller: &OwnPropeller<'_>) -> Option<Companion> {
     let table = VoteTable::of(&RotorLines::of_blades(propeller.blades));
-    let speeds_in = |frame: usize| -> Vec<f64> { heard_rev_s.iter().map(|speeds| speeds[frame]).collect() };
-    let middles_rev_s: Vec<f64> = (0..long.frames.len()).map(|frame| mean(&speeds_in(frame))).collect::<Option<_>>()?;
-    let steps = (DISTANCE_MAX / STEP) as i32;
-    let ratios: Vec<f64> = (-steps..=steps).map(|step| (STEP * f64::from(step)).exp()).collect();
-    let vote_in = |frame: usize, speed_rev_s: f64, others_rev_s: &[f64]| -> f32 {
+    let (far, near) = ((DISTANCE_MAX / STEP) as i32, (DISTANCE_MIN / STEP) as i32);
+    let vote_in = |frame: usize, speed_rev_s: f64| -> f32 {
         let vote = |harmonic: u32| {
             let order = harmonic * propeller.blades;
             let hz = f64::from(order) * speed_rev_s;
-            let is_own = || others_rev_s.iter().all(|&other_rev_s| is_apart(long, hz, other_rev_s));
+            let is_own = || is_apart(long, hz, heard_rev_s[frame]);
             let level = long.frames[frame].level_near(hz, long.bin_hz).filter(|_| is_own());
             level.map_or(0.0, |level| table.vote(order, level))
         };
         (1..=HARMONICS).map(vote).sum()
     };
-    let votes_in = |(frame, middle_rev_s): (usize, &f64)| -> Vec<f32> {
-        let others_rev_s = speeds_in(frame);
-        ratios.iter().map(|ratio| vote_in(frame, ratio * middle_rev_s, &others_rev_s)).collect()
-    };
-    let votes: Vec<Vec<f32>> = middles_rev_s.iter().enumerate().map(votes_in).collect();
-    let others: Vec<&[f64]> = heard_rev_s.iter().map(Vec::as_slice).collect();
-    let loudest_db =
-        others.iter().filter_map(|speeds| loudness_db(long, speeds, propeller.blades)).max_by(f64::total_cmp)?;
-    let found = gaps_between(heard_rev_s, &middles_rev_s, ratios.len()).into_iter().filter_map(|gap| {
-        let path = best_path(&votes, gap, &long.hops(), STEP);
-        let speeds_rev_s: Vec<f64> =
-            path.iter().zip(&middles_rev_s).map(|(&point, middle_rev_s)| ratios[point] * middle_rev_s).collect();
-        let logs: Vec<f64> = path.iter().map(|&point| ratios[point].ln()).collect();
-        let nats = own_lines_nats(long, &speeds_rev_s, &others, loudest_db, propeller)?;
-        Some(Companion { nats, distance: mean(&logs)?.abs() })
+    let loudest_db = loudness_db(long, heard_rev_s, propeller.blades)?;
+    let found = [-far..-near, near + 1..far + 1].into_iter().filter_map(|steps| {
+        let logs: Vec<f64> = steps.map(|step| STEP * f64::from(step)).collect();
+        let votes_in = |(frame, heard_rev_s): (usize, &f64)| -> Vec<f32> {
+            logs.iter().map(|log| vote_in(frame, heard_rev_s * log.exp())).collect()
+        };
+        let votes: Vec<Vec<f32>> = heard_rev_s.iter().enumerate().map(votes_in).collect();
+        let path = best_path(&votes, 0..logs.len(), &long.hops(), STEP);
+        let distances: Vec<f64> = path.into_iter().map(|point| logs[point]).collect();
+        let speeds = heard_rev_s.iter().zip(&distances).map(|(heard_rev_s, distance)| heard_rev_s * distance.exp());
+        let nats = own_lines_nats(long, &speeds.collect::<Vec<f64>>(), &[heard_rev_s], loudest_db, propeller)?;
+        Some(Companion { nats, distance: mean(&distances)?.abs() })
     });
     found.max_by(|a, b| a.nats.total_cmp(&b.nats))
-}
-
-/// The ranges of a grid of `len` ratios to the middle speeds in which no heard rotor turns.
-fn gaps_between(heard_rev_s: &[Vec<f64>], middles_rev_s: &[f64], len: usize) -> Vec<Range<usize>> {
-    let beside = (DISTANCE_MIN / STEP) as isize;
-    let place = |speeds_rev_s: &Vec<f64>| {
-        let ratios: Vec<f64> = speeds_rev_s.iter().zip(middles_rev_s).map(|(speed, middle)| speed / middle).collect();
-        let steps = (median(&ratios)?.ln() / STEP).round() as isize;
-        Some((len / 2).saturating_add_signed(steps))
-    };
-    let mut places: Vec<usize> = heard_rev_s.iter().filter_map(place).collect();
-    places.sort_unstable();
-    let starts = std::iter::once(0).chain(places.iter().map(|place| place.saturating_add_signed(beside + 1)));
-    let ends = places.iter().map(|place| place.saturating_add_signed(-beside)).chain([len]);
-    starts.zip(ends).map(|(start, end)| start..end.min(len)).filter(|gap| gap.start < gap.end).collect()
 }
 
 #[cfg(test)]
@@ -160,11 +133,7 @@ mod tests {
     use crate::evidence::level_table::level_of;
     use hovertone_vehicle::LineLevels;
 
-    /// Two seconds of noise to 9 kHz, with lines of 20 dB at twelve harmonics of the blade pass of each rotor.
-    fn rotors(speeds_rev_s: &[f64], bin_hz: f64, hop_s: f64) -> Excess {
-        rotors_with(12, speeds_rev_s, bin_hz, hop_s)
-    }
-
+    /// Two seconds of noise to 9 kHz, with lines of 20 dB at some harmonics of the blade pass of each rotor.
     fn rotors_with(harmonics: u32, speeds_rev_s: &[f64], bin_hz: f64, hop_s: f64) -> Excess {
         let mut levels = vec![level_of(0.8); (9000.0 / bin_hz) as usize];
         for speed_rev_s in speeds_rev_s {
@@ -199,22 +168,6 @@ mod tests {
         let apart = spread_share(12, &[90.0, 96.0]);
         assert!((apart - 0.0373).abs() < 0.002, "{apart}");
         assert!((Companions::UNHEARD.spread_share(true) - 0.0635).abs() < 1e-3);
-    }
-
-    #[test]
-    fn a_rotor_beside_several_has_lines_of_its_own() {
-        let nats = |sounding: &[f64], heard: &[f64]| {
-            let long = rotors(sounding, 0.625, 0.1);
-            let heard: Vec<Vec<f64>> = heard.iter().map(|&speed_rev_s| vec![speed_rev_s; long.frames.len()]).collect();
-            let propeller = OwnPropeller { blades: 2, prior: &LineLevels::default() };
-            nats_beside(&long, &heard, &propeller)
-        };
-        let four = [86.0, 88.0, 90.5, 93.0];
-        let five = [86.0, 88.0, 90.5, 93.0, 96.0];
-        let between = [86.0, 88.0, 89.2, 90.5, 93.0];
-        assert!(nats(&five, &four).is_some_and(|nats| nats > 18.4), "{:?}", nats(&five, &four));
-        assert!(nats(&between, &four).is_some_and(|nats| nats > 0.0), "{:?}", nats(&between, &four));
-        assert!(nats(&four, &four).is_none_or(|nats| nats < 0.0), "{:?}", nats(&four, &four));
     }
 
     #[test]

@@ -4,8 +4,8 @@ use super::RoughChunk;
 use super::atoms::ChannelAtoms;
 use super::grid::OffsetGrid;
 use super::hearing::{
-    ALWAYS_CLOSE_SEARCH, Apart, CLOSE_SEARCH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, Hearing, MARGIN_SHARE,
-    OWN_FRAME_HZ_S2,
+    ALWAYS_CLOSE_SEARCH, Apart, CLOSE_SEARCH, COMMON_SEARCH, COMMON_SEARCH_OF_CLOSE, HEARD_MARGIN, Hearing,
+    MARGIN_SHARE, OWN_FRAME_HZ_S2,
 };
 use super::identity::TrackFrame;
 use super::line_weights::line_weights;
@@ -41,10 +41,6 @@ const CLOSE_SHARE: f64 = 0.3;
 /// Share of the frames in which two searches are better than one: of rotors 0.1 % apart all four are right in 0.946 of the frames of 20 clips, and in
 /// 0.938 by one. That is not so 0.3 % apart. *Decision.*
 const ALWAYS_CLOSE_SHARE: f64 = 0.8;
-/// A rotor's lines must be worth this much more than the best of what is left when all rotors have been taken away: a path drawn through
-/// noise alone follows its maxima. *Decision.*
-const HEARD_MARGIN: f64 = 3.0;
-
 /// What was heard of one rotor.
 pub(super) struct HeardRotor {
     pub(super) line_count: usize,
@@ -61,6 +57,8 @@ pub(super) struct HeardRotor {
     pub(super) faint_share: f64,
     /// Share of the frames in which two rotors are close to each other, where that is often so.
     pub(super) close_share: f64,
+    /// Share of the frames in which one more rotor is heard in what all of them leave.
+    pub(super) another_share: f64,
     /// How much of their phase its lines keep from frame to frame.
     pub(super) phase_kept: Option<f64>,
 }
@@ -167,15 +165,10 @@ pub(super) fn rotors_of_chunk(
     let close_share =
         Some(share_close(&apart.tracks(), close_rev_s)).filter(|&share| share > CLOSE_SHARE).unwrap_or(0.0);
     let Apart { paths, rotors, .. } = apart;
-    let nulls: Vec<f64> = left
-        .scores
-        .iter()
-        .enumerate()
-        .map(|(frame, left)| {
-            let ghost = rotors.iter().map(|rotor| rotor.ghost_worths[frame]).fold(0.0, f64::max);
-            left.iter().copied().fold(ghost, f64::max) + HEARD_MARGIN
-        })
-        .collect();
+    let ghosts: Vec<f64> = (0..left.scores.len()).map(|frame| worth_of_ghost(&rotors, frame)).collect();
+    let best_left = |(scores, ghost): (&Vec<f64>, &f64)| scores.iter().copied().fold(*ghost, f64::max) + HEARD_MARGIN;
+    let nulls: Vec<f64> = left.scores.iter().zip(&ghosts).map(best_left).collect();
+    let another_share = hearing.another_share(&left, &ghosts);
     paths
         .into_iter()
         .zip(rotors)
@@ -199,8 +192,14 @@ pub(super) fn rotors_of_chunk(
                 are_heard,
                 faint_share,
                 close_share,
+                another_share,
                 phase_kept,
             }
         })
         .collect()
+}
+
+/// What may be left of the loudest rotor in a frame.
+fn worth_of_ghost(rotors: &[SeparatedRotor], frame: usize) -> f64 {
+    rotors.iter().map(|rotor| rotor.ghost_worths[frame]).fold(0.0, f64::max)
 }

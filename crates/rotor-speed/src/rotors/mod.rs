@@ -108,6 +108,8 @@ pub(crate) struct RotorTracks {
     pub(crate) faint_s: f64,
     /// For how long rotors were close to each other, where they often were: then some of them may be the beats of others.
     pub(crate) close_s: f64,
+    /// For how long one more rotor was heard in what all of them leave.
+    pub(crate) another_s: f64,
     /// For how long they all sped up and slowed down together, by some percent in some tenths of a second.
     pub(crate) bobbing_s: f64,
     /// Whether too few of them are told apart to say of any what it does by itself: then they have a mean.
@@ -292,6 +294,7 @@ impl ChunkListener for RotorTracer {
         self.tracks.bobbing_s += if rough.pace == Pace::Bobbing { length_s } else { 0.0 };
         self.tracks.faint_s += heard.iter().map(|rotor| rotor.faint_share).fold(0.0, f64::max) * length_s;
         self.tracks.close_s += heard.first().map_or(0.0, |rotor| rotor.close_share) * length_s;
+        self.tracks.another_s += heard.first().map_or(0.0, |rotor| rotor.another_share) * length_s;
         let phases_kept: Vec<f64> = heard.iter().filter_map(|rotor| rotor.phase_kept).collect();
         // frames as short as rotors that bob ask for make all lines wide
         let are_wide = rough.pace == Pace::Bobbing || median(&phases_kept).is_some_and(|kept| kept < PHASE_KEPT_MIN);

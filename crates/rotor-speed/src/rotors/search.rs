@@ -119,6 +119,20 @@ pub(super) fn reclaimed_tracks(
     tracks
 }
 
+/// In each frame, what speaks for one more rotor on the best path through `rest_scores`, which all rotors together leave, beyond what noise has
+/// there and beyond `ghosts`, what may be left of one of them.
+pub(super) fn worths_of_another(
+    rest_scores: &[Vec<f64>],
+    ghosts: &[f64],
+    grid: &OffsetGrid,
+    middle_rev_s: f64,
+) -> Vec<f64> {
+    let path = best_path(rest_scores, step_std(grid, middle_rev_s));
+    let worth =
+        |((place, scores), ghost): ((usize, &Vec<f64>), &f64)| scores[place] - worth_of_nothing(scores).max(*ghost);
+    path.into_iter().zip(rest_scores).zip(ghosts).map(worth).collect()
+}
+
 /// What the best point of a frame is worth where there is nothing but noise, as its other points tell.
 fn worth_of_nothing(scores: &[f64]) -> f64 {
     let middle = median(scores).unwrap_or_default();

@@ -60,6 +60,11 @@ impl RotorTracks {
         !self.are_one_group && self.resolved(None).count() >= 2
     }
 
+    /// Whether another rotor is heard beside all of these most of the time, where each of them has a track.
+    pub(crate) fn leave_another(&self) -> bool {
+        self.heard_count() == self.rotors.len() && self.another_s > RESOLVED_SHARE_MIN * self.length_s
+    }
+
     /// Longest time between points of a track.
     pub(crate) fn step_s(&self) -> f64 {
         self.rotors.iter().map(|rotor| rotor.track.step_s).fold(0.0, f64::max)

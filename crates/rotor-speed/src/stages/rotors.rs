@@ -3,7 +3,7 @@
 use super::Surveyed;
 use crate::config::Config;
 use crate::error::Error;
-use crate::evidence::{Excess, OwnPropeller, loudness_db, nats_beside, own_lines_nats};
+use crate::evidence::{Excess, OwnPropeller, loudness_db, own_lines_nats};
 use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
 use crate::tone::{blades_of_tone, lines_between_speeds, lines_worth_hearing};
 use hovertone_analysis::Hover;
@@ -24,7 +24,7 @@ pub(super) fn heard_rotors(
         Ok(without_unheard(rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?, surveyed, hover, config))
     };
     let few = separated(passes, config)?;
-    if config.rotors.is_count_known || !others_sound_beside(&few, surveyed, hover, config) {
+    if config.rotors.is_count_known || !few.leave_another() {
         return Ok(few);
     }
     passes.expect_more(2);
@@ -34,16 +34,6 @@ pub(super) fn heard_rotors(
     let most = if many.heard_count() > few_count { many } else { few };
     let count = (few_count + 1).max(most.heard_count()).next_multiple_of(2);
     Ok(most.of_count(count))
-}
-
-/// Whether another rotor is heard beside all of these, where each of them has a track.
-fn others_sound_beside(rotors: &RotorTracks, surveyed: &Surveyed, hover: &Hover, config: &Config) -> bool {
-    let Some(blades) = blades_of_tone(&config.tone) else { return false };
-    let propeller = OwnPropeller { blades, prior: &config.evidence.levels };
-    let SeenRotors { excess, speeds_rev_s } = SeenRotors::new(surveyed.looks.long.within(&hover.spans_s()), rotors);
-    let all_rev_s: Option<Vec<Vec<f64>>> = speeds_rev_s.into_iter().collect();
-    let nats = all_rev_s.and_then(|all_rev_s| nats_beside(&excess, &all_rev_s, &propeller));
-    nats.is_some_and(|nats| nats >= config.evidence.companion_nats_min)
 }
 
 /// Separates the rotors in two passes: the first finds their speeds in a wide band, the second follows each rotor.
