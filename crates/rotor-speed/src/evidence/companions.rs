@@ -9,14 +9,16 @@ use super::settings::EvidenceConfig;
 use super::votes::{HARMONICS, VoteTable};
 use hovertone_signal::statistics::mean;
 
-/// Largest distance of a rotor of the same vehicle, as a logarithm of the speed. *Decision.*
-const DISTANCE_MAX: f64 = 0.15;
+/// Largest distance of a rotor of the same vehicle, as a logarithm of the speed: those of real quadrotors differ by up to 22 % from slowest to
+/// fastest. *Physics.*
+const DISTANCE_MAX: f64 = 0.22;
+/// Standard deviation of that distance: that of a rotor from the mean of all is 6 %, and this is √2 times as much. *Decision.*
+const DISTANCE_STD: f64 = 0.085;
 /// Smallest distance of a rotor that stands apart, as a logarithm of the speed: the speed of one rotor is not known better in a frame.
 /// *Decision.*
 const DISTANCE_MIN: f64 = 0.01;
-/// Largest distance of a rotor from the middle of all, as a logarithm of the speed: those of real quadrotors differ by up to 22 % from slowest to
-/// fastest. *Physics.*
-const HALF_RANGE_MAX: f64 = 0.11;
+/// Largest distance of a rotor from the middle of all, as a logarithm of the speed. *Physics.*
+const HALF_RANGE_MAX: f64 = DISTANCE_MAX / 2.0;
 /// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
 const STEP: f64 = 1e-3;
 
@@ -68,13 +70,15 @@ impl Companions {
     /// Standard deviation of the speeds of all rotors about that of the heard one, as a share.
     ///
     /// All rotors lie within a distance of the heard one, evenly: `d / √3`. It is the distance from which on no other rotor turns, or that of a
-    /// found one, where this is larger: with the probability `1 / (1 + e^(n₀ − n))` for `n` nats. Where the number of rotors is known, others turn
-    /// somewhere, and `n₀` is 0. Else it is the logarithm of the number of places where a path may lie by chance.
+    /// found one, where this is larger: with the probability `1 / (1 + e^(n₀ + d²/2σ² − n))` for `n` nats, where σ is the standard deviation of
+    /// the distance of two rotors. Where the number of rotors is known, others turn somewhere, and `n₀` is 0. Else it is the logarithm of the
+    /// number of places where a path may lie by chance.
     pub(crate) fn spread_share(&self, is_count_known: bool) -> f64 {
         let even_nats = if is_count_known { 0.0 } else { (2.0 * DISTANCE_MAX / STEP).ln() };
         let within = self.excluded_from;
         let square = self.found.map_or(within.powi(2), |Companion { nats, distance }| {
-            let probability = 1.0 / (1.0 + (even_nats - nats).exp());
+            let far_nats = (distance / DISTANCE_STD).powi(2) / 2.0;
+            let probability = 1.0 / (1.0 + (even_nats + far_nats - nats).exp());
             probability * distance.max(within).powi(2) + (1.0 - probability) * within.powi(2)
         });
         (square / 3.0).sqrt()
@@ -167,6 +171,9 @@ mod tests {
         // 6.5 % apart, over √3
         let apart = spread_share(12, &[90.0, 96.0]);
         assert!((apart - 0.0373).abs() < 0.002, "{apart}");
+        // 18 % apart, over √3: the heard one is the fastest
+        let far = spread_share(12, &[90.0, 75.0]);
+        assert!((far - 0.1053).abs() < 0.002, "{far}");
         assert!((Companions::UNHEARD.spread_share(true) - 0.0635).abs() < 1e-3);
     }
 
