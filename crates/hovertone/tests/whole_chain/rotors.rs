@@ -254,17 +254,21 @@ fn many_lines_of_four_rotors_are_no_other_sound() {
 #[test]
 fn more_rotors_than_those_of_a_quadrotor_are_found() {
     let lines: Vec<(f64, f64)> = (1..=20).map(|k| (2.0 * f64::from(k), f64::from(k).powf(-0.5))).collect();
-    for (count, seed) in [(4, 90), (6, 91), (8, 92)] {
-        let mean_rev_s = |rotor: u32| 150.0 * (1.0 + 0.1 * (f64::from(rotor) / f64::from(count - 1) - 0.5));
+    // those less than 1 % apart have no path of their own in short frames
+    for (count, range_share, seed) in [(4, 0.1, 90), (6, 0.1, 91), (8, 0.1, 92), (6, 0.04, 93), (8, 0.04, 94)] {
+        let mean_rev_s = |rotor: u32| 150.0 * (1.0 + range_share * (f64::from(rotor) / f64::from(count - 1) - 0.5));
         let rotors: Vec<Motion> = (0..count).rev().map(mean_rev_s).map(Motion::swinging).collect();
         let mut config = Config::for_tone(ToneConfig::of_order(Order::from_blades(2).unwrap()));
         config.rotors.is_count_known = false;
         let heard = heard_with(&rotors, &Sound { lines: &lines, ..SOUND }, config, seed);
         let tone = heard.tone();
-        assert_eq!(tone.rotors.len(), rotors.len());
+        assert_eq!(tone.rotors.len(), rotors.len(), "{range_share}");
         for (index, found) in tone.rotors.iter().enumerate() {
-            let error = found.speed.speed.rev_s() / heard.true_mean_rev_s(index) - 1.0;
-            assert!(error.abs() < 1e-4, "{count} rotors: {error}");
+            let mean_rev_s = heard.true_mean_rev_s(index);
+            let error = found.speed.speed.rev_s() / mean_rev_s - 1.0;
+            // those that meet may have changed places, and their uncertainty says so
+            let std = found.speed.combined_std_uncertainty_rev_s().unwrap() / mean_rev_s;
+            assert!(error.abs() < f64::max(1e-4, 3.0 * std), "{count} rotors, {range_share}: {error} ± {std}");
         }
     }
 }

@@ -9,7 +9,7 @@ pub struct RotorsConfig {
     /// Rotors that turn at once. One is not told apart from anything.
     pub count: u32,
     /// Whether the number of rotors is known. Otherwise `count` rotors turn, or as many as a quadrotor has where others are heard beside the
-    /// first.
+    /// first, or more where others are heard beside these.
     pub is_count_known: bool,
     /// Half width of the band of speeds in which they are looked for, as a share of the speed that was heard. Rotors of real
     /// quadrotors lie up to 22 % apart, and a rotor outside the band is silently taken for another one.
@@ -22,8 +22,8 @@ impl Default for RotorsConfig {
     }
 }
 
-/// Rotors that are looked for where more than these are heard: no common multirotor has more. *Physics.*
-const MANY: u32 = 8;
+/// Most rotors that are looked for where their number is not known: no common multirotor has more. *Physics.*
+const COUNT_MAX: u32 = 8;
 
 impl RotorsConfig {
     /// Rotors of a vehicle of which several are heard, where nobody said how many: most multirotors are quadrotors. *Decision.*
@@ -34,9 +34,10 @@ impl RotorsConfig {
         Self { count: Self::SEVERAL, ..self }
     }
 
-    /// The same settings where others are heard beside as many rotors.
-    pub(crate) fn with_many(self) -> Self {
-        Self { count: MANY, ..self }
+    /// The same settings for two more rotors. `None` where the number of rotors is known, or no common multirotor has so many.
+    pub(crate) fn more(self) -> Option<Self> {
+        let count = (self.count + 1).next_multiple_of(2);
+        (!self.is_count_known && count <= COUNT_MAX).then_some(Self { count, ..self })
     }
 
     /// Rotors for which one line may stand. A line that keeps its phase is that of one rotor; otherwise others may turn beside it, too near to be

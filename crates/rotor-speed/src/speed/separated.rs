@@ -60,9 +60,9 @@ impl RotorTracks {
         !self.are_one_group && self.resolved(None).count() >= 2
     }
 
-    /// Whether another rotor is heard beside all of these most of the time, where each of them has a track.
+    /// Whether another rotor is heard beside all of these most of the time.
     pub(crate) fn leave_another(&self) -> bool {
-        self.heard_count() == self.rotors.len() && self.another_s > RESOLVED_SHARE_MIN * self.length_s
+        self.another_s > RESOLVED_SHARE_MIN * self.length_s
     }
 
     /// Longest time between points of a track.

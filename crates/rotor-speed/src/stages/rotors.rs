@@ -4,15 +4,16 @@ use super::Surveyed;
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Excess, OwnPropeller, loudness_db, own_lines_nats};
-use crate::rotors::{RotorScout, RotorTracer, RotorTracks};
+use crate::rotors::{RotorScout, RotorTracer, RotorTracks, RotorsConfig};
 use crate::tone::{blades_of_tone, lines_between_speeds, lines_worth_hearing};
 use hovertone_analysis::Hover;
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::BLADES_MAX;
 use std::ops::RangeInclusive;
 
-/// The rotors whose own lines are heard. Where their number is not known and others are heard beside all of them, more are looked for, in two
-/// more passes. A multirotor has an even number of them: those that are not told apart belong to it as well.
+/// The rotors whose own lines are heard. Where their number is not known and another is heard beside all of them, two more are looked for, in
+/// two more passes, and so on: tracks without a rotor would lie beside those of others. A multirotor has an even number of rotors, and those
+/// that are not told apart belong to it as well.
 pub(super) fn heard_rotors(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -20,20 +21,25 @@ pub(super) fn heard_rotors(
     speed_rev_s: f64,
     config: &Config,
 ) -> Result<RotorTracks, Error> {
-    let separated = |passes: &mut Passes<'_>, config: &Config| -> Result<RotorTracks, Error> {
+    let separated = |passes: &mut Passes<'_>, rotors: RotorsConfig| -> Result<RotorTracks, Error> {
+        let config = &Config { rotors, ..config.clone() };
         Ok(without_unheard(rotors_from_hover(passes, surveyed, hover, speed_rev_s, config)?, surveyed, hover, config))
     };
-    let few = separated(passes, config)?;
-    if config.rotors.is_count_known || !few.leave_another() {
-        return Ok(few);
+    let mut sought = config.rotors;
+    let mut rotors = separated(passes, sought)?;
+    if rotors.heard_count() < rotors.rotors.len() {
+        return Ok(rotors);
     }
-    passes.expect_more(2);
-    let for_many = Config { rotors: config.rotors.with_many(), ..config.clone() };
-    let many = separated(passes, &for_many)?;
-    let few_count = few.heard_count();
-    let most = if many.heard_count() > few_count { many } else { few };
-    let count = (few_count + 1).max(most.heard_count()).next_multiple_of(2);
-    Ok(most.of_count(count))
+    let mut leave_another = rotors.leave_another();
+    while let Some(more) = sought.more().filter(|_| leave_another) {
+        sought = more;
+        passes.expect_more(2);
+        let of_more = separated(passes, sought)?;
+        leave_another = of_more.leave_another();
+        let count = (rotors.heard_count() + 1).next_multiple_of(2);
+        rotors = if of_more.heard_count() > rotors.heard_count() { of_more } else { rotors.of_count(count) };
+    }
+    Ok(rotors)
 }
 
 /// Separates the rotors in two passes: the first finds their speeds in a wide band, the second follows each rotor.
