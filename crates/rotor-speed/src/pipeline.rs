@@ -69,32 +69,29 @@ pub fn speed_from_survey(
     }
 }
 
-/// Where other rotors are heard beside the first, and their number is not known, several are told apart. The same where a faint one alone does
-/// not keep its phase: it may be several.
+/// Where other rotors are heard beside the first, and their number is not known, several are separated. Where there may be others, the same is
+/// tried, and holds where rotors are told apart.
 fn speed_from_candidates(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
     candidates: &Candidates,
     config: &Config,
 ) -> Result<SpeedAnalysis, Error> {
-    let as_several = |passes: &mut Passes<'_>| {
-        let several = config.with_several_rotors();
-        passes.expect_more(passes_after_survey(&several) - passes_after_survey(config));
-        speed_of_candidate(passes, surveyed, candidates, &several)
-    };
-    if candidates.are_several(config) {
-        return as_several(passes);
-    }
-    let analysis = speed_of_candidate(passes, surveyed, candidates, config)?;
-    let may_be_several = candidates.is_faint && !config.rotors.is_count_known && config.method == Method::Separated;
-    if may_be_several && matches!(analysis.outcome, Outcome::NoRotorTone { .. }) {
-        passes.expect_more(passes_after_survey(config));
-        let again = as_several(passes)?;
-        if matches!(again.outcome, Outcome::Ok(_)) {
-            return Ok(again);
+    let are_several = candidates.are_several(config);
+    if are_several || candidates.may_be_several(config) && config.method == Method::Separated {
+        let as_several = config.with_several_rotors();
+        passes.expect_more(passes_after_survey(&as_several) - passes_after_survey(config));
+        let several = speed_of_candidate(passes, surveyed, candidates, &as_several)?;
+        if are_several || are_told_apart(&several) {
+            return Ok(several);
         }
+        passes.expect_more(passes_after_survey(config));
     }
-    Ok(analysis)
+    speed_of_candidate(passes, surveyed, candidates, config)
+}
+
+fn are_told_apart(analysis: &SpeedAnalysis) -> bool {
+    matches!(&analysis.outcome, Outcome::Ok(tone) if tone.rotors.len() >= 2)
 }
 
 /// The stages after the survey, for a rotor that was heard at this speed.

@@ -67,21 +67,33 @@ impl Companions {
         self.found.is_some_and(|found| found.nats >= config.companion_nats_min)
     }
 
+    /// Whether another rotor is more probable than not, where their number is not known.
+    pub(crate) fn are_likely(&self) -> bool {
+        self.found.is_some_and(|found| found.probability(false) >= 0.5)
+    }
+
     /// Standard deviation of the speeds of all rotors about that of the heard one, as a share.
     ///
     /// All rotors lie within a distance of the heard one, evenly: `d / √3`. It is the distance from which on no other rotor turns, or that of a
-    /// found one, where this is larger: with the probability `1 / (1 + e^(n₀ + d²/2σ² − n))` for `n` nats, where σ is the standard deviation of
-    /// the distance of two rotors. Where the number of rotors is known, others turn somewhere, and `n₀` is 0. Else it is the logarithm of the
-    /// number of places where a path may lie by chance.
+    /// found one with its probability, where this is larger.
     pub(crate) fn spread_share(&self, is_count_known: bool) -> f64 {
-        let even_nats = if is_count_known { 0.0 } else { (2.0 * DISTANCE_MAX / STEP).ln() };
         let within = self.excluded_from;
-        let square = self.found.map_or(within.powi(2), |Companion { nats, distance }| {
-            let far_nats = (distance / DISTANCE_STD).powi(2) / 2.0;
-            let probability = 1.0 / (1.0 + (even_nats + far_nats - nats).exp());
-            probability * distance.max(within).powi(2) + (1.0 - probability) * within.powi(2)
+        let square = self.found.map_or(within.powi(2), |found| {
+            let probability = found.probability(is_count_known);
+            probability * found.distance.max(within).powi(2) + (1.0 - probability) * within.powi(2)
         });
         (square / 3.0).sqrt()
+    }
+}
+
+impl Companion {
+    /// The probability that a rotor turns there: `1 / (1 + e^(n₀ + d²/2σ² − n))` for `n` nats, where σ is the standard deviation of the distance
+    /// of two rotors. Where the number of rotors is known, others turn somewhere, and `n₀` is 0. Else it is the logarithm of the number of places
+    /// where a path may lie by chance.
+    fn probability(&self, is_count_known: bool) -> f64 {
+        let places_nats = if is_count_known { 0.0 } else { (2.0 * DISTANCE_MAX / STEP).ln() };
+        let far_nats = (self.distance / DISTANCE_STD).powi(2) / 2.0;
+        1.0 / (1.0 + (places_nats + far_nats - self.nats).exp())
     }
 }
 

@@ -94,6 +94,12 @@ impl Candidates {
         !config.rotors.is_count_known && self.are_others_heard(config)
     }
 
+    /// Whether there may be others, where their number is not known: they are likely, or nothing can be said of them.
+    pub(crate) fn may_be_several(&self, config: &Config) -> bool {
+        let are_likely = || self.companions.is_some_and(|companions| companions.are_likely());
+        !config.rotors.is_count_known && (self.is_faint || are_likely())
+    }
+
     fn are_others_heard(&self, config: &Config) -> bool {
         self.companions.is_some_and(|companions| companions.are_heard(&config.evidence))
     }
