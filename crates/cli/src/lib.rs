@@ -71,6 +71,7 @@ mod vehicles;
 mod verify;
 mod wav;
 mod weigh;
+mod wording;
 
 pub use failure::{Ending, Failure};
 

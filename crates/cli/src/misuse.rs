@@ -1,7 +1,7 @@
 //! A command line that has no meaning: one line says what is wrong and what to do.
 
 use crate::args::Arguments;
-use crate::conflicts::advice;
+use crate::conflicts::{advice, place_in_experiment};
 use crate::failure::Failure;
 use crate::missing::missing_in_words;
 use crate::nearest::nearest;
@@ -133,7 +133,8 @@ impl Misuse {
             return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
         }
         if name.starts_with('-') {
-            return Self { what: format!("there is no flag {name}"), hint: nearest_flag(name, words) };
+            let hint = place_in_experiment(name, words).or_else(|| nearest_flag(name, words));
+            return Self { what: format!("there is no flag {name}"), hint };
         }
         match words.get(1).and_then(|command| command.to_str()) {
             Some("listen") => return Self::of_recording_alone(name, words),

@@ -8,9 +8,10 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::settings::tone_of;
+use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
+use crate::wording::OF_WEIGH;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
@@ -52,7 +53,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = records_of(&jobs, hearing, &progress);
+    let records: Vec<SpeedRecord> =
+        records_of(&jobs, hearing, &progress).into_iter().map(|record| record.worded(OF_WEIGH)).collect();
     progress.finish();
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
@@ -156,6 +158,7 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
     }
     let mass_std_kg = arguments.mass_std_kg.unwrap_or(MASS_STD_KG);
     let mut config = Config::for_tone(tone_to_hear(arguments, results)?);
+    config.span = span_of(arguments.from, arguments.to)?;
     config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
     config.known = known_of(arguments, results, rotor_count)?;
     let method_of_constant = results
@@ -186,12 +189,20 @@ fn known_of(
     let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let of_vehicle = vehicle.map(KnownRotor::of_vehicle).unwrap_or_default();
     let flown = vehicle_of(results);
-    Ok(KnownRotor {
+    let known = KnownRotor {
         mass_kg: arguments.mass_kg.or_else(|| flown?.mass_kg).or(of_vehicle.mass_kg),
-        diameter_m: flown.and_then(|rotor| rotor.propeller_diameter_m).or(of_vehicle.diameter_m),
+        diameter_m: (arguments.diameter_m)
+            .or_else(|| flown.and_then(|rotor| rotor.propeller_diameter_m))
+            .or(of_vehicle.diameter_m),
         rotor_count: rotor_count.or(of_vehicle.rotor_count),
         ..of_vehicle
-    })
+    };
+    if arguments.diameter_m.is_some() {
+        known.check()?;
+        known.check_diameter()?;
+        known.check_hover()?;
+    }
+    Ok(known)
 }
 
 /// Number of rotors of the weighed vehicle. The constant of a single rotor on a stand does not contain it. All rotors of a vehicle carry it

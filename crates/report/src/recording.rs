@@ -1,6 +1,7 @@
 //! The record of one recording: its facts and its result.
 
 use crate::notice::Notice;
+use crate::wording::Wording;
 use hovertone_analysis::{
     Method, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span, SpeedAnalysis,
     SpeedEstimate, ToneFamily,
@@ -92,9 +93,18 @@ pub struct SpeedRecord {
     pub spoiled: Option<String>,
     /// Warnings about the file and the analysis.
     pub notices: Vec<Notice>,
+    /// How the advice of [`reason`](Self::reason) is worded.
+    pub wording: Wording,
 }
 
 impl SpeedRecord {
+    /// The same record, with all advice in the words of a command.
+    #[must_use]
+    pub fn worded(mut self, wording: Wording) -> Self {
+        self.notices.iter_mut().for_each(|notice| notice.hint = wording.of(&notice.hint));
+        Self { wording, ..self }
+    }
+
     /// The analysis, where the file could be read.
     pub fn analysis(&self) -> Option<&SpeedAnalysis> {
         match &self.answer {
@@ -180,7 +190,13 @@ impl SpeedRecord {
     pub fn reason(&self) -> Option<String> {
         match &self.answer {
             Answer::Failed { reason } => Some(reason.clone()),
-            Answer::Heard(analysis) => match &analysis.outcome {
+            Answer::Heard(analysis) => self.reason_of(analysis).map(|reason| self.wording.of(&reason)),
+        }
+    }
+
+    /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
+    fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
+        match &analysis.outcome {
                 Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
@@ -197,12 +213,11 @@ impl SpeedRecord {
                         .to_owned(),
                 ),
                 Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
-                    "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}: \
-                     they rule out speeds that cannot carry the vehicle",
+                    "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}",
                     self.missing_facts()
                 )),
                 Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
-                    "several rotor speeds explain this sound; give {}: they rule out speeds that cannot carry the vehicle",
+                    "several rotor speeds explain this sound; give {}",
                     self.missing_facts()
                 )),
                 Outcome::Ok(_) => Some(
@@ -210,8 +225,7 @@ impl SpeedRecord {
                      propellers and the vehicle, or place the microphone nearer"
                         .to_owned(),
                 ),
-            },
-        }
+            }
     }
 
     /// Whether one rotor alone is said to turn, as on a bench.
@@ -223,7 +237,7 @@ impl SpeedRecord {
         self.settings.pointer(place).is_none_or(Value::is_null)
     }
 
-    /// Those of diameter, mass and number of rotors that are not known.
+    /// Those of diameter, mass and number of rotors that are not known, and what they are for.
     fn missing_facts(&self) -> String {
         let facts = [
             ("/known/diameter_m", "the diameter of the propellers (--diameter-m)"),
@@ -232,10 +246,11 @@ impl SpeedRecord {
         ];
         let missing: Vec<&str> =
             facts.iter().filter(|(place, _)| self.is_setting_missing(place)).map(|(_, words)| *words).collect();
+        const SPEEDS: &str = "speeds that cannot carry the vehicle";
         match missing.split_last() {
-            Some((last, [])) => (*last).to_owned(),
-            Some((last, others)) => format!("{} and {last}", others.join(", ")),
-            None => facts.map(|(_, words)| words).join(", "),
+            Some((last, [])) => format!("{last}: it rules out {SPEEDS}"),
+            Some((last, others)) => format!("{} and {last}: they rule out {SPEEDS}", others.join(", ")),
+            None => format!("{}: they rule out {SPEEDS}", facts.map(|(_, words)| words).join(", ")),
         }
     }
 

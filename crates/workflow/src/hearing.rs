@@ -5,7 +5,7 @@ use hovertone::sound::Passes;
 use hovertone::speed::{Config, Error, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
-use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
+use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording};
 use hovertone_vehicle::{KNOWN_RANGE_MARGIN, check_tips};
 use serde::Serialize;
 use serde_json::Value;
@@ -222,6 +222,7 @@ fn record_of(task: &Task<'_>, config: &Config, answer: Answer, recording: Option
         labels: None,
         spoiled: None,
         notices: Vec::new(),
+        wording: Wording::default(),
     }
 }
 
