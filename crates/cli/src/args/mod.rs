@@ -79,6 +79,7 @@ Exit codes:
   2  wrong use: a flag or a number has no meaning, or a file that exists would be replaced
   3  done, but something is missing: no rotor tone, a tone whose order is not known, a file that
      ends early, a calibration that does not pass
+  130  interrupted with Ctrl-C: unfinished files are removed
 
 Results go to stdout and to files, all messages to stderr.
 
