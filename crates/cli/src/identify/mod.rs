@@ -26,6 +26,7 @@ use crate::typed::typed_command;
 use crate::wording::{IN_FILE, IN_PLACE_OF_FILE};
 use hovertone::experiment::Experiment;
 use hovertone::speed::Method;
+use hovertone::thrust::ThrustWarning;
 use hovertone_report::{InputRecord, Notice, SpeedRecord, printable, results_json};
 use hovertone_workflow::{ReportExtras, TipsTooFast, Titles};
 use std::ops::Deref;
@@ -206,7 +207,8 @@ impl Deref for Identified {
 impl Identified {
     pub(crate) fn ending(&self) -> Ending {
         let has_failed_check = self.identification().failed_check_count() > 0;
-        let of_checks = if has_failed_check { Ending::Incomplete } else { Ending::Done };
+        let is_contradicted = self.warnings().iter().any(ThrustWarning::is_contradiction);
+        let of_checks = if has_failed_check || is_contradicted { Ending::Incomplete } else { Ending::Done };
         ending_of(self.records()).max(of_checks)
     }
 

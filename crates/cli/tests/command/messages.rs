@@ -171,7 +171,7 @@ fn names_of_loads_cannot_move_the_cursor() {
     let experiment = write_experiment(folder.path());
     let hostile = fs::read_to_string(&experiment).unwrap().replace("\"l1\"", "\"l\\u001b[2J1\"");
     fs::write(&experiment, hostile.replace("added_mass_kg = 0.05", "added_mass_kg = 0.15")).unwrap();
-    let run = hovertone(&["identify", &experiment, "-v"]).ends_with(0);
+    let run = hovertone(&["identify", &experiment, "-v"]).ends_with(3);
     assert!(!run.stdout.contains('\u{1b}') && !run.stderr.contains('\u{1b}'), "{}{}", run.stdout, run.stderr);
     assert!(run.stderr.contains("the loads do not fit each other: l0, l\\u{1b}[2J1"), "{}", run.stderr);
     let verdict = run.stdout.lines().find(|line| line.starts_with("verdict: ")).unwrap();
