@@ -54,6 +54,16 @@ fn a_gear_in_the_spelling_of_the_flag_is_told_that_of_the_file() {
 }
 
 #[test]
+fn a_rotor_as_steady_as_the_mains_is_not_said_to_be_hum() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("a.wav");
+    write_hover(&sound, steady_hover("iris", RotorSpeed::from_rev_s(60.0), 6.0));
+    let said = hovertone(&["speed", text(&sound), "--blades", "2", "--rotors", "1"]).ends_with(3).stderr;
+    assert!(said.contains("mains hum, or a rotor that turns as steadily"), "{said}");
+    assert!(said.contains("record it at another throttle"), "{said}");
+}
+
+#[test]
 fn weigh_takes_the_part_and_the_diameter_that_its_advice_asks_for() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("a.wav");
