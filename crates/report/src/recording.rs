@@ -3,10 +3,10 @@
 use crate::notice::Notice;
 use crate::wording::Wording;
 use hovertone_analysis::{
-    Method, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span, SpeedAnalysis,
-    SpeedEstimate, ToneFamily,
+    Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
+    SpeedAnalysis, SpeedEstimate, ToneFamily,
 };
-use hovertone_vehicle::Order;
+use hovertone_vehicle::{BLADES_MAX, Order};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -197,7 +197,10 @@ impl SpeedRecord {
     /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
     fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
         match &analysis.outcome {
-                Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
+            Outcome::NoRotorTone { reason } => {
+                let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.to_string());
+                Some(self.spoiled.clone().unwrap_or_else(of_mesh))
+            }
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
                     if self.has_thrust_coefficients() {
@@ -226,6 +229,21 @@ impl SpeedRecord {
                         .to_owned(),
                 ),
             }
+    }
+
+    /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.
+    fn no_mesh(&self, reason: &NoTone) -> Option<String> {
+        let order = self.order.lines_per_turn();
+        let NoTone::NoSeries { only_rev_s, instead: None } = reason else { return None };
+        let range = only_rev_s.map_or_else(String::new, |(low, high)| {
+            format!(" at {:.0} to {:.0} Hz, as of {low:.0} to {high:.0} rev/s", order * low, order * high)
+        });
+        (order > BLADES_MAX).then(|| {
+            format!(
+                "no gear mesh of order {order} is heard{range}; if the rotors have no gear, give --blades N alone, in place of the vehicle, \
+                 the gear or the order; if they have one, check these facts, or go nearer"
+            )
+        })
     }
 
     /// Whether one rotor alone is said to turn, as on a bench.

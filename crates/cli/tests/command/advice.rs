@@ -1,8 +1,10 @@
 //! Advice of a command names what this command has, so that it leads on.
 
-use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover, write_noise, write_wav};
 use hovertone_vehicle::RotorSpeed;
+use std::f64::consts::TAU;
 use std::fs;
+use std::path::Path;
 
 #[test]
 fn identify_names_keys_of_its_file_and_flags_of_its_own() {
@@ -51,6 +53,59 @@ fn a_gear_in_the_spelling_of_the_flag_is_told_that_of_the_file() {
     let experiment = folder.path().join("e.toml");
     fs::write(&experiment, "[vehicle]\nrotors = 4\ngear = \"8:69\"\n").unwrap();
     refused_with(&["identify", text(&experiment)], &["gear = { pinion = 8, wheel = 69 }"]);
+}
+
+const RATE_HZ: u32 = 16_000;
+
+/// One rotor with two blades at about 83 rev/s, in noise: its blade pass with harmonics, and the lines of its shaft between them.
+fn write_rotor(path: &Path, duration_ms: u32) {
+    let mut state = 1u32;
+    let mut noise = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state) / f64::from(u32::MAX) - 0.5
+    };
+    let sample = |n: u32| {
+        let time_s = f64::from(n) / f64::from(RATE_HZ);
+        let turns = 83.0 * time_s + 0.05 * (TAU * 0.7 * time_s).sin();
+        let level = |k: u32| if k.is_multiple_of(2) { 2.0 / f64::from(k) } else { 0.3 / f64::from(k) };
+        let line = |k: u32| level(k) * (TAU * f64::from(k) * turns + f64::from(k * k)).sin();
+        (0.1 * (1..=16).map(line).sum::<f64>() + 0.2 * noise()) as f32
+    };
+    write_wav(path, &(0..duration_ms * RATE_HZ / 1000).map(sample).collect::<Vec<f32>>(), RATE_HZ);
+}
+
+/// The blades that a message advises to give.
+fn advised_blades(said: &str) -> Option<&str> {
+    said.split("give --blades ").nth(1)?.split(' ').next()
+}
+
+#[test]
+fn blades_that_are_advised_lead_to_a_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name);
+    let mut advised = Vec::new();
+    for (name, duration_ms) in [("long.wav", 8000), ("short.wav", 500), ("shorter.wav", 400)] {
+        write_rotor(&place(name), duration_ms);
+        for flags in [["--vehicle", "ardrone"], ["--blades", "5"]] {
+            let sound = place(name);
+            let said = hovertone(&[&["speed", text(&sound)][..], &flags].concat()).stderr;
+            let Some(blades) = advised_blades(&said).filter(|blades| *blades != "N") else { continue };
+            let followed = hovertone(&["speed", text(&sound), "--blades", blades]);
+            assert!(!followed.stderr.contains("no rotor tone"), "{name} {flags:?}: {said}{}", followed.stderr);
+            advised.push((name, flags));
+        }
+    }
+    assert!(advised.iter().any(|(name, _)| *name == "long.wav"), "{advised:?}");
+}
+
+#[test]
+fn a_rotor_without_a_gear_is_told_that_no_mesh_is_heard() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("a.wav");
+    write_noise(&sound, 4.0);
+    let said = hovertone(&["speed", text(&sound), "--vehicle", "ardrone"]).ends_with(3).stderr;
+    assert!(said.contains("no gear mesh of order 69 is heard at 920 to 8280 Hz, as of 13 to 120 rev/s"), "{said}");
+    assert!(said.contains("if the rotors have no gear, give --blades N alone"), "{said}");
 }
 
 #[test]
