@@ -150,7 +150,9 @@ impl Misuse {
             }
             _ => {}
         }
-        Self { what: format!("\"{name}\" is one word too many"), hint: None }
+        let is_of_one = words.get(1).is_some_and(|command| command == "spectrogram" || command == "calibrate");
+        let hint = is_of_one.then(|| "give one recording at a time".to_owned());
+        Self { what: format!("\"{name}\" is one word too many"), hint }
     }
 
     /// A word without a flag behind `listen`: most probably the name of a recording.
@@ -288,6 +290,10 @@ mod tests {
             (
                 "hovertone demo extra",
                 "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",
+            ),
+            (
+                "hovertone spectrogram a.wav b.wav -o x.png",
+                "\"b.wav\" is one word too many (give one recording at a time)",
             ),
             (
                 "hovertone init hover.mp4",

@@ -48,6 +48,23 @@ fn a_folder_in_place_of_an_experiment_file_is_told_what_it_holds() {
 }
 
 #[test]
+fn a_folder_or_a_pattern_in_place_of_a_recording_is_told_what_it_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a.wav", "b.wav"] {
+        write_noise(&folder.path().join(name), 0.1);
+    }
+    let (first, pattern) = (folder.path().join("a.wav"), folder.path().join("*.wav"));
+    for command in [&["listen", "--from-file"][..], &["spectrogram", "-o", "x.png"]] {
+        let of_folder = hovertone(&[command, &[text(folder.path())]].concat()).ends_with(1).stderr;
+        let words = format!("this is a folder, not a recording; name a recording in it, such as {}", text(&first));
+        assert!(of_folder.contains(&words), "{of_folder}");
+        let of_pattern = hovertone(&[command, &[text(&pattern)]].concat()).ends_with(1).stderr;
+        let words = format!("one recording is heard at a time; name one, such as {}", text(&first));
+        assert!(of_pattern.contains(&words), "{of_pattern}");
+    }
+}
+
+#[test]
 fn a_gear_in_the_spelling_of_the_flag_is_told_that_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let experiment = folder.path().join("e.toml");
