@@ -20,4 +20,4 @@ pub use hearing::{Heard, NotHeard, Requests, Share, Task, facts_of, failed_recor
 pub use identified::{Identified, TipsTooFast, Titles};
 pub use live::{LiveLine, live_status_in_words, live_words, possible_in_words};
 pub use report::{Drawn, ReportExtras, ReportFigures, simulators_of};
-pub use said::{NoSettings, Said};
+pub use said::{NoSettings, Said, set_rotors};
