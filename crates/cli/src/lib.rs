@@ -31,6 +31,7 @@ mod jobs;
 mod labels;
 mod listen;
 mod log;
+mod meant;
 mod microphones;
 mod missing;
 mod misuse;

@@ -65,6 +65,35 @@ fn a_folder_or_a_pattern_in_place_of_a_recording_is_told_what_it_holds() {
 }
 
 #[test]
+fn tables_of_other_languages_are_told_what_to_change() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("a.csv");
+    let german = "Drehzahl (U/min);Schub (g)\n3000;112,5\n4000;201,3\n";
+    fs::write(&table, german).unwrap();
+    refused_with(&["fit", text(&table)], &["no column holds a speed", "rename its header, as in speed_rpm"]);
+    refused_with(&["log", text(&table)], &["no column holds the time", "rename the header of the times", "--column"]);
+    let wide: Vec<u8> = german.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    fs::write(&table, [&b"\xff\xfe"[..], &wide].concat()).unwrap();
+    let said = hovertone(&["fit", text(&table)]).ends_with(1).stderr;
+    assert!(said.contains("text in UTF-16") && said.contains("CSV UTF-8"), "{said}");
+}
+
+#[test]
+fn numbers_and_words_of_other_programs_are_told_as_this_one_takes_them() {
+    for (line, words) in [
+        ("speed a.wav --diameter-m 0,2", ["the decimal sign is a point", "write 0.2"]),
+        ("calibrate a.wav --tachometer-rpm 62,08", ["the decimal sign is a point", "write 62.08"]),
+        ("fit --plan --mass-kg 413g --wanted-share 3%", ["without a percent sign", "write 0.03"]),
+        ("speed a.wav --blades 2,0", ["must be a whole number", "--blades 2"]),
+        ("speed -blades 2 a.wav", ["there is no flag -b", "two dashes: write --blades"]),
+        ("speed a.wav -o x.json", ["there is no flag -o", "the results go to stdout"]),
+        ("weigh out/results.json a.wav", ["needs a thrust constant", "write --constant out/results.json"]),
+    ] {
+        refused_with(&line.split(' ').collect::<Vec<_>>(), &words);
+    }
+}
+
+#[test]
 fn a_gear_in_the_spelling_of_the_flag_is_told_that_of_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let experiment = folder.path().join("e.toml");

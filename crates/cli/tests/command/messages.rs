@@ -282,7 +282,7 @@ fn a_file_of_another_kind_is_named_without_the_words_of_a_parser() {
         b"{\"thrust_constant_per_rotor_n_s2\": {\"value\": 1e-6}, \"rotor_count\": 1, \"methods\": {}}",
     );
     let model = write("m.sdf", b"<motorConstant>7.07e-06</motorConstant>");
-    let (broken, sound) = (write("b.json", b"{\"a\": "), write("r.wav", &[255, 254, 0, 1]));
+    let (broken, sound) = (write("b.json", b"{\"a\": "), write("r.wav", &[255, 250, 0, 1]));
     let experiment = write("e.toml", b"# mine\n[vehicle]\npreset = \"ardrone\"\n\n[[load]]\nname = \"no hull\"\n");
     let scenario = write("s.toml", b"duration_s = 20.0\n\n[[maneuver]]\nkind = \"hover\"\n");
     for (arguments, code, said) in [
