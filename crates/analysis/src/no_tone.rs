@@ -106,8 +106,8 @@ impl fmt::Display for NoTone {
             }
             Self::MainsHum { mains_hz } => write!(
                 f,
-                "the sound is mains hum: lines at multiples of {mains_hz:.2} Hz that do not move; no rotor is heard beside it; \
-                 place the microphone nearer to the rotors"
+                "lines at multiples of {mains_hz:.2} Hz do not move: they are mains hum, or a rotor that turns as steadily, and no other is heard; \
+                 if a rotor may turn at such a speed, record it at another throttle; if not, place the microphone nearer to the rotors"
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
@@ -126,6 +126,13 @@ impl fmt::Display for NoTone {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_steady_rotor_at_the_frequency_of_the_mains_is_not_said_to_be_hum_alone() {
+        let said = NoTone::MainsHum { mains_hz: 60.0 }.to_string();
+        assert!(said.contains("60.00 Hz") && said.contains("mains hum, or a rotor that turns as steadily"), "{said}");
+        assert!(said.contains("record it at another throttle"), "{said}");
+    }
 
     #[test]
     fn what_is_heard_instead_is_named_with_what_to_do() {

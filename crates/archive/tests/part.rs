@@ -7,7 +7,7 @@ use hovertone_analysis::{
     UncertaintyTerm,
 };
 use hovertone_archive::{ArchiveRow, Part, RecordingsTable, TracksTable, summaries_of_parquet};
-use hovertone_report::{Answer, Notice, RecordingFacts, SpeedRecord};
+use hovertone_report::{Answer, Notice, RecordingFacts, SpeedRecord, Wording};
 use hovertone_vehicle::{Order, RotorSpeed};
 use serde_json::json;
 
@@ -24,6 +24,7 @@ fn record(file: &str, answer: Answer) -> SpeedRecord {
         labels: None,
         spoiled: None,
         notices: vec![Notice::new("quiet", "record nearer")],
+        wording: Wording::default(),
     }
 }
 

@@ -42,10 +42,48 @@ pub(crate) fn advice(one: &str, other: &str, words: &[OsString]) -> String {
     reason.or_else(prints).unwrap_or("leave one of them out").to_owned()
 }
 
+/// Flags of other commands for which an experiment file has a key, and the table of the key.
+const KEYS: [(&str, &str, &str); 11] = [
+    ("--order", "order", "[tone]"),
+    ("--band", "band_hz", "[tone]"),
+    ("--harmonics", "harmonics", "[tone]"),
+    ("--from", "from_s", "[[load]]"),
+    ("--to", "to_s", "[[load]]"),
+    ("--window-s", "window_s", "[spectrogram]"),
+    ("--added-mass-kg", "added_mass_kg", "[[load]]"),
+    ("--temperature-c", "temperature_c", "[air]"),
+    ("--pressure-hpa", "pressure_hpa", "[air]"),
+    ("--humidity-percent", "humidity_percent", "[air]"),
+    ("--clock-ppm", "clock_ppm", "[recorder]"),
+];
+
+/// What to do about a flag that `identify` does not have, where an experiment file has a key for it.
+pub(crate) fn place_in_experiment(flag: &str, words: &[OsString]) -> Option<String> {
+    words.get(1).filter(|command| *command == "identify")?;
+    let has_file = has_experiment(words);
+    if flag == "--mass-kg" && has_file {
+        return Some(beside_experiment("--mass", words));
+    }
+    let (_, key, table) = KEYS.iter().find(|(known, ..)| *known == flag)?;
+    Some(match has_file {
+        true => format!("write it into the experiment file, as {key} under {table}"),
+        false => {
+            format!("only an experiment file has a place for it, as {key} under {table}: `hovertone init` writes one")
+        }
+    })
+}
+
+fn has_experiment(words: &[OsString]) -> bool {
+    words.iter().any(|word| Path::new(word).extension().is_some_and(|extension| extension == "toml"))
+}
+
 /// A fact beside an experiment file, which has a place for it.
 fn beside_experiment(flag: &str, words: &[OsString]) -> String {
     let key = flag.trim_start_matches('-').replace('-', "_");
-    let has_file = words.iter().any(|word| Path::new(word).extension().is_some_and(|extension| extension == "toml"));
+    let has_file = has_experiment(words);
+    if key == "mass" && has_file {
+        return "write it into the experiment file, as mass_kg in [vehicle], or as added_mass_kg in its [[load]]; or leave the file out".to_owned();
+    }
     if key == "mass" || !has_file {
         return "recordings without an experiment file need the mass before them, as in --mass 413g hover.mov"
             .to_owned();
@@ -100,6 +138,19 @@ mod tests {
         );
         assert!(advice("--vehicle", EXPERIMENT, &words).contains("as preset in [vehicle]"));
         assert!(advice(EXPERIMENT, "--vehicle", &words[..2]).starts_with("recordings without"));
-        assert!(advice(EXPERIMENT, "--mass", &words).starts_with("recordings without"));
+        assert!(advice(EXPERIMENT, "--mass", &words).contains("as mass_kg in [vehicle], or as added_mass_kg"));
+        assert!(advice(EXPERIMENT, "--mass", &words[..2]).starts_with("recordings without"));
+    }
+
+    #[test]
+    fn a_flag_of_another_command_is_told_its_key_in_an_experiment_file() {
+        let words = ["hovertone", "identify", "bench.toml"].map(OsString::from);
+        let told = |flag: &str, words: &[OsString]| place_in_experiment(flag, words).unwrap_or_default();
+        assert_eq!(told("--band", &words), "write it into the experiment file, as band_hz under [tone]");
+        assert!(told("--mass-kg", &words).contains("as mass_kg in [vehicle]"));
+        assert!(told("--order", &words[..2]).starts_with("only an experiment file has a place for it, as order under"));
+        assert_eq!(told("--mass-kg", &words[..2]) + &told("--colour", &words), "");
+        let speed = ["hovertone", "speed", "bench.toml"].map(OsString::from);
+        assert_eq!(place_in_experiment("--band", &speed), None);
     }
 }

@@ -122,6 +122,14 @@ impl Failure {
                 "you have no right to write into the folder of this name".to_owned(),
                 "choose a place in a folder of your own",
             ),
+            io::ErrorKind::FileTooLarge => (
+                "this file becomes larger than the system allows: nothing was written".to_owned(),
+                "raise the limit (`ulimit -f unlimited`), or choose a place on another disk",
+            ),
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => (
+                "the disk is full: this file was not written".to_owned(),
+                "make room, or choose a place on another disk",
+            ),
             _ => (format!("this file cannot be written: {error}"), "choose another place, or check the disk"),
         };
         Self::failed(what, hint, path)

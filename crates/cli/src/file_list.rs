@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Name of the list. `sha256sum --check` reads it.
-const NAME: &str = "files.sha256";
+pub(crate) const NAME: &str = "files.sha256";
 
 /// The list of a folder.
 #[derive(Clone)]

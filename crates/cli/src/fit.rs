@@ -105,7 +105,7 @@ fn fitted_tables(path: &Path, plan: &Plan) -> Result<Vec<FittedTable>, Failure> 
     let bytes = read_bytes(path, "the table")?;
     // headers in Latin-1 are welcome, a recording is not
     if bytes.contains(&0) {
-        return Err(is_no_text("the table", path));
+        return Err(is_no_text("the table", path, &bytes));
     }
     let text = String::from_utf8_lossy(&bytes);
     let table = table_from_csv(&text).map_err(|error| table_failure(&error, path))?;
@@ -118,7 +118,9 @@ fn table_failure(error: &TableError, path: &Path) -> Failure {
         return Failure::failed(error.to_string(), error.hint(), path);
     }
     let hint = match error {
-        TableError::NoColumn { .. } => "`hovertone fit --help` lists the headers that hovertone knows",
+        TableError::NoColumn { .. } => {
+            "rename its header, as in speed_rpm, thrust_g or mass_g; `hovertone fit --help` lists all words that hovertone knows"
+        }
         TableError::Csv(error) => error.hint(),
         TableError::HeaderAlone => "give a row for each measurement, below the header",
         TableError::NoRow => "check that the speed is not 0 in all rows: the tachometer may not have been connected",

@@ -63,11 +63,30 @@ pub(crate) fn open_stream(path: &Path, what: &str) -> Result<Box<dyn Read>, Fail
 
 /// The text of a file or of stdin; `what` names the content in messages.
 pub(crate) fn read_text(path: &Path, what: &str) -> Result<String, Failure> {
-    String::from_utf8(read_bytes(path, what)?).map_err(|_| is_no_text(what, path))
+    String::from_utf8(read_bytes(path, what)?).map_err(|error| is_no_text(what, path, error.as_bytes()))
+}
+
+/// Whether bytes are a text in UTF-16, with the mark of one at its beginning.
+fn is_utf16(content: &[u8]) -> bool {
+    let (pairs, rest) = content.as_chunks::<2>();
+    let units = |unit: fn([u8; 2]) -> u16| char::decode_utf16(pairs.iter().skip(1).map(move |pair| unit(*pair)));
+    let is_text = |unit: fn([u8; 2]) -> u16| {
+        units(unit).all(|letter| letter.is_ok_and(|letter| !letter.is_control() || letter.is_whitespace()))
+    };
+    rest.is_empty()
+        && match pairs.first() {
+            Some(b"\xff\xfe") => is_text(u16::from_le_bytes),
+            Some(b"\xfe\xff") => is_text(u16::from_be_bytes),
+            _ => false,
+        }
 }
 
 /// The failure of a file that should be text and is something else, such as a recording.
-pub(crate) fn is_no_text(what: &str, path: &Path) -> Failure {
+pub(crate) fn is_no_text(what: &str, path: &Path, content: &[u8]) -> Failure {
+    if is_utf16(content) {
+        let found = "this file is text in UTF-16, which hovertone does not read";
+        return Failure::failed(found, "save it in UTF-8; in Excel this is the kind \"CSV UTF-8\"", path);
+    }
     let found = format!("this file is not text, so it cannot be {what}");
     Failure::failed(
         found,

@@ -31,6 +31,7 @@ mod jobs;
 mod labels;
 mod listen;
 mod log;
+mod meant;
 mod microphones;
 mod missing;
 mod misuse;
@@ -71,6 +72,7 @@ mod vehicles;
 mod verify;
 mod wav;
 mod weigh;
+mod wording;
 
 pub use failure::{Ending, Failure};
 

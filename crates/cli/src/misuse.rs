@@ -1,8 +1,9 @@
 //! A command line that has no meaning: one line says what is wrong and what to do.
 
 use crate::args::Arguments;
-use crate::conflicts::advice;
+use crate::conflicts::{advice, place_in_experiment};
 use crate::failure::Failure;
+use crate::meant::{flag_meant, number_meant, place_meant, results_meant, with_point};
 use crate::missing::missing_in_words;
 use crate::nearest::nearest;
 use crate::see_help::{example_and_help, is_typed, typed_command};
@@ -68,7 +69,13 @@ impl Misuse {
                     None => format!("give one of: {known}"),
                 }),
             },
-            ErrorKind::ValueValidation => Self { what: format!("{name} {value}: {}", reason_of(error)), hint: None },
+            ErrorKind::ValueValidation => {
+                let reason = reason_of(error);
+                match number_meant(&value).filter(|_| !reason.contains("whole number") && !name.starts_with("--mass")) {
+                    Some((why, hint)) => Self { what: format!("{name} {value}: {why}"), hint: Some(hint) },
+                    None => Self { what: format!("{name} {value}: {reason}"), hint: None },
+                }
+            }
             ErrorKind::UnknownArgument => Self::of_unknown(&name, words),
             ErrorKind::InvalidSubcommand => Self::of_unknown_command(&text(ContextKind::InvalidSubcommand)),
             ErrorKind::ArgumentConflict => {
@@ -85,7 +92,7 @@ impl Misuse {
                     Some(ContextValue::Strings(all)) => all.clone(),
                     _ => Vec::new(),
                 };
-                Self { what: missing_in_words(words, &arguments), hint: None }
+                Self { what: missing_in_words(words, &arguments), hint: results_meant(words) }
             }
             ErrorKind::TooFewValues | ErrorKind::TooManyValues | ErrorKind::WrongNumberOfValues => {
                 Self { what: format!("{name} has too many or too few values"), hint: None }
@@ -133,7 +140,9 @@ impl Misuse {
             return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
         }
         if name.starts_with('-') {
-            return Self { what: format!("there is no flag {name}"), hint: nearest_flag(name, words) };
+            let meant = place_in_experiment(name, words).or_else(|| flag_meant(name, words));
+            let hint = meant.or_else(|| nearest_flag(name, words));
+            return Self { what: format!("there is no flag {name}"), hint };
         }
         match words.get(1).and_then(|command| command.to_str()) {
             Some("listen") => return Self::of_recording_alone(name, words),
@@ -149,7 +158,7 @@ impl Misuse {
             }
             _ => {}
         }
-        Self { what: format!("\"{name}\" is one word too many"), hint: None }
+        Self { what: format!("\"{name}\" is one word too many"), hint: place_meant(name, words) }
     }
 
     /// A word without a flag behind `listen`: most probably the name of a recording.
@@ -190,12 +199,6 @@ fn only_flag_of_unit<'a>(name: &str, flags: &'a [String]) -> Option<&'a str> {
     let mut of_unit = flags.iter().filter(|flag| flag.rsplit_once('-').is_some_and(|(_, of)| of == unit));
     let only = of_unit.next()?;
     of_unit.next().is_none().then_some(only)
-}
-
-/// The number that a comma stands in, with a point.
-fn with_point(word: &str) -> Option<String> {
-    let point = word.replacen(',', ".", 1);
-    (point != word && point.parse::<f64>().is_ok()).then_some(point)
 }
 
 /// Why a value is refused.
@@ -287,6 +290,10 @@ mod tests {
             (
                 "hovertone demo extra",
                 "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",
+            ),
+            (
+                "hovertone spectrogram a.wav b.wav -o x.png",
+                "\"b.wav\" is one word too many (give one recording at a time)",
             ),
             (
                 "hovertone init hover.mp4",

@@ -1,6 +1,7 @@
 //! Progress of the analysis on stderr, if it is a terminal.
 
 use crate::caller::{OnProgress, on_progress};
+use crate::temporary_file::begin_work;
 use crate::terminal::width_of;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{self, IsTerminal};
@@ -27,6 +28,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar for the given number of recordings. It is hidden unless it is wanted and stderr is a terminal.
     pub(crate) fn new(verb: &str, recording_count: usize, is_wanted: bool) -> Self {
+        begin_work();
         let is_narrow = width_of(&io::stderr()).is_some_and(|width| width < BAR_WIDTH_MIN);
         let is_seen = is_wanted && io::stderr().is_terminal();
         let target = if is_seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::files::{is_pattern, sha256_of};
 pub(crate) use crate::job::{HeardJobs, Hearing, Job, Requests, in_memory};
 use crate::progress::{Progress, Share};
+use crate::recording_files::{folder_in_words, pattern_in_words};
 use crate::stored::is_address;
 use crate::thumbnail::thumbnail_of;
 use hovertone::motors::{
@@ -216,8 +217,7 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
 /// A reason that follows from the typed name: a folder, or a pattern without files.
 fn wrong_kind(path: &Path) -> Option<String> {
     if path.is_dir() {
-        return Some("this is a folder, not a recording; name the recordings in it, as in FOLDER/*.wav".to_owned());
+        return Some(folder_in_words(path));
     }
-    (!path.exists() && is_pattern(&path.to_string_lossy()) && !is_address(path))
-        .then(|| "no file matches this pattern; check the folder and the ending of its files".to_owned())
+    (!path.exists() && is_pattern(&path.to_string_lossy()) && !is_address(path)).then(|| pattern_in_words(path))
 }

@@ -53,6 +53,30 @@ pub(crate) fn groups_below(folder: &Path) -> Vec<RecordingGroup> {
     folders.iter().flat_map(|folder| groups_in(folder)).collect()
 }
 
+/// What to say of a folder in place of a recording: which recordings it holds.
+pub(crate) fn folder_in_words(folder: &Path) -> String {
+    let (inside, below) = (groups_in(folder), groups_below(folder));
+    let first = inside.first().or(below.first());
+    let advice = match first.and_then(|group| Some((group, group.files.first()?))) {
+        Some((group, file)) if group.files.len() > 1 => {
+            format!("name a recording in it, such as {}, or several, as {}", file.display(), group.pattern.display())
+        }
+        Some((_, file)) => format!("name the recording in it: {}", file.display()),
+        None => "it holds none, so name the recording itself".to_owned(),
+    };
+    format!("this is a folder, not a recording; {advice}")
+}
+
+/// What to say of a pattern where one recording is needed.
+pub(crate) fn pattern_in_words(pattern: &Path) -> String {
+    match files_of(pattern).iter().filter(|file| file.is_file()).collect::<Vec<_>>().as_slice() {
+        [] => "no file matches this pattern; check the folder and the ending of its files".to_owned(),
+        [first, ..] => {
+            format!("this is a pattern, and one recording is heard at a time; name one, such as {}", first.display())
+        }
+    }
+}
+
 /// All recordings in a folder and the folders below it, by their endings; links to folders are not followed.
 #[cfg(feature = "archive")]
 pub(crate) fn recordings_below(folder: &Path) -> Vec<PathBuf> {
@@ -92,6 +116,18 @@ fn entries_of(folder: &Path) -> Vec<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_is_told_by_its_recordings() {
+        let folder = tempfile::tempdir().unwrap();
+        let said = || folder_in_words(folder.path()).replace(&format!("{}/", folder.path().display()), "");
+        assert_eq!(said(), "this is a folder, not a recording; it holds none, so name the recording itself");
+        fs::create_dir(folder.path().join("a")).unwrap();
+        fs::write(folder.path().join("a/1.wav"), "").unwrap();
+        assert!(said().ends_with("name the recording in it: a/1.wav"), "{}", said());
+        fs::write(folder.path().join("a/2.wav"), "").unwrap();
+        assert!(said().ends_with("such as a/1.wav, or several, as a/*.wav"), "{}", said());
+    }
 
     #[test]
     fn recordings_are_grouped_by_folder_and_ending() {

@@ -1,5 +1,6 @@
-//! Files that stand only while a run works. Its end removes them, and so does an interrupt.
+//! Files that stand only while a run works. Its end removes them, and so does an interrupt, which says what it leaves.
 
+use crate::file_list::NAME;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io;
@@ -14,12 +15,22 @@ static FILES: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 /// Folders that this run writes into. An interrupt leaves them incomplete.
 static FOLDERS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Whether the process ends with this run. In a program that calls, interrupts are that program's.
-static ENDS_WITH_RUN: AtomicBool = AtomicBool::new(false);
+/// Whether long work has begun, so that an interrupt is no ordinary end.
+static IS_AT_WORK: AtomicBool = AtomicBool::new(false);
 
-/// From now on an interrupt removes the temporary files and ends the process.
+/// Whether a file of results has got its place.
+static HAS_WRITTEN: AtomicBool = AtomicBool::new(false);
+
+/// The process ends with this run: from now on an interrupt removes the temporary files and ends it. In a program that calls, interrupts are
+/// that program's.
 pub(crate) fn end_with_run() {
-    ENDS_WITH_RUN.store(true, Ordering::Relaxed);
+    #[cfg(unix)]
+    interrupt::watch();
+}
+
+/// From now on an interrupt says what it leaves.
+pub(crate) fn begin_work() {
+    IS_AT_WORK.store(true, Ordering::Relaxed);
 }
 
 /// A file that is removed when it is dropped.
@@ -39,10 +50,6 @@ impl TemporaryFile {
     }
 
     fn made(make: impl FnOnce() -> io::Result<(File, PathBuf)>) -> io::Result<(Self, File)> {
-        #[cfg(unix)]
-        if ENDS_WITH_RUN.load(Ordering::Relaxed) {
-            interrupt::watch();
-        }
         let mut files = files();
         let (file, path) = make()?;
         files.insert(path.clone());
@@ -58,6 +65,10 @@ impl TemporaryFile {
         let mut files = files();
         fs::rename(&self.path, place)?;
         files.remove(&self.path);
+        // the list of a folder stands there before the results
+        if place.file_name().is_none_or(|name| name != NAME) {
+            HAS_WRITTEN.store(true, Ordering::Relaxed);
+        }
         Ok(())
     }
 }
@@ -100,29 +111,39 @@ fn files() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 
 #[cfg(unix)]
 mod interrupt {
-    use super::{files, folders};
+    use super::{HAS_WRITTEN, IS_AT_WORK, files, folders};
     use crate::failure::Failure;
     use crate::terminal::Terminal;
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
-    use std::io::{self, ErrorKind};
+    use std::io::{self, ErrorKind, IsTerminal};
     use std::path::Path;
-    use std::sync::Once;
-
-    static WATCH: Once = Once::new();
+    use std::sync::atomic::Ordering;
 
     /// From now on an interrupt removes the temporary files before it ends the process.
     pub(super) fn watch() {
-        WATCH.call_once(|| {
-            // without it an interrupt leaves files that the next run removes
-            let Ok(mut signals) = Signals::new([SIGHUP, SIGINT, SIGTERM]) else { return };
-            std::thread::spawn(move || signals.forever().for_each(end));
-        });
+        let ignored = ignored();
+        let is_watched = |signal: &i32| ignored & 1 << (signal - 1) == 0;
+        // without it an interrupt leaves files that the next run removes
+        let watched = [SIGHUP, SIGINT, SIGTERM, SIGXFSZ].into_iter().filter(is_watched);
+        let Ok(mut signals) = Signals::new(watched) else { return };
+        // the write beyond a limit (`ulimit -f`) fails then, and has a message of its own
+        std::thread::spawn(move || signals.forever().filter(|signal| *signal != SIGXFSZ).for_each(end));
+    }
+
+    /// The signals that the caller wants to be ignored, as `nohup` does, a bit for each; none where the system does not tell.
+    fn ignored() -> u64 {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let bits = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        bits.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok()).unwrap_or(0)
     }
 
     fn end(signal: i32) {
         let files = files();
+        if IS_AT_WORK.load(Ordering::Relaxed) && io::stderr().is_terminal() {
+            Terminal::of_process().say(""); // below the bar of the progress
+        }
         for file in files.iter() {
             match std::fs::remove_file(file) {
                 Err(error) if error.kind() != ErrorKind::NotFound => {
@@ -133,6 +154,11 @@ mod interrupt {
         }
         for folder in folders().iter() {
             Terminal::of_process().failure(&is_incomplete(folder));
+        }
+        if IS_AT_WORK.load(Ordering::Relaxed) && folders().is_empty() {
+            let has_written = HAS_WRITTEN.load(Ordering::Relaxed);
+            let words = if has_written { "interrupted" } else { "interrupted: no results were written" };
+            Terminal::of_process().say(words);
         }
         // it ends the process as if nobody had watched: a shell with a loop around the command sees the interrupt
         let _ = emulate_default_handler(signal);

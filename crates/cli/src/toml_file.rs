@@ -11,6 +11,9 @@ use std::path::{Path, PathBuf};
 /// What to do with a recording where the command hears none.
 pub(crate) const NO_RECORDING: &str = "give the TOML file, not a recording";
 
+/// A gear, which flags write as 8:69.
+const GEAR: &str = "gear = { pinion = 8, wheel = 69 }";
+
 /// A file that was read but not parsed.
 pub(crate) struct TomlFile<'a> {
     /// Path of the file.
@@ -79,6 +82,8 @@ fn fault(error: &toml::de::Error, file: &TomlFile<'_>) -> Failure {
     let Some(place) = span.map(|span| Place::of(span, &file.text)) else {
         return Failure::Usage { what, hint, path: Some(file.path.to_owned()) };
     };
+    let is_gear = error.message().starts_with("invalid type") && place.line.trim_start().starts_with("gear");
+    let hint = if is_gear { format!("as in {GEAR}; {}", file.see_example) } else { hint };
     let what = format!("{what}\n{}", place.underlined());
     let path = PathBuf::from(format!("{}:{}:{}", file.path.display(), place.line_number, place.column));
     Failure::Usage { what, hint, path: Some(path) }

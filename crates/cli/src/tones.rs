@@ -7,9 +7,10 @@ use crate::progress::Progress;
 use crate::recording::{HeardJobs, Hearing, Job, Requests, in_memory, opened, records_of};
 use crate::settings::{check_tips_ruled_out, idle_mass, search_of, span_of};
 use crate::terminal::Terminal;
-use hovertone::speed::{Config, Method};
+use hovertone::speed::Config;
 use hovertone_media::{Recording, Samples};
 use hovertone_report::{SpeedRecord, tones_json, tones_text};
+use hovertone_workflow::set_rotors;
 
 /// Analyses all files and prints their families of tones.
 pub(crate) fn run(arguments: &TonesArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
@@ -57,11 +58,7 @@ fn resolve(arguments: &TonesArguments) -> Result<Plan, Failure> {
     let (tone, discovery) = search_of(arguments)?;
     let mut config = Config::for_tone(tone);
     config.span = span_of(arguments.from, arguments.to)?;
-    config.rotors.is_count_known = discovery.known.rotor_count.is_some();
-    config.rotors.count = discovery.known.rotor_count.unwrap_or(config.rotors.count);
-    if config.rotors.count > 1 {
-        config.method = Method::Separated;
-    }
+    config.method = set_rotors(&mut config, discovery.known.rotor_count, false);
     config.check()?;
     let jobs = jobs_of(&arguments.files, &config, Some(discovery), Requests::default())?;
     Ok(Plan { jobs, hearing: Hearing { wants_hash: arguments.json, ..Hearing::of(&arguments.hearing) } })

@@ -8,16 +8,17 @@ use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
 use crate::recording::{Hearing, Requests, records_of};
-use crate::settings::tone_of;
+use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
+use crate::wording::OF_WEIGH;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
-    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, check_not_negative,
-    check_positive, is_swamped,
+    BLADES_MAX, Ending as EstimateEnding, Estimate, KnownRotor, Order, RotorSpeed, SaidOfVehicle, Vehicle,
+    check_not_negative, check_positive, is_swamped,
 };
 use std::ops::RangeInclusive;
 
@@ -35,6 +36,8 @@ struct Plan {
     method_of_constant: Option<Method>,
     /// Standard deviation of the difference between the mean of all rotors and the speeds behind the constant, as a share.
     rotors_std_share: f64,
+    /// Mass of the vehicle that the arguments name, where they give no other.
+    model_kg: Option<f64>,
 }
 
 /// What stands in place of a mass where no recording has a speed.
@@ -52,7 +55,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records = records_of(&jobs, hearing, &progress);
+    let records: Vec<SpeedRecord> =
+        records_of(&jobs, hearing, &progress).into_iter().map(|record| record.worded(OF_WEIGH)).collect();
     progress.finish();
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
@@ -60,8 +64,8 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_different_loads(&scale, &hovers, &names)?;
     let weighed = scale.weigh(&hovers);
     if let Some(weighed) = &weighed {
-        let model_kg = model_mass_kg(arguments)?;
-        let checked = weighed.check().and_then(|()| model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
+        let checked =
+            weighed.check().and_then(|()| plan.model_kg.map_or(Ok(()), |model_kg| weighed.check_model(model_kg)));
         checked.map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     }
     let warnings: Vec<Notice> = weighed.iter().filter_map(WeighedHover::warning).map(|it| Notice::from(&it)).collect();
@@ -130,9 +134,10 @@ impl Plan {
 
 fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Plan, Failure> {
     check(arguments)?;
-    check_vehicle(arguments, results)?;
+    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+    vehicle.map_or(Ok(()), |vehicle| check_vehicle(vehicle, arguments, results))?;
     let estimate = |value: f64, std_uncertainty| Estimate { value, std_uncertainty, ending: EstimateEnding::Solved };
-    let rotor_count = rotors_of(arguments, results)?;
+    let rotor_count = rotors_of(vehicle, arguments, results)?;
     let constant = match (results, arguments.constant_n_s2) {
         (Some(rotor), _) => {
             let rotors = f64::from(rotor_count.unwrap_or(rotor.rotor_count));
@@ -156,8 +161,9 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
     }
     let mass_std_kg = arguments.mass_std_kg.unwrap_or(MASS_STD_KG);
     let mut config = Config::for_tone(tone_to_hear(arguments, results)?);
+    config.span = span_of(arguments.from, arguments.to)?;
     config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
-    config.known = known_of(arguments, results, rotor_count)?;
+    config.known = known_of(vehicle, arguments, results, rotor_count)?;
     let method_of_constant = results
         .and_then(|rotor| rotor.method.as_deref())
         .and_then(|name| Method::ALL.into_iter().find(|method| method.name() == name));
@@ -174,30 +180,42 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
     check_stds(&scale)?;
     scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
-    Ok(Plan { scale, config, method_of_constant, rotors_std_share })
+    let model_kg = vehicle.and_then(|vehicle| Some(vehicle.mass_kg?.value)).filter(|_| arguments.mass_kg.is_none());
+    Ok(Plan { scale, config, method_of_constant, rotors_std_share, model_kg })
 }
 
 /// What is known of the rotors. The mass is that without the payload: C_T has a wider range than a payload makes.
 fn known_of(
+    vehicle: Option<&Vehicle>,
     arguments: &WeighArguments,
     results: Option<&IdentifiedRotor>,
     rotor_count: Option<u32>,
 ) -> Result<KnownRotor, Failure> {
-    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
     let of_vehicle = vehicle.map(KnownRotor::of_vehicle).unwrap_or_default();
     let flown = vehicle_of(results);
-    Ok(KnownRotor {
+    let known = KnownRotor {
         mass_kg: arguments.mass_kg.or_else(|| flown?.mass_kg).or(of_vehicle.mass_kg),
-        diameter_m: flown.and_then(|rotor| rotor.propeller_diameter_m).or(of_vehicle.diameter_m),
+        diameter_m: (arguments.diameter_m)
+            .or_else(|| flown.and_then(|rotor| rotor.propeller_diameter_m))
+            .or(of_vehicle.diameter_m),
         rotor_count: rotor_count.or(of_vehicle.rotor_count),
         ..of_vehicle
-    })
+    };
+    if arguments.diameter_m.is_some() {
+        known.check()?;
+        known.check_diameter()?;
+        known.check_hover()?;
+    }
+    Ok(known)
 }
 
 /// Number of rotors of the weighed vehicle. The constant of a single rotor on a stand does not contain it. All rotors of a vehicle carry it
 /// in a hover, so that two numbers must be equal.
-fn rotors_of(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<Option<u32>, Failure> {
-    let vehicle = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
+fn rotors_of(
+    vehicle: Option<&Vehicle>,
+    arguments: &WeighArguments,
+    results: Option<&IdentifiedRotor>,
+) -> Result<Option<u32>, Failure> {
     let of_vehicle = vehicle.map(|vehicle| vehicle.rotor_count.value);
     let of_results = vehicle_of(results).map(|rotor| rotor.rotor_count);
     let said = arguments.rotors.map(|said| (said, "--rotors")).or(of_vehicle.map(|said| (said, "--vehicle")));
@@ -220,15 +238,8 @@ fn vehicle_of(results: Option<&IdentifiedRotor>) -> Option<&IdentifiedRotor> {
     results.filter(|rotor| rotor.rotor_count > 1 || rotor.mass_kg.is_some())
 }
 
-/// Mass of the vehicle that the arguments name, where they give no other.
-fn model_mass_kg(arguments: &WeighArguments) -> Result<Option<f64>, Failure> {
-    let said = arguments.tone.vehicle.as_deref().map(preset).transpose()?;
-    Ok(said.and_then(|vehicle| Some(vehicle.mass_kg?.value)).filter(|_| arguments.mass_kg.is_none()))
-}
-
 /// Compares the vehicle that the arguments name with their own numbers and with the vehicle of the results.
-fn check_vehicle(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
-    let Some(said) = arguments.tone.vehicle.as_deref().map(preset).transpose()? else { return Ok(()) };
+fn check_vehicle(said: &Vehicle, arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Result<(), Failure> {
     let flown = SaidOfVehicle {
         rotors: arguments.rotors,
         is_hovering: true,

@@ -160,7 +160,9 @@ impl LogError {
                 "write thousands without a point, as 1000: in this table commas are decimal"
             }
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
-            Self::NoTime { .. } => "a log has a column of times with their unit, such as time_s or timestamp_us",
+            Self::NoTime { .. } => {
+                "rename the header of the times, as in time_s or timestamp_us; or where the command has --column: --column OLD=time_s"
+            }
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"
             }

@@ -18,7 +18,7 @@
 //! names        short names of recordings                logged        what a log holds
 //! motor        constants of motors, from steps in a log   motor_json    the same for programs
 //! grey_box     the low-level model of eqs 1 and 2         flight_log    the log of a recording's flight
-//! flight_log_tables  the same as tables
+//! flight_log_tables  the same as tables                wording     advice in the words of a command
 //! ```
 
 mod adequacy;
@@ -59,6 +59,7 @@ mod vehicles;
 mod verification;
 mod version;
 mod weighed;
+mod wording;
 
 pub use adequacy::{adequacy_text, agreement_text, budget_table, laws_table, laws_text, preferred_text};
 pub use comparison::{LoadTruth, PrintedRow, comparison_with_paper, comparison_with_truth};
@@ -103,3 +104,4 @@ pub use vehicles::{vehicles_json, vehicles_text};
 pub use verification::{VerificationRecord, verification_json, verification_text};
 pub use version::VERSION;
 pub use weighed::{weighed_json, weighed_text};
+pub use wording::Wording;

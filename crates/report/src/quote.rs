@@ -25,6 +25,10 @@ impl Verdict {
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
             format!(" (χ² = {:.2}, {})", agreement.chi_square, p_value_text(agreement.p_value))
         });
+        let is_exchange = |warning: &&ThrustWarning| matches!(warning, ThrustWarning::HeavierTurnedSlower { .. });
+        if let Some(exchange) = table.warnings.iter().find(is_exchange) {
+            return Self::Fails(format!("the loads contradict each other: {exchange}{agreement}"));
+        }
         let heard = table.loads.iter().filter(|load| load.speed.is_some()).count();
         if !table.loads.iter().any(|load| load.fits.is_some()) {
             let differ = table.warnings.iter().find(|warning| {

@@ -1,11 +1,12 @@
 //! The record of one recording: its facts and its result.
 
 use crate::notice::Notice;
+use crate::wording::Wording;
 use hovertone_analysis::{
-    Method, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span, SpeedAnalysis,
-    SpeedEstimate, ToneFamily,
+    Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
+    SpeedAnalysis, SpeedEstimate, ToneFamily,
 };
-use hovertone_vehicle::Order;
+use hovertone_vehicle::{BLADES_MAX, Order};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -92,9 +93,18 @@ pub struct SpeedRecord {
     pub spoiled: Option<String>,
     /// Warnings about the file and the analysis.
     pub notices: Vec<Notice>,
+    /// How the advice of [`reason`](Self::reason) is worded.
+    pub wording: Wording,
 }
 
 impl SpeedRecord {
+    /// The same record, with all advice in the words of a command.
+    #[must_use]
+    pub fn worded(mut self, wording: Wording) -> Self {
+        self.notices.iter_mut().for_each(|notice| notice.hint = wording.of(&notice.hint));
+        Self { wording, ..self }
+    }
+
     /// The analysis, where the file could be read.
     pub fn analysis(&self) -> Option<&SpeedAnalysis> {
         match &self.answer {
@@ -180,8 +190,17 @@ impl SpeedRecord {
     pub fn reason(&self) -> Option<String> {
         match &self.answer {
             Answer::Failed { reason } => Some(reason.clone()),
-            Answer::Heard(analysis) => match &analysis.outcome {
-                Outcome::NoRotorTone { reason } => Some(self.spoiled.clone().unwrap_or_else(|| reason.to_string())),
+            Answer::Heard(analysis) => self.reason_of(analysis).map(|reason| self.wording.of(&reason)),
+        }
+    }
+
+    /// Reason for a missing speed of an analysis, with the flags of `hovertone speed`.
+    fn reason_of(&self, analysis: &SpeedAnalysis) -> Option<String> {
+        match &analysis.outcome {
+            Outcome::NoRotorTone { reason } => {
+                let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.to_string());
+                Some(self.spoiled.clone().unwrap_or_else(of_mesh))
+            }
                 Outcome::Ok(_) if !self.is_ambiguous() => None,
                 Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
                     if self.has_thrust_coefficients() {
@@ -197,12 +216,11 @@ impl SpeedRecord {
                         .to_owned(),
                 ),
                 Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
-                    "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}: \
-                     they rule out speeds that cannot carry the vehicle",
+                    "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}",
                     self.missing_facts()
                 )),
                 Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
-                    "several rotor speeds explain this sound; give {}: they rule out speeds that cannot carry the vehicle",
+                    "several rotor speeds explain this sound; give {}",
                     self.missing_facts()
                 )),
                 Outcome::Ok(_) => Some(
@@ -210,8 +228,22 @@ impl SpeedRecord {
                      propellers and the vehicle, or place the microphone nearer"
                         .to_owned(),
                 ),
-            },
-        }
+            }
+    }
+
+    /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.
+    fn no_mesh(&self, reason: &NoTone) -> Option<String> {
+        let order = self.order.lines_per_turn();
+        let NoTone::NoSeries { only_rev_s, instead: None } = reason else { return None };
+        let range = only_rev_s.map_or_else(String::new, |(low, high)| {
+            format!(" at {:.0} to {:.0} Hz, as of {low:.0} to {high:.0} rev/s", order * low, order * high)
+        });
+        (order > BLADES_MAX).then(|| {
+            format!(
+                "no gear mesh of order {order} is heard{range}; if the rotors have no gear, give --blades N alone, in place of the vehicle, \
+                 the gear or the order; if they have one, check these facts, or go nearer"
+            )
+        })
     }
 
     /// Whether one rotor alone is said to turn, as on a bench.
@@ -223,7 +255,7 @@ impl SpeedRecord {
         self.settings.pointer(place).is_none_or(Value::is_null)
     }
 
-    /// Those of diameter, mass and number of rotors that are not known.
+    /// Those of diameter, mass and number of rotors that are not known, and what they are for.
     fn missing_facts(&self) -> String {
         let facts = [
             ("/known/diameter_m", "the diameter of the propellers (--diameter-m)"),
@@ -232,10 +264,11 @@ impl SpeedRecord {
         ];
         let missing: Vec<&str> =
             facts.iter().filter(|(place, _)| self.is_setting_missing(place)).map(|(_, words)| *words).collect();
+        const SPEEDS: &str = "speeds that cannot carry the vehicle";
         match missing.split_last() {
-            Some((last, [])) => (*last).to_owned(),
-            Some((last, others)) => format!("{} and {last}", others.join(", ")),
-            None => facts.map(|(_, words)| words).join(", "),
+            Some((last, [])) => format!("{last}: it rules out {SPEEDS}"),
+            Some((last, others)) => format!("{} and {last}: they rule out {SPEEDS}", others.join(", ")),
+            None => format!("{}: they rule out {SPEEDS}", facts.map(|(_, words)| words).join(", ")),
         }
     }
 

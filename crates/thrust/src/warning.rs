@@ -159,6 +159,17 @@ pub enum ThrustWarning {
 }
 
 impl ThrustWarning {
+    /// Whether the loads contradict each other, and nothing shows which of them is right: then the constant is of none.
+    pub fn is_contradiction(&self) -> bool {
+        matches!(
+            self,
+            Self::HeavierTurnedSlower { .. }
+                | Self::LoadsDisagree { .. }
+                | Self::ConstantsDiffer { .. }
+                | Self::ConstantsSplit
+        )
+    }
+
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {

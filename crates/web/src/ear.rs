@@ -4,7 +4,7 @@ use crate::picture::wav_of_floats;
 use crate::said::SaidOnPage;
 use hovertone::live::{Listener, LiveConfig, LiveSpeed};
 use hovertone_report::LiveWords;
-use hovertone_workflow::{live_status_in_words, live_words, possible_in_words};
+use hovertone_workflow::{live_remark, live_status_in_words, live_words, possible_in_words};
 use serde::Serialize;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -93,7 +93,7 @@ impl Ear {
     }
 
     fn told(&self, heard: &[LiveSpeed]) -> Told {
-        let remark = self.listener.remark();
+        let remark = live_remark(&self.listener);
         let told = |speed: &LiveSpeed| ToldSpeed {
             speed: *speed,
             words: live_words(speed),

@@ -2,11 +2,13 @@
 
 use hovertone::rotors::{SpinUp, conditions_from_analysis, passes_of_spin_up, speed_after_spin_up};
 use hovertone::sound::Passes;
-use hovertone::speed::{Config, Error, NoTone, Outcome, SpeedAnalysis, Warning, passes_of_speed, speed_from_passes};
+use hovertone::speed::{
+    Config, Error, NoTone, Outcome, SpeedAnalysis, ToneConfig, Warning, passes_of_speed, speed_from_passes,
+};
 use hovertone::tones::{Discovery, FoundSpeed, tones_from_passes};
 use hovertone_media::{Decoder, MediaWarning, Recording};
-use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord};
-use hovertone_vehicle::{KNOWN_RANGE_MARGIN, check_tips};
+use hovertone_report::{Answer, Found, Notice, RecordingFacts, SpeedRecord, Wording};
+use hovertone_vehicle::{KNOWN_RANGE_MARGIN, Order, check_tips};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -222,6 +224,7 @@ fn record_of(task: &Task<'_>, config: &Config, answer: Answer, recording: Option
         labels: None,
         spoiled: None,
         notices: Vec::new(),
+        wording: Wording::default(),
     }
 }
 
@@ -243,6 +246,22 @@ struct Analysed {
     config: Config,
     found: Option<Found>,
     spin_up: Option<SpinUp>,
+}
+
+/// Drops the rotor that may be heard instead where none is heard with its blades: who followed the advice to give them would get no speed.
+fn drop_unheard(passes: &mut Passes<'_>, analysed: &mut Analysed) {
+    let Outcome::NoRotorTone { reason: NoTone::NoSeries { instead, .. } } = &mut analysed.analysis.outcome else {
+        return;
+    };
+    let Some(Ok(order)) = instead.map(|other| Order::from_blades(other.blades)) else { return };
+    let tone = ToneConfig { blades: instead.map(|other| other.blades), ..ToneConfig::of_order(order) };
+    let Config { span, rotors, method, .. } = analysed.config;
+    let alone = Config { span, rotors, method, ..Config::for_tone(tone) };
+    passes.expect_more(passes_of_speed(&alone));
+    let heard = speed_from_passes(passes, &alone);
+    if !heard.is_ok_and(|analysis| matches!(analysis.outcome, Outcome::Ok(_))) {
+        *instead = None;
+    }
 }
 
 fn analysed(recording: &mut Recording, task: &Task<'_>, on_share: impl FnMut(Share)) -> Result<Analysed, Error> {
@@ -271,6 +290,7 @@ fn analysed(recording: &mut Recording, task: &Task<'_>, on_share: impl FnMut(Sha
             Analysed { analysis, config: config.clone(), found: None, spin_up: None }
         }
     };
+    drop_unheard(&mut passes, &mut analysed);
     let has_tone = matches!(analysed.analysis.outcome, Outcome::Ok(_));
     if spin_up && analysed.spin_up.is_none() && has_tone {
         let (analysis, spin_up) = speed_after_spin_up(&mut passes, &analysed.config)?;

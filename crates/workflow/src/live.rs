@@ -1,9 +1,21 @@
 //! What is heard now, in words and as JSON: the same for lines, screens and the page.
 
 use hovertone::live::{Listener, LiveSpeed, LiveStatus, PossibleSpeed};
-use hovertone_report::{LiveWords, counted, live_speed_in_words};
+use hovertone_report::{LiveWords, Wording, counted, live_speed_in_words};
 use hovertone_vehicle::RotorSpeed;
 use serde::Serialize;
+
+/// Sound that arrives has no parts to choose.
+const LIVE: Wording = Wording(&[
+    (", or choose a steady part with --from and --to", ""),
+    ("; choose a longer or steadier part with --from and --to", ""),
+    ("; if a rotor is among them, choose its part with --from and --to", ""),
+]);
+
+/// What the last review says, with advice that holds for sound as it arrives.
+pub fn live_remark(listener: &Listener) -> String {
+    LIVE.of(&listener.remark())
+}
 
 /// A live speed in words; `None` where no rotor is heard.
 pub fn live_words(speed: &LiveSpeed) -> Option<LiveWords> {
@@ -47,13 +59,26 @@ impl<'a> LiveLine<'a> {
     /// A live speed, with what the last review says.
     pub fn new(speed: &'a LiveSpeed, listener: &'a Listener) -> Self {
         let possible_rev_s = listener.possible().iter().map(|possible| possible.speed_rev_s).collect();
-        Self { speed, rotors_rev_s: listener.rotors_rev_s(), possible_rev_s, remark: listener.remark() }
+        Self { speed, rotors_rev_s: listener.rotors_rev_s(), possible_rev_s, remark: live_remark(listener) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hovertone::speed::NoTone;
+
+    #[test]
+    fn advice_about_live_sound_chooses_no_part() {
+        for reason in [
+            NoTone::NoSeries { only_rev_s: None, instead: None },
+            NoTone::NoFrame { window_s: 0.1, hover_s: 3.0 },
+            NoTone::NotHeld { tone_hz: 160.0, held_s: 1.0 },
+        ] {
+            let said = reason.to_string();
+            assert!(said.contains("--from") && !LIVE.of(&said).contains("--"), "{said}");
+        }
+    }
 
     fn speed(speed_rev_s: Option<f64>, std_rev_s: f64) -> LiveSpeed {
         let status = if speed_rev_s.is_some() { LiveStatus::Ok } else { LiveStatus::NoRotorTone };

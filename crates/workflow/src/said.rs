@@ -48,6 +48,14 @@ pub enum NoSettings {
     Contradiction(#[from] Contradiction),
 }
 
+/// Sets how many rotors turn, and returns the method that follows. No more rotors are searched for in a tone that nobody has named.
+pub fn set_rotors(config: &mut Config, rotor_count: Option<u32>, is_tone_named: bool) -> Method {
+    config.rotors.count = rotor_count.unwrap_or(config.rotors.count);
+    config.rotors.is_count_known = rotor_count.is_some();
+    let may_be_several = config.rotors.count > 1 || !config.rotors.is_count_known && is_tone_named;
+    if may_be_several { Method::Separated } else { Method::Harmonic }
+}
+
 impl Said<'_> {
     /// The settings of an analysis. The second part is the search for the tone, where its order does not follow from what is said.
     ///
@@ -64,12 +72,9 @@ impl Said<'_> {
         };
         let mut config = Config::for_tone(tone);
         config.known = self.known()?;
-        config.rotors.count = config.known.rotor_count.unwrap_or(config.rotors.count);
-        config.rotors.is_count_known = config.known.rotor_count.is_some();
-        // no more rotors are searched for in a tone that nobody has named
-        let may_be_several = config.rotors.count > 1 || !config.rotors.is_count_known && discovery.is_none();
-        let default = if may_be_several && !self.mean_only { Method::Separated } else { Method::Harmonic };
-        config.method = self.method.unwrap_or(default);
+        let rotor_count = config.known.rotor_count;
+        let default = set_rotors(&mut config, rotor_count, discovery.is_none());
+        config.method = self.method.unwrap_or(if self.mean_only { Method::Harmonic } else { default });
         config.span = self.span;
         config.check()?;
         Ok((config, discovery))

@@ -1,7 +1,9 @@
 //! Arguments of the commands about forces: identify, fit, weigh, export, compare.
 
 use super::draft::{DraftArguments, MASS_HELP};
-use super::groups::{HearingArguments, ReplaceArguments, ToneArguments, method_parser, typed_path, whole_number};
+use super::groups::{
+    HearingArguments, ReplaceArguments, ToneArguments, method_parser, time_s, typed_path, whole_number,
+};
 use super::units::{length_m, mass_kg};
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -212,6 +214,9 @@ pub(crate) struct WeighArguments {
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=12))]
     pub(crate) rotors: Option<u32>,
+    /// Diameter of a propeller, in m or as 8in: with it, half and double the speed can be ruled out [default: that of the results, or of --vehicle]
+    #[arg(long, value_name = "M", value_parser = length_m)]
+    pub(crate) diameter_m: Option<f64>,
     /// Mass of the vehicle without payload [default: that of the results]
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
@@ -222,6 +227,12 @@ pub(crate) struct WeighArguments {
     pub(crate) place: PlaceArguments,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
+    /// Use the recordings from here, in seconds or as 1:02.5, and cut nothing away
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
+    pub(crate) from: Option<f64>,
+    /// Use the recordings up to here, and cut nothing away
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
+    pub(crate) to: Option<f64>,
     #[command(flatten)]
     pub(crate) hearing: HearingArguments,
     /// Print JSON

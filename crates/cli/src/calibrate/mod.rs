@@ -5,6 +5,7 @@ mod comparison;
 use crate::args::{AnalysisArguments, CalibrateArguments, KnownArguments};
 use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
+use crate::meant::number_meant;
 use crate::progress::Progress;
 use crate::recording::{Hearing, Job, Requests, line_in_band, records_of};
 use crate::settings::config_of;
@@ -267,7 +268,9 @@ fn reference_of(arguments: &CalibrateArguments) -> Result<Reference, Failure> {
     let stated = arguments.known_std_ppm.map(|ppm| ppm / MILLION);
     if let Some(typed) = &arguments.tachometer_rpm {
         let rpm = typed.trim().parse().map_err(|_| {
-            Failure::usage(format!("--tachometer-rpm {typed}: a number is needed, such as 3600"), SEE_HELP)
+            let meant = number_meant(typed).map(|(why, hint)| (why.to_owned(), hint));
+            let (why, hint) = meant.unwrap_or(("a number is needed, such as 3600".to_owned(), SEE_HELP.to_owned()));
+            Failure::usage(format!("--tachometer-rpm {typed}: {why}"), hint)
         })?;
         check_known("tachometer_rpm", rpm, TACHOMETER_RPM)?;
         // the last digit is rounded: half a unit of it is the limit of a rectangular distribution

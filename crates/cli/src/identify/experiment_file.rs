@@ -4,6 +4,7 @@ use super::typed::TypedExperiment;
 use crate::failure::Failure;
 use crate::files::{home_expanded, sha256_of_bytes};
 use crate::model_file::read_model;
+use crate::recording_files::groups_in;
 use crate::toml_file::TomlFile;
 use crate::vehicles::{known_vehicles, preset_hint};
 use hovertone::experiment::{Experiment, ExperimentError, ExperimentFile};
@@ -42,6 +43,7 @@ impl ExperimentSource {
 
     /// Reads and resolves an experiment file.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        refuse_folder(path)?;
         let toml = TomlFile::read(
             path,
             KIND,
@@ -78,6 +80,21 @@ impl ExperimentSource {
             path,
         })
     }
+}
+
+/// Refuses a folder, with what to give in its place: the experiment file in it, or its recordings with their mass.
+fn refuse_folder(path: &Path) -> Result<(), Failure> {
+    if !path.is_dir() {
+        return Ok(());
+    }
+    let names = std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    let file = names.filter(|name| name.extension().is_some_and(|ending| ending == "toml")).min();
+    let hint = match file {
+        Some(file) => format!("name the file in it: {}", file.display()),
+        None if groups_in(path).is_empty() => "name the experiment file: `hovertone init` writes one".to_owned(),
+        None => format!("to hear its recordings, write their mass before them: --mass 413g={}", path.display()),
+    };
+    Err(Failure::failed("this is a folder, and the experiment file is needed", hint, path))
 }
 
 /// The simulator's model that an experiment names, relative to the folder of the experiment.

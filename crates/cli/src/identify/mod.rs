@@ -23,8 +23,10 @@ use crate::report_folder::{PAGE, RESULTS, write_report};
 use crate::terminal::Terminal;
 use crate::today::today;
 use crate::typed::typed_command;
+use crate::wording::{IN_FILE, IN_PLACE_OF_FILE};
 use hovertone::experiment::Experiment;
 use hovertone::speed::Method;
+use hovertone::thrust::ThrustWarning;
 use hovertone_report::{InputRecord, Notice, SpeedRecord, printable, results_json};
 use hovertone_workflow::{ReportExtras, TipsTooFast, Titles};
 use std::ops::Deref;
@@ -171,9 +173,10 @@ pub(crate) fn identify(
     let progress = Progress::new("listening to", jobs.len(), shows_progress);
     let records = records_of(&jobs, hearing, &progress);
     progress.finish();
+    let wording = if source.typed.is_some() { IN_PLACE_OF_FILE } else { IN_FILE };
     let input = |((OfLoad { load, log }, mut record), job): ((OfLoad, SpeedRecord), &Job)| {
         let log = log.map(|log| log.compared(&mut record, job));
-        InputRecord { load, record, log }
+        InputRecord { load, record: record.worded(wording), log }
     };
     let inputs: Vec<InputRecord> = of_loads.into_iter().zip(records).zip(&jobs).map(input).collect();
     let titles = Titles { file: source.name, sha256: source.sha256 };
@@ -204,7 +207,8 @@ impl Deref for Identified {
 impl Identified {
     pub(crate) fn ending(&self) -> Ending {
         let has_failed_check = self.identification().failed_check_count() > 0;
-        let of_checks = if has_failed_check { Ending::Incomplete } else { Ending::Done };
+        let is_contradicted = self.warnings().iter().any(ThrustWarning::is_contradiction);
+        let of_checks = if has_failed_check || is_contradicted { Ending::Incomplete } else { Ending::Done };
         ending_of(self.records()).max(of_checks)
     }
 

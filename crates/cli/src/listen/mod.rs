@@ -16,6 +16,7 @@ use crate::terminal::Terminal;
 use hovertone::live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
 use hovertone_report::Notice;
 use hovertone_vehicle::{RotorSpeed, check_range, check_tips};
+use hovertone_workflow::live_remark;
 use lines::{PlainLines, json_line};
 use pace::Pace;
 use screen::{Key, Screen};
@@ -99,7 +100,7 @@ fn tell(
     let lines = match output {
         Output::Json => arrived.map(|speed| json_line(&speed, listener)).transpose()?,
         Output::Plain(lines) => {
-            let remark = listener.remark();
+            let remark = live_remark(listener);
             arrived.and_then(|speed| lines.line(&speed, &remark))
         }
         Output::Screen(screen, view) => {

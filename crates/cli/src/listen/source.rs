@@ -1,9 +1,11 @@
 //! Where live sound comes from.
 
 use crate::failure::Failure;
+use crate::files::is_pattern;
 use crate::inputs::is_stdin;
 #[cfg(feature = "microphone")]
 use crate::listen::microphone::Microphone;
+use crate::recording_files::{folder_in_words, pattern_in_words};
 use hovertone::sound::SignalSource;
 use hovertone_media::{OpenOptions, PipedSound, Recording};
 use hovertone_report::Notice;
@@ -31,6 +33,10 @@ impl LiveSound {
             Some(name) if is_stdin(name) => {
                 let sound = PipedSound::open(std::io::stdin(), channel);
                 Ok(Self::Pipe(Box::new(sound.map_err(|error| failed(&error, Path::new(PIPE)))?)))
+            }
+            Some(path) if path.is_dir() => Err(Failure::failed(folder_in_words(path), "", path)),
+            Some(path) if !path.exists() && is_pattern(&path.to_string_lossy()) => {
+                Err(Failure::failed(pattern_in_words(path), "", path))
             }
             Some(path) => {
                 let options = OpenOptions { channel, ..OpenOptions::default() };

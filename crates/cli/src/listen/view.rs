@@ -1,7 +1,7 @@
 //! What the screen shows: the speed now, the last minute, and what the last review found.
 
 use hovertone::live::{Listener, LiveSpeed};
-use hovertone_workflow::possible_in_words;
+use hovertone_workflow::{live_remark, possible_in_words};
 use std::collections::VecDeque;
 
 /// Length of the strip chart, s.
@@ -56,7 +56,7 @@ impl View {
         }
         self.rotors_rev_s = listener.rotors_rev_s().to_vec();
         self.choices = listener.possible().iter().map(possible_in_words).collect();
-        self.remark = listener.remark();
+        self.remark = live_remark(listener);
     }
 }
 

@@ -5,12 +5,13 @@ use crate::testkit::{hovertone, hovertone_with, write_noise};
 use std::fs;
 
 /// Words of a command, its exit code, and a word of its message.
-const CASES: [(&str, i32, &str); 64] = [
+const CASES: [(&str, i32, &str); 65] = [
     // what is read is not there, or of another kind
     ("speed nowhere.wav --blades 2", 1, "nowhere.wav"),
     ("speed *.mov --blades 2", 1, "no file matches"),
     ("speed empty --blades 2", 1, "a folder"),
     ("tones nowhere.wav", 1, "nowhere.wav"),
+    ("listen --from-file empty --blades 2", 1, "a folder, not a recording"),
     ("spectrogram nowhere.wav --blades 2 -o x.png", 1, "nowhere.wav"),
     ("calibrate nowhere.wav --true-hz 400", 1, "nowhere.wav"),
     ("weigh nowhere.wav --vehicle ardrone --constant-n-s2 2.8e-5", 1, "nowhere.wav"),

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
 mod absurd_numbers;
+mod advice;
 #[cfg(feature = "archive")]
 mod batch;
 #[cfg(feature = "archive")]

@@ -296,7 +296,7 @@ fn files_of_another_kind_are_named_for_what_they_are() {
         (vec!["fit", wav], ["413g.wav", "not text"]),
         (vec!["export", wav, "--to", "gazebo"], ["413g.wav", "not text"]),
         (vec!["fit", place], ["this is a folder", "the table must be a file"]),
-        (vec!["identify", place], ["this is a folder", "experiment file must be a file"]),
+        (vec!["identify", place], ["this is a folder", "the experiment file is needed"]),
         (vec!["identify", "nowhere.toml"], ["nowhere.toml: there is no such file", "folder of the experiment file"]),
         (vec!["fit", "nowhere.csv"], ["nowhere.csv: there is no such file", "folder of the table"]),
     ] {

@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use crate::identify::write_experiment;
-use crate::testkit::{files_in, hovertone, steady_hover, text, write_hover};
+use crate::testkit::{files_in, hovertone, steady_hover, text, write_hover, write_noise};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::io::{Read, Write};
@@ -176,6 +176,67 @@ fn a_demo_leaves_whole_files_and_takes_its_folder_again() {
         assert!(is_ended_by_it && said.trim_end().ends_with(INCOMPLETE), "{said}");
         assert_whole(&demo);
     }
+}
+
+/// Words of a shell before a command that runs for a while.
+fn behind_shell(words: &str, folder: &Path) -> Child {
+    let sound = folder.join("a.wav");
+    write_noise(&sound, 60.0);
+    let copy = folder.join("b.wav");
+    write_noise(&copy, 61.0);
+    let line = format!("{words}; exec \"$0\" speed a.wav b.wav --blades 2 --no-progress");
+    let mut command = Command::new("sh");
+    command.args(["-c", &line, env!("CARGO_BIN_EXE_hovertone")]).current_dir(folder);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
+}
+
+#[test]
+fn long_work_says_that_it_was_interrupted() {
+    let folder = tempfile::tempdir().unwrap();
+    // a busy machine begins the work later
+    let said = [200, 600, 1500].map(|delay_ms| {
+        let run = behind_shell("true", folder.path());
+        std::thread::sleep(Duration::from_millis(delay_ms));
+        interrupted(run)
+    });
+    let expected = (true, "interrupted: no results were written\n".to_owned());
+    assert!(said.contains(&expected), "{said:?}");
+}
+
+/// As behind `nohup`, or in the background of a script.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupt_that_the_caller_ignores_ends_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = behind_shell("trap '' INT", folder.path());
+    std::thread::sleep(Duration::from_millis(300));
+    let (is_ended_by_it, said) = interrupted(run);
+    assert!(!is_ended_by_it && said.contains("no rotor tone"), "{said}");
+}
+
+#[test]
+fn a_file_beyond_the_limit_of_the_system_leaves_nothing_and_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    write_noise(&folder.path().join("a.wav"), 2.0);
+    let line = "ulimit -f 1; exec \"$0\" spectrogram a.wav -o x.png --blades 2 --no-progress";
+    let mut command = Command::new("sh");
+    let run = command.args(["-c", line, env!("CARGO_BIN_EXE_hovertone")]).current_dir(folder.path()).output().unwrap();
+    let said = String::from_utf8(run.stderr).unwrap();
+    assert_eq!(run.status.code(), Some(1), "{said}");
+    for words in ["x.png: this file becomes larger than the system allows", "ulimit -f unlimited"] {
+        assert!(said.contains(words), "no {words:?}:\n{said}");
+    }
+    assert_eq!(all_files(folder.path()).len(), 1);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("a.csv");
+    fs::write(&table, "time_s,rotor1_rpm\n0,600\n1,660\n").unwrap();
+    let run = hovertone(&["log", text(&table), "--signal", "table.rotor1_rpm", "-o", "/dev/full"]).ends_with(1);
+    assert!(run.stderr.contains("/dev/full: the disk is full") && run.stderr.contains("make room"), "{}", run.stderr);
 }
 
 #[test]

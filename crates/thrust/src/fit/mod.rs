@@ -257,6 +257,8 @@ fn warnings_of(
         }));
     }
     warnings.extend(misfiled(campaign));
+    // the pair that shows most of what is wrong stands on top
+    warnings.sort_by_key(|warning| !matches!(warning, ThrustWarning::HeavierTurnedSlower { .. }));
     warnings.extend(warnings_of_recordings(&outlines_of(loads, campaign)));
     let are_split = campaign.are_split || are_split_points(&campaign.points);
     let is_contradicted = warnings.iter().any(ThrustWarning::is_of_misfiled);

@@ -104,4 +104,6 @@ const HEAD: &str = "Saying more of the vehicle should never make the answer wors
     *Alike*: the error with the fact is at most the error without it plus the expanded uncertainty U (k = 2) that the answer without it states, and not \
     smaller by more. *Better* and *worse*: it is smaller, or larger, by more than that. *Found*: a speed where there was none. *Withdrawn*: none \
     where the speed was more than 1 % off. *Lost*: none where the speed was less than 1 % off. *Misled*: a speed more than 1 % off where there was none. \
-    *Silent*: none, with and without. The simulated flights are random hovers; the semi-real recordings are sums of real single rotors.";
+    *Silent*: none, with and without. The ± itself is not counted: a fact that makes \
+    the ± larger, or too small for the error, is *alike* here. The simulated flights are random hovers; the semi-real recordings are sums \
+    of real single rotors.";

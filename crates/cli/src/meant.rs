@@ -1,0 +1,94 @@
+//! Common slips of a command line, and what was meant.
+
+use crate::see_help::{argument_of, is_typed, typed_command};
+use hovertone_exchange::SimulatorFormat;
+use std::ffi::OsString;
+use std::path::Path;
+
+/// A number with a decimal comma or a percent sign: what is wrong, and what to write.
+pub(crate) fn number_meant(value: &str) -> Option<(&'static str, String)> {
+    if let Some(point) = with_point(value) {
+        return Some(("the decimal sign is a point", format!("write {point}")));
+    }
+    let percent: f64 =
+        with_point(value.strip_suffix('%')?).as_deref().or(value.strip_suffix('%'))?.trim().parse().ok()?;
+    Some(("a share is a number without a percent sign", format!("write {}", percent / 100.0)))
+}
+
+/// The number that a comma stands in, with a point.
+pub(crate) fn with_point(word: &str) -> Option<String> {
+    let point = word.replacen(',', ".", 1);
+    (point != word && point.parse::<f64>().is_ok()).then_some(point)
+}
+
+/// What was meant by a flag that the command does not have: a long flag with one dash, or a file for what is printed.
+pub(crate) fn flag_meant(name: &str, words: &[OsString]) -> Option<String> {
+    if name == "-o" || name == "--output" {
+        return Some("the results go to stdout: write > and the name of a file behind the command".to_owned());
+    }
+    let command = typed_command(words)?;
+    let rests = words.iter().filter_map(|word| word.to_str()?.strip_prefix('-'));
+    let is_meant = |rest: &&str| {
+        let flag = rest.split('=').next().unwrap_or_default();
+        format!("-{rest}").starts_with(name) && flag.len() > 1 && argument_of(&command, &format!("--{flag}")).is_some()
+    };
+    rests.into_iter().find(is_meant).map(|rest| format!("a long flag has two dashes: write --{rest}"))
+}
+
+/// What to do with a word that is no flag and has no place in the command.
+pub(crate) fn place_meant(name: &str, words: &[OsString]) -> Option<String> {
+    let ending = Path::new(name).extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    match words.get(1)?.to_str()? {
+        "spectrogram" if ending == "png" || ending == "svg" => Some(format!("write -o {name}")),
+        "spectrogram" | "calibrate" => Some("give one recording at a time".to_owned()),
+        "export" if SimulatorFormat::ALL.iter().any(|format| format.name() == name) => {
+            Some(format!("write --to {name}"))
+        }
+        "identify" if ending != "toml" => {
+            Some("recordings stand behind their mass, as in --mass 413g hover.mov".to_owned())
+        }
+        _ => None,
+    }
+}
+
+/// The results among the words of a command that takes them by a flag.
+pub(crate) fn results_meant(words: &[OsString]) -> Option<String> {
+    words.get(1).filter(|command| *command == "weigh" && !is_typed(words, "--constant"))?;
+    let results = words.iter().filter_map(|word| word.to_str()).find(|word| word.ends_with(".json"))?;
+    Some(format!("write --constant {results}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(line: &str) -> Vec<OsString> {
+        line.split(' ').map(OsString::from).collect()
+    }
+
+    #[test]
+    fn numbers_of_other_spellings_are_understood() {
+        for (typed, meant) in
+            [("0,2", "write 0.2"), ("62,08", "write 62.08"), ("3%", "write 0.03"), ("2,5%", "write 0.025")]
+        {
+            assert_eq!(number_meant(typed).map(|(_, hint)| hint).as_deref(), Some(meant), "{typed}");
+        }
+        assert_eq!(number_meant("1,000,000"), None);
+        assert_eq!(number_meant("ten %"), None);
+    }
+
+    #[test]
+    fn flags_and_words_in_a_wrong_place_are_understood() {
+        let meant = |name: &str, line: &str| flag_meant(name, &words(line)).unwrap_or_default();
+        assert_eq!(meant("-b", "hovertone speed -blades 2 a.wav"), "a long flag has two dashes: write --blades");
+        assert_eq!(meant("-b", "hovertone speed -blades=2 a.wav"), "a long flag has two dashes: write --blades=2");
+        assert_eq!(meant("-x", "hovertone speed -x a.wav"), "");
+        assert!(meant("-o", "hovertone speed a.wav -o x.json").starts_with("the results go to stdout"));
+        let place = |name: &str, line: &str| place_meant(name, &words(line)).unwrap_or_default();
+        assert_eq!(place("x.png", "hovertone spectrogram a.wav x.png"), "write -o x.png");
+        assert_eq!(place("gazebo", "hovertone export r.json gazebo"), "write --to gazebo");
+        assert!(place("b.wav", "hovertone identify a.wav b.wav --mass 413g").starts_with("recordings stand behind"));
+        let results = words("hovertone weigh out/results.json a.wav");
+        assert_eq!(results_meant(&results).as_deref(), Some("write --constant out/results.json"));
+    }
+}

@@ -1,0 +1,103 @@
+//! Advice in the words of a command that has no flag for what the advice asks.
+
+use hovertone_report::Wording;
+
+/// Behind `identify EXPERIMENT.toml`: facts stand in the file.
+pub(crate) const IN_FILE: Wording = Wording(&[
+    ("--from and --to", "from_s and to_s under [[load]]"),
+    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
+    ("--band", "band_hz under [tone]"),
+    ("--harmonics 1", "harmonics = 1 under [tone]"),
+    ("--window-s", "window_s under [spectrogram]"),
+    ("leave --rotors 1 out", "correct rotors under [vehicle] or rotors_running under [[load]]"),
+    ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
+    ("--rotors", "rotors under [vehicle]"),
+    ("give --blades N", "write blades = N under [vehicle]"),
+    ("give --blades ", "under [vehicle] write blades = "),
+    ("--diameter-m", "propeller_diameter_m under [vehicle]"),
+    ("--mass-kg", "mass_kg under [vehicle]"),
+]);
+
+/// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
+pub(crate) const IN_PLACE_OF_FILE: Wording = Wording(&[
+    ("--from and --to", "from_s and to_s under [[load]] of an experiment file, which -o writes"),
+    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of an experiment file, which -o writes"),
+    ("--band", "band_hz under [tone] of an experiment file, which -o writes"),
+    ("--harmonics 1", "harmonics = 1 under [tone] of an experiment file, which -o writes"),
+    (" (--window-s)", ""),
+    ("--mass-kg", "--mass"),
+]);
+
+/// Behind `weigh`, which hears frames as they were heard for the constant.
+pub(crate) const OF_WEIGH: Wording = Wording(&[(", or shorter frames (--window-s)", "")]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::Arguments;
+    use clap::CommandFactory;
+    use hovertone::speed::{NoTone, OtherRotor, Warning};
+
+    /// Each advice about a recording that names a flag.
+    fn advice() -> Vec<String> {
+        let other = OtherRotor { blades: 3, speed_rev_s: 80.0 };
+        let apart = Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false };
+        let warnings = [
+            Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5 },
+            Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() },
+            Warning::FewHarmonicsAgree { used: 1, of: 3 },
+            Warning::HoversDiffer { slowest_rev_s: 80.0, fastest_rev_s: 90.0 },
+            Warning::HoverShorterThanSample { hover_s: 1.0, length_s: 5.0 },
+            Warning::ManyGaps { gap_share: 0.5 },
+            Warning::FewFrames { frame_count: 3 },
+            apart,
+            Warning::OtherRotorsHeard,
+            Warning::SeveralLines { spread_share: 0.02 },
+        ];
+        let reasons = [
+            NoTone::OutsideRecording { end_s: 3.0 },
+            NoTone::NoSeries { only_rev_s: None, instead: None },
+            NoTone::NoSeries { only_rev_s: Some((13.0, 120.0)), instead: Some(other) },
+            NoTone::NoSeries { only_rev_s: None, instead: Some(other) },
+            NoTone::NoFrame { window_s: 0.1, hover_s: 3.0 },
+            NoTone::NotHeld { tone_hz: 160.0, held_s: 1.0 },
+        ];
+        let of_records = [
+            "give --band LOW:HIGH around the blade pass; in flight, give the diameter of the propellers (--diameter-m), the mass (--mass-kg)",
+            "the number of rotors (--rotors)",
+            "count the blades, and give --blades N too",
+        ];
+        let hints = warnings.iter().map(|warning| warning.hint().to_owned());
+        hints.chain(reasons.iter().map(ToString::to_string)).chain(of_records.map(str::to_owned)).collect()
+    }
+
+    /// The flags in a text that a command does not have.
+    fn unknown_flags(text: &str, command: &str) -> Vec<String> {
+        let commands = Arguments::command();
+        let command = commands.find_subcommand(command).unwrap();
+        let is_known = |flag: &str| command.get_arguments().any(|known| known.get_long() == Some(flag));
+        let words = text.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '-');
+        words.filter_map(|word| word.strip_prefix("--")).filter(|flag| !is_known(flag)).map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn advice_names_only_what_the_command_has() {
+        for (command, wording) in [("identify", IN_PLACE_OF_FILE), ("weigh", OF_WEIGH), ("speed", Wording::default())] {
+            for advice in advice() {
+                let worded = wording.of(&advice);
+                assert_eq!(unknown_flags(&worded, command), Vec::<String>::new(), "{command}: {worded}");
+            }
+        }
+        assert!(advice().iter().any(|advice| !unknown_flags(advice, "identify").is_empty()));
+    }
+
+    #[test]
+    fn an_experiment_file_has_a_key_for_each_advice() {
+        for advice in advice() {
+            let worded = IN_FILE.of(&advice);
+            assert!(!worded.contains("--"), "{worded}");
+        }
+        let blades = IN_FILE.of("give --blades 3 alone, in place of the vehicle");
+        assert_eq!(blades, "under [vehicle] write blades = 3 alone, in place of the vehicle");
+    }
+}
