@@ -108,7 +108,7 @@ pub(crate) struct RotorTracks {
     pub(crate) faint_s: f64,
     /// For how long rotors were close to each other, where they often were: then some of them may be the beats of others.
     pub(crate) close_s: f64,
-    /// For how long one more rotor was heard in what all of them leave.
+    /// For how long one more rotor was heard in what all of them leave. 0 where their number is known.
     pub(crate) another_s: f64,
     /// For how long they all sped up and slowed down together, by some percent in some tenths of a second.
     pub(crate) bobbing_s: f64,

@@ -34,10 +34,10 @@ impl RotorsConfig {
         Self { count: Self::SEVERAL, ..self }
     }
 
-    /// The same settings for two more rotors. `None` where the number of rotors is known, or no common multirotor has so many.
+    /// The same settings for two more rotors. `None` where no common multirotor has so many.
     pub(crate) fn more(self) -> Option<Self> {
         let count = (self.count + 1).next_multiple_of(2);
-        (!self.is_count_known && count <= COUNT_MAX).then_some(Self { count, ..self })
+        (count <= COUNT_MAX).then_some(Self { count, ..self })
     }
 
     /// Rotors for which one line may stand. A line that keeps its phase is that of one rotor; otherwise others may turn beside it, too near to be

@@ -6,7 +6,7 @@ use crate::speed::{BudgetConfig, with_budget};
 use hovertone_analysis::{Method, RotorEstimate, Span, SpeedEstimate, TrackPoint};
 use hovertone_signal::statistics::{mean, std};
 use hovertone_vehicle::{Order, RotorSpeed};
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
 
 /// Smallest share of the time in which a resolved rotor is heard, and separated from the others. *Decision.*
 const RESOLVED_SHARE_MIN: f64 = 0.5;
@@ -62,7 +62,12 @@ impl RotorTracks {
 
     /// Whether another rotor is heard beside all of these most of the time.
     pub(crate) fn leave_another(&self) -> bool {
-        self.another_s > RESOLVED_SHARE_MIN * self.length_s
+        self.another_share() > RESOLVED_SHARE_MIN
+    }
+
+    /// Share of the time in which another rotor is heard beside all of these.
+    fn another_share(&self) -> f64 {
+        self.another_s / self.length_s.max(f64::MIN_POSITIVE)
     }
 
     /// Longest time between points of a track.
@@ -121,7 +126,8 @@ impl RotorTracks {
     /// The uncertainty of the mean follows from the uncertainties of the rotors; a rotor that is lost, or close to others for much of the
     /// time, may turn at the speed of any other. Common to all hovers are the effect of bobbing, and the unknown speeds of `count − k` of
     /// `count` rotors of which k are resolved: `√(count − k) / count` times the standard deviation of one rotor. This deviation is the
-    /// spread of the heard rotors with the resolution, or 6 % where the search would not have heard a faint rotor.
+    /// spread of the heard rotors with the resolution, or 6 % where the search would not have heard a faint rotor. Where another rotor is
+    /// heard beside all of them for a share of the time, two more may turn: `√2 / (count + 2)` times this spread and this share.
     pub(crate) fn speed_in(&self, span: Option<&Span>, order: Order) -> Option<(SpeedEstimate, f64)> {
         let heard: Vec<(&RotorTrack, SpeedEstimate, f64)> = self
             .heard(span)
@@ -145,7 +151,8 @@ impl RotorTracks {
         let unknown_rev_s =
             if self.would_hear_faint() { unknown_rotor_rev_s } else { UNKNOWN_SPREAD_SHARE * mean_rev_s };
         let of_unresolved = (count - resolved).max(0.0).sqrt() / count * unknown_rev_s;
-        let rotors_std_share = of_unresolved.hypot(self.bobbing_std_rev_s()) / mean_rev_s;
+        let of_others = self.another_share() * SQRT_2 / (count + 2.0) * unknown_rotor_rev_s;
+        let rotors_std_share = of_unresolved.hypot(of_others).hypot(self.bobbing_std_rev_s()) / mean_rev_s;
         let (_, first, _) = heard.into_iter().next()?;
         let speed = SpeedEstimate {
             method: Method::Separated,

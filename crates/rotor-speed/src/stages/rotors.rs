@@ -27,8 +27,9 @@ pub(super) fn heard_rotors(
     };
     let mut sought = config.rotors;
     let mut rotors = separated(passes, sought)?;
-    if rotors.heard_count() < rotors.rotors.len() {
-        return Ok(rotors);
+    if sought.is_count_known {
+        // no other rotor turns
+        return Ok(RotorTracks { another_s: 0.0, ..rotors });
     }
     let mut leave_another = rotors.leave_another();
     while let Some(more) = sought.more().filter(|_| leave_another) {
