@@ -2,22 +2,6 @@
 
 use hovertone_report::Wording;
 
-/// Behind `identify EXPERIMENT.toml`: facts stand in the file.
-pub(crate) const IN_FILE: Wording = Wording(&[
-    ("--from and --to", "from_s and to_s under [[load]]"),
-    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
-    ("--band", "band_hz under [tone]"),
-    ("--harmonics 1", "harmonics = 1 under [tone]"),
-    ("--window-s", "window_s under [spectrogram]"),
-    ("leave --rotors 1 out", "correct rotors under [vehicle] or rotors_running under [[load]]"),
-    ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
-    ("--rotors", "rotors under [vehicle]"),
-    ("give --blades N", "write blades = N under [vehicle]"),
-    ("give --blades ", "under [vehicle] write blades = "),
-    ("--diameter-m", "propeller_diameter_m under [vehicle]"),
-    ("--mass-kg", "mass_kg under [vehicle]"),
-]);
-
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
 pub(crate) const IN_PLACE_OF_FILE: Wording = Wording(&[
     ("--from and --to", "from_s and to_s under [[load]] of an experiment file, which -o writes"),
@@ -94,10 +78,10 @@ mod tests {
     #[test]
     fn an_experiment_file_has_a_key_for_each_advice() {
         for advice in advice() {
-            let worded = IN_FILE.of(&advice);
+            let worded = Wording::IN_EXPERIMENT.of(&advice);
             assert!(!worded.contains("--"), "{worded}");
         }
-        let blades = IN_FILE.of("give --blades 3 alone, in place of the vehicle");
+        let blades = Wording::IN_EXPERIMENT.of("give --blades 3 alone, in place of the vehicle");
         assert_eq!(blades, "under [vehicle] write blades = 3 alone, in place of the vehicle");
     }
 }

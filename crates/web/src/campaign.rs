@@ -7,7 +7,7 @@ use hovertone::experiment::{Experiment, ExperimentFile};
 use hovertone_figures::recording_figure;
 use hovertone_page::SOUND_S_MAX;
 use hovertone_report::{
-    InputRecord, Notice, Row, TextTable, Verdict, budget_table, constants_in_units, results_json, thrust_table,
+    InputRecord, Notice, Row, TextTable, Verdict, Wording, budget_table, constants_in_units, results_json, thrust_table,
 };
 use hovertone_workflow::{Drawn, Identified, ReportExtras, ReportFigures, Titles, drawing_of, simulators_of};
 use serde_json::{Value, json};
@@ -43,6 +43,7 @@ pub(crate) fn identify(
         let config = load.config(&experiment);
         let mut of_all = |share: f64| on_share((index as f64 + share) / count);
         let record = files_heard.record_of_trial(trial.number, &trial.name, &config, clock_correction_ppm, &mut of_all);
+        let record = record.worded(Wording::IN_EXPERIMENT);
         inputs.push(InputRecord { load: load.name.clone(), record, log: None });
     }
     let titles = Titles { file: EXPERIMENT.to_owned(), sha256: in_hexadecimal(&Sha256::digest(text.as_bytes())) };
