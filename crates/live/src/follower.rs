@@ -18,10 +18,10 @@ const HOPS_PER_FRAME: usize = 4;
 const ZERO_PAD_FACTOR: u32 = 4;
 /// Step of the logarithm of the speed: a fifth of the width of the twentieth line of a fast rotor. *Numeric.*
 const STEP: f64 = 5e-4;
-/// Steps on either side of the middle of the grid: 20 %. *Numeric.*
-const HALF_GRID: usize = 400;
-/// Steps on either side of the middle of the pattern: rotors of one vehicle are less than 6 % from their mean. *Decision.*
-const HALF_PATTERN: usize = 120;
+/// Steps on either side of the middle of the grid: 25 %. *Numeric.*
+const HALF_GRID: usize = 500;
+/// Steps on either side of the middle of the pattern: rotors of one vehicle are up to 11 % from their mean. *Physics.*
+const HALF_PATTERN: usize = 220;
 /// Shifts on either side of 0 at which the whole pattern is on the grid. *Numeric.*
 const HALF_SHIFTS: usize = HALF_GRID - HALF_PATTERN;
 /// The grid moves after the pattern once that is further from the middle. *Numeric.*

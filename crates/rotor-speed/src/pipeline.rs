@@ -3,8 +3,9 @@
 use crate::config::Config;
 use crate::error::Error;
 use crate::stages::{
-    Candidates, HeardRotor, Stop, Surveyed, candidates_from_survey, decision_from_lines, hover_from_candidate,
-    lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision, survey_from_source,
+    Candidates, HeardRotor, Stop, Surveyed, are_far_apart, candidates_from_survey, decision_from_lines,
+    hover_from_candidate, lines_from_hover, passes_of_survey, rotors_from_hover, speeds_from_decision,
+    survey_from_source,
 };
 use crate::tone::search_range_rev_s;
 use hovertone_analysis::{Hover, Method, OtherRotor, Outcome, RotorEstimate, SpeedAnalysis};
@@ -70,7 +71,7 @@ pub fn speed_from_survey(
 }
 
 /// Where other rotors are heard beside the first, and their number is not known, several are separated. Where there may be others, the same is
-/// tried, and holds where rotors are told apart.
+/// tried, and holds where rotors are as far apart as others would be: louder and softer sounds of one rotor look like rotors that are closer.
 fn speed_from_candidates(
     passes: &mut Passes<'_>,
     surveyed: &Surveyed,
@@ -82,16 +83,12 @@ fn speed_from_candidates(
         let as_several = config.with_several_rotors();
         passes.expect_more(passes_after_survey(&as_several) - passes_after_survey(config));
         let several = speed_of_candidate(passes, surveyed, candidates, &as_several)?;
-        if are_several || are_told_apart(&several) {
+        if are_several || are_far_apart(&several) {
             return Ok(several);
         }
         passes.expect_more(passes_after_survey(config));
     }
     speed_of_candidate(passes, surveyed, candidates, config)
-}
-
-fn are_told_apart(analysis: &SpeedAnalysis) -> bool {
-    matches!(&analysis.outcome, Outcome::Ok(tone) if tone.rotors.len() >= 2)
 }
 
 /// The stages after the survey, for a rotor that was heard at this speed.

@@ -14,9 +14,9 @@ use hovertone_signal::statistics::mean;
 const DISTANCE_MAX: f64 = 0.22;
 /// Standard deviation of that distance: that of a rotor from the mean of all is 6 %, and this is √2 times as much. *Decision.*
 const DISTANCE_STD: f64 = 0.085;
-/// Smallest distance of a rotor that stands apart, as a logarithm of the speed: the speed of one rotor is not known better in a frame.
+/// Smallest distance of another rotor that is looked for, as a logarithm of the speed: the speed of one rotor is not known better in a frame.
 /// *Decision.*
-const DISTANCE_MIN: f64 = 0.01;
+pub(crate) const COMPANION_DISTANCE_MIN: f64 = 0.01;
 /// Largest distance of a rotor from the middle of all, as a logarithm of the speed. *Physics.*
 const HALF_RANGE_MAX: f64 = DISTANCE_MAX / 2.0;
 /// Step of the logarithm of the speed: half the width of a line of a long frame at its twentieth harmonic. *Numeric.*
@@ -106,7 +106,7 @@ fn excluded_from(long: &Excess, heard_rev_s: &[f64], propeller: &OwnPropeller<'_
         let nats = own_lines_nats(long, heard_rev_s, &[&beside_rev_s], loudest_db, propeller);
         nats.is_some_and(|nats| nats >= nats_min)
     };
-    let steps = (DISTANCE_MIN / STEP) as u32..(HALF_RANGE_MAX / STEP) as u32;
+    let steps = (COMPANION_DISTANCE_MIN / STEP) as u32..(HALF_RANGE_MAX / STEP) as u32;
     steps.map(|step| STEP * f64::from(step)).find(|&distance| is_heard(distance)).unwrap_or(HALF_RANGE_MAX)
 }
 
@@ -116,7 +116,7 @@ fn excluded_from(long: &Excess, heard_rev_s: &[f64], propeller: &OwnPropeller<'_
 /// - `heard_rev_s`: speed of the heard rotor in each long frame.
 fn companion(long: &Excess, heard_rev_s: &[f64], propeller: &OwnPropeller<'_>) -> Option<Companion> {
     let table = VoteTable::of(&RotorLines::of_blades(propeller.blades));
-    let (far, near) = ((DISTANCE_MAX / STEP) as i32, (DISTANCE_MIN / STEP) as i32);
+    let (far, near) = ((DISTANCE_MAX / STEP) as i32, (COMPANION_DISTANCE_MIN / STEP) as i32);
     let vote_in = |frame: usize, speed_rev_s: f64| -> f32 {
         let vote = |harmonic: u32| {
             let order = harmonic * propeller.blades;

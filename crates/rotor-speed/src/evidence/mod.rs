@@ -52,7 +52,7 @@ mod settings;
 mod votes;
 
 pub(crate) use beliefs::Beliefs;
-pub(crate) use companions::Companions;
+pub(crate) use companions::{COMPANION_DISTANCE_MIN, Companions};
 pub(crate) use excess::{Excess, ExcessBuilder, Looks};
 pub(crate) use hypotheses::{Hypothesis, WantedPropeller, WantedRotor, beliefs_from_looks};
 pub use level_model::OrderLevel;

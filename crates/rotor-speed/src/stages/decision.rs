@@ -5,9 +5,10 @@ use super::rotors::heard_rotors;
 use super::{Candidates, Lines, Silence, Stop, Surveyed};
 use crate::config::Config;
 use crate::detection::{no_series, not_held_reason, or_mains_hum};
+use crate::evidence::COMPANION_DISTANCE_MIN;
 use crate::hover::restless_s;
 use crate::rotors::RotorTracks;
-use hovertone_analysis::{Hover, Method, NoTone, Reading, WeighedSpeed};
+use hovertone_analysis::{Hover, Method, NoTone, Outcome, Reading, SpeedAnalysis, WeighedSpeed};
 use hovertone_signal::passes::Passes;
 
 /// A candidate that is one rotor, or several.
@@ -60,4 +61,14 @@ pub(crate) fn decision_from_lines(
     lines.warnings.extend(candidates.warnings(config));
     let spread_share = candidates.spread_share(config);
     Ok(Decision { lines, rotors, alternatives, weighed: candidates.weighed(), spread_share })
+}
+
+/// Whether rotors are separated as far as others are looked for beside the first.
+pub(crate) fn are_far_apart(analysis: &SpeedAnalysis) -> bool {
+    let Outcome::Ok(tone) = &analysis.outcome else { return false };
+    // fastest first
+    let ends = tone.rotors.first().zip(tone.rotors.last());
+    ends.is_some_and(|(fastest, slowest)| {
+        (fastest.speed.speed.rev_s() / slowest.speed.speed.rev_s()).ln() >= COMPANION_DISTANCE_MIN
+    })
 }
