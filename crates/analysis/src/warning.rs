@@ -95,7 +95,15 @@ pub enum Warning {
     },
 }
 
+/// Smallest share of the time in which a line is heard whose frequency is used. *Decision.*
+pub const HEARD_SHARE_MIN: f64 = 0.3;
+
 impl Warning {
+    /// Whether the tone is heard for so small a share of the time that it proves no order: other lines of another rotor may have told the speed.
+    pub fn is_hardly_heard(&self) -> bool {
+        matches!(self, Self::ManyGaps { gap_share } if 1.0 - gap_share < HEARD_SHARE_MIN)
+    }
+
     /// Whether it concerns the way in which one tone is followed, and nothing that the recording holds.
     pub fn is_about_followed_tone(&self) -> bool {
         match self {
@@ -134,8 +142,12 @@ impl Warning {
                 "choose the part you mean with --from and --to"
             }
             Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
+            _ if self.is_hardly_heard() => {
+                "do not use this speed before you have checked the vehicle, the blades and the gear; if they are right, move the microphone nearer, \
+                 or choose the clear part with --from and --to; if you gave --band, leave it out"
+            }
             Self::ManyGaps { .. } => {
-                "leave --band out if you gave it; else move the microphone nearer, or choose the clear part with --from and --to"
+                "move the microphone nearer, or choose the clear part with --from and --to; if you gave --band, leave it out"
             }
             Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
             Self::RotorsNotApart { has_mean: false, .. } => {
@@ -193,7 +205,8 @@ impl fmt::Display for Warning {
                 )
             }
             Self::ManyGaps { gap_share } => {
-                write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)
+                write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)?;
+                if self.is_hardly_heard() { f.write_str(": another rotor may have told this speed") } else { Ok(()) }
             }
             Self::FewFrames { frame_count } => write!(f, "a sample has only {frame_count} frames"),
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed } => {

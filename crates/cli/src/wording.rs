@@ -20,10 +20,11 @@ pub(crate) const IN_FILE: Wording = Wording(&[
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
 pub(crate) const IN_PLACE_OF_FILE: Wording = Wording(&[
-    ("--from and --to", "from_s and to_s under [[load]] of an experiment file, which -o writes"),
-    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of an experiment file, which -o writes"),
-    ("--band", "band_hz under [tone] of an experiment file, which -o writes"),
-    ("--harmonics 1", "harmonics = 1 under [tone] of an experiment file, which -o writes"),
+    ("; if you gave --band, leave it out", ""),
+    ("--from and --to", "from_s and to_s under [[load]] of the experiment file that -o DIR writes"),
+    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
+    ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
+    ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
     (" (--window-s)", ""),
     ("--mass-kg", "--mass"),
 ]);

@@ -67,6 +67,31 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
 }
 
 #[test]
+fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("bench.wav");
+    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rpm(5699.41), 10.0);
+    settings.rotors.truncate(1);
+    write_hover(&sound, HoverSettings { seed: 3, ..settings });
+    let with = |more: &[&str]| {
+        let words = ["calibrate", text(&sound), "--rotors", "1", "--tachometer-rpm", "5699.41"];
+        hovertone(&[&words[..], more].concat())
+    };
+    // two blades without a gear; the blades of the vehicle give the right speed, and the mesh of its gear is not there
+    let geared = with(&["--vehicle", "ardrone"]).ends_with(3);
+    for words in
+        ["not decided: the tone of order 69 is not heard for ", "give --blades 2 alone, in place of the vehicle"]
+    {
+        assert!(geared.stderr.contains(words), "{words}:\n{}", geared.stderr);
+    }
+    assert!(!geared.stdout.contains("pass"), "{}", geared.stdout);
+    let json = with(&["--vehicle", "ardrone", "--json"]).ends_with(3).json_lines().remove(0);
+    assert_eq!((json["status"].as_str(), json["passes"].as_bool()), (Some("tone_hardly_heard"), None));
+    let bladed = with(&["--blades", "2", "--band", "185:195"]).ends_with(0);
+    assert!(bladed.stdout.contains("order: pass, it is 2"), "{}", bladed.stdout);
+}
+
+#[test]
 fn a_wrong_order_is_named_with_the_one_that_fits() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
