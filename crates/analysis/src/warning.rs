@@ -67,6 +67,10 @@ pub enum Warning {
     FewFrames {
         /// Smallest number of frames in a sample.
         frame_count: usize,
+        /// Length of that sample.
+        sample_s: f64,
+        /// Length that has enough frames, where the sample is too short for them; absent where the tone has gaps.
+        needed_s: Option<f64>,
     },
     /// Some rotors could not be separated.
     RotorsNotApart {
@@ -149,7 +153,10 @@ impl Warning {
             Self::ManyGaps { .. } => {
                 "move the microphone nearer, or choose the clear part with --from and --to; if you gave --band, leave it out"
             }
-            Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
+            Self::FewFrames { needed_s: Some(_), .. } => {
+                "choose a longer part with --from and --to, or record a longer hover"
+            }
+            Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
             }
@@ -208,7 +215,12 @@ impl fmt::Display for Warning {
                 write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)?;
                 if self.is_hardly_heard() { f.write_str(": another rotor may have told this speed") } else { Ok(()) }
             }
-            Self::FewFrames { frame_count } => write!(f, "a sample has only {frame_count} frames"),
+            Self::FewFrames { sample_s, needed_s: Some(needed_s), .. } => {
+                write!(f, "only {sample_s:.1} s are used, and hovertone needs {needed_s:.1} s or more")
+            }
+            Self::FewFrames { frame_count, sample_s, .. } => {
+                write!(f, "in a part of {sample_s:.1} s, only {frame_count} frames have a tone")
+            }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed } => {
                 match (resolved, has_mean) {
                     (0, true) => write!(

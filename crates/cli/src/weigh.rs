@@ -11,7 +11,6 @@ use crate::recording::{Hearing, Requests, records_of};
 use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
-use crate::wording::OF_WEIGH;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
 use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
@@ -55,8 +54,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records: Vec<SpeedRecord> =
-        records_of(&jobs, hearing, &progress).into_iter().map(|record| record.worded(OF_WEIGH)).collect();
+    let records: Vec<SpeedRecord> = records_of(&jobs, hearing, &progress);
     progress.finish();
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();

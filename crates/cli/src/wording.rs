@@ -8,7 +8,6 @@ pub(crate) const IN_FILE: Wording = Wording(&[
     ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
     ("--band", "band_hz under [tone]"),
     ("--harmonics 1", "harmonics = 1 under [tone]"),
-    ("--window-s", "window_s under [spectrogram]"),
     ("leave --rotors 1 out", "correct rotors under [vehicle] or rotors_running under [[load]]"),
     ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
     ("--rotors", "rotors under [vehicle]"),
@@ -25,12 +24,8 @@ pub(crate) const IN_PLACE_OF_FILE: Wording = Wording(&[
     ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
     ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
     ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
-    (" (--window-s)", ""),
     ("--mass-kg", "--mass"),
 ]);
-
-/// Behind `weigh`, which hears frames as they were heard for the constant.
-pub(crate) const OF_WEIGH: Wording = Wording(&[(", or shorter frames (--window-s)", "")]);
 
 #[cfg(test)]
 mod tests {
@@ -50,7 +45,8 @@ mod tests {
             Warning::HoversDiffer { slowest_rev_s: 80.0, fastest_rev_s: 90.0 },
             Warning::HoverShorterThanSample { hover_s: 1.0, length_s: 5.0 },
             Warning::ManyGaps { gap_share: 0.5 },
-            Warning::FewFrames { frame_count: 3 },
+            Warning::FewFrames { frame_count: 3, sample_s: 0.2, needed_s: Some(0.8) },
+            Warning::FewFrames { frame_count: 3, sample_s: 5.0, needed_s: None },
             apart,
             Warning::OtherRotorsHeard,
             Warning::SeveralLines { spread_share: 0.02 },
@@ -83,7 +79,9 @@ mod tests {
 
     #[test]
     fn advice_names_only_what_the_command_has() {
-        for (command, wording) in [("identify", IN_PLACE_OF_FILE), ("weigh", OF_WEIGH), ("speed", Wording::default())] {
+        for (command, wording) in
+            [("identify", IN_PLACE_OF_FILE), ("weigh", Wording::default()), ("speed", Wording::default())]
+        {
             for advice in advice() {
                 let worded = wording.of(&advice);
                 assert_eq!(unknown_flags(&worded, command), Vec::<String>::new(), "{command}: {worded}");
