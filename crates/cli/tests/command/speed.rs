@@ -237,3 +237,18 @@ fn a_short_part_is_told_the_length_that_is_needed_and_that_length_is_enough() {
     let long = part(&format!("{}", 3.0 + needed_s)).ends_with(0);
     assert!(!long.stderr.contains("needs"), "{needed_s}: {}", long.stderr);
 }
+
+/// A gear mesh can be heard up to the speed that the sample rate allows: a rate that no phone has is no advice.
+#[test]
+fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    let noise = folder.path().join("noise.wav");
+    write_noise(&noise, 4.0);
+    let run = hovertone(&["speed", "--gear", "69", text(&noise)]).ends_with(3);
+    for words in
+        ["no tone of order 69 is heard", " rev/s only; count the blades and give --blades N too", "--band LOW:HIGH"]
+    {
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
+    assert!(!run.stderr.contains("higher rate"), "{}", run.stderr);
+}
