@@ -13,7 +13,8 @@ use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words, slip_of_turns_per_second};
 use hovertone::calibration::Judgement;
-use hovertone::speed::{Config, SpeedAnalysis, Warning};
+use hovertone::sound::HeardBand;
+use hovertone::speed::{Config, NoTone, SpeedAnalysis, Warning};
 use hovertone::tones::Discovery;
 use hovertone_report::{Notice, SpeedRecord, warning_count};
 use hovertone_vehicle::{Order, RotorSpeed, check_range};
@@ -213,7 +214,7 @@ fn hears_several(analysis: &SpeedAnalysis) -> bool {
 /// The frequency of a line, as the speed of a shaft with one line per turn.
 fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progress) -> Result<Heard, Failure> {
     let order = Order::new(1.0).map_err(Failure::internal)?;
-    let (line, notices) = match line_in_band(job, hearing, band_hz.clone(), progress) {
+    let (HeardBand { line, is_silent }, notices) = match line_in_band(job, hearing, band_hz.clone(), progress) {
         Ok(found) => found,
         Err(reason) => {
             let ending = Ending::FilesFailed;
@@ -235,6 +236,7 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
     });
     let (status, reason, ending) = match speed {
         Some(_) => ("ok", None, Ending::Done),
+        None if is_silent => ("no_line", Some(NoTone::Silence.to_string()), Ending::Incomplete),
         None => {
             let reason = format!(
                 "no clear line of 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, record the tone louder and without \

@@ -1,6 +1,6 @@
 //! The recorder's clock and the order, against one known speed.
 
-use crate::testkit::{Run, hovertone, refused_with, steady_hover, text, write_hover};
+use crate::testkit::{Run, hovertone, refused_with, steady_hover, text, write_hover, write_wav};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
@@ -282,4 +282,13 @@ fn what_is_no_known_speed_is_refused() {
     assert!(run.stderr.contains("--tachometer-rpm"), "{}", run.stderr);
     let run = hovertone(&["speed", "a.wav", "--clock-correction-ppm", "90000"]).ends_with(2);
     assert!(run.stderr.contains("-2000 to 2000"), "{}", run.stderr);
+}
+
+#[test]
+fn a_silent_recording_is_said_to_be_silent() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("silence.wav");
+    write_wav(&sound, &[0.0; 96_000], 24_000);
+    let run = hovertone(&["calibrate", text(&sound), "--true-hz", "440"]).ends_with(3);
+    assert!(run.stderr.contains("silence.wav: the recording is silent; check the microphone"), "{}", run.stderr);
 }
