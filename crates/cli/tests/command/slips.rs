@@ -106,9 +106,9 @@ fn a_table_in_another_unit_than_its_header_is_refused() {
     let table = folder.path().join("stand.csv");
     for (rows, words) in [
         ("rpm,thrust_n\n3000,0.7\n-3610,1\n4000,1.3\n", ["line 3", "-3610: a speed must be 0 or more"]),
-        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["line 4", "check the unit in the header"]),
-        ("rpm,mass_kg\n3610,413\n3742,444\n3820,462\n", ["line 4", "in grams"]),
-        ("rpm,mass_g\n3610,0.413\n3742,0.444\n3820,0.462\n", ["line 4", "in kilograms"]),
+        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["3 of 3 numbers", "rename the header to speed_rpm"]),
+        ("rpm,mass_kg\n3610,413\n3742,444\n3820,462\n", ["3 of 3 numbers", "rename the header to mass_g"]),
+        ("rpm,mass_g\n3610,0.413\n3742,0.444\n3820,0.462\n", ["3 of 3 numbers", "rename the header to mass_kg"]),
     ] {
         fs::write(&table, rows).unwrap();
         refused_with(&["fit", text(&table)], &[&words[..], &["stand.csv"]].concat());
