@@ -7,7 +7,7 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
-use crate::recording::{Hearing, Requests, records_of};
+use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records: Vec<SpeedRecord> = records_of(&jobs, hearing, &progress);
+    let records = plan.records_of(&jobs, hearing, &progress);
     progress.finish();
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
@@ -109,6 +109,26 @@ fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
 }
 
 impl Plan {
+    /// The records of all recordings. Where several speeds explain the sound, only those are heard at which the vehicle can hover with this constant.
+    fn records_of(&self, jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<SpeedRecord> {
+        let records = records_of(jobs, hearing, progress);
+        let tone = &self.config.tone;
+        let Some(speeds) = self.scale.hover_speeds().filter(|_| tone.band_hz.is_none()) else { return records };
+        let (low, high) = (speeds.start().rad_s().max(tone.speed_min.rad_s()), speeds.end().rad_s());
+        let (speed_min, speed_max) =
+            (RotorSpeed::from_rad_s(low), RotorSpeed::from_rad_s(high.min(tone.speed_max.rad_s())));
+        let again = |(record, job): (SpeedRecord, &Job)| {
+            if !record.is_ambiguous() {
+                return record;
+            }
+            let tone = ToneConfig { speed_min, speed_max, ..job.config.tone.clone() };
+            let job = Job { config: Config { tone, ..job.config.clone() }, ..job.clone() };
+            let heard = records_of(&[job], hearing, progress).pop();
+            heard.filter(|heard| heard.speed().is_some()).unwrap_or(record)
+        };
+        records.into_iter().zip(jobs).map(again).collect()
+    }
+
     /// The error of a single ridge cancels only where constant and hover have the same kind of speed: both the mean of all rotors, or
     /// both the same single ridge.
     fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
