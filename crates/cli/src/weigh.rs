@@ -12,7 +12,7 @@ use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
-use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
+use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
@@ -196,7 +196,10 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
         loudest_std_share: 0.0,
     };
     check_stds(&scale)?;
-    scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+    scale.check_vehicle(config.tone.speed_max).map_err(|error| match (vehicle, arguments.mass_kg) {
+        (Some(vehicle), None) => results_contradict(vehicle, &error),
+        _ => Failure::usage(error.to_string(), error.hint()),
+    })?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
     let model_kg = vehicle.and_then(|vehicle| Some(vehicle.mass_kg?.value)).filter(|_| arguments.mass_kg.is_none());
     Ok(Plan { scale, config, method_of_constant, rotors_std_share, model_kg })
@@ -277,6 +280,19 @@ fn check_vehicle(said: &Vehicle, arguments: &WeighArguments, results: Option<&Id
         }
         None => Ok(()),
     }
+}
+
+/// The failure for results whose vehicle the named one cannot be.
+fn results_contradict(said: &Vehicle, error: &WeighError) -> Failure {
+    let WeighError::TooHeavyToHover { vehicle_kg, rev_s, fastest_rev_s } = error else {
+        return Failure::usage(error.to_string(), error.hint());
+    };
+    let what = format!(
+        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, and the rotors of \"{}\" turn \
+         at no more than {fastest_rev_s:.0} rev/s",
+        said.id, said.id
+    );
+    Failure::usage(what, "leave --vehicle out, or give the results of this vehicle")
 }
 
 /// Checks the numbers of the arguments.

@@ -117,6 +117,22 @@ fn saying_what_the_vehicle_has_changes_nothing() {
     }
 }
 
+#[test]
+fn a_vehicle_that_the_results_contradict_is_named_and_no_mass_that_nobody_gave() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, out) = (folder.path().join("hover.wav"), folder.path().join("out"));
+    write_hover(&sound, steady_hover("crazyflie", RotorSpeed::from_rev_s(350.0), 5.0));
+    let identify = ["identify", "--blades", "2", "--rotors", "4", "--diameter-m", "0.046", "--mass", "30g"];
+    hovertone(&[&identify[..], &[text(&sound), "-o", text(&out)]].concat()).ends_with(0);
+    let results = out.join("results.json");
+    let weigh = ["weigh", text(&sound), "--constant", text(&results)];
+    let run = hovertone(&[&weigh[..], &["--vehicle", "ardrone"]].concat()).ends_with(2);
+    let says = "--vehicle ardrone contradicts the results: their vehicle, 0.03 kg, hovers at ";
+    assert!(run.stderr.contains(says) && run.stderr.contains("leave --vehicle out"), "{}", run.stderr);
+    assert!(!run.stderr.contains("--mass-kg"), "{}", run.stderr);
+    hovertone(&weigh).ends_with(0);
+}
+
 /// Half of the speed would be a quarter of the mass: less than the vehicle alone.
 #[test]
 fn a_speed_at_which_the_vehicle_cannot_hover_makes_no_mass_ambiguous() {
