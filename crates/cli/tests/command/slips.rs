@@ -185,3 +185,33 @@ fn a_mass_with_a_wrong_unit_is_a_mass_and_no_file() {
         &["--constant-n-s2 2.83e-5 --vehicle", "whole vehicle"],
     );
 }
+
+#[test]
+fn what_is_wrong_in_a_word_is_named_with_what_to_write() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, log) = (folder.path().join("a.wav"), folder.path().join("german.csv"));
+    write_noise(&sound, 1.0);
+    let row = |n: u32| format!("{},{:02};3600,0\n", n / 100, n % 100);
+    fs::write(&log, format!("Zeit;Drehzahl\n{}", (0..200).map(row).collect::<String>())).unwrap();
+    let (sound, log) = (text(&sound), text(&log));
+    let speed = |more: &[&'static str]| [&["speed", "--blades", "3", sound], more].concat();
+    let cases: [(Vec<&str>, &[&str]); 7] = [
+        (vec!["identify", "--mass", "500lb", sound], &["the unit \"lb\" of a mass is not known", "413g"]),
+        (speed(&["--rotors", "0"]), &["from 1 to 12"]),
+        (speed(&["--rotors", "40"]), &["from 1 to 12"]),
+        (
+            speed(&["--order", "2"]),
+            &["order = 2 and blades = 3 exclude each other", "blades = 3 alone mean the order 3"],
+        ),
+        (speed(&["--log", "flight.csv"]), &["a log tells rotors apart, and needs their number", "--rotors 4"]),
+        (speed(&["--from", "1:70"]), &["below 60; if you mean 130 seconds, write 130"]),
+        (speed(&["--from", "2s"]), &["a time has no unit; write 2 "]),
+    ];
+    for (arguments, words) in cases {
+        refused_with(&arguments, words);
+    }
+    let said = hovertone(&["log", log]).ends_with(2).stderr;
+    let columns = ["--column", "Zeit=time_s", "--column", "Drehzahl=rotor1_rpm"];
+    assert!(said.contains(&format!("hovertone log {log} {}", columns.join(" "))), "{said}");
+    hovertone(&[&["log", log], &columns[..]].concat()).ends_with(0);
+}
