@@ -212,8 +212,7 @@ impl ThrustWarning {
                 "check the mass, its unit and the name of the vehicle: an error of the mass is an error of C_f"
             }
             Self::VehicleDoesNotFit { .. } => {
-                "do not use this constant: check the name of the vehicle, or count the blades and give the blades and the gear, if there is one, in place of \
-                 the vehicle; if the vehicle is right, record again with the microphone nearer"
+                "do not use this constant: check the name of the vehicle, or give the blades and the gear that you count in its place; if the vehicle is right, record it again from nearer"
             }
             Self::RowsDoNotFit { .. } => {
                 "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"

@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 
 /// Masses of multirotors that are accepted as a prior, kg. *Decision.*
 const MASS_KG_ALLOWED: RangeInclusive<f64> = 1e-3..=1e4;
-/// Numbers of rotors that a multirotor may have.
+/// Numbers of rotors that a multirotor may have. *Decision.*
 const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=ROTORS_MAX as f64;
 
 /// Facts about a vehicle that exclude some shaft speeds.
