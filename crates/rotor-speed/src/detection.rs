@@ -94,7 +94,7 @@ pub(crate) fn warning_of_samples(samples: &[SampleSpeeds], length_s: f64) -> Opt
     let sample_s = span.length_s();
     // in the step of the frames that there are, rounded up to the decimal that is printed
     let needed_s = (10.0 * sample_s * FEW_FRAMES as f64 / frame_count.max(1) as f64).ceil() / 10.0;
-    let needed_s = (needed_s < length_s).then_some(needed_s);
+    let needed_s = (needed_s <= length_s).then_some(needed_s);
     (frame_count < FEW_FRAMES).then_some(Warning::FewFrames { frame_count, sample_s, needed_s })
 }
 
