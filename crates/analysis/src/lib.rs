@@ -37,5 +37,5 @@ pub use speed_analysis::{Outcome, RotorTone, SampleSpeeds, SpeedAnalysis};
 pub use tone_family::{Meaning, Reading, Remark, SeenHarmonic, ToneFamily};
 pub use uncertainty::{UncertaintySource, UncertaintyTerm};
 pub use verification::{ComparedPoint, Verification, VerifiedRotor};
-pub use warning::Warning;
+pub use warning::{HEARD_SHARE_MIN, Warning};
 pub use weighed_speed::WeighedSpeed;

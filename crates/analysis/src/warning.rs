@@ -67,6 +67,10 @@ pub enum Warning {
     FewFrames {
         /// Smallest number of frames in a sample.
         frame_count: usize,
+        /// Length of that sample.
+        sample_s: f64,
+        /// Length that has enough frames, where the sample is too short for them; absent where the tone has gaps.
+        needed_s: Option<f64>,
     },
     /// Some rotors could not be separated.
     RotorsNotApart {
@@ -95,7 +99,15 @@ pub enum Warning {
     },
 }
 
+/// Smallest share of the time in which a line is heard whose frequency is used. *Decision.*
+pub const HEARD_SHARE_MIN: f64 = 0.3;
+
 impl Warning {
+    /// Whether the tone is heard for so small a share of the time that it proves no order: other lines of another rotor may have told the speed.
+    pub fn is_hardly_heard(&self) -> bool {
+        matches!(self, Self::ManyGaps { gap_share } if 1.0 - gap_share < HEARD_SHARE_MIN)
+    }
+
     /// Whether it concerns the way in which one tone is followed, and nothing that the recording holds.
     pub fn is_about_followed_tone(&self) -> bool {
         match self {
@@ -134,10 +146,17 @@ impl Warning {
                 "choose the part you mean with --from and --to"
             }
             Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
-            Self::ManyGaps { .. } => {
-                "leave --band out if you gave it; else move the microphone nearer, or choose the clear part with --from and --to"
+            _ if self.is_hardly_heard() => {
+                "do not use this speed before you have checked the vehicle, the blades and the gear; if they are right, move the microphone nearer, \
+                 or choose the clear part with --from and --to; if you gave --band, leave it out"
             }
-            Self::FewFrames { .. } => "use a longer part of the recording, or shorter frames (--window-s)",
+            Self::ManyGaps { .. } => {
+                "move the microphone nearer, or choose the clear part with --from and --to; if you gave --band, leave it out"
+            }
+            Self::FewFrames { needed_s: Some(_), .. } => {
+                "choose a longer part with --from and --to, or record a longer hover"
+            }
+            Self::FewFrames { .. } => "choose the clear part with --from and --to",
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
             }
@@ -193,9 +212,15 @@ impl fmt::Display for Warning {
                 )
             }
             Self::ManyGaps { gap_share } => {
-                write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)
+                write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)?;
+                if self.is_hardly_heard() { f.write_str(": another rotor may have told this speed") } else { Ok(()) }
             }
-            Self::FewFrames { frame_count } => write!(f, "a sample has only {frame_count} frames"),
+            Self::FewFrames { sample_s, needed_s: Some(needed_s), .. } => {
+                write!(f, "only {sample_s:.1} s are used, and hovertone needs {needed_s:.1} s or more")
+            }
+            Self::FewFrames { frame_count, sample_s, .. } => {
+                write!(f, "in a part of {sample_s:.1} s, only {frame_count} frames have a tone")
+            }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed } => {
                 match (resolved, has_mean) {
                     (0, true) => write!(

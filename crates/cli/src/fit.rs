@@ -117,7 +117,15 @@ fn table_failure(error: &TableError, path: &Path) -> Failure {
     if let TableError::Csv(error @ (CsvError::NoTable(_) | CsvError::NotCsv(_))) = error {
         return Failure::failed(error.to_string(), error.hint(), path);
     }
+    let rename: String;
     let hint = match error {
+        TableError::OtherUnit { header: Some(header), .. } => {
+            rename = format!(
+                "their unit is probably another one: rename the header to {header}, or to the unit that they have"
+            );
+            &rename
+        }
+        TableError::OtherUnit { .. } => "their unit is probably another one: name it in the header, as in speed_rad_s",
         TableError::NoColumn { .. } => {
             "rename its header, as in speed_rpm, thrust_g or mass_g; `hovertone fit --help` lists all words that hovertone knows"
         }

@@ -46,8 +46,8 @@ pub(crate) fn resolve(
         return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
     }
     if rotors < 2 {
-        let what = format!("{told} several rotors apart, and only one is heard");
-        return Err(Failure::usage(what, "give their number, as in --rotors 4"));
+        let what = format!("{told} rotors apart, and needs their number, 2 or more");
+        return Err(Failure::usage(what, "give it, as in --rotors 4; a rotor that turns alone needs no name"));
     }
     let Some(path) = &arguments.log else {
         let typed = arguments.spin_up.as_deref().unwrap_or_default();

@@ -1,12 +1,14 @@
 //! `hovertone log`: what a log holds, and its signals as CSV.
 
 use crate::args::{ColumnName, LogArguments};
+use crate::caller::typed_words;
 use crate::each_file::EachFile;
 use crate::failure::{Ending, Failure};
 use crate::inputs::{is_stdin, open_stream};
 use crate::nearest::nearest;
 use crate::outputs::{Outputs, is_recording, written};
 use crate::terminal::Terminal;
+use crate::typed::{quoted, typed_command};
 use hovertone_logs::{ColumnNames, LogError, LogSummary, Loss, SignalRow, log_summary, signal_rows};
 use hovertone_report::{Notice, log_json, log_text, signal_headers};
 use std::io::BufWriter;
@@ -16,6 +18,8 @@ use std::path::Path;
 pub(crate) const THE_LOG: &str = "the log";
 const IS_RECORDING: &str = "this is a recording, and a log is needed";
 const HINT_OF_RECORDING: &str = "give the log of the flight; `hovertone speed` hears a recording";
+/// The commands that take names for columns.
+const WITH_COLUMNS: [&str; 3] = ["log", "motor", "greybox"];
 const HINT_OF_LOSS: &str = "download the log again; what could be read of it was used";
 
 /// Lists all logs, or writes signals of one.
@@ -78,11 +82,31 @@ pub(crate) fn log_failure(error: &LogError, path: &Path) -> Failure {
 
 /// What to do, with the table of which the name was meant.
 fn hint_of(error: &LogError) -> String {
+    if let LogError::NoTime { columns } = error {
+        return format!("{}{}", error.hint(), example_of_columns(columns));
+    }
     let meant = match error {
         LogError::NoSuchSignal { name, tables } => nearest(name, tables.split(", ")),
         _ => None,
     };
     meant.map_or_else(|| error.hint().to_owned(), |meant| format!("did you mean {meant}? {}", error.hint()))
+}
+
+/// The whole command that was typed, with names for the first two columns; empty where the command has no such names, or the log no two columns.
+fn example_of_columns(columns: &str) -> String {
+    let mut headers = columns.split(", ");
+    let command = typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default();
+    let (Some(time), Some(other)) = (headers.next(), headers.next()) else { return String::new() };
+    if !WITH_COLUMNS.contains(&command.as_str()) {
+        return String::new();
+    }
+    let column = |header: &str, name: &str| format!("--column {}", quoted(&format!("{header}={name}")));
+    format!(
+        ". If \"{time}\" is the time in seconds and \"{other}\" the speed of a rotor in rpm: {} {} {}",
+        typed_command(),
+        column(time, "time_s"),
+        column(other, "rotor1_rpm")
+    )
 }
 
 /// The failure of a recording in the place of a log.

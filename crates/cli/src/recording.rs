@@ -11,7 +11,7 @@ use hovertone::motors::{
     HeardCommands, HeardMotor, HeardTone, PASSES_OF_MOTOR, level_of_analysis, level_of_rotors, motor_from_sound,
 };
 use hovertone::rotors::SpinUp;
-use hovertone::sound::{LineFrequency, Passes, line_frequency};
+use hovertone::sound::{HeardBand, Passes, line_frequency};
 use hovertone::speed::{Config, NoTone, OtherRotor, better_rotor_from_passes, passes_of_speed};
 use hovertone::tones::{Meaning, tones_from_passes};
 use hovertone_dynamics::{HeardLines, LineOrders, lines_from_passes};
@@ -76,7 +76,7 @@ pub(crate) fn line_in_band(
     hearing: Hearing,
     band_hz: Range<f64>,
     progress: &Progress,
-) -> Result<(Option<LineFrequency>, Vec<Notice>), String> {
+) -> Result<(HeardBand, Vec<Notice>), String> {
     let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let highest_hz = recording.info().sample_rate_hz / 2.0;
     if band_hz.end >= highest_hz {
@@ -85,10 +85,10 @@ pub(crate) fn line_in_band(
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     let mut share = progress.recording();
     let mut on_progress = progress_of(&recording, |done| share.show(done));
-    let line = Passes::planned(&mut recording, 1, &mut on_progress)
+    let heard = Passes::planned(&mut recording, 1, &mut on_progress)
         .and_then(|mut passes| line_frequency(&mut passes, span_s, band_hz))
         .map_err(|error| error.to_string())?;
-    Ok((line, notices_of(&recording)))
+    Ok((heard, notices_of(&recording)))
 }
 
 /// What a recording tells of its motors.

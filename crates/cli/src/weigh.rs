@@ -7,13 +7,12 @@ use crate::failure::{Ending, Failure};
 use crate::jobs::{ending_of, jobs_of};
 use crate::place::{gravity_of, refuse_height_alone};
 use crate::progress::Progress;
-use crate::recording::{Hearing, Requests, records_of};
+use crate::recording::{Hearing, Job, Requests, records_of};
 use crate::settings::{span_of, tone_of};
 use crate::terminal::Terminal;
 use crate::vehicles::{known_vehicles, preset};
-use crate::wording::OF_WEIGH;
 use hovertone::speed::{Config, Method, SpeedEstimate, ToneConfig};
-use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighedHover};
+use hovertone::thrust::{AcousticScale, Gravity, HeardHover, UncertaintyInputs, WeighError, WeighedHover};
 use hovertone_exchange::{HeardTone, IdentifiedRotor};
 use hovertone_report::{Notice, SpeedRecord, weighed_json, weighed_text};
 use hovertone_vehicle::{
@@ -55,8 +54,7 @@ pub(crate) fn run(arguments: &WeighArguments, terminal: &mut Terminal) -> Result
     refuse_copies(&mut jobs, "give each recording once", None)?;
     let hearing = Hearing::of(&arguments.hearing);
     let progress = Progress::new("listening to", jobs.len(), !arguments.hearing.no_progress);
-    let records: Vec<SpeedRecord> =
-        records_of(&jobs, hearing, &progress).into_iter().map(|record| record.worded(OF_WEIGH)).collect();
+    let records = plan.records_of(&jobs, hearing, &progress);
     progress.finish();
     let (names, hovers): (Vec<&str>, Vec<HeardHover>) =
         records.iter().filter_map(|record| Some((record.file.as_str(), hover_of(record)?))).unzip();
@@ -111,6 +109,26 @@ fn hover_of(record: &SpeedRecord) -> Option<HeardHover> {
 }
 
 impl Plan {
+    /// The records of all recordings. Where several speeds explain the sound, only those are heard at which the vehicle can hover with this constant.
+    fn records_of(&self, jobs: &[Job], hearing: Hearing, progress: &Progress) -> Vec<SpeedRecord> {
+        let records = records_of(jobs, hearing, progress);
+        let tone = &self.config.tone;
+        let Some(speeds) = self.scale.hover_speeds().filter(|_| tone.band_hz.is_none()) else { return records };
+        let (low, high) = (speeds.start().rad_s().max(tone.speed_min.rad_s()), speeds.end().rad_s());
+        let (speed_min, speed_max) =
+            (RotorSpeed::from_rad_s(low), RotorSpeed::from_rad_s(high.min(tone.speed_max.rad_s())));
+        let again = |(record, job): (SpeedRecord, &Job)| {
+            if !record.is_ambiguous() {
+                return record;
+            }
+            let tone = ToneConfig { speed_min, speed_max, ..job.config.tone.clone() };
+            let job = Job { config: Config { tone, ..job.config.clone() }, ..job.clone() };
+            let heard = records_of(&[job], hearing, progress).pop();
+            heard.filter(|heard| heard.speed().is_some()).unwrap_or(record)
+        };
+        records.into_iter().zip(jobs).map(again).collect()
+    }
+
     /// The error of a single ridge cancels only where constant and hover have the same kind of speed: both the mean of all rotors, or
     /// both the same single ridge.
     fn scale_for(&self, records: &[SpeedRecord]) -> AcousticScale {
@@ -178,7 +196,10 @@ fn resolve(arguments: &WeighArguments, results: Option<&IdentifiedRotor>) -> Res
         loudest_std_share: 0.0,
     };
     check_stds(&scale)?;
-    scale.check_vehicle(config.tone.speed_max).map_err(|error| Failure::usage(error.to_string(), error.hint()))?;
+    scale.check_vehicle(config.tone.speed_max).map_err(|error| match (vehicle, arguments.mass_kg) {
+        (Some(vehicle), None) => results_contradict(vehicle, &error),
+        _ => Failure::usage(error.to_string(), error.hint()),
+    })?;
     let rotors_std_share = results.map_or(0.0, |rotor| rotor.rotors_std_share);
     let model_kg = vehicle.and_then(|vehicle| Some(vehicle.mass_kg?.value)).filter(|_| arguments.mass_kg.is_none());
     Ok(Plan { scale, config, method_of_constant, rotors_std_share, model_kg })
@@ -259,6 +280,19 @@ fn check_vehicle(said: &Vehicle, arguments: &WeighArguments, results: Option<&Id
         }
         None => Ok(()),
     }
+}
+
+/// The failure for results whose vehicle the named one cannot be.
+fn results_contradict(said: &Vehicle, error: &WeighError) -> Failure {
+    let WeighError::TooHeavyToHover { vehicle_kg, rev_s, fastest_rev_s } = error else {
+        return Failure::usage(error.to_string(), error.hint());
+    };
+    let what = format!(
+        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, and the rotors of \"{}\" turn \
+         at no more than {fastest_rev_s:.0} rev/s",
+        said.id, said.id
+    );
+    Failure::usage(what, "leave --vehicle out, or give the results of this vehicle")
 }
 
 /// Checks the numbers of the arguments.

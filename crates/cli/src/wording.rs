@@ -4,16 +4,13 @@ use hovertone_report::Wording;
 
 /// Behind `identify --mass KG=FILES`: some facts have flags, others only a place in an experiment file.
 pub(crate) const IN_PLACE_OF_FILE: Wording = Wording(&[
-    ("--from and --to", "from_s and to_s under [[load]] of an experiment file, which -o writes"),
-    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of an experiment file, which -o writes"),
-    ("--band", "band_hz under [tone] of an experiment file, which -o writes"),
-    ("--harmonics 1", "harmonics = 1 under [tone] of an experiment file, which -o writes"),
-    (" (--window-s)", ""),
+    ("; if you gave --band, leave it out", ""),
+    ("--from and --to", "from_s and to_s under [[load]] of the experiment file that -o DIR writes"),
+    ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone] of the experiment file that -o DIR writes"),
+    ("--band", "band_hz under [tone] of the experiment file that -o DIR writes"),
+    ("--harmonics 1", "harmonics = 1 under [tone] of the experiment file that -o DIR writes"),
     ("--mass-kg", "--mass"),
 ]);
-
-/// Behind `weigh`, which hears frames as they were heard for the constant.
-pub(crate) const OF_WEIGH: Wording = Wording(&[(", or shorter frames (--window-s)", "")]);
 
 #[cfg(test)]
 mod tests {
@@ -33,7 +30,8 @@ mod tests {
             Warning::HoversDiffer { slowest_rev_s: 80.0, fastest_rev_s: 90.0 },
             Warning::HoverShorterThanSample { hover_s: 1.0, length_s: 5.0 },
             Warning::ManyGaps { gap_share: 0.5 },
-            Warning::FewFrames { frame_count: 3 },
+            Warning::FewFrames { frame_count: 3, sample_s: 0.2, needed_s: Some(0.8) },
+            Warning::FewFrames { frame_count: 3, sample_s: 5.0, needed_s: None },
             apart,
             Warning::OtherRotorsHeard,
             Warning::SeveralLines { spread_share: 0.02 },
@@ -66,7 +64,9 @@ mod tests {
 
     #[test]
     fn advice_names_only_what_the_command_has() {
-        for (command, wording) in [("identify", IN_PLACE_OF_FILE), ("weigh", OF_WEIGH), ("speed", Wording::default())] {
+        for (command, wording) in
+            [("identify", IN_PLACE_OF_FILE), ("weigh", Wording::default()), ("speed", Wording::default())]
+        {
             for advice in advice() {
                 let worded = wording.of(&advice);
                 assert_eq!(unknown_flags(&worded, command), Vec::<String>::new(), "{command}: {worded}");

@@ -73,7 +73,7 @@ pub mod motors;
 /// # Ok::<(), hovertone::sound::SignalError>(())
 /// ```
 pub mod sound {
-    pub use hovertone_signal::line_frequency::{LineFrequency, line_frequency};
+    pub use hovertone_signal::line_frequency::{HeardBand, LineFrequency, line_frequency};
     pub use hovertone_signal::passes::{Passes, Piece, Progress, StretchListener};
     pub use hovertone_signal::spectrogram::{Frame, Stft, Window};
     pub use hovertone_signal::{Signal, SignalError, SignalSource, SourceError};

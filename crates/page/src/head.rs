@@ -67,6 +67,7 @@ mod tests {
             ThrustWarning::TrialsDiffer { load: name(), least: recording(), most: recording(), thrust_share: 123.0 },
             ThrustWarning::HeavierTurnedSlower { heavy: name(), light: name() },
             ThrustWarning::MassFarFromKnown { load: name(), mass_kg: 12_345.678, known_kg: 0.001 },
+            ThrustWarning::VehicleDoesNotFit { hardly_heard: 12_345, elsewhere: 12_345, of: 12_345 },
             ThrustWarning::RowsDoNotFit { names: names(), are_left_out: true },
             ThrustWarning::TrialLeftOut { load: name(), recording: recording() },
             ThrustWarning::ConstantsSplit,

@@ -25,6 +25,10 @@ impl Verdict {
         let agreement = table.fit.as_ref().and_then(|fit| fit.agreement).map_or(String::new(), |agreement| {
             format!(" (χ² = {:.2}, {})", agreement.chi_square, p_value_text(agreement.p_value))
         });
+        let is_foreign = |warning: &&ThrustWarning| matches!(warning, ThrustWarning::VehicleDoesNotFit { .. });
+        if let Some(foreign) = table.warnings.iter().find(is_foreign) {
+            return Self::Fails(foreign.to_string());
+        }
         let is_exchange = |warning: &&ThrustWarning| matches!(warning, ThrustWarning::HeavierTurnedSlower { .. });
         if let Some(exchange) = table.warnings.iter().find(is_exchange) {
             return Self::Fails(format!("the loads contradict each other: {exchange}{agreement}"));

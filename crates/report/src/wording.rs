@@ -12,7 +12,6 @@ impl Wording {
         ("--band LOW:HIGH", "band_hz = [LOW, HIGH] under [tone]"),
         ("--band", "band_hz under [tone]"),
         ("--harmonics 1", "harmonics = 1 under [tone]"),
-        ("--window-s", "window_s under [spectrogram]"),
         ("leave --rotors 1 out", "correct rotors under [vehicle] or rotors_running under [[load]]"),
         ("with --rotors", "as rotors under [vehicle], or on a bench as rotors_running under [[load]]"),
         ("--rotors", "rotors under [vehicle]"),

@@ -87,10 +87,15 @@ pub(crate) fn warning_of_parts(hover: &Hover, track: &[TrackPoint], share_max: f
     differ.then_some(Warning::HoversDiffer { slowest_rev_s, fastest_rev_s })
 }
 
-/// What the samples say against their speeds.
-pub(crate) fn warning_of_samples(samples: &[SampleSpeeds]) -> Option<Warning> {
-    let fewest = samples.iter().flat_map(|sample| &sample.speeds).map(|speed| speed.frame_count).min()?;
-    (fewest < FEW_FRAMES).then_some(Warning::FewFrames { frame_count: fewest })
+/// What the samples say against their speeds. The frames of a whole sample of `length_s` are enough, unless the tone has gaps.
+pub(crate) fn warning_of_samples(samples: &[SampleSpeeds], length_s: f64) -> Option<Warning> {
+    let counts = samples.iter().flat_map(|sample| sample.speeds.iter().map(|speed| (speed.frame_count, sample.span)));
+    let (frame_count, span) = counts.min_by_key(|(frame_count, _)| *frame_count)?;
+    let sample_s = span.length_s();
+    // in the step of the frames that there are, rounded up to the decimal that is printed
+    let needed_s = (10.0 * sample_s * FEW_FRAMES as f64 / frame_count.max(1) as f64).ceil() / 10.0;
+    let needed_s = (needed_s <= length_s).then_some(needed_s);
+    (frame_count < FEW_FRAMES).then_some(Warning::FewFrames { frame_count, sample_s, needed_s })
 }
 
 /// Whether all rotors that there are were told apart.

@@ -8,7 +8,7 @@ use crate::stages::{
     survey_from_source,
 };
 use crate::tone::search_range_rev_s;
-use hovertone_analysis::{Hover, Method, OtherRotor, Outcome, RotorEstimate, SpeedAnalysis};
+use hovertone_analysis::{Hover, Method, OtherRotor, RotorEstimate, SpeedAnalysis};
 use hovertone_signal::SignalSource;
 use hovertone_signal::passes::{Passes, Progress};
 

@@ -28,6 +28,18 @@ const STD_SHARE_MIN: f64 = 5e-8;
 /// Smallest power of a block, as a share of the loudest one: the tone may begin late or end early. *Decision.*
 const BLOCK_POWER_MIN: f64 = 0.1;
 
+/// Highest level of silence, dB re a sine of full scale: the last of 24 bits, and the rounding noise of an offset of full scale. *Numeric.*
+pub const SILENT_DB: f64 = -138.0;
+
+/// What is heard in a band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HeardBand {
+    /// The line, where a clear one is heard.
+    pub line: Option<LineFrequency>,
+    /// Whether the whole sound is silent.
+    pub is_silent: bool,
+}
+
 /// The frequency of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineFrequency {
@@ -40,7 +52,7 @@ pub struct LineFrequency {
 /// Mean frequency of the strongest line in a band, over a span of the recording: one pass.
 ///
 /// The band becomes one channel at a low rate. The strongest line of its whole spectrum is shifted to 0 Hz; the phase of the rest, step by
-/// step, is a straight line in every block, whose slope is the frequency that is left. `None` where no line is 16 dB above the median of the
+/// step, is a straight line in every block, whose slope is the frequency that is left. There is no line where none is 16 dB above the median of the
 /// band, or it is 26 dB below all sound, or less than 2 s are heard.
 ///
 /// # Errors
@@ -49,7 +61,7 @@ pub fn line_frequency(
     passes: &mut Passes<'_>,
     span_s: Range<f64>,
     band_hz: Range<f64>,
-) -> Result<Option<LineFrequency>, SignalError> {
+) -> Result<HeardBand, SignalError> {
     let band = ChannelBand {
         order: 1.0,
         is_first: true,
@@ -73,13 +85,15 @@ pub fn line_frequency(
     let (centre_hz, rate_hz) = (bank.channels[0].centre_hz, bank.channels[0].rate_hz);
     let reach_hz = band_hz.start - centre_hz..band_hz.end - centre_hz;
     let series = &series[0];
-    Ok(strongest(series, rate_hz, reach_hz).and_then(|peak| {
+    let line = strongest(series, rate_hz, reach_hz).and_then(|peak| {
         // a sine of amplitude A has the mean square A²/2
         let is_heard = peak.amplitude.powi(2) / 2.0 > OF_ALL_SOUND_MIN * squares / count;
         let left = is_heard.then(|| steps(series, rate_hz, peak.offset_hz)).and_then(|steps| offsets_hz(&steps))?;
         let hz = centre_hz + peak.offset_hz + mean(&left)?;
         Some(LineFrequency { hz, std_uncertainty_hz: std_uncertainty_of_mean(&left)?.max(STD_SHARE_MIN * hz) })
-    }))
+    });
+    let is_silent = count > 0.0 && 10.0 * (2.0 * squares / count).log10() < SILENT_DB;
+    Ok(HeardBand { line, is_silent })
 }
 
 /// The highest bin of a spectrum.
@@ -175,7 +189,7 @@ mod tests {
         let mut signal = Signal::new(samples, RATE_HZ);
         let mut on_progress = |_| {};
         let mut passes = Passes::planned(&mut signal, 1, &mut on_progress).unwrap();
-        line_frequency(&mut passes, 0.0..f64::INFINITY, band_hz).unwrap()
+        line_frequency(&mut passes, 0.0..f64::INFINITY, band_hz).unwrap().line
     }
 
     fn noise(seed: u64, count: usize, std: f64) -> Vec<f64> {

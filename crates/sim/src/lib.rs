@@ -52,4 +52,4 @@ pub use sound::{
     FlightSound, GearMeshTones, LineScatter, MicrophoneSettings, MotorTones, Room, RotorState, SoundSettings,
     SoundState, SourceSettings, Surroundings, ToneSettings, WallAbsorption,
 };
-pub use trim::{HoverTrim, hover_trim};
+pub use trim::{HOVER_VOLTAGE, HoverTrim, hover_trim};

@@ -24,6 +24,9 @@ impl HoverTrim {
     }
 }
 
+/// Name of the voltage that a hover needs, where it is more than that of the battery: the vehicle is too heavy.
+pub const HOVER_VOLTAGE: &str = "hover voltage";
+
 /// Solves for hover with the centre of mass `height_m` above the ground: thrust equals weight, and no torque about any
 /// axis. These are four linear equations for the four ω², so the solution is exact. Fails if a rotor would have to
 /// turn backwards, or if a motor needs more than `battery_v`.
@@ -60,7 +63,7 @@ pub fn hover_trim(airframe: &Airframe, height_m: f64, battery_v: f64) -> Result<
         if trim.voltage_v[k] > battery_v {
             let must_be = "within the battery's voltage: the vehicle is too heavy to hover (masses are in kilograms)";
             let value = (1e3 * trim.voltage_v[k]).round() / 1e3;
-            return Err(QuantityError { name: "hover voltage", value, must_be });
+            return Err(QuantityError { name: HOVER_VOLTAGE, value, must_be });
         }
     }
     Ok(trim)

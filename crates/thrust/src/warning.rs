@@ -4,7 +4,8 @@ use crate::drift::{Drift, DriftKind};
 use crate::force::Force;
 use crate::square_law::{ForceLaw, LoadRange};
 use crate::warning_words::{
-    differ_text, drift_text, first_names, groups_text, is_shifted_point, mass_text, misfit_text, range_text, ratio_text,
+    differ_text, drift_text, first_names, foreign_text, groups_text, is_shifted_point, mass_text, misfit_text,
+    range_text, ratio_text,
 };
 use hovertone_vehicle::KNOWN_MASS_SHARES;
 use serde::Serialize;
@@ -89,6 +90,15 @@ pub enum ThrustWarning {
         /// Mass of the preset or of the model.
         known_kg: f64,
     },
+    /// Most recordings say that another rotor sounds than that of the vehicle.
+    VehicleDoesNotFit {
+        /// Recordings with a speed in which the tone of the vehicle is hardly heard.
+        hardly_heard: usize,
+        /// Recordings in which the lines of another rotor are heard.
+        elsewhere: usize,
+        /// All recordings.
+        of: usize,
+    },
     /// Many rows of a table disagree with the others.
     RowsDoNotFit {
         /// Names of the rows.
@@ -159,11 +169,13 @@ pub enum ThrustWarning {
 }
 
 impl ThrustWarning {
-    /// Whether the loads contradict each other, and nothing shows which of them is right: then the constant is of none.
+    /// Whether the loads contradict each other, and nothing shows which of them is right, or the vehicle contradicts the sound: then the constant
+    /// is of none.
     pub fn is_contradiction(&self) -> bool {
         matches!(
             self,
-            Self::HeavierTurnedSlower { .. }
+            Self::VehicleDoesNotFit { .. }
+                | Self::HeavierTurnedSlower { .. }
                 | Self::LoadsDisagree { .. }
                 | Self::ConstantsDiffer { .. }
                 | Self::ConstantsSplit
@@ -198,6 +210,9 @@ impl ThrustWarning {
             }
             Self::MassFarFromKnown { .. } => {
                 "check the mass, its unit and the name of the vehicle: an error of the mass is an error of C_f"
+            }
+            Self::VehicleDoesNotFit { .. } => {
+                "do not use this constant: check the name of the vehicle, or give the blades and the gear that you count in its place; if the vehicle is right, record it again from nearer"
             }
             Self::RowsDoNotFit { .. } => {
                 "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"
@@ -307,6 +322,9 @@ impl fmt::Display for ThrustWarning {
                 ratio_text(mass_kg / known_kg),
                 mass_text(*known_kg)
             ),
+            Self::VehicleDoesNotFit { hardly_heard, elsewhere, of } => {
+                f.write_str(&foreign_text(*hardly_heard, *elsewhere, *of))
+            }
             Self::RowsDoNotFit { names, are_left_out } => {
                 write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
                 if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { f.write_str("; they are used too") }

@@ -93,3 +93,17 @@ pub(crate) fn groups_text(groups_rev_s: &[f64]) -> String {
     let speeds: Vec<String> = groups_rev_s.iter().map(|rev_s| format!("{rev_s:.1}")).collect();
     format!("{} groups of speeds: {} rev/s", speeds.len(), speeds.join(", "))
 }
+
+/// A vehicle that does not fit the sound of most recordings.
+pub(crate) fn foreign_text(hardly_heard: usize, elsewhere: usize, of: usize) -> String {
+    let recordings = if of == 1 { String::new() } else { format!(" of {of} recordings") };
+    let in_recordings = |count: usize| if of == 1 { String::new() } else { format!(" in {count}{recordings}") };
+    let hardly = format!("its tone is hardly heard{}", in_recordings(hardly_heard));
+    let other = format!("another rotor is heard{}", in_recordings(elsewhere));
+    let why = match (hardly_heard, elsewhere) {
+        (0, _) => other,
+        (_, 0) => hardly,
+        _ => format!("{hardly}, and {other}"),
+    };
+    format!("the vehicle does not fit the sound: {why}")
+}

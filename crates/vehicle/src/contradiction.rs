@@ -64,6 +64,16 @@ pub enum Contradiction {
         /// Fastest shaft speed.
         rev_s_max: f64,
     },
+    /// A small order that is neither that of the shaft nor a multiple of the blades.
+    #[error(
+        "order = {order} and blades = {blades} exclude each other: propellers with {blades} blades make tones of order {blades} and its multiples"
+    )]
+    OrderOfBlades {
+        /// The given order.
+        order: Order,
+        /// The given blades.
+        blades: u32,
+    },
     /// Another number of rotors than the vehicle has.
     #[error("rotors = {said}, and the vehicle \"{vehicle}\" has {known} rotors")]
     Rotors {
@@ -143,6 +153,7 @@ impl Contradiction {
                                   the name of the vehicle"
                 .to_owned(),
             Self::Order { .. } => "leave the order out; the multiples of a tone are its harmonics".to_owned(),
+            Self::OrderOfBlades { blades, .. } => format!("leave out one of the two: blades = {blades} alone mean the order {blades}"),
             Self::Band { order, rev_s_min, rev_s_max, .. } => {
                 let edge_hz = |rev_s: f64| rev_s * order.lines_per_turn();
                 format!(

@@ -2,8 +2,8 @@
 
 use crate::contradiction::HOVER_REV_S_MIN;
 use crate::{
-    AIR_KG_M3, ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, RotorSpeed,
-    SOUND_M_S, ShaftSpeedRange, THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range, check_tips,
+    AIR_KG_M3, ConfigError, Contradiction, GRAVITY_STANDARD_M_S2, MASS_ALONE_KG_MAX, PROPELLER_DIAMETER_M, ROTORS_MAX,
+    RotorSpeed, SOUND_M_S, ShaftSpeedRange, THRUST_COEFFICIENT, TIP_MACH_MAX, Vehicle, check_range, check_tips,
 };
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -11,8 +11,8 @@ use std::ops::RangeInclusive;
 
 /// Masses of multirotors that are accepted as a prior, kg. *Decision.*
 const MASS_KG_ALLOWED: RangeInclusive<f64> = 1e-3..=1e4;
-/// Numbers of rotors that are accepted as a prior. *Decision.*
-const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=64.0;
+/// Numbers of rotors that a multirotor may have. *Decision.*
+const ROTORS_ALLOWED: RangeInclusive<f64> = 1.0..=ROTORS_MAX as f64;
 
 /// Facts about a vehicle that exclude some shaft speeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]

@@ -9,6 +9,9 @@ pub const BLADES_MAX: f64 = 12.0;
 /// Orders beside a gear mesh and its multiples at which its sidebands lie: one and two shaft turns to either side. *Physics.*
 pub const MESH_SIDEBANDS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
 
+/// Most rotors of a multirotor: as many are separated. *Decision.*
+pub const ROTORS_MAX: u32 = 12;
+
 /// Diameters of multirotor propellers, m, with a margin on both sides. C_T contains D⁴, so a wrong unit must be refused. *Physics.*
 pub const PROPELLER_DIAMETER_M: RangeInclusive<f64> = 0.01..=10.0;
 

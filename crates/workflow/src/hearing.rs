@@ -167,20 +167,33 @@ fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
     if let Some(fault) = warnings.iter().find(explains) {
         return Some(format!("{fault}; {}", fault.hint()));
     }
-    // the search goes beyond the known speeds of the vehicle by a margin
-    let tone = &analysed.config.tone;
-    let tone_hz = tone.order.lines_per_turn() * tone.speed_max.rev_s() / KNOWN_RANGE_MARGIN;
-    let half_rate_hz = recording.info().sample_rate_hz / 2.0;
     // a rotor that is heard by other lines shows that the sample rate is not to blame
     let is_heard = matches!(reason, NoTone::NoSeries { instead: Some(_), .. });
-    let is_rate_low = !is_silent && !is_heard && analysed.found.is_none() && half_rate_hz < tone_hz;
-    is_rate_low.then(|| {
+    let may_be_rate = !is_silent && !is_heard && analysed.found.is_none();
+    may_be_rate.then(|| why_rate_is_low(&analysed.config.tone, recording.info().sample_rate_hz / 2.0)).flatten()
+}
+
+/// That the tone may lie above what the recording holds, and what to do. `None` where it cannot, or where a band says where it lies.
+fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
+    // the search goes beyond the known speeds of the vehicle by a margin
+    let tone_hz = tone.order.lines_per_turn() * tone.speed_max.rev_s() / KNOWN_RANGE_MARGIN;
+    if tone.band_hz.is_some() || half_rate_hz >= tone_hz {
+        return None;
+    }
+    let (order, half_rate_khz) = (tone.order, half_rate_hz / 1e3);
+    let are_speeds_known = tone.speed_max != ToneConfig::of_order(order).speed_max;
+    Some(if are_speeds_known {
         format!(
-            "the sample rate is too low: nothing above {:.1} kHz is recorded, and the tone of order {} may lie up to {:.1} kHz; record \
-             at a higher rate, or follow a tone of lower order",
-            half_rate_hz / 1e3,
-            tone.order,
+            "the sample rate is too low: nothing above {half_rate_khz:.1} kHz is recorded, and the tone of order {order} may lie up to {:.1} kHz; \
+             record at a higher rate, or follow a tone of lower order",
             tone_hz / 1e3
+        )
+    } else {
+        let blades = if tone.blades.is_none() { "count the blades and give --blades N too, or " } else { "" };
+        format!(
+            "no tone of order {order} is heard. Nothing above {half_rate_khz:.1} kHz is recorded, so that this tone can be heard up to {:.0} rev/s \
+             only; {blades}name the vehicle, or give --band LOW:HIGH around the tone",
+            half_rate_hz / order.lines_per_turn()
         )
     })
 }

@@ -1,7 +1,7 @@
 //! An experiment whose recordings were heard: the fits of its loads, and what is said of them.
 
 use hovertone::experiment::Experiment;
-use hovertone::speed::{Method, SpeedEstimate};
+use hovertone::speed::{Method, NoTone, Outcome, SpeedEstimate, Warning};
 use hovertone::thrust::{LoadSpeeds, ThrustSettings, ThrustTable, ThrustWarning, TrialSpeeds, thrust_from_loads};
 use hovertone_page::names_of;
 use hovertone_report::{
@@ -57,6 +57,7 @@ impl Identified {
         check_tips_of(&experiment, &inputs)?;
         let has_rotors = inputs.iter().filter_map(|input| input.record.speed_by(Method::Separated)).any(is_separated);
         let method = if has_rotors || method != Method::Separated { method } else { Method::Harmonic };
+        let foreign = vehicle_does_not_fit(&inputs);
         let tables = Method::ALL
             .into_iter()
             .filter(|&method| method != Method::Separated || has_rotors)
@@ -66,7 +67,9 @@ impl Identified {
                     unresolved_std_share: unresolved_std_share(&experiment, &inputs, method),
                     ..experiment.thrust_settings()
                 };
-                thrust_from_loads(&loads_of(&experiment, &inputs, method), method, &settings)
+                let mut table = thrust_from_loads(&loads_of(&experiment, &inputs, method), method, &settings);
+                table.warnings.splice(0..0, foreign.clone());
+                table
             })
             .collect();
         // serialisation of settings does not fail
@@ -169,10 +172,19 @@ impl Identified {
                     0 => String::new(),
                     count => format!("; the order check failed against {}", counted(count, "log")),
                 };
-                format!("{constants}\nverdict: {}{heard}{failed}\n", printable(Verdict::of(table).words()))
+                let verdict = format!("verdict: {}{heard}{failed}", printable(Verdict::of(table).words()));
+                match self.is_foreign() {
+                    true => format!("{verdict}\ndo not use this constant: {constants}\n"),
+                    false => format!("{constants}\n{verdict}\n"),
+                }
             }
             None => "C_f: none, since no recording has a speed\nverdict: nothing is identified\n".to_owned(),
         }
+    }
+
+    /// Whether another rotor sounds than that of the vehicle.
+    fn is_foreign(&self) -> bool {
+        self.warnings().iter().any(|warning| matches!(warning, ThrustWarning::VehicleDoesNotFit { .. }))
     }
 
     /// The records of all recordings.
@@ -184,6 +196,25 @@ impl Identified {
     pub fn warnings(&self) -> &[ThrustWarning] {
         self.reported().map_or(&[], |table| &table.warnings)
     }
+}
+
+/// The warning that most recordings say that another rotor sounds than that of the vehicle.
+fn vehicle_does_not_fit(inputs: &[InputRecord]) -> Option<ThrustWarning> {
+    let has_warning = |input: &&InputRecord, is_meant: &dyn Fn(&Warning) -> bool| {
+        input.record.unambiguous_analysis().is_some_and(|analysis| analysis.warnings.iter().any(is_meant))
+    };
+    let is_elsewhere = |warning: &Warning| matches!(warning, Warning::FitsElsewhere(_));
+    let is_other = |input: &&InputRecord| {
+        let outcome = input.record.analysis().map(|analysis| &analysis.outcome);
+        let is_silent_for_it =
+            matches!(outcome, Some(Outcome::NoRotorTone { reason: NoTone::NoSeries { instead: Some(_), .. } }));
+        is_silent_for_it || has_warning(input, &is_elsewhere)
+    };
+    let elsewhere = inputs.iter().filter(is_other).count();
+    let is_hardly_heard = |input: &&InputRecord| !is_other(input) && has_warning(input, &Warning::is_hardly_heard);
+    let hardly_heard = inputs.iter().filter(is_hardly_heard).count();
+    let of = inputs.iter().filter(|input| input.record.analysis().is_some()).count();
+    (2 * (hardly_heard + elsewhere) > of).then_some(ThrustWarning::VehicleDoesNotFit { hardly_heard, elsewhere, of })
 }
 
 /// Refuses the diameter of the experiment where the blade tips of a heard rotor would be faster than any multirotor's.

@@ -2,6 +2,7 @@
 
 use super::groups::{HearingArguments, ToneArguments, time_s, typed_path, whole_number};
 use clap::Args;
+use hovertone_vehicle::ROTORS_MAX;
 use std::path::PathBuf;
 
 const CALIBRATE_EXAMPLES: &str = "\
@@ -44,7 +45,7 @@ pub(crate) struct CalibrateArguments {
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
     /// Number of rotors that turn: 1, since the known speed is that of one rotor
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64), help_heading = "Which tone")]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX), help_heading = "Which tone")]
     pub(crate) rotors: Option<u32>,
     /// How far the recorder's clock may be off, in millionths
     #[arg(long, value_name = "PPM", default_value_t = 50.0, help_heading = "How it is analysed")]

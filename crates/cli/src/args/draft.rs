@@ -4,7 +4,7 @@ use super::groups::{gear, whole_number};
 use super::thrust::PlaceArguments;
 use super::units::length_m;
 use clap::Args;
-use hovertone_vehicle::Gear;
+use hovertone_vehicle::{Gear, ROTORS_MAX};
 
 /// How to type loads, for the help of both commands.
 pub(crate) const MASS_HELP: &str = "\
@@ -31,7 +31,7 @@ pub(crate) struct DraftArguments {
     #[arg(long, value_name = "P:W", value_parser = gear)]
     pub(crate) gear: Option<Gear>,
     /// Number of rotors that carry the vehicle [default: the vehicle's]
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
     /// Diameter of a propeller, from tip to tip, in m or as 8in: with it, half and double the speed can be ruled out [default: the vehicle's]
     #[arg(long, value_name = "M", value_parser = length_m)]

@@ -123,8 +123,27 @@ pub(crate) fn typed_path() -> impl TypedValueParser<Value = PathBuf> {
 
 /// Seconds, or minutes and seconds.
 pub(crate) fn time_s(text: &str) -> Result<f64, String> {
-    time_s_from_text(text)
-        .ok_or_else(|| "write seconds, such as 62.5, or minutes and seconds, such as 1:02.5".to_owned())
+    time_s_from_text(text).ok_or_else(|| {
+        let known = "write seconds, such as 62.5, or minutes and seconds, such as 1:02.5";
+        time_meant(text.trim()).unwrap_or_else(|| known.to_owned())
+    })
+}
+
+/// What to write in place of a time with a unit, or with 60 seconds and more behind its minutes.
+fn time_meant(text: &str) -> Option<String> {
+    if let Some((minutes, seconds)) = text.split_once(':') {
+        let (minutes, seconds): (u32, f64) = (minutes.parse().ok()?, seconds.parse().ok()?);
+        let meant_s = 60.0 * f64::from(minutes) + seconds;
+        let fault = "the seconds behind the minutes must be below 60";
+        return (seconds >= 60.0).then(|| format!("{fault}; if you mean {meant_s} seconds, write {meant_s}"));
+    }
+    let number = text.trim_end_matches(char::is_alphabetic).trim_end();
+    let value: f64 = number.parse().ok()?;
+    match text.strip_prefix(number)?.trim() {
+        "s" | "sec" | "seconds" => Some(format!("a time has no unit; write {number}")),
+        "m" | "min" | "minutes" => Some(format!("a time has no unit, and is in seconds; write {}", 60.0 * value)),
+        _ => None,
+    }
 }
 
 /// A whole number in a range.

@@ -9,6 +9,7 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use hovertone::speed::Method;
 use hovertone_exchange::SimulatorFormat;
+use hovertone_vehicle::ROTORS_MAX;
 use std::path::PathBuf;
 
 const IDENTIFY_EXAMPLES: &str = "\
@@ -115,7 +116,7 @@ pub(crate) struct FitArguments {
     #[arg(long)]
     pub(crate) json: bool,
     /// Rotors that share the thrust of a row, or carry its mass [default: 1; 4 with --plan]
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=64))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
     #[command(flatten)]
     pub(crate) place: PlaceArguments,

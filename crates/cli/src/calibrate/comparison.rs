@@ -1,6 +1,6 @@
 //! A heard speed against the known one, in words and as JSON.
 
-use super::{AMBIGUOUS, BAND_SHARE, MILLION, OTHER_ROTOR, SEVERAL_ROTORS, band_around};
+use super::{AMBIGUOUS, BAND_SHARE, HARDLY_HEARD, MILLION, OTHER_ROTOR, SEVERAL_ROTORS, band_around};
 use crate::args::CalibrateArguments;
 use crate::failure::Failure;
 use crate::vehicles::preset;
@@ -304,7 +304,7 @@ pub(super) fn as_json(
         "passes": match judgement {
             Some(Judgement::Passes) => Some(true),
             Some(Judgement::Undecided) => None,
-            None if [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR].contains(&status) => None,
+            None if [SEVERAL_ROTORS, AMBIGUOUS, OTHER_ROTOR, HARDLY_HEARD].contains(&status) => None,
             Some(Judgement::Fails) | None => Some(false),
         },
         "order": heard.map(|heard| heard.order.lines_per_turn()),

@@ -13,7 +13,8 @@ use crate::terminal::Terminal;
 use crate::vehicles::preset;
 use comparison::{Comparison, HeardSpeed, Reference, as_json, in_words, slip_of_turns_per_second};
 use hovertone::calibration::Judgement;
-use hovertone::speed::{Config, SpeedAnalysis, Warning};
+use hovertone::sound::HeardBand;
+use hovertone::speed::{Config, NoTone, SpeedAnalysis, Warning};
 use hovertone::tones::Discovery;
 use hovertone_report::{Notice, SpeedRecord, warning_count};
 use hovertone_vehicle::{Order, RotorSpeed, check_range};
@@ -32,6 +33,8 @@ const AMBIGUOUS: &str = "ambiguous";
 const SEVERAL_ROTORS: &str = "several_rotors";
 /// Status where the known speed agrees, but the lines are those of a rotor with other blades.
 const OTHER_ROTOR: &str = "other_rotor";
+/// Status where the tone of the given order is hardly heard: then other lines told the speed, and nothing is said of the order.
+const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
 const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, and the known speed is that of one; record one \
@@ -73,7 +76,7 @@ pub(crate) fn run(arguments: &CalibrateArguments, terminal: &mut Terminal) -> Re
     let hearing = Hearing::of(&arguments.hearing);
     let heard = match plan.line_band_hz.clone() {
         Some(band_hz) => heard_line(job, hearing, band_hz, &progress)?,
-        None => heard_rotor(&jobs, hearing, plan.reference, &progress),
+        None => heard_rotor(&jobs, hearing, &plan, &progress),
     };
     progress.finish();
     let comparison = heard.speed.map(|speed| Comparison::of(speed, plan.reference)).transpose()?;
@@ -105,7 +108,8 @@ fn say_notes(heard: &Heard, name: &str, notice: Option<&Notice>, terminal: &mut 
 }
 
 /// The speed of a rotor, as `hovertone speed` hears it.
-fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &Progress) -> Heard {
+fn heard_rotor(jobs: &[Job], hearing: Hearing, plan: &Plan, progress: &Progress) -> Heard {
+    let reference = plan.reference;
     let mut records = records_of(jobs, hearing, progress);
     let ending = ending_of(&records);
     let record = records.pop();
@@ -155,6 +159,9 @@ fn heard_rotor(jobs: &[Job], hearing: Hearing, reference: Reference, progress: &
     if let Some(warning) = doubt.filter(|warning| agrees || other_agrees(warning)) {
         return undecided(OTHER_ROTOR, format!("{warning}; {}", warning.hint()));
     }
+    if let Some(why) = record.as_ref().and_then(|record| hardly_heard_in_words(record, plan.config.tone.blades)) {
+        return undecided(HARDLY_HEARD, why);
+    }
     Heard {
         speed,
         status: record.as_ref().map_or("error", SpeedRecord::status),
@@ -175,6 +182,30 @@ fn fits_elsewhere(analysis: &SpeedAnalysis) -> Option<&Warning> {
     analysis.warnings.iter().find(|warning| matches!(warning, Warning::FitsElsewhere(_)))
 }
 
+/// What the sound says where the tone of the given order is hardly heard, and what to do. `None` where it is heard.
+fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<String> {
+    let gap_percent = record.analysis()?.warnings.iter().find_map(|warning| match warning {
+        Warning::ManyGaps { gap_share } if warning.is_hardly_heard() => Some(100.0 * gap_share),
+        _ => None,
+    })?;
+    let (order, rpm) = (record.order, record.speed()?.speed.rpm());
+    let heard = format!(
+        "the tone of order {order} is not heard for {gap_percent:.0} % of the time, so nothing proves this order"
+    );
+    Some(match blades {
+        Some(blades) if f64::from(blades) == order.lines_per_turn() => {
+            format!("{heard}; move the microphone nearer, or choose the clear part with --from and --to")
+        }
+        _ => {
+            let number = blades.map_or("N".to_owned(), |blades| blades.to_string());
+            format!(
+                "{heard}. The speed, {rpm:.0} rpm, comes from other lines, such as the blade pass. If the rotor has {number} blades and no gear, \
+                 give --blades {number} alone, in place of the vehicle, the gear and the order; if it has this gear, move the microphone nearer"
+            )
+        }
+    })
+}
+
 /// Whether other rotors are heard beside the one that is measured.
 fn hears_several(analysis: &SpeedAnalysis) -> bool {
     analysis.warnings.contains(&Warning::OtherRotorsHeard)
@@ -183,7 +214,7 @@ fn hears_several(analysis: &SpeedAnalysis) -> bool {
 /// The frequency of a line, as the speed of a shaft with one line per turn.
 fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progress) -> Result<Heard, Failure> {
     let order = Order::new(1.0).map_err(Failure::internal)?;
-    let (line, notices) = match line_in_band(job, hearing, band_hz.clone(), progress) {
+    let (HeardBand { line, is_silent }, notices) = match line_in_band(job, hearing, band_hz.clone(), progress) {
         Ok(found) => found,
         Err(reason) => {
             let ending = Ending::FilesFailed;
@@ -205,6 +236,7 @@ fn heard_line(job: &Job, hearing: Hearing, band_hz: Range<f64>, progress: &Progr
     });
     let (status, reason, ending) = match speed {
         Some(_) => ("ok", None, Ending::Done),
+        None if is_silent => ("no_line", Some(NoTone::Silence.to_string()), Ending::Incomplete),
         None => {
             let reason = format!(
                 "no clear line of 2 s or more is heard between {:.1} and {:.1} Hz; check the frequency, record the tone louder and without \

@@ -37,6 +37,10 @@ pub(crate) fn loads_from_words(words: &[String]) -> Result<Vec<LoadDraft>, Failu
             current_kg = Some(mass_kg);
             put_load(&mut loads, LoadDraft { mass_kg, recordings: Vec::new() });
         }
+        if let Some(unit) = file.filter(|_| mass.is_none()).and_then(unknown_unit) {
+            let what = format!("--mass {word}: the unit \"{unit}\" of a mass is not known");
+            return Err(Failure::usage(what, "write kilograms, such as 0.413, or grams, such as 413g"));
+        }
         let Some(mass_kg) = current_kg else {
             let what = match word.split_once('=') {
                 Some((mass, _)) => format!("\"{mass}\" is no mass"),
@@ -89,6 +93,15 @@ pub(crate) fn mass_kg_from_text(text: &str) -> Result<f64, String> {
 /// A mass for people: grams, without an exponent.
 pub(crate) fn mass_words(mass_kg: f64) -> String {
     format!("{} g", rounded(mass_kg * GRAMS))
+}
+
+/// The letters behind a number, where the word is no file: "lb" of "500lb".
+fn unknown_unit(word: &str) -> Option<&str> {
+    let unit = word.trim_start_matches(|letter: char| letter.is_ascii_digit() || ".-+".contains(letter)).trim_start();
+    let number = word.strip_suffix(unit)?.trim();
+    let is_unit = !unit.is_empty() && unit.chars().all(char::is_alphabetic) && number.parse::<f64>().is_ok();
+    // a recording has a point before its ending
+    (is_unit && !number.ends_with('.') && !Path::new(word).exists()).then_some(unit)
 }
 
 fn is_mass(word: &str) -> bool {

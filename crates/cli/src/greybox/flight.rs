@@ -236,6 +236,7 @@ pub(crate) fn fit_of(
             GreyBoxStop::NotConverged => {
                 "is --vehicle right, and --log-axes? If both are, fly a minute of doublets about all axes"
             }
+            GreyBoxStop::TooShort { .. } => "fly doublets about all axes for a minute, and record and log all of it",
             GreyBoxStop::TooFew { .. } if files.recording.is_some() => {
                 "give the time between their clocks with --log-offset-s, and the log of this recording; fly doublets for a minute"
             }

@@ -9,7 +9,7 @@ use crate::recording_files::{RecordingGroup, groups_below, groups_in, recordings
 use crate::vehicles::known_vehicles;
 use hovertone::vehicle::PROPELLER_DIAMETER_M;
 use hovertone_report::{counted, printable, wrapped};
-use hovertone_vehicle::{Contradiction, Gear, SaidOfVehicle, Vehicle};
+use hovertone_vehicle::{Contradiction, Gear, ROTORS_MAX, SaidOfVehicle, Vehicle};
 use std::io::{BufRead, Write};
 use std::path::Path;
 
@@ -18,7 +18,6 @@ const ROTORS_OFFERED: u32 = 4;
 /// Columns of a long line.
 const WIDTH: usize = 80;
 const BLADES_MAX: u32 = 20;
-const ROTORS_MAX: u32 = 64;
 
 /// Asks for everything that the draft lacks. Recordings are looked for in `folder`.
 pub(super) fn complete<R: BufRead, W: Write>(

@@ -4,7 +4,9 @@ use crate::failure::Failure;
 use crate::files::sha256_of_bytes;
 use crate::toml_file::{NO_RECORDING, TomlFile};
 use crate::vehicles::not_in_flight_model;
+use hovertone_sim::HOVER_VOLTAGE;
 use hovertone_sim::scenario::{Scenario, ScenarioError, ScenarioFile};
+use hovertone_vehicle::{MASS_ALONE_KG_MAX, QuantityError};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -60,7 +62,30 @@ impl ScenarioSource {
 
     /// The failure for a part of the file that fails later.
     pub(crate) fn failure(&self, error: &ScenarioError) -> Failure {
-        failure_of(error, &self.path)
+        match error {
+            ScenarioError::Quantity(QuantityError { name: HOVER_VOLTAGE, value, .. }) => self.too_heavy(*value),
+            _ => failure_of(error, &self.path),
+        }
+    }
+
+    /// The failure for a vehicle whose hover needs this voltage.
+    fn too_heavy(&self, needed_v: f64) -> Failure {
+        let flight = &self.scenario.flight;
+        let payloads_kg: f64 = flight.payloads.iter().map(|payload| payload.mass_kg).sum();
+        let (vehicle_kg, battery_v) = (flight.vehicle.mass_kg.value, flight.vehicle.battery.voltage_v.value);
+        let (key, mass_kg) = match payloads_kg > vehicle_kg {
+            true => ("mass_kg of [[payload]]", payloads_kg),
+            false => ("mass_kg", vehicle_kg),
+        };
+        let what = format!(
+            "{key} = {mass_kg}: the vehicle is too heavy to hover: its motors would need {needed_v:.0} V, and its battery has {battery_v:.1} V"
+        );
+        let hint = if mass_kg > MASS_ALONE_KG_MAX {
+            format!("masses are in kilograms: {mass_kg} g are {}", mass_kg / 1e3)
+        } else {
+            "give a smaller mass (in kilograms), or another vehicle".to_owned()
+        };
+        Failure::Usage { what, hint, path: Some(self.path.clone()) }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The recorder's clock and the order, against one known speed.
 
-use crate::testkit::{Run, hovertone, refused_with, steady_hover, text, write_hover};
+use crate::testkit::{Run, hovertone, refused_with, steady_hover, text, write_hover, write_wav};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
@@ -64,6 +64,31 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
     };
     let ratio = identified(&format!("[recorder]\nclock_correction_ppm = {flag}\n")) / identified("");
     assert!((1e6 * (ratio - 1.0) - ppm).abs() < 1.0, "{ratio}");
+}
+
+#[test]
+fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("bench.wav");
+    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rpm(5699.41), 10.0);
+    settings.rotors.truncate(1);
+    write_hover(&sound, HoverSettings { seed: 3, ..settings });
+    let with = |more: &[&str]| {
+        let words = ["calibrate", text(&sound), "--rotors", "1", "--tachometer-rpm", "5699.41"];
+        hovertone(&[&words[..], more].concat())
+    };
+    // two blades without a gear; the blades of the vehicle give the right speed, and the mesh of its gear is not there
+    let geared = with(&["--vehicle", "ardrone"]).ends_with(3);
+    for words in
+        ["not decided: the tone of order 69 is not heard for ", "give --blades 2 alone, in place of the vehicle"]
+    {
+        assert!(geared.stderr.contains(words), "{words}:\n{}", geared.stderr);
+    }
+    assert!(!geared.stdout.contains("pass"), "{}", geared.stdout);
+    let json = with(&["--vehicle", "ardrone", "--json"]).ends_with(3).json_lines().remove(0);
+    assert_eq!((json["status"].as_str(), json["passes"].as_bool()), (Some("tone_hardly_heard"), None));
+    let bladed = with(&["--blades", "2", "--band", "185:195"]).ends_with(0);
+    assert!(bladed.stdout.contains("order: pass, it is 2"), "{}", bladed.stdout);
 }
 
 #[test]
@@ -257,4 +282,13 @@ fn what_is_no_known_speed_is_refused() {
     assert!(run.stderr.contains("--tachometer-rpm"), "{}", run.stderr);
     let run = hovertone(&["speed", "a.wav", "--clock-correction-ppm", "90000"]).ends_with(2);
     assert!(run.stderr.contains("-2000 to 2000"), "{}", run.stderr);
+}
+
+#[test]
+fn a_silent_recording_is_said_to_be_silent() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("silence.wav");
+    write_wav(&sound, &[0.0; 96_000], 24_000);
+    let run = hovertone(&["calibrate", text(&sound), "--true-hz", "440"]).ends_with(3);
+    assert!(run.stderr.contains("silence.wav: the recording is silent; check the microphone"), "{}", run.stderr);
 }

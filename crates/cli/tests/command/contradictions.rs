@@ -116,3 +116,35 @@ fn saying_what_the_vehicle_has_changes_nothing() {
         assert_eq!(heard(more), alone, "{more:?}");
     }
 }
+
+#[test]
+fn a_vehicle_that_the_results_contradict_is_named_and_no_mass_that_nobody_gave() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, out) = (folder.path().join("hover.wav"), folder.path().join("out"));
+    write_hover(&sound, steady_hover("crazyflie", RotorSpeed::from_rev_s(350.0), 5.0));
+    let identify = ["identify", "--blades", "2", "--rotors", "4", "--diameter-m", "0.046", "--mass", "30g"];
+    hovertone(&[&identify[..], &[text(&sound), "-o", text(&out)]].concat()).ends_with(0);
+    let results = out.join("results.json");
+    let weigh = ["weigh", text(&sound), "--constant", text(&results)];
+    let run = hovertone(&[&weigh[..], &["--vehicle", "ardrone"]].concat()).ends_with(2);
+    let says = "--vehicle ardrone contradicts the results: their vehicle, 0.03 kg, hovers at ";
+    assert!(run.stderr.contains(says) && run.stderr.contains("leave --vehicle out"), "{}", run.stderr);
+    assert!(!run.stderr.contains("--mass-kg"), "{}", run.stderr);
+    hovertone(&weigh).ends_with(0);
+}
+
+/// Half of the speed would be a quarter of the mass: less than the vehicle alone.
+#[test]
+fn a_speed_at_which_the_vehicle_cannot_hover_makes_no_mass_ambiguous() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
+    settings.rotors.truncate(1);
+    write_hover(&sound, settings);
+    // 500 g hover at 95 rev/s
+    let weigh = ["weigh", text(&sound), "--blades", "2", "--rotors", "1", "--constant-n-s2", "1.3762e-5"];
+    let open = hovertone(&weigh).ends_with(3);
+    assert!(open.stderr.contains("ambiguous"), "{}", open.stderr);
+    let run = hovertone(&[&weigh[..], &["--mass-kg", "0.45"]].concat()).ends_with(0);
+    assert!(run.stdout.contains("mass as flown: 500"), "{}", run.stdout);
+}

@@ -110,3 +110,27 @@ fn exchanged_masses_are_asked_about_and_fit_no_others() {
     }
     assert!(!double.stdout.contains("others") && !double.stderr.contains("the others"), "{}", double.stderr);
 }
+
+/// The blades tell a speed, and the mesh of the vehicle's gear is not there.
+#[test]
+fn a_vehicle_that_the_sound_contradicts_is_said_on_top() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str, rev_s: f64| {
+        let path = folder.path().join(name);
+        write_hover(&path, steady_hover("crazyflie", RotorSpeed::from_rev_s(rev_s), 10.0));
+        text(&path).to_owned()
+    };
+    let one = of("one.wav", 95.0);
+    let more = [of("two.wav", 95.2), of("three.wav", 94.8)];
+    let identify = ["identify", "--vehicle", "ardrone", "--mass", "413g", &one];
+    let all: Vec<&str> = identify.iter().copied().chain(more.iter().map(String::as_str)).collect();
+    for words in [&identify[..], &all] {
+        let run = hovertone(words).ends_with(3);
+        let first = run.stderr.lines().find(|line| line.starts_with("warning: ")).unwrap();
+        let says = "the vehicle does not fit the sound: its tone is hardly heard";
+        assert!(first.starts_with(&format!("warning: {says}")), "{}", run.stderr);
+        let (verdict, constant) = run.stdout.split_once("do not use this constant: C_f = ").unwrap();
+        assert!(verdict.contains(&format!("\nverdict: {says}")) && !constant.contains("verdict"), "{}", run.stdout);
+        assert!(run.stderr.contains("another rotor may have told this speed"), "{}", run.stderr);
+    }
+}

@@ -95,7 +95,10 @@ fn what_is_no_flight_is_refused_in_one_line() {
     let turning = format!("{head},speed_1_rad_s,speed_2_rad_s,speed_3_rad_s,speed_4_rad_s");
     let few = (0..30).map(|row| format!("\n0.{row:02},0,0,300,300,300,300")).collect::<String>();
     let few = log("few.csv", &(turning + &few));
-    refused_with(&["greybox", &few, "--vehicle", "ardrone"], &["speeds lie within the log", "200 are needed"]);
+    refused_with(
+        &["greybox", &few, "--vehicle", "ardrone"],
+        &["the flight is too short: 0.3 s hold 29 speeds, and 2 s or more are needed"],
+    );
 }
 
 #[test]

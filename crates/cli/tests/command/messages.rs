@@ -188,7 +188,7 @@ fn wrong_use_is_one_line_with_the_reason_and_the_advice() {
         ("speed a.wav --harmonics -1", "error: --harmonics -1: must be a whole number, 1 or more (hint: "),
         ("speed a.wav --channel -1", "error: --channel -1: must be a whole number, counted from 1 (hint: "),
         ("fit --plan --mass-kg -1", "error: mass_kg = -1"),
-        ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 64 (hint: "),
+        ("fit a.csv --rotors -4", "error: --rotors -4: must be a whole number from 1 to 12 (hint: "),
         ("identify --vehicle ardrone --mass -1 a.wav", "error: --mass -1: "),
         ("identify --vehicle ardrone --mass -0.4=a.wav", "error: --mass -0.4=a.wav: this value cannot be negative"),
         ("init --diameter-m -1 --vehicle ardrone --mass 1=a.wav", "error: diameter_m = -1"),

@@ -100,7 +100,11 @@ fn faults_are_named_with_the_nearest_name() {
         ("[[maneuver]]\nkind = \"hoover\"\nduration_s = 1\n", ["unknown value \"hoover\"", "did you mean \"hover\""]),
         ("[vehicle]\npreset = \"crazyfly\"\n", ["crazyfly", "did you mean \"crazyflie\""]),
         ("[vehicle]\npreset = \"bebop2\"\n", ["bebop2", "the flight model knows"]),
-        ("[vehicle]\nmass_kg = 9.0\n", ["hover voltage", "too heavy"]),
+        (
+            "[vehicle]\nmass_kg = 9.0\n",
+            ["mass_kg = 9: the vehicle is too heavy to hover", "give a smaller mass (in kilograms)"],
+        ),
+        ("[vehicle]\nmass_kg = 413.0\n", ["mass_kg = 413: ", "413 g are 0.413"]),
         ("[gusts]\nwind_at_6_m_m_s = 1.0\nlength_m = [1, 1, 1]\n", ["wind_at_6_m_m_s", "hint"]),
         ("truth_rate_hz = 333.0\n", ["truth_rate_hz", "500"]),
     ] {

@@ -106,9 +106,9 @@ fn a_table_in_another_unit_than_its_header_is_refused() {
     let table = folder.path().join("stand.csv");
     for (rows, words) in [
         ("rpm,thrust_n\n3000,0.7\n-3610,1\n4000,1.3\n", ["line 3", "-3610: a speed must be 0 or more"]),
-        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["line 4", "check the unit in the header"]),
-        ("rpm,mass_kg\n3610,413\n3742,444\n3820,462\n", ["line 4", "in grams"]),
-        ("rpm,mass_g\n3610,0.413\n3742,0.444\n3820,0.462\n", ["line 4", "in kilograms"]),
+        ("speed_rev_s,thrust_n\n3000,0.7\n3610,1\n4000,1.3\n", ["3 of 3 numbers", "rename the header to speed_rpm"]),
+        ("rpm,mass_kg\n3610,413\n3742,444\n3820,462\n", ["3 of 3 numbers", "rename the header to mass_g"]),
+        ("rpm,mass_g\n3610,0.413\n3742,0.444\n3820,0.462\n", ["3 of 3 numbers", "rename the header to mass_kg"]),
     ] {
         fs::write(&table, rows).unwrap();
         refused_with(&["fit", text(&table)], &[&words[..], &["stand.csv"]].concat());
@@ -184,4 +184,34 @@ fn a_mass_with_a_wrong_unit_is_a_mass_and_no_file() {
         &["weigh", "hover.wav", "--constant", "2.83e-5"],
         &["--constant-n-s2 2.83e-5 --vehicle", "whole vehicle"],
     );
+}
+
+#[test]
+fn what_is_wrong_in_a_word_is_named_with_what_to_write() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sound, log) = (folder.path().join("a.wav"), folder.path().join("german.csv"));
+    write_noise(&sound, 1.0);
+    let row = |n: u32| format!("{},{:02};3600,0\n", n / 100, n % 100);
+    fs::write(&log, format!("Zeit;Drehzahl\n{}", (0..200).map(row).collect::<String>())).unwrap();
+    let (sound, log) = (text(&sound), text(&log));
+    let speed = |more: &[&'static str]| [&["speed", "--blades", "3", sound], more].concat();
+    let cases: [(Vec<&str>, &[&str]); 7] = [
+        (vec!["identify", "--mass", "500lb", sound], &["the unit \"lb\" of a mass is not known", "413g"]),
+        (speed(&["--rotors", "0"]), &["from 1 to 12"]),
+        (speed(&["--rotors", "40"]), &["from 1 to 12"]),
+        (
+            speed(&["--order", "2"]),
+            &["order = 2 and blades = 3 exclude each other", "blades = 3 alone mean the order 3"],
+        ),
+        (speed(&["--log", "flight.csv"]), &["a log tells rotors apart, and needs their number", "--rotors 4"]),
+        (speed(&["--from", "1:70"]), &["below 60; if you mean 130 seconds, write 130"]),
+        (speed(&["--from", "2s"]), &["a time has no unit; write 2 "]),
+    ];
+    for (arguments, words) in cases {
+        refused_with(&arguments, words);
+    }
+    let said = hovertone(&["log", log]).ends_with(2).stderr;
+    let columns = ["--column", "Zeit=time_s", "--column", "Drehzahl=rotor1_rpm"];
+    assert!(said.contains(&format!("hovertone log {log} {}", columns.join(" "))), "{said}");
+    hovertone(&[&["log", log], &columns[..]].concat()).ends_with(0);
 }

@@ -218,3 +218,37 @@ fn the_same_command_gives_the_same_bytes() {
     assert!(first.stdout.len() > 100);
     assert_eq!((first.stdout, first.stderr), (second.stdout, second.stderr));
 }
+
+#[test]
+fn a_short_part_is_told_the_length_that_is_needed_and_that_length_is_enough() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("bench.wav");
+    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
+    settings.rotors.truncate(1);
+    write_hover(&sound, settings);
+    let part = |to: &str| {
+        let words = ["speed", "--blades", "2", "--rotors", "1", "--band", "180:200", "--from", "3", "--to", to];
+        hovertone(&[&words[..], &[text(&sound)]].concat())
+    };
+    let short = part("3.2").ends_with(0);
+    let needed = short.stderr.split_once("only 0.2 s are used, and hovertone needs ").unwrap().1;
+    assert!(needed.contains("choose a longer part") && !needed.contains("--window-s"), "{}", short.stderr);
+    let needed_s: f64 = needed.split_once(" s or more").unwrap().0.parse().unwrap();
+    let long = part(&format!("{}", 3.0 + needed_s)).ends_with(0);
+    assert!(!long.stderr.contains("needs"), "{needed_s}: {}", long.stderr);
+}
+
+/// A gear mesh can be heard up to the speed that the sample rate allows: a rate that no phone has is no advice.
+#[test]
+fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    let noise = folder.path().join("noise.wav");
+    write_noise(&noise, 4.0);
+    let run = hovertone(&["speed", "--gear", "69", text(&noise)]).ends_with(3);
+    for words in
+        ["no tone of order 69 is heard", " rev/s only; count the blades and give --blades N too", "--band LOW:HIGH"]
+    {
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+    }
+    assert!(!run.stderr.contains("higher rate"), "{}", run.stderr);
+}

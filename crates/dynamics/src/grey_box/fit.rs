@@ -14,6 +14,8 @@ use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
 /// Fewest observations. *Numeric*: some ten for each parameter that counts.
 const OBSERVATIONS_MIN: usize = 200;
+/// Share of the observations within the log from which the two clocks are taken to fit: the ends of the log hold none. *Decision.*
+const OVERLAP_SHARE_MIN: f64 = 0.8;
 /// Standard deviation of an even distribution over its width. *Physics.*
 const EVEN_STD: f64 = 0.288_675;
 
@@ -48,7 +50,7 @@ impl Default for GreyBoxConfig {
 }
 
 /// Why there is no fit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum GreyBoxStop {
     /// No loop has both its command and its measurement.
@@ -61,6 +63,16 @@ pub enum GreyBoxStop {
         found: usize,
         /// Number needed.
         needed: usize,
+    },
+    /// Nearly all observations lie within the log, and these are too few.
+    #[error("the flight is too short: {flight_s:.1} s hold {found} speeds, and {needed_s:.0} s or more are needed")]
+    TooShort {
+        /// Time from the first to the last observation, s.
+        flight_s: f64,
+        /// Number of observations.
+        found: usize,
+        /// Time that holds as many as are needed, s.
+        needed_s: f64,
     },
     /// The optimiser did not end.
     #[error("the fit does not converge: the speeds do not follow the commands")]
@@ -176,10 +188,23 @@ fn used_observations(
     let known: Vec<&SpeedObservation> = observations.iter().filter(is_known).collect();
     let needed = OBSERVATIONS_MIN;
     if known.len() < needed {
-        return Err(GreyBoxStop::TooFew { found: known.len(), needed });
+        return Err(too_few(&known, observations.len()));
     }
     let stride = known.len().div_ceil(config.observations_max);
     Ok(known.into_iter().step_by(stride).cloned().collect())
+}
+
+/// Why there are too few observations within the log: the flight is too short where nearly all lie in it.
+fn too_few(known: &[&SpeedObservation], of: usize) -> GreyBoxStop {
+    let (found, needed) = (known.len(), OBSERVATIONS_MIN);
+    match (known.first(), known.last()) {
+        (Some(first), Some(last)) if found > 1 && found as f64 >= OVERLAP_SHARE_MIN * of as f64 => {
+            let flight_s = last.time_s - first.time_s;
+            let needed_s = flight_s * needed as f64 / found as f64;
+            GreyBoxStop::TooShort { flight_s, found, needed_s: needed_s.ceil() }
+        }
+        _ => GreyBoxStop::TooFew { found, needed },
+    }
 }
 
 /// Standard deviations of the priors, in scales of the parameters. *Decision*: gains of controllers within a factor of a few of the vehicle's

@@ -112,6 +112,22 @@ pub enum TableError {
         /// Allowed numbers.
         must_be: &'static str,
     },
+    /// Numbers of several rows that only another unit than that of the header explains.
+    #[error("column \"{column}\": {count} of {of} numbers are {must_be}; the largest of these is {largest}")]
+    OtherUnit {
+        /// Header of the column.
+        column: String,
+        /// Numbers beyond the limit.
+        count: usize,
+        /// All numbers of the column.
+        of: usize,
+        /// The largest of these numbers.
+        largest: f64,
+        /// The limit.
+        must_be: &'static str,
+        /// A header with the unit that is probably meant; absent where none of the known units is.
+        header: Option<&'static str>,
+    },
     /// A header alone.
     #[error("the table has a header and no row below it")]
     HeaderAlone,

@@ -3,6 +3,10 @@
 use super::column::Column;
 use super::{AT_REST_SHARE, GroupedRow, StandForce, StandRow, TableError, fastest_rad_s};
 use hovertone_vehicle::{MASS_ALONE_KG_MAX, RotorSpeed};
+use std::f64::consts::TAU;
+
+/// Radians per second in a turn per minute.
+const RPM_RAD_S: f64 = TAU / 60.0;
 
 /// Fastest shaft speed, rev/s. The smallest racers' propellers make 670. *Physics.*
 const SPEED_REV_S_MAX: f64 = 1500.0;
@@ -24,56 +28,84 @@ pub(super) struct MeasuredColumns<'a> {
 pub(super) fn check(rows: &[GroupedRow], columns: MeasuredColumns<'_>) -> Result<(), TableError> {
     let fastest_rad_s = fastest_rad_s(rows);
     let rows = || rows.iter().map(|of| &of.row);
-    let refuse = |row: &StandRow, column: &Column, si: f64, must_be| {
-        let value = (si / column.si_per_unit * DECIMALS).round() / DECIMALS;
-        Err(TableError::OutOfRange { line: row.line_number, column: column.header.clone(), value, must_be })
-    };
     // a sensor at rest may show a little less than zero
     let is_backwards = |row: &&StandRow| row.speed_rad_s < -AT_REST_SHARE * fastest_rad_s;
     if let Some(row) = rows().find(is_backwards) {
-        return refuse(
-            row,
-            columns.speed,
-            row.speed_rad_s,
-            "a speed must be 0 or more, in either direction of turning",
-        );
+        let must_be = "a speed must be 0 or more, in either direction of turning";
+        let cell = Cell { line: row.line_number, si: row.speed_rad_s };
+        return Err(out_of_range(&cell, columns.speed, must_be));
     }
-    if let Some(row) = rows().max_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s)) {
-        let rev_s = RotorSpeed::from_rad_s(row.speed_rad_s).rev_s();
-        let must_be = match rev_s {
-            _ if rev_s > SPEED_REV_S_MAX => {
-                "too fast for a rotor, at most 1500 rev/s (90000 rpm); check the unit in the header"
-            }
-            _ if rev_s > 0.0 && rev_s < SPEED_REV_S_MIN => {
-                "too slow for a rotor that flies, at least 1 rev/s (60 rpm); check the unit in the header"
-            }
-            _ => "",
-        };
-        if !must_be.is_empty() {
-            return refuse(row, columns.speed, row.speed_rad_s, must_be);
-        }
+    let is_in = |unit_rad_s: f64| (columns.speed.si_per_unit / unit_rad_s - 1.0).abs() < 1e-9;
+    let speeds: Vec<Cell> = rows().map(|row| Cell { line: row.line_number, si: row.speed_rad_s }).collect();
+    let is_fast = |rad_s: f64| RotorSpeed::from_rad_s(rad_s).rev_s() > SPEED_REV_S_MAX;
+    let is_slow = |rad_s: f64| rad_s > 0.0 && RotorSpeed::from_rad_s(rad_s).rev_s() < SPEED_REV_S_MIN;
+    let fast = Limit {
+        must_be: "too fast for a rotor, at most 1500 rev/s (90000 rpm)",
+        header: (!is_in(RPM_RAD_S)).then_some("speed_rpm"),
+    };
+    let slow = Limit {
+        must_be: "too slow for a rotor that flies, at least 1 rev/s (60 rpm)",
+        header: (!is_in(TAU)).then_some("speed_rev_s"),
+    };
+    refuse_beyond(&speeds, columns.speed, &fast, &is_fast)?;
+    if is_slow(fastest_rad_s) {
+        refuse_beyond(&speeds, columns.speed, &slow, &is_slow)?;
     }
     let mass = |row: &StandRow| match row.force {
-        StandForce::Mass { mass_kg } => Some(mass_kg),
+        StandForce::Mass { mass_kg } => Some(Cell { line: row.line_number, si: mass_kg }),
         StandForce::Thrust { .. } => None,
     };
-    let masses = rows().filter_map(|row| Some(WeighedRow { row, mass_kg: mass(row)? }));
-    match masses.max_by(|a, b| a.mass_kg.total_cmp(&b.mass_kg)) {
-        Some(WeighedRow { row, mass_kg }) if mass_kg > MASS_ALONE_KG_MAX => refuse(
-            row,
-            columns.force,
-            mass_kg,
-            "heavier than most multirotors: is this in grams, as mass_g? (else give a thrust_n)",
-        ),
-        Some(WeighedRow { row, mass_kg }) if mass_kg < MASS_KG_MIN => {
-            refuse(row, columns.force, mass_kg, "no multirotor is lighter than 1 g: is this in kilograms, as mass_kg?")
-        }
-        _ => Ok(()),
+    let masses: Vec<Cell> = rows().filter_map(mass).collect();
+    let heavy = Limit { must_be: "heavier than most multirotors, at most 50 kg", header: Some("mass_g") };
+    let light = Limit { must_be: "lighter than any multirotor, at least 1 g", header: Some("mass_kg") };
+    refuse_beyond(&masses, columns.force, &heavy, &|mass_kg| mass_kg > MASS_ALONE_KG_MAX)?;
+    if masses.iter().all(|cell| cell.si < MASS_KG_MIN) {
+        refuse_beyond(&masses, columns.force, &light, &|mass_kg| mass_kg < MASS_KG_MIN)?;
     }
+    Ok(())
 }
 
-/// A row with the mass that hovers.
-struct WeighedRow<'a> {
-    row: &'a StandRow,
-    mass_kg: f64,
+/// A limit of what is possible.
+struct Limit {
+    /// The limit in words.
+    must_be: &'static str,
+    /// A header with the unit that is probably meant, where many numbers are beyond the limit.
+    header: Option<&'static str>,
+}
+
+/// A number of the table, in SI units.
+struct Cell {
+    line: u64,
+    si: f64,
+}
+
+/// Refuses numbers beyond a limit: one by its line, several as those of another unit.
+fn refuse_beyond(
+    cells: &[Cell],
+    column: &Column,
+    limit: &Limit,
+    is_beyond: &dyn Fn(f64) -> bool,
+) -> Result<(), TableError> {
+    let beyond = || cells.iter().filter(|cell| is_beyond(cell.si));
+    let Some(largest) = beyond().max_by(|a, b| a.si.total_cmp(&b.si)) else { return Ok(()) };
+    Err(match beyond().count() {
+        1 => out_of_range(largest, column, limit.must_be),
+        count => TableError::OtherUnit {
+            column: column.header.clone(),
+            count,
+            of: cells.len(),
+            largest: in_unit(largest.si, column),
+            must_be: limit.must_be,
+            header: limit.header,
+        },
+    })
+}
+
+fn out_of_range(cell: &Cell, column: &Column, must_be: &'static str) -> TableError {
+    let value = in_unit(cell.si, column);
+    TableError::OutOfRange { line: cell.line, column: column.header.clone(), value, must_be }
+}
+
+fn in_unit(si: f64, column: &Column) -> f64 {
+    (si / column.si_per_unit * DECIMALS).round() / DECIMALS
 }

@@ -41,7 +41,7 @@ pub(super) fn check_model(model: &VehicleModel) -> Result<(), ExperimentError> {
         (_, Some(diameter_m), _) if !PROPELLER_DIAMETER_M.contains(&diameter_m) => {
             refuse("propeller_diameter_m", diameter_m, "must be from 0.01 to 10")
         }
-        (.., Some(0)) => refuse("rotors", 0.0, "must be at least 1"),
+        (.., Some(0)) => refuse("rotors", 0.0, "must be from 1 to 12"),
         _ => Ok(()),
     }
 }

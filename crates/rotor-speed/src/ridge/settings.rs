@@ -1,5 +1,6 @@
 //! Settings of frames and their spectra, and of the decision when a ridge is a tone.
 
+use hovertone_analysis::HEARD_SHARE_MIN;
 use hovertone_signal::spectrogram::Window;
 use hovertone_vehicle::{ConfigError, check_range};
 use serde::{Deserialize, Serialize};
@@ -96,7 +97,7 @@ impl Default for RidgeConfig {
             false_point_chance: 0.02,
             line_over_sides_db: 16.0,
             steady_share_min: 0.8,
-            point_share_min: 0.3,
+            point_share_min: HEARD_SHARE_MIN,
             harmonic_disagreement_share_max: 0.01,
         }
     }

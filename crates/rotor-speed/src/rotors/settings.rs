@@ -1,6 +1,6 @@
 //! Settings of several rotors that are told apart.
 
-use hovertone_vehicle::{ConfigError, check_range};
+use hovertone_vehicle::{ConfigError, ROTORS_MAX, check_range};
 use serde::Serialize;
 
 /// How many rotors sound, and where they are looked for.
@@ -47,7 +47,7 @@ impl RotorsConfig {
     }
 
     pub(crate) fn check(&self) -> Result<(), ConfigError> {
-        check_range("rotors", f64::from(self.count), 1.0, 12.0)?;
+        check_range("rotors", f64::from(self.count), 1.0, f64::from(ROTORS_MAX))?;
         check_range("rotors.band_half_width_share", self.band_half_width_share, 0.005, 0.3)
     }
 

@@ -48,7 +48,7 @@ pub(crate) fn speeds_from_decision(
     if !is_of_all && one_line_count > config.rotors.count {
         warnings.push(Warning::RotorCountUnknown { spread_share: config.budget.rotor_spread_share });
     }
-    warnings.extend(warning_of_samples(&samples));
+    warnings.extend(warning_of_samples(&samples, config.samples.length_s));
     let rotors = rotor_tracks.rotors(order, &config.budget);
     if is_of_all {
         // the result is the mean of all rotors: it follows neither the loudest nor any harmonic of all together

@@ -9,13 +9,10 @@ pub(crate) use rows::{Row, RowSettings, Rows, RowsBuilder};
 pub use span::SpanConfig;
 
 use hovertone_analysis::NoTone;
+use hovertone_signal::line_frequency::SILENT_DB;
 use hovertone_signal::spectrogram::Decimator;
 use mains_hum::mains_hum;
 use rows::mean_power;
-
-/// Highest level of silence, dB re a sine of full scale: the last of 24 bits, and the rounding noise of an offset of full scale.
-/// *Numeric.*
-const SILENCE_DB: f64 = -138.0;
 
 /// The recording in rows of equal length.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +52,7 @@ impl Survey {
         if self.rows.is_empty() {
             return Some(NoTone::TooShort { heard_s });
         }
-        self.rows.iter().all(|row| row.level_db(self.bin_hz) < SILENCE_DB).then_some(NoTone::Silence)
+        self.rows.iter().all(|row| row.level_db(self.bin_hz) < SILENT_DB).then_some(NoTone::Silence)
     }
 }
 

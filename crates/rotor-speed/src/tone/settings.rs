@@ -87,12 +87,17 @@ impl ToneConfig {
         self.band_hz.is_some_and(|(low_hz, high_hz)| high_hz < OCTAVE * low_hz)
     }
 
-    /// Refuses a band in which the tone cannot lie.
+    /// Refuses a band in which the tone cannot lie, and an order that the blades do not make. Beyond the orders of blades it is that of a gear.
     ///
     /// # Errors
-    /// [`Contradiction::Band`].
+    /// [`Contradiction::Band`], [`Contradiction::OrderOfBlades`].
     pub fn check_band(&self) -> Result<(), Contradiction> {
-        let &Self { band_hz, order, speed_min, speed_max, .. } = self;
+        let &Self { band_hz, order, speed_min, speed_max, blades, .. } = self;
+        let lines = order.lines_per_turn();
+        let is_of_blades = lines > 1.0 && lines <= BLADES_MAX && lines.fract() == 0.0;
+        if let Some(blades) = blades.filter(|blades| is_of_blades && lines % f64::from(*blades) != 0.0) {
+            return Err(Contradiction::OrderOfBlades { order, blades });
+        }
         SearchedTone { band_hz, order, speed_min, speed_max }.check()
     }
 

@@ -1,6 +1,8 @@
 //! Masses that contradict a weighed hover, and what to do about them.
 
-use hovertone_vehicle::GRAMS_FACTOR;
+use super::{AcousticScale, LIGHTER_SHARE_MAX};
+use hovertone_vehicle::{GRAMS_FACTOR, MASS_FACTOR_MAX, RotorSpeed};
+use std::ops::RangeInclusive;
 
 /// A mass that contradicts the hover.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -38,6 +40,31 @@ pub enum WeighError {
         /// Mass of the vehicle, as given.
         vehicle_kg: f64,
     },
+}
+
+impl AcousticScale {
+    /// Checks, before anything is heard, that the vehicle alone can hover at all with this constant: its payload adds to its mass.
+    ///
+    /// # Errors
+    /// [`WeighError::TooHeavyToHover`] where its rotors would turn faster than the fastest speed that is searched for.
+    pub fn check_vehicle(&self, fastest: RotorSpeed) -> Result<(), WeighError> {
+        let Some((vehicle, speeds)) = self.vehicle_mass_kg.zip(self.hover_speeds()) else { return Ok(()) };
+        let (rev_s, fastest_rev_s) = (speeds.start().rev_s(), fastest.rev_s());
+        if rev_s > fastest_rev_s {
+            return Err(WeighError::TooHeavyToHover { vehicle_kg: vehicle.value, rev_s, fastest_rev_s });
+        }
+        Ok(())
+    }
+
+    /// The shaft speeds at which the vehicle can hover: from the lightest to the heaviest mass that does not contradict its own, ω = √(m g / C_f).
+    /// `None` without the mass of the vehicle.
+    pub fn hover_speeds(&self) -> Option<RangeInclusive<RotorSpeed>> {
+        let vehicle_kg = self.vehicle_mass_kg?.value;
+        let hover = |mass_kg: f64| {
+            RotorSpeed::from_rad_s((mass_kg * self.gravity_m_s2 / self.thrust_constant_total_n_s2.value).sqrt())
+        };
+        Some(hover((1.0 - LIGHTER_SHARE_MAX) * vehicle_kg)..=hover(MASS_FACTOR_MAX * vehicle_kg))
+    }
 }
 
 impl WeighError {

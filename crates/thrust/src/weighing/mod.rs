@@ -170,21 +170,6 @@ impl AcousticScale {
         })
     }
 
-    /// Checks, before anything is heard, that the vehicle alone can hover at all with this constant: its payload adds to its mass.
-    ///
-    /// # Errors
-    /// [`WeighError::TooHeavyToHover`] where its rotors would turn faster than the fastest speed that is searched for.
-    pub fn check_vehicle(&self, fastest: RotorSpeed) -> Result<(), WeighError> {
-        let Some(vehicle) = self.vehicle_mass_kg else { return Ok(()) };
-        let lightest_n = (1.0 - LIGHTER_SHARE_MAX) * vehicle.value * self.gravity_m_s2;
-        let hover = RotorSpeed::from_rad_s((lightest_n / self.thrust_constant_total_n_s2.value).sqrt());
-        let (rev_s, fastest_rev_s) = (hover.rev_s(), fastest.rev_s());
-        if rev_s > fastest_rev_s {
-            return Err(WeighError::TooHeavyToHover { vehicle_kg: vehicle.value, rev_s, fastest_rev_s });
-        }
-        Ok(())
-    }
-
     /// Standard uncertainty of the mean speed of the hovers, as a share.
     fn mean_std_share(&self, hovers: &[HeardHover]) -> Option<f64> {
         let speeds: Vec<f64> = hovers.iter().map(|hover| hover.speed.rad_s()).collect();
