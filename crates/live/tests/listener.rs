@@ -3,7 +3,7 @@
 // The lints know tests by their attribute, and what tests share has none.
 #![allow(clippy::unwrap_used)]
 
-use hovertone_analysis::Outcome;
+use hovertone_analysis::{Method, Outcome};
 use hovertone_live::{Listener, LiveConfig, LiveSpeed, LiveStatus};
 use hovertone_rotor_speed::{Config, ToneConfig, speed_from_source};
 use hovertone_signal::Signal;
@@ -31,7 +31,11 @@ fn analysis() -> Config {
 
 /// Hears all sound in blocks.
 fn live_speeds(samples: &[f32], block: usize) -> Vec<LiveSpeed> {
-    let mut listener = Listener::new(RATE_HZ, LiveConfig::of_analysis(analysis(), None)).unwrap();
+    live_speeds_by(analysis(), samples, block)
+}
+
+fn live_speeds_by(analysis: Config, samples: &[f32], block: usize) -> Vec<LiveSpeed> {
+    let mut listener = Listener::new(RATE_HZ, LiveConfig::of_analysis(analysis, None)).unwrap();
     let mut speeds = Vec::new();
     for mut rest in samples.chunks(block) {
         while !rest.is_empty() {
@@ -134,6 +138,26 @@ fn four_rotors_are_their_mean() {
     for speed in live_speeds(&sound(&rotors, 9.0, 10.0, 5), 4800).iter().filter(|speed| speed.time_s > 4.1) {
         let share = speed_of(speed) / 100.0 - 1.0;
         assert!(share.abs() < 0.01, "{speed:?}");
+    }
+}
+
+#[test]
+fn rotors_far_apart_are_not_taken_for_their_neighbours() {
+    let wanders: Vec<SineWander> =
+        (0..4).map(|rotor| SineWander::drawn(0.003, 4, 0.2..1.5, &mut seeded(40 + rotor))).collect();
+    let rotor = |(speed, wander): (f64, &SineWander)| {
+        let wander = wander.clone();
+        Rotor::new(move |time_s| speed * (1.0 + wander.at(time_s)), lines())
+    };
+    let rotors: Vec<Rotor<'_>> = [88.0, 92.0, 97.0, 103.0].into_iter().zip(&wanders).map(rotor).collect();
+    let mut config = analysis();
+    (config.rotors.count, config.method) = (4, Method::Separated);
+    let speeds = live_speeds_by(config, &sound(&rotors, 10.0, 20.0, 6), 4800);
+    let heard: Vec<f64> =
+        speeds.iter().filter(|speed| speed.time_s > 4.1).filter_map(|speed| speed.speed_rev_s).collect();
+    assert!(heard.len() > 30, "{}", heard.len());
+    for speed_rev_s in heard {
+        assert!((speed_rev_s / 95.0 - 1.0).abs() < 0.01, "{speed_rev_s}");
     }
 }
 
