@@ -40,7 +40,7 @@ impl RotorTracks {
     /// have heard them. No rotors remain where the search would not have heard them, or found some elsewhere whose own lines are not heard, or
     /// where all rotors that count lie on one side of the speed of all together, because then they may be parts of one rotor.
     pub(crate) fn unless_doubtful_beside(mut self, all: &HarmonicTrack, order: Order) -> Self {
-        self.are_one_group = 2 * self.resolved(None).count() <= self.rotors.len();
+        self.are_one_group = !self.are_mostly_resolved();
         let heard = self.heard(None).filter(|rotor| self.are_one_group || self.is_resolved(rotor, None));
         let speeds: Vec<f64> =
             heard.filter_map(|rotor| Some(rotor.track.speed_in(None, order)?.speed.rev_s())).collect();
@@ -60,9 +60,14 @@ impl RotorTracks {
         !self.are_one_group && self.resolved(None).count() >= 2
     }
 
-    /// Whether another rotor is heard beside all of these most of the time.
+    /// Whether more than half of them are resolved.
+    fn are_mostly_resolved(&self) -> bool {
+        2 * self.resolved(None).count() > self.rotors.len()
+    }
+
+    /// Whether another rotor is heard most of the time beside these, and more than half of these are resolved: else they are parts of one.
     pub(crate) fn leave_another(&self) -> bool {
-        self.another_share() > RESOLVED_SHARE_MIN
+        self.are_mostly_resolved() && self.another_share() > RESOLVED_SHARE_MIN
     }
 
     /// Share of the time in which another rotor is heard beside all of these.
