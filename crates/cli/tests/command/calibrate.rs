@@ -1,6 +1,6 @@
 //! The recorder's clock and the order, against one known speed.
 
-use crate::testkit::{Run, hovertone, refused_with, steady_hover, text, write_hover, write_wav};
+use crate::testkit::{Run, hovertone, refused_with, steady_bench, steady_hover, text, write_hover, write_wav};
 use hovertone_sim::HoverSettings;
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
@@ -10,8 +10,7 @@ use std::path::Path;
 /// file says, so that all is heard slower.
 fn write_bench(path: &Path, rpm: f64, fast_ppm: f64) {
     let speed = RotorSpeed::from_rpm(rpm / (1.0 + fast_ppm / 1e6));
-    let mut settings = steady_hover("crazyflie", speed, 4.0);
-    settings.rotors.truncate(1);
+    let settings = steady_bench("crazyflie", speed, 4.0);
     write_hover(path, HoverSettings { seed: 3, ..settings });
 }
 
@@ -70,8 +69,7 @@ fn a_fast_clock_fails_and_its_correction_passes_everywhere() {
 fn an_order_whose_tone_is_hardly_heard_does_not_pass() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
-    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rpm(5699.41), 10.0);
-    settings.rotors.truncate(1);
+    let settings = steady_bench("crazyflie", RotorSpeed::from_rpm(5699.41), 10.0);
     write_hover(&sound, HoverSettings { seed: 3, ..settings });
     let with = |more: &[&str]| {
         let words = ["calibrate", text(&sound), "--rotors", "1", "--tachometer-rpm", "5699.41"];

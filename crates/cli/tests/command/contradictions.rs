@@ -1,6 +1,6 @@
 //! What contradicts a known vehicle, or the results of one, is refused: on the command line and in a file alike.
 
-use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover};
+use crate::testkit::{hovertone, refused_with, steady_bench, steady_hover, text, write_hover};
 use hovertone_vehicle::{RotorSpeed, find_preset};
 use serde_json::Value;
 use std::fs;
@@ -138,8 +138,7 @@ fn a_vehicle_that_the_results_contradict_is_named_and_no_mass_that_nobody_gave()
 fn a_speed_at_which_the_vehicle_cannot_hover_makes_no_mass_ambiguous() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("hover.wav");
-    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
-    settings.rotors.truncate(1);
+    let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
     write_hover(&sound, settings);
     // 500 g hover at 95 rev/s
     let weigh = ["weigh", text(&sound), "--blades", "2", "--rotors", "1", "--constant-n-s2", "1.3762e-5"];

@@ -1,6 +1,8 @@
 //! The examples of every `--help` and of the README, run as they stand in a folder with the files that they name.
 
-use crate::testkit::{Run, hovertone, hovertone_with, repository, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{
+    Run, hovertone, hovertone_with, repository, steady_bench, steady_hover, text, write_hover, write_noise,
+};
 use hovertone_sim::scenario::{DoubletAmounts, ScenarioFile};
 use hovertone_sim::{HoverSettings, HoverSound};
 use hovertone_vehicle::RotorSpeed;
@@ -95,8 +97,7 @@ fn lay_out(folder: &Path) {
         fs::create_dir_all(path.parent().unwrap()).unwrap();
         path
     };
-    let mut bench = steady_hover("crazyflie", RotorSpeed::from_rpm(20_850.0), 3.0);
-    bench.rotors.truncate(1);
+    let bench = steady_bench("crazyflie", RotorSpeed::from_rpm(20_850.0), 3.0);
     write_hover(&file("bench.wav"), bench);
     for name in ["hover.mp4", "hover.mov", "ardrone/1.mov", "demo/no_hull/trial_1.wav"] {
         write_hover(&file(name), hover(0.413, 3.0, 1));
@@ -118,8 +119,7 @@ fn lay_out(folder: &Path) {
     bench.sample_rate_hz = 22_050;
     write_hover(&file("bench.wav"), bench);
     for (index, command) in (0..6).map(|index| (index, 40_000 + 4_000 * index)) {
-        let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(320.0 + 15.0 * f64::from(index)), 2.0);
-        settings.rotors.truncate(1);
+        let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(320.0 + 15.0 * f64::from(index)), 2.0);
         write_hover(&file(&format!("crazyflie-propeller/{command}.wav")), settings.clone());
         write_hover(&file(&format!("DIR/{command}.wav")), settings);
     }

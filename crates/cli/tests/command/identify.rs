@@ -1,7 +1,7 @@
 //! `hovertone identify` on sound whose thrust constant is known.
 
 use crate::report_fixture::write_rotor;
-use crate::testkit::{Run, files_in, hovertone, recordings, repository, steady_hover, text, write_hover};
+use crate::testkit::{Run, files_in, hovertone, recordings, repository, steady_bench, steady_hover, text, write_hover};
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
 use std::fs;
@@ -144,8 +144,7 @@ fn assert_rows_of_samples(out: &Path) {
 fn a_bench_run_tells_of_one_rotor_and_json_is_results_json() {
     let folder = tempfile::tempdir().unwrap();
     let speed = RotorSpeed::from_rev_s(300.0);
-    let mut settings = steady_hover("crazyflie", speed, 4.0);
-    settings.rotors.truncate(1);
+    let settings = steady_bench("crazyflie", speed, 4.0);
     write_hover(&folder.path().join("bench.wav"), settings);
     let path = folder.path().join("experiment.toml");
     let text_of = "[vehicle]\npreset = \"crazyflie\"\n[[load]]\nname = \"bench\"\nthrust_n = 0.1\nrotors_running = 1\n\

@@ -1,7 +1,7 @@
 //! What the messages look like: one line each, the file first, counts that agree with their nouns, names that cannot move the cursor.
 
 use crate::identify::write_experiment;
-use crate::testkit::{Run, hovertone, hovertone_with, steady_hover, text, write_hover};
+use crate::testkit::{Run, hovertone, hovertone_with, steady_bench, steady_hover, text, write_hover};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
 
@@ -143,8 +143,7 @@ fn names_cannot_move_the_cursor_and_lose_the_folder_that_they_share() {
     let names = ["a\u{1b}[2Jb.wav", "two\nlines.wav", "漢字.wav"];
     let paths = names.map(|name| folder.path().join(name));
     for path in &paths {
-        let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(300.0), 2.0);
-        settings.rotors.truncate(1);
+        let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(300.0), 2.0);
         write_hover(path, settings);
     }
     let mut arguments = vec!["speed", "--blades", "2", "--rotors", "1"];

@@ -1,6 +1,6 @@
 //! Nonsense is refused: exit code 2, no data, what is wrong, why, and what to do.
 
-use crate::testkit::{hovertone, refused_with, steady_hover, text, write_hover};
+use crate::testkit::{hovertone, refused_with, steady_bench, steady_hover, text, write_hover};
 use hovertone_vehicle::RotorSpeed;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -150,8 +150,7 @@ fn a_constant_belongs_to_its_vehicle() {
 fn tips_faster_than_mach_0_6_are_refused_also_with_blades() {
     let folder = tempfile::tempdir().unwrap();
     let wav = folder.path().join("hover.wav");
-    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(300.0), 3.0);
-    settings.rotors.truncate(1);
+    let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(300.0), 3.0);
     write_hover(&wav, settings);
     let speed = ["speed", "--blades", "2", "--rotors", "1", text(&wav), "--diameter-m"];
     // 45 mm, and 4.5 m by a slip

@@ -1,6 +1,6 @@
 //! `hovertone speed` on sound with a known speed.
 
-use crate::testkit::{hovertone, steady_hover, text, write_hover, write_noise};
+use crate::testkit::{hovertone, steady_bench, steady_hover, text, write_hover, write_noise};
 use hovertone_sim::SpeedProfile;
 use hovertone_vehicle::RotorSpeed;
 use serde_json::Value;
@@ -223,8 +223,7 @@ fn the_same_command_gives_the_same_bytes() {
 fn a_short_part_is_told_the_length_that_is_needed_and_that_length_is_enough() {
     let folder = tempfile::tempdir().unwrap();
     let sound = folder.path().join("bench.wav");
-    let mut settings = steady_hover("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
-    settings.rotors.truncate(1);
+    let settings = steady_bench("crazyflie", RotorSpeed::from_rev_s(95.0), 10.0);
     write_hover(&sound, settings);
     let part = |to: &str| {
         let words = ["speed", "--blades", "2", "--rotors", "1", "--band", "180:200", "--from", "3", "--to", to];

@@ -57,6 +57,13 @@ pub(crate) fn steady_hover(preset: &str, speed: RotorSpeed, duration_s: f64) -> 
     HoverSettings { duration_s, rotors, ..settings }
 }
 
+/// The same of one rotor alone, as on a bench.
+pub(crate) fn steady_bench(preset: &str, speed: RotorSpeed, duration_s: f64) -> HoverSettings {
+    let mut settings = steady_hover(preset, speed, duration_s);
+    settings.rotors.truncate(1);
+    settings
+}
+
 /// Flies a random hover into `folder/flown`; returns its scenario and its truth.
 pub(crate) fn flown_hover(folder: &Path, seed: u64, duration_s: f64, spread_share: f64) -> (ScenarioFile, Value) {
     fs::create_dir_all(folder).unwrap();
