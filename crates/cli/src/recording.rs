@@ -1,10 +1,10 @@
 //! From recordings to records. No other file of the command line decodes sound.
 
 use crate::failure::Failure;
-use crate::files::{is_pattern, sha256_of};
+use crate::files::sha256_of;
 pub(crate) use crate::job::{HeardJobs, Hearing, Job, Requests, in_memory};
 use crate::progress::{Progress, Share};
-use crate::recording_files::{folder_in_words, pattern_in_words};
+use crate::recording_files::of_wrong_kind;
 use crate::stored::is_address;
 use crate::thumbnail::thumbnail_of;
 use hovertone::motors::{
@@ -216,8 +216,5 @@ fn hear(job: &Job, hearing: Hearing, share: &mut Share<'_>) -> Result<Heard, Not
 
 /// A reason that follows from the typed name: a folder, or a pattern without files.
 fn wrong_kind(path: &Path) -> Option<String> {
-    if path.is_dir() {
-        return Some(folder_in_words(path));
-    }
-    (!path.exists() && is_pattern(&path.to_string_lossy()) && !is_address(path)).then(|| pattern_in_words(path))
+    of_wrong_kind(path).filter(|_| !is_address(path))
 }

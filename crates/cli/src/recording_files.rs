@@ -1,6 +1,6 @@
 //! Recordings in a folder, known by their endings: what `init` offers, and what a message about a missing file names.
 
-use crate::files::{files_of, home_expanded};
+use crate::files::{files_of, home_expanded, is_pattern};
 use crate::inputs::is_stdin;
 use std::collections::BTreeMap;
 use std::fs;
@@ -53,8 +53,16 @@ pub(crate) fn groups_below(folder: &Path) -> Vec<RecordingGroup> {
     folders.iter().flat_map(|folder| groups_in(folder)).collect()
 }
 
+/// What to say of a name that is no recording: a folder, or a pattern. `None` for any other.
+pub(crate) fn of_wrong_kind(path: &Path) -> Option<String> {
+    if path.is_dir() {
+        return Some(folder_in_words(path));
+    }
+    (!path.exists() && is_pattern(&path.to_string_lossy())).then(|| pattern_in_words(path))
+}
+
 /// What to say of a folder in place of a recording: which recordings it holds.
-pub(crate) fn folder_in_words(folder: &Path) -> String {
+fn folder_in_words(folder: &Path) -> String {
     let (inside, below) = (groups_in(folder), groups_below(folder));
     let first = inside.first().or(below.first());
     let advice = match first.and_then(|group| Some((group, group.files.first()?))) {
@@ -68,7 +76,7 @@ pub(crate) fn folder_in_words(folder: &Path) -> String {
 }
 
 /// What to say of a pattern where one recording is needed.
-pub(crate) fn pattern_in_words(pattern: &Path) -> String {
+fn pattern_in_words(pattern: &Path) -> String {
     match files_of(pattern).iter().filter(|file| file.is_file()).collect::<Vec<_>>().as_slice() {
         [] => "no file matches this pattern; check the folder and the ending of its files".to_owned(),
         [first, ..] => {

@@ -1,11 +1,10 @@
 //! Where live sound comes from.
 
 use crate::failure::Failure;
-use crate::files::is_pattern;
 use crate::inputs::is_stdin;
 #[cfg(feature = "microphone")]
 use crate::listen::microphone::Microphone;
-use crate::recording_files::{folder_in_words, pattern_in_words};
+use crate::recording_files::of_wrong_kind;
 use hovertone::sound::SignalSource;
 use hovertone_media::{OpenOptions, PipedSound, Recording};
 use hovertone_report::Notice;
@@ -34,11 +33,10 @@ impl LiveSound {
                 let sound = PipedSound::open(std::io::stdin(), channel);
                 Ok(Self::Pipe(Box::new(sound.map_err(|error| failed(&error, Path::new(PIPE)))?)))
             }
-            Some(path) if path.is_dir() => Err(Failure::failed(folder_in_words(path), "", path)),
-            Some(path) if !path.exists() && is_pattern(&path.to_string_lossy()) => {
-                Err(Failure::failed(pattern_in_words(path), "", path))
-            }
             Some(path) => {
+                if let Some(reason) = of_wrong_kind(path) {
+                    return Err(Failure::failed(reason, "", path));
+                }
                 let options = OpenOptions { channel, ..OpenOptions::default() };
                 let recording = Recording::open(path, &options).map_err(|error| failed(&error, path))?;
                 Ok(Self::File { path: path.to_owned(), recording: Box::new(recording) })
