@@ -145,11 +145,11 @@ fn four_rotors_are_their_mean() {
 fn rotors_far_apart_are_not_taken_for_their_neighbours() {
     let wanders: Vec<SineWander> =
         (0..4).map(|rotor| SineWander::drawn(0.003, 4, 0.2..1.5, &mut seeded(40 + rotor))).collect();
-    let rotor = |(speed, wander): (f64, &SineWander)| {
-        let wander = wander.clone();
-        Rotor::new(move |time_s| speed * (1.0 + wander.at(time_s)), lines())
-    };
-    let rotors: Vec<Rotor<'_>> = [88.0, 92.0, 97.0, 103.0].into_iter().zip(&wanders).map(rotor).collect();
+    let speeds_rev_s = [88.0, 92.0, 97.0, 103.0].into_iter();
+    let rotors: Vec<Rotor<'_>> = speeds_rev_s
+        .zip(&wanders)
+        .map(|(speed, wander)| Rotor::new(move |time_s| speed * (1.0 + wander.at(time_s)), lines()))
+        .collect();
     let mut config = analysis();
     (config.rotors.count, config.method) = (4, Method::Separated);
     let speeds = live_speeds_by(config, &sound(&rotors, 10.0, 20.0, 6), 4800);

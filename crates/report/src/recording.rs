@@ -201,34 +201,34 @@ impl SpeedRecord {
                 let of_mesh = || self.no_mesh(reason).unwrap_or_else(|| reason.to_string());
                 Some(self.spoiled.clone().unwrap_or_else(of_mesh))
             }
-                Outcome::Ok(_) if !self.is_ambiguous() => None,
-                Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
-                    if self.has_thrust_coefficients() {
-                        "several rotor speeds explain this sound; count the blades, and give --blades N too"
-                    } else {
-                        "several rotor speeds explain this sound; count the blades and give --blades N, and if that is not enough --diameter-m, \
-                         --mass-kg and --rotors too"
-                    }
+            Outcome::Ok(_) if !self.is_ambiguous() => None,
+            Outcome::Ok(_) if self.found.as_ref().is_some_and(|found| !found.are_blades_given()) => Some(
+                if self.has_thrust_coefficients() {
+                    "several rotor speeds explain this sound; count the blades, and give --blades N too"
+                } else {
+                    "several rotor speeds explain this sound; count the blades and give --blades N, and if that is not enough --diameter-m, \
+                     --mass-kg and --rotors too"
+                }
+                .to_owned(),
+            ),
+            Outcome::Ok(_) if self.is_setting_missing("/tone/blades") => Some(
+                "several rotor speeds explain this sound; count the blades, and give --blades N too: the blade pass shows the speed"
                     .to_owned(),
-                ),
-                Outcome::Ok(_) if self.is_setting_missing("/tone/blades") => Some(
-                    "several rotor speeds explain this sound; count the blades, and give --blades N too: the blade pass shows the speed"
-                        .to_owned(),
-                ),
-                Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
-                    "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}",
-                    self.missing_facts()
-                )),
-                Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
-                    "several rotor speeds explain this sound; give {}",
-                    self.missing_facts()
-                )),
-                Outcome::Ok(_) => Some(
-                    "several rotor speeds explain this sound, and more than one of them can carry the vehicle; check the diameter of the \
-                     propellers and the vehicle, or place the microphone nearer"
-                        .to_owned(),
-                ),
-            }
+            ),
+            Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
+                "several rotor speeds explain this sound; on a bench, give --band LOW:HIGH around the blade pass; in flight, give {}",
+                self.missing_facts()
+            )),
+            Outcome::Ok(_) if !self.has_thrust_coefficients() => Some(format!(
+                "several rotor speeds explain this sound; give {}",
+                self.missing_facts()
+            )),
+            Outcome::Ok(_) => Some(
+                "several rotor speeds explain this sound, and more than one of them can carry the vehicle; check the diameter of the \
+                 propellers and the vehicle, or place the microphone nearer"
+                    .to_owned(),
+            ),
+        }
     }
 
     /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.

@@ -213,7 +213,7 @@ pub(crate) struct WeighArguments {
     #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_std_n_s2: Option<f64>,
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
-    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=12))]
+    #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
     /// Diameter of a propeller, in m or as 8in: with it, half and double the speed can be ruled out [default: that of the results, or of --vehicle]
     #[arg(long, value_name = "M", value_parser = length_m)]

@@ -5,6 +5,8 @@ use csv::StringRecord;
 use hovertone_vehicle::GRAVITY_STANDARD_M_S2;
 use std::f64::consts::TAU;
 
+/// Radians per second in a turn per minute.
+pub(super) const RPM_RAD_S: f64 = TAU / 60.0;
 /// Kilograms in a pound.
 const POUND_KG: f64 = 0.453_592_37;
 /// Kilograms in an ounce.
@@ -152,7 +154,7 @@ fn meaning_of(header: &str) -> Meaning {
     }
     let speed = |rad_s: f64| Meaning::Known(either(Quantity::Speed, Quantity::SpeedStd), rad_s);
     if has(&["rpm"]) {
-        speed(TAU / 60.0)
+        speed(RPM_RAD_S)
     } else if has(&["rad"]) && has(&["s"]) && has(&["speed"]) || has(&["omega", "ω"]) {
         speed(1.0)
     } else if has(&["rev", "rps"]) || has(&["hz"]) && has(&["speed", "shaft"]) {
@@ -231,13 +233,13 @@ mod tests {
     #[test]
     fn headers_as_people_write_them() {
         for (header, quantity, si_per_unit) in [
-            ("Motor Electrical Speed (RPM)", Quantity::Speed, TAU / 60.0),
-            ("rpm", Quantity::Speed, TAU / 60.0),
-            ("avg_rpm", Quantity::Speed, TAU / 60.0),
+            ("Motor Electrical Speed (RPM)", Quantity::Speed, RPM_RAD_S),
+            ("rpm", Quantity::Speed, RPM_RAD_S),
+            ("avg_rpm", Quantity::Speed, RPM_RAD_S),
             ("speed_rad_s", Quantity::Speed, 1.0),
             ("omega [rad/s]", Quantity::Speed, 1.0),
             ("speed_rev_s", Quantity::Speed, TAU),
-            ("speed_std_rpm", Quantity::SpeedStd, TAU / 60.0),
+            ("speed_std_rpm", Quantity::SpeedStd, RPM_RAD_S),
             ("Thrust (gf)", Quantity::Thrust, 9.80665e-3),
             ("Thrust (N)", Quantity::Thrust, 1.0),
             ("thrust_g_4rotors", Quantity::Thrust, 9.80665e-3),

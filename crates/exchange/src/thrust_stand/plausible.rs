@@ -1,12 +1,9 @@
 //! Numbers that no rotor and no multirotor has: they come from a unit that is not that of the header.
 
-use super::column::Column;
+use super::column::{Column, RPM_RAD_S};
 use super::{AT_REST_SHARE, GroupedRow, StandForce, StandRow, TableError, fastest_rad_s};
 use hovertone_vehicle::{MASS_ALONE_KG_MAX, RotorSpeed};
 use std::f64::consts::TAU;
-
-/// Radians per second in a turn per minute.
-const RPM_RAD_S: f64 = TAU / 60.0;
 
 /// Fastest shaft speed, rev/s. The smallest racers' propellers make 670. *Physics.*
 const SPEED_REV_S_MAX: f64 = 1500.0;

@@ -130,13 +130,14 @@ fn companion(long: &Excess, heard_rev_s: &[f64], propeller: &OwnPropeller<'_>) -
     let loudest_db = loudness_db(long, heard_rev_s, propeller.blades)?;
     let found = [-far..-near, near + 1..far + 1].into_iter().filter_map(|steps| {
         let logs: Vec<f64> = steps.map(|step| STEP * f64::from(step)).collect();
+        let ratios: Vec<f64> = logs.iter().map(|log| log.exp()).collect();
         let votes_in = |(frame, heard_rev_s): (usize, &f64)| -> Vec<f32> {
-            logs.iter().map(|log| vote_in(frame, heard_rev_s * log.exp())).collect()
+            ratios.iter().map(|ratio| vote_in(frame, heard_rev_s * ratio)).collect()
         };
         let votes: Vec<Vec<f32>> = heard_rev_s.iter().enumerate().map(votes_in).collect();
         let path = best_path(&votes, 0..logs.len(), &long.hops(), STEP);
-        let distances: Vec<f64> = path.into_iter().map(|point| logs[point]).collect();
-        let speeds = heard_rev_s.iter().zip(&distances).map(|(heard_rev_s, distance)| heard_rev_s * distance.exp());
+        let distances: Vec<f64> = path.iter().map(|&point| logs[point]).collect();
+        let speeds = heard_rev_s.iter().zip(&path).map(|(heard_rev_s, &point)| heard_rev_s * ratios[point]);
         let nats = own_lines_nats(long, &speeds.collect::<Vec<f64>>(), &[heard_rev_s], loudest_db, propeller)?;
         Some(Companion { nats, distance: mean(&distances)?.abs() })
     });

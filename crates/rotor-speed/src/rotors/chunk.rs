@@ -41,6 +41,7 @@ const CLOSE_SHARE: f64 = 0.3;
 /// Share of the frames in which two searches are better than one: of rotors 0.1 % apart all four are right in 0.946 of the frames of 20 clips, and in
 /// 0.938 by one. That is not so 0.3 % apart. *Decision.*
 const ALWAYS_CLOSE_SHARE: f64 = 0.8;
+
 /// What was heard of one rotor.
 pub(super) struct HeardRotor {
     pub(super) line_count: usize,
