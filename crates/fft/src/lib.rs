@@ -1,7 +1,7 @@
 //! Plans of fast Fourier transforms. The transforms are generic over the number type, so that each crate that plans one builds all of
 //! them again; here they are built once for the workspace.
 
-use realfft::{FftNum, RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, FftNum, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 use std::sync::Arc;
 
@@ -28,6 +28,12 @@ impl ComplexPlanner {
     pub fn inverse(&mut self, length: usize) -> Arc<dyn Fft<f32>> {
         self.planner.get_or_insert_with(FftPlanner::new).plan_fft_inverse(length)
     }
+}
+
+/// Plan of the transform of `length / 2 + 1` bins back to `length` real samples, without a scale.
+#[inline(never)]
+pub fn real_inverse(length: usize) -> Arc<dyn ComplexToReal<f32>> {
+    RealFftPlanner::new().plan_fft_inverse(length)
 }
 
 /// A number type in which real signals are transformed.

@@ -51,7 +51,7 @@ pub(crate) fn no_series(tone: &ToneConfig, instead: Option<OtherRotor>) -> NoTon
 /// The reason as it is said where mains hum was taken out before: then the hum is what was heard.
 pub(crate) fn or_mains_hum(reason: NoTone, survey: &Survey) -> NoTone {
     match (&survey.hum, &reason) {
-        (Some(hum), NoTone::NoSeries { .. } | NoTone::NoHover) => NoTone::MainsHum { mains_hz: hum.mains_hz },
+        (Some(hum), NoTone::NoSeries { .. } | NoTone::NoHover) => NoTone::MainsHum { mains_hz: hum.fundamental_hz },
         _ => reason,
     }
 }

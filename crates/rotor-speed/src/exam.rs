@@ -39,7 +39,7 @@ pub fn evidence_near(source: &mut dyn SignalSource, speed_rev_s: f64, config: &C
     let surveyed = survey_from_passes(passes, config)?;
     let (looks, rotor) = (&surveyed.looks, RotorLines::of_tone(&config.tone));
     let range_rev_s = search_range_rev_s(&config.tone, passes.sample_rate_hz())?;
-    let beliefs = beliefs_of(&surveyed, range_rev_s, config).ok().flatten();
+    let beliefs = beliefs_of(&surveyed, range_rev_s, config);
     let compared = beliefs.iter().flat_map(|beliefs| &beliefs.hypotheses);
     let lines = lines_near(&looks.short, speed_rev_s, &rotor, &config.evidence.levels);
     let long = lines_near(&looks.long, speed_rev_s, &rotor, &config.evidence.levels);

@@ -2,7 +2,7 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | crate root | [`SignalSource`]: mono samples in blocks; [`Signal`]: samples in memory |
+//! | crate root | [`SignalSource`]: mono samples in blocks; [`Signal`]: samples in memory; [`SteadyLines`]: lines that passes leave out |
 //! | [`passes`] | runs over a source: the wanted stretches of time, block by block |
 //! | [`spectrogram`] | power spectra of frames, window shapes, decimation, the noise floor, the cutoff of a codec |
 //! | [`channels`] | a bank of band-pass filters: one complex signal at a low rate for each spectral line |
@@ -25,7 +25,9 @@ pub mod peak;
 mod source;
 pub mod spectrogram;
 pub mod statistics;
+mod without_lines;
 
 pub use error::SignalError;
 pub use hovertone_fft as fft;
 pub use source::{Signal, SignalSource, SourceError};
+pub use without_lines::SteadyLines;

@@ -1,6 +1,7 @@
 //! Passes over a source: the stretches of time that are wanted, block by block, planned and counted.
 
-use crate::{SignalError, SignalSource};
+use crate::without_lines::LineFilter;
+use crate::{SignalError, SignalSource, SteadyLines};
 use std::ops::Range;
 
 /// A time this close before a sample still includes it, in samples: times carry rounding errors. *Numeric.*
@@ -70,6 +71,8 @@ pub struct Passes<'a> {
     planned: u32,
     made: u32,
     on_progress: &'a mut dyn FnMut(Progress),
+    /// Lines that all later passes leave out.
+    left_out: Option<(SteadyLines, LineFilter)>,
 }
 
 impl<'a> Passes<'a> {
@@ -83,7 +86,7 @@ impl<'a> Passes<'a> {
         on_progress: &'a mut dyn FnMut(Progress),
     ) -> Result<Self, SignalError> {
         let sample_rate_hz = checked_rate_hz(source)?;
-        Ok(Self { source, sample_rate_hz, planned, made: 0, on_progress })
+        Ok(Self { source, sample_rate_hz, planned, made: 0, on_progress, left_out: None })
     }
 
     /// Samples per second.
@@ -101,6 +104,17 @@ impl<'a> Passes<'a> {
         self.planned += passes;
     }
 
+    /// Leaves these lines out of the sound in all later passes.
+    pub fn leave_out(&mut self, lines: SteadyLines) {
+        let filter = LineFilter::new(&lines, self.sample_rate_hz);
+        self.left_out = Some((lines, filter));
+    }
+
+    /// The lines that are left out of the sound.
+    pub fn left_out(&self) -> Option<&SteadyLines> {
+        self.left_out.as_ref().map(|(lines, _)| lines)
+    }
+
     /// One pass: hands out the samples in `spans_s` (in order, not overlapping), and ends after the last span.
     ///
     /// Returns the time at which the source or the last span ended.
@@ -111,12 +125,16 @@ impl<'a> Passes<'a> {
         self.made += 1;
         let (pass, pass_count) = (self.made, self.planned.max(self.made));
         let on_progress = &mut *self.on_progress;
-        for_each_piece(self.source, spans_s, |piece| {
+        let on_piece = |piece: Piece<'_>| {
             if let Piece::Heard(time_s) = piece {
                 on_progress(Progress { pass, pass_count, time_s });
             }
             on_piece(piece);
-        })
+        };
+        match &mut self.left_out {
+            Some((_, filter)) => for_each_piece(&mut filter.over(self.source), spans_s, on_piece),
+            None => for_each_piece(self.source, spans_s, on_piece),
+        }
     }
 
     /// One pass: a listener takes in the stretches `spans_s`.

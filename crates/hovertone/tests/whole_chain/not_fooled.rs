@@ -166,6 +166,46 @@ fn mains_hum_is_named_and_a_rotor_at_its_frequency_is_not_mistaken_for_it() {
     assert!((tone(&analyse(still, &config(69.0))).speeds[0].speed.rev_s() - 60.0).abs() < 0.01);
 }
 
+/// Lines of a rotor with two blades, for a speed that wanders.
+fn two_blades() -> Vec<(f64, f64)> {
+    vec![(1.0, 0.02), (2.0, 0.1), (4.0, 0.06), (6.0, 0.04), (8.0, 0.03), (10.0, 0.02)]
+}
+
+/// Hum that is louder than the rotor is left out, and the rotor is heard beside it.
+#[test]
+fn a_rotor_is_heard_beside_louder_hum() {
+    let by_harmonics = Config { all_methods: false, ..config(2.0) };
+    let hum: Vec<(f64, f64)> = (1..=14).map(|k| (f64::from(k), 0.3 / f64::from(k))).collect();
+    for (seed, mean_rev_s) in [37.3, 57.1, 71.8, 88.0, 133.5].into_iter().enumerate() {
+        let speed_rev_s = |t: f64| mean_rev_s * (1.0 + 0.002 * (1.7 * t).sin() + 0.001 * (3.9 * t).cos());
+        let grid_hz = |t: f64| 49.98 * (1.0 + 1e-4 * (0.2 * t).sin());
+        let samples = sound(&[rotor(grid_hz, &hum), rotor(speed_rev_s, &two_blades())], 9.0, 0.03, 40 + seed as u64);
+        let got = tone(&analyse(samples, &by_harmonics)).speeds[0].speed.rev_s();
+        let analysis = analyse(
+            sound(&[rotor(grid_hz, &hum), rotor(speed_rev_s, &two_blades())], 9.0, 0.03, 40 + seed as u64),
+            &by_harmonics,
+        );
+        assert!(
+            (got / mean_rev_s - 1.0).abs() < 2e-3,
+            "{mean_rev_s}: {got} {:?} {:?}",
+            analysis.warnings,
+            analysis.hover
+        );
+    }
+}
+
+/// The high multiples of a rotor show that it wanders more than a grid does.
+#[test]
+fn a_rotor_that_wanders_a_little_about_the_mains_is_no_hum() {
+    let by_harmonics = Config { all_methods: false, ..config(2.0) };
+    for (seed, mean_rev_s) in [50.02, 59.97, 100.0, 119.95].into_iter().enumerate() {
+        let speed_rev_s = |t: f64| mean_rev_s * (1.0 + 0.0015 * (1.3 * t).sin() + 0.001 * (0.5 * t).cos());
+        let samples = sound(&[rotor(speed_rev_s, &two_blades())], 9.0, 0.02, 50 + seed as u64);
+        let got = tone(&analyse(samples, &by_harmonics)).speeds[0].speed.rev_s();
+        assert!((got / mean_rev_s - 1.0).abs() < 2e-3, "{mean_rev_s}: {got}");
+    }
+}
+
 #[test]
 fn damage_to_the_recording_does_not_change_the_speed() {
     for seed in 0..seeds() {

@@ -7,7 +7,7 @@ use crate::evidence::{Beliefs, Hypothesis, RotorLines, WantedPropeller, WantedRo
 use crate::pipeline::speed_of_heard_rotor;
 use crate::stages::{HeardRotor, Surveyed, any_propellers, at_ratio, geared_propellers, known_gears, reading_of};
 use crate::tone::{BLADES, ToneConfig, normalise, reading_at, rule_out, search_range_rev_s};
-use hovertone_analysis::{Meaning, NoTone, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily, Warning};
+use hovertone_analysis::{Meaning, Outcome, Reading, SeenHarmonic, SpeedAnalysis, ToneFamily, Warning};
 use hovertone_signal::passes::Passes;
 use hovertone_vehicle::{Gear, Order, RotorSpeed};
 
@@ -29,25 +29,17 @@ pub(super) struct Believed {
 
 impl Believed {
     /// `None` where no rotor is heard.
-    ///
-    /// # Errors
-    /// Mains hum.
-    pub(super) fn of(
-        surveyed: &Surveyed,
-        sample_rate_hz: f64,
-        config: &Config,
-        discovery: &Discovery,
-    ) -> Result<Option<Self>, NoTone> {
+    pub(super) fn of(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config, discovery: &Discovery) -> Option<Self> {
         let propellers = propellers(sample_rate_hz, config, discovery);
         // where the blades are not known, all propellers are compared already
         let where_unknown =
             if discovery.known.blade_count.is_some() { any_propellers(sample_rate_hz) } else { Vec::new() };
         let wanted = WantedRotor { propellers, known: discovery.known, may_be_slow: false, where_unknown };
-        let Some(beliefs) = surveyed.beliefs(&wanted, config)? else { return Ok(None) };
+        let beliefs = surveyed.beliefs(&wanted, config)?;
         let readings = readings_of(&beliefs, discovery);
         let is_heard = readings.first().is_some_and(|first| first.plausibility > 0.0);
         let is_settled = readings.first().is_some_and(|first| first.plausibility >= config.evidence.belief_min);
-        Ok(is_heard.then_some(Self { beliefs, readings, is_settled }))
+        is_heard.then_some(Self { beliefs, readings, is_settled })
     }
 
     /// The frequency of which the lines of the most plausible reading are multiples: the shaft speed, or the blade pass where no other line is

@@ -123,12 +123,9 @@ pub fn tones_from_passes(passes: &mut Passes<'_>, config: &Config, discovery: &D
     let no_series =
         || or_mains_hum(NoTone::NoSeries { only_rev_s: config.tone.known_rev_s(), instead: instead() }, survey);
     let believed = Believed::of(&surveyed, sample_rate_hz, config, discovery);
-    let believed = match believed.and_then(|believed| believed.ok_or_else(no_series)) {
-        Ok(believed) => believed,
-        Err(reason) => {
-            let families = with_refined_line(passes, &surveyed, families(None), config)?;
-            return Ok(FoundSpeed { families, ..nothing(reason) });
-        }
+    let Some(believed) = believed else {
+        let families = with_refined_line(passes, &surveyed, families(None), config)?;
+        return Ok(FoundSpeed { families, ..nothing(no_series()) });
     };
     let BelievedSpeed { config: found, mut analysis, ratio } = believed.speed(passes, &surveyed, config)?;
     if let Outcome::NoRotorTone { reason: reason @ NoTone::NoSeries { .. } } = &mut analysis.outcome {

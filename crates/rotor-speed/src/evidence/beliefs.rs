@@ -5,11 +5,8 @@ use super::excess::Looks;
 use super::hypotheses::Hypothesis;
 use super::levels::NoiseLevel;
 use super::own_lines::OwnPropeller;
-use super::rotor_lines::RotorLines;
-use super::search::GRID_STEP;
 use super::settings::EvidenceConfig;
 use hovertone_analysis::OtherRotor;
-use std::ops::RangeInclusive;
 
 /// The beliefs that a recording gives rise to, where a rotor is heard.
 #[derive(Clone, Debug)]
@@ -20,8 +17,6 @@ pub(crate) struct Beliefs {
     pub(super) noise: NoiseLevel,
     /// Whether only long frames hear the rotor.
     pub(crate) is_faint: bool,
-    /// Evidence for the gear mesh of the most probable rotor alone, in nats; 0 where none is followed.
-    pub(super) mesh_nats: f64,
     /// A rotor that something known leaves out, whose lines are far more probable than those of the most probable one.
     pub(crate) better: Option<OtherRotor>,
 }
@@ -41,20 +36,6 @@ impl Beliefs {
         }
         let propeller = OwnPropeller { blades: first.lines.blades?, prior: &config.levels };
         Companions::beside(looks, &first.speeds_rev_s, &propeller, config)
-    }
-
-    /// Where the lines are without which the most probable rotor would not be heard: of its gear mesh, and of its blade pass. Beside a mesh that is
-    /// heard for sure, the propeller is not needed. Noise at the mesh may draw the path one step aside from the propeller.
-    pub(crate) fn telling_hz(&self, config: &EvidenceConfig) -> impl Iterator<Item = RangeInclusive<f64>> {
-        let is_mesh_sure = self.mesh_nats >= config.levels_nats_min;
-        self.hypotheses.iter().take(1).flat_map(move |first| {
-            let RotorLines { blades, mesh_order } = first.lines;
-            let step = if mesh_order.is_some() { GRID_STEP } else { 0.0 };
-            let around = |hz: f64, share: f64| hz * (1.0 - share)..=hz * (1.0 + share);
-            let blade_pass = blades.filter(|_| !is_mesh_sure).map(|blades| f64::from(blades) * first.hover_rev_s);
-            let mesh = mesh_order.map(|order| order * first.hover_rev_s);
-            mesh.map(|hz| around(hz, 0.0)).into_iter().chain(blade_pass.map(|hz| around(hz, step)))
-        })
     }
 
     /// The same, where all hypotheses with one speed are one: the most probable of them, with the belief in all.

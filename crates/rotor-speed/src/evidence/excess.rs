@@ -1,9 +1,10 @@
 //! Sound → power over the local floor, in short and long frames, in bounded memory and time.
 
 use super::floor::{Floor, FloorShape, FloorSums};
-use super::level_table::{Level, LevelTable};
+use super::level_table::{Level, LevelTable, UNKNOWN};
 use super::near_floor::{NearFloor, levels_over};
 use super::rounding::Rounding;
+use hovertone_signal::SteadyLines;
 use hovertone_signal::spectrogram::{Stft, Window};
 use std::f64::consts::{LN_2, PI};
 use std::ops::Range;
@@ -122,10 +123,11 @@ impl Excess {
 }
 
 impl ExcessFrame {
-    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart. `None` outside the band.
+    /// The highest level within a bin of a frequency, where bins are `bin_hz` apart. `None` outside the band, and where lines are left out of the
+    /// sound.
     pub(super) fn level_near(&self, hz: f64, bin_hz: f64) -> Option<Level> {
         let bin = (hz / bin_hz + 0.5) as usize;
-        self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max()
+        self.levels.get(bin.saturating_sub(1)..bin + 2)?.iter().copied().max().filter(|level| *level != UNKNOWN)
     }
 }
 
@@ -141,6 +143,8 @@ pub(crate) struct ExcessBuilder {
     stride: usize,
     sections: Vec<Section>,
     rounding: Rounding,
+    /// Lines that are left out of the sound.
+    left_out: Option<SteadyLines>,
 }
 
 struct Section {
@@ -149,11 +153,11 @@ struct Section {
 }
 
 impl ExcessBuilder {
-    /// Sections of a recording that starts at `start_s`, up to a highest frequency.
-    pub(crate) fn new(sample_rate_hz: f64, start_s: f64, hz_max: f64) -> Self {
+    /// Sections of a recording that starts at `start_s`, up to a highest frequency, where these lines are left out of the sound.
+    pub(crate) fn new(sample_rate_hz: f64, start_s: f64, hz_max: f64, left_out: Option<SteadyLines>) -> Self {
         let hz_max = hz_max.min(RATE_SHARE_MAX * sample_rate_hz);
         let rounding = Rounding::default();
-        Self { start_s, sample_rate_hz, hz_max, samples: 0, stride: 1, sections: Vec::new(), rounding }
+        Self { start_s, sample_rate_hz, hz_max, samples: 0, stride: 1, sections: Vec::new(), rounding, left_out }
     }
 
     fn section_samples(&self) -> usize {
@@ -208,6 +212,8 @@ struct Frames {
     stft: Stft<f32>,
     /// Number of bins in the band.
     bins: usize,
+    /// Bins in which lines are left out of the sound.
+    left_out: Vec<usize>,
     floor: Floor,
     /// Power of a line that rounding makes.
     rounding_power: f64,
@@ -222,8 +228,11 @@ struct Frames {
 impl Frames {
     fn new(sound: &ExcessBuilder, frame_s: f64, hop_s: f64, has_near_floor: bool) -> Self {
         let stft = Stft::<f32>::new(sound.sample_rate_hz, Window::Hann, frame_s, hop_s, ZERO_PAD_FACTOR);
+        let (bin_hz, bins) = (stft.bin_hz(), (sound.hz_max / stft.bin_hz()) as usize);
+        let is_left_out = |bin: &usize| sound.left_out.as_ref().is_some_and(|lines| lines.hold(*bin as f64 * bin_hz));
         Self {
-            bins: (sound.hz_max / stft.bin_hz()) as usize,
+            bins,
+            left_out: (0..bins).filter(is_left_out).collect(),
             floor: Floor::of_bins(stft.bin_hz()),
             rounding_power: sound.rounding.line_power(),
             floors: FloorSums::default(),
@@ -237,7 +246,8 @@ impl Frames {
 
     /// Takes in a section. Where it does not follow the last one, its start is given.
     fn push(&mut self, samples: &[f32], start_s: Option<f64>) {
-        let Self { stft, bins, floor, rounding_power, floors, near_floor, near_floors, levels, frames } = self;
+        let Self { stft, bins, left_out, floor, rounding_power, floors, near_floor, near_floors, levels, frames } =
+            self;
         if let Some(start_s) = start_s {
             stft.restart(start_s);
         }
@@ -254,8 +264,13 @@ impl Frames {
                 near_floor.over(&near, &under, added)
             });
             let excess = over_floor(power, &under, added);
-            let levels = excess.into_iter().map(|excess| levels.of(excess)).collect();
-            frames.push(ExcessFrame { centre_s: frame.centre_s, levels, near_floor, mean_power });
+            let mut levels: Vec<Level> = excess.into_iter().map(|excess| levels.of(excess)).collect();
+            for &bin in &*left_out {
+                if let Some(level) = levels.get_mut(bin) {
+                    *level = UNKNOWN;
+                }
+            }
+            frames.push(ExcessFrame { centre_s: frame.centre_s, levels: levels.into(), near_floor, mean_power });
         });
     }
 
@@ -336,7 +351,7 @@ mod tests {
 
     #[test]
     fn a_long_recording_keeps_a_bounded_number_of_sections() {
-        let mut builder = ExcessBuilder::new(2000.0, 3.0, 1e4);
+        let mut builder = ExcessBuilder::new(2000.0, 3.0, 1e4, None);
         let mut noise = 1u64;
         for _ in 0..200 {
             let second: Vec<f32> = (0..2000)

@@ -114,11 +114,10 @@ fn beliefs_of(looks: &Looks, wanted: &WantedRotor, config: &EvidenceConfig) -> O
         })
         .collect();
     let hypotheses = with_beliefs(hypotheses);
-    let mesh_nats = presence.mesh_nats(hypotheses.first()?);
     let better = again
         .as_mut()
         .and_then(|(_, long)| better_elsewhere(hypotheses.first()?, looks, wanted, [&mut model, long], config));
-    Some(Beliefs { hypotheses, noise, is_faint: false, mesh_nats, better })
+    Some(Beliefs { hypotheses, noise, is_faint: false, better })
 }
 
 /// Whether a path that jumps, as a voice or an instrument does, explains the frames better than the most probable hypothesis.

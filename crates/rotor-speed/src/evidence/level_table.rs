@@ -8,6 +8,8 @@ pub(super) const LEVEL_DB_MIN: f64 = -30.0;
 pub(super) const LEVELS_PER_DB: f64 = 2.8;
 /// Number of levels: from −30 to 60 dB. *Numeric.*
 pub(super) const LEVELS: usize = 253;
+/// In place of a level: lines are left out of the sound there, so that nothing is known.
+pub(super) const UNKNOWN: Level = Level::MAX;
 
 /// The level of a power over the floor.
 pub(super) fn level_of(excess: f64) -> Level {

@@ -2,7 +2,7 @@
 //! lines that lie close.
 
 use super::floor::{SHAPE_HZ, bin_at};
-use super::level_table::{LEVELS, LEVELS_PER_DB, Level};
+use super::level_table::{LEVELS, LEVELS_PER_DB, Level, UNKNOWN};
 use std::sync::Arc;
 
 /// Width of the median that is the near floor, Hz: narrower than the crests of an echo of 10 ms, wider than several lines of a long frame.
@@ -54,7 +54,11 @@ pub(super) fn levels_over(levels: &[Level], near_floor: &[i8], bin_hz: f64) -> A
         near_floor.get(point).or(near_floor.last()).copied().unwrap_or_default()
     };
     let most = LEVELS as Level - 1;
-    levels.iter().enumerate().map(|(bin, level)| level.saturating_sub_signed(steps(bin)).min(most)).collect()
+    let over = |(bin, level): (usize, &Level)| match *level {
+        UNKNOWN => UNKNOWN,
+        level => level.saturating_sub_signed(steps(bin)).min(most),
+    };
+    levels.iter().enumerate().map(over).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Votes of the lines of a frame for each shaft speed.
 
 use super::excess::ExcessFrame;
-use super::level_table::{LEVELS, Level, level_db};
+use super::level_table::{LEVELS, Level, UNKNOWN, level_db};
 use super::levels::LINE_HZ_MIN;
 use super::rotor_lines::RotorLines;
 use std::ops::Range;
@@ -47,8 +47,10 @@ struct LineVotes {
 impl VoteTable {
     /// Votes for rotors that make these lines.
     pub(super) fn of(lines: &RotorLines) -> Self {
-        let ratios: Vec<f64> =
-            (0..LEVELS).map(|level| ln_likelihood_ratio(10f64.powf(level_db(level as f64) / 10.0))).collect();
+        let ratio = |level: usize| {
+            if level < LEVELS { ln_likelihood_ratio(10f64.powf(level_db(level as f64) / 10.0)) } else { 0.0 }
+        };
+        let ratios: Vec<f64> = (0..=usize::from(UNKNOWN)).map(ratio).collect();
         let votes = |order: f64, audible: f64, harmonics: f64| {
             let audible = audible * (-(harmonics - 1.0).max(0.0) / AUDIBLE_HARMONICS).exp();
             LineVotes {
@@ -258,6 +260,8 @@ mod tests {
     #[test]
     fn the_table_holds_the_votes() {
         let table = VoteTable::of(&RotorLines::of_blades(2));
+        // what is left out of the sound votes neither for nor against
+        assert!((1..=4).all(|order| table.vote(order, UNKNOWN) == 0.0));
         for excess in [0.05, 1.0, 7.0, 300.0] {
             let level = level_of(excess);
             let excess = 10f64.powf(level_db(f64::from(level)) / 10.0);

@@ -8,7 +8,7 @@ use crate::detection::{no_series, or_mains_hum};
 use crate::error::Error;
 use crate::evidence::{Beliefs, Companions, Hypothesis, RotorLines, WantedPropeller, WantedRotor};
 use crate::tone::{CombMap, DiscoveryConfig, blades_of_tone, reading_at, search_range_rev_s};
-use hovertone_analysis::{Hover, Meaning, NoTone, OtherRotor, Reading, Span, Warning, WeighedSpeed};
+use hovertone_analysis::{Hover, Meaning, OtherRotor, Reading, Span, Warning, WeighedSpeed};
 use hovertone_vehicle::{AIR_KG_M3, KnownRotor, Order, RotorSpeed};
 use std::ops::RangeInclusive;
 
@@ -174,7 +174,7 @@ pub(crate) fn candidates_from_survey(
     surveyed.check(config)?;
     let where_unknown = any_propellers(sample_rate_hz);
     let wanted = wanted_rotor(search_rev_s.clone(), where_unknown, config);
-    let beliefs = surveyed.beliefs(&wanted, config).map_err(Silence::because)?;
+    let beliefs = surveyed.beliefs(&wanted, config);
     let is_decided = |beliefs: &Beliefs| beliefs.possible(config.evidence.belief_min).len() == 1;
     let beliefs = match beliefs {
         Some(beliefs) if is_decided(&beliefs) => Some(beliefs),
@@ -212,18 +212,11 @@ fn with_all_lines(
         _ => return None,
     };
     wanted.propellers.extend(more);
-    Some(surveyed.beliefs(&wanted, config).ok()??.with_equal_speeds_joined())
+    Some(surveyed.beliefs(&wanted, config)?.with_equal_speeds_joined())
 }
 
 /// The beliefs in the speeds of a rotor with the tone of the settings. `None` where no rotor is heard.
-///
-/// # Errors
-/// Mains hum.
-pub(crate) fn beliefs_of(
-    surveyed: &Surveyed,
-    speeds_rev_s: RangeInclusive<f64>,
-    config: &Config,
-) -> Result<Option<Beliefs>, NoTone> {
+pub(crate) fn beliefs_of(surveyed: &Surveyed, speeds_rev_s: RangeInclusive<f64>, config: &Config) -> Option<Beliefs> {
     surveyed.beliefs(&wanted_rotor(speeds_rev_s, Vec::new(), config), config)
 }
 

@@ -42,7 +42,7 @@ fn blind_beliefs(surveyed: &Surveyed, sample_rate_hz: f64, config: &Config) -> O
         may_be_slow: false,
         where_unknown: Vec::new(),
     };
-    surveyed.beliefs(&any, &blind).ok()?.filter(|beliefs| !beliefs.is_faint)
+    surveyed.beliefs(&any, &blind).filter(|beliefs| !beliefs.is_faint)
 }
 
 fn rotor_of(hypothesis: &Hypothesis) -> Option<OtherRotor> {

@@ -1,13 +1,13 @@
-//! Stage 1, one pass: sound → survey of the whole recording.
+//! Stage 1, one pass, two where there is mains hum: sound → survey of the whole recording.
 
 use super::Silence;
 use crate::config::Config;
 use crate::error::Error;
 use crate::evidence::{Beliefs, EvidenceConfig, ExcessBuilder, Looks, RotorLines, WantedRotor, beliefs_from_looks};
-use crate::survey::{MainsHum, RowsBuilder, Survey, SurveyBuilder};
+use crate::survey::{RowsBuilder, Survey, SurveyBuilder};
 use hovertone_analysis::{NoTone, Span};
+use hovertone_signal::SteadyLines;
 use hovertone_signal::passes::{Passes, Piece};
-use std::ops::RangeInclusive;
 
 /// A survey of a recording, with the span that it covers.
 #[derive(Debug)]
@@ -27,22 +27,10 @@ impl Surveyed {
     }
 
     /// The beliefs in the speeds of a rotor. `None` where none is heard.
-    ///
-    /// # Errors
-    /// Mains hum, where the blade pass of the rotor is one of its lines.
-    pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Result<Option<Beliefs>, NoTone> {
+    pub(crate) fn beliefs(&self, wanted: &WantedRotor, config: &Config) -> Option<Beliefs> {
         // who names the tone by a band says that it is there: then only evidence against it refutes it
         let levels_nats_min = if config.tone.is_named_by_band() { 0.0 } else { config.evidence.levels_nats_min };
-        let evidence = EvidenceConfig { levels_nats_min, ..config.evidence };
-        let heard = beliefs_from_looks(&self.looks, wanted, &evidence);
-        // above the frequencies that were searched for hum, a line may happen to be at a multiple
-        let lines_hz = || heard.iter().flat_map(|beliefs| beliefs.telling_hz(&evidence));
-        let is_searched = |line_hz: &RangeInclusive<f64>| *line_hz.end() <= self.survey.fine_hz_max;
-        let holds = |hum: &&MainsHum| lines_hz().filter(is_searched).any(|line_hz| hum.holds(&line_hz));
-        match self.survey.hum.as_ref().filter(holds) {
-            Some(hum) => Err(NoTone::MainsHum { mains_hz: hum.mains_hz }),
-            None => Ok(heard),
-        }
+        beliefs_from_looks(&self.looks, wanted, &EvidenceConfig { levels_nats_min, ..config.evidence })
     }
 
     /// Checks that the survey may hold a tone.
@@ -57,25 +45,43 @@ impl Surveyed {
     }
 }
 
-/// Number of passes of the survey.
+/// Number of passes of the survey. Mains hum, where it is heard, makes one more.
 pub(crate) fn passes_of_survey() -> u32 {
     1
 }
 
-/// Surveys the span of the settings. The builder `beside` gets the same samples in the same pass.
+/// Surveys the span of the settings; where there is mains hum, again without it. The builder `beside` gets the samples of the first pass.
 ///
 /// # Errors
 /// A source that fails.
 pub(crate) fn survey_from_source(
     passes: &mut Passes<'_>,
     config: &Config,
-    mut beside: Option<&mut RowsBuilder>,
+    beside: Option<&mut RowsBuilder>,
 ) -> Result<Surveyed, Error> {
+    let (mut surveyed, hum) = survey_from_pass(passes, config, beside)?;
+    if let Some(hum) = hum.filter(|_| passes.left_out().is_none()) {
+        passes.leave_out(hum);
+        passes.expect_more(passes_of_survey());
+        let rows_with_hum = std::mem::take(&mut surveyed.survey.rows);
+        surveyed = survey_from_pass(passes, config, None)?.0;
+        surveyed.survey.rows_with_hum = Some(rows_with_hum);
+    }
+    surveyed.survey.hum = passes.left_out().cloned();
+    Ok(surveyed)
+}
+
+/// One pass: the survey, and the mains hum in it.
+fn survey_from_pass(
+    passes: &mut Passes<'_>,
+    config: &Config,
+    mut beside: Option<&mut RowsBuilder>,
+) -> Result<(Surveyed, Option<SteadyLines>), Error> {
     let mut from_s = config.span.from_s.unwrap_or(f64::MIN).max(passes.start_s());
     let span_s = from_s..config.span.to_s.unwrap_or(f64::INFINITY);
     let mut builder = SurveyBuilder::new(config.hover.survey(), passes.sample_rate_hz(), from_s);
     let hz_max = RotorLines::of_tone(&config.tone).hz_max();
-    let mut excess = ExcessBuilder::new(passes.sample_rate_hz(), from_s, hz_max);
+    let mut excess = ExcessBuilder::new(passes.sample_rate_hz(), from_s, hz_max, passes.left_out().cloned());
     let to_s = passes.pieces(std::slice::from_ref(&span_s), |piece| match piece {
         Piece::Start(time_s) => from_s = time_s,
         Piece::Samples(samples) => {
@@ -88,5 +94,6 @@ pub(crate) fn survey_from_source(
         Piece::Heard(_) => {}
     })?;
     let heard = Span { from_s, to_s: to_s.max(from_s) };
-    Ok(Surveyed { survey: builder.finish(to_s), heard, end_s: to_s, looks: excess.finish() })
+    let (survey, hum) = builder.finish(to_s);
+    Ok((Surveyed { survey, heard, end_s: to_s, looks: excess.finish() }, hum))
 }

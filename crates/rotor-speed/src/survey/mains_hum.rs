@@ -1,9 +1,10 @@
 //! Fine rows → mains hum: lines of constant frequency at multiples of 50 or 60 Hz.
 
-use crate::survey::Rows;
+use crate::survey::{Row, Rows};
+use hovertone_signal::SteadyLines;
 use hovertone_signal::peak::peak_offset_bins;
 use hovertone_signal::spectrogram::whitened_db;
-use std::ops::RangeInclusive;
+use hovertone_signal::statistics::median;
 
 /// Frequencies of the electric grids of the world, Hz. *Physics.*
 const GRIDS_HZ: [f64; 2] = [50.0, 60.0];
@@ -18,11 +19,6 @@ const PEAK_ERROR_BINS: f64 = 0.08;
 const ROW_ERROR_BINS: f64 = 0.8;
 /// Largest deviation of a grid from its mean within a recording, as a share. *Decision.*
 const ROW_SHARE: f64 = 0.0005;
-/// Largest deviation of a line of hum from its multiple of the measured frequency, as a share: the drift of the grid within a recording.
-/// *Decision.*
-const OWN_SHARE: f64 = 0.0003;
-/// The same in addition, Hz: the error of the peak. *Numeric.*
-const OWN_HZ: f64 = 0.15;
 /// Smallest height of a line of hum over its surroundings, dB. *Decision.*
 const OVER_DB_MIN: f64 = 10.0;
 /// Smallest power of a line, re a sine of full scale: the rounding of 16 bits, 2⁻³⁰/12, over the power 1/2 of such a sine: −98 dB. The rounding of
@@ -43,44 +39,6 @@ const LOW_MULTIPLES_DB: f64 = 15.0;
 const LOW_MULTIPLES: usize = 3;
 /// Number of multiples whose presence is examined. *Decision.*
 const PATTERN_MULTIPLES: usize = 8;
-/// Mains hum of a recording.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct MainsHum {
-    /// Frequency of the grid by the clock of the recorder.
-    pub(crate) mains_hz: f64,
-    /// Lines of the hum, from low to high.
-    pub(crate) lines_hz: Vec<f64>,
-}
-
-impl MainsHum {
-    /// Replaces the lines of the hum in a power spectrum by the power beside them.
-    pub(crate) fn remove_from(&self, power: &mut [f32], bin_hz: f64) {
-        for line_hz in &self.lines_hz {
-            // the main lobe of a Hann window reaches two bins to either side
-            let (first, last) = ((line_hz / bin_hz).floor() as usize - 1, (line_hz / bin_hz).ceil() as usize + 1);
-            let beside = |bin: usize| power.get(bin).copied();
-            let Some(before) = first.checked_sub(1).and_then(beside) else { continue };
-            let floor = beside(last + 1).map_or(before, |after| before.min(after));
-            let end = (last + 1).min(power.len());
-            power[first..end].iter_mut().for_each(|bin| *bin = bin.min(floor));
-        }
-    }
-
-    /// Whether a line of the hum is at a frequency that is known to lie in a range.
-    pub(crate) fn holds(&self, line_hz: &RangeInclusive<f64>) -> bool {
-        let (low_hz, high_hz) = (*line_hz.start(), *line_hz.end());
-        let middle_hz = (low_hz + high_hz) / 2.0;
-        let multiple_hz = (middle_hz / self.mains_hz).round().max(1.0) * self.mains_hz;
-        let off_hz = (multiple_hz - multiple_hz.clamp(low_hz, high_hz)).abs();
-        off_hz <= OWN_SHARE * middle_hz + OWN_HZ
-    }
-
-    /// The lowest line of the hum in a band.
-    pub(crate) fn line_in(&self, low_hz: f64, high_hz: f64) -> Option<f64> {
-        self.lines_hz.iter().copied().find(|line_hz| (low_hz..=high_hz).contains(line_hz))
-    }
-}
-
 /// A line of constant frequency.
 #[derive(Clone, Copy, Debug)]
 struct StillLine {
@@ -100,8 +58,9 @@ struct FineSpectrum<'a> {
 /// The mains hum of a recording, from its low frequencies up to `hz_max`. `None` where there is none.
 ///
 /// Hum is a series of lines that stay within 0.1 % of multiples of 50 or 60 Hz, with a strong line among the first three, and at most
-/// about a third of the lines missing. So a rotor at 180 Hz is no hum, because it has no lines at 60 and 120 Hz.
-pub(crate) fn mains_hum(fine: &Rows, hz_max: f64) -> Option<MainsHum> {
+/// about a third of the lines missing. So a rotor at 180 Hz is no hum, because it has no lines at 60 and 120 Hz. The multiples of a rotor move
+/// together, by more than a grid does: the high ones show it.
+pub(crate) fn mains_hum(fine: &Rows, hz_max: f64) -> Option<SteadyLines> {
     let power = fine.mean_power(|_| true)?;
     let spectrum = FineSpectrum { rows: fine, over_db: whitened_db(&power), power };
     GRIDS_HZ
@@ -111,7 +70,7 @@ pub(crate) fn mains_hum(fine: &Rows, hz_max: f64) -> Option<MainsHum> {
 }
 
 /// The hum of a grid of 50 or 60 Hz.
-fn hum_of_grid(spectrum: &FineSpectrum<'_>, grid_hz: f64, hz_max: f64) -> Option<MainsHum> {
+fn hum_of_grid(spectrum: &FineSpectrum<'_>, grid_hz: f64, hz_max: f64) -> Option<SteadyLines> {
     let FineSpectrum { rows, power, over_db } = spectrum;
     let bin_hz = rows.bin_hz;
     let multiples = (hz_max / grid_hz) as usize;
@@ -134,14 +93,46 @@ fn hum_of_grid(spectrum: &FineSpectrum<'_>, grid_hz: f64, hz_max: f64) -> Option
     }
     // all lines together give a more precise frequency than one line: a rotor at 60.17 rev/s is no hum
     let mains_hz = mains_hz_of(&lines).filter(|mains_hz| (mains_hz / grid_hz - 1.0).abs() <= GRID_SHARE_MAX)?;
-    // where there is hum, weaker lines in its places are hum too
-    let in_place = (1..=multiples).filter_map(|k| {
-        let hz = k as f64 * mains_hz;
-        let PlacedPeak { place, bin } = peak_near(power, hz / bin_hz)?;
-        let is_line = *over_db.get(bin)? >= WEAK_OVER_DB_MIN && (place - hz / bin_hz).abs() <= 2.0 * PEAK_ERROR_BINS;
-        is_line.then_some(place * bin_hz)
+    if !stands_still(rows, mains_hz) {
+        return None;
+    }
+    // where there is hum, weaker lines in its places are hum too, up to the highest that is clear; a line of a rotor beside may draw the peak away
+    let is_line = |hz: f64| over_db.get((hz / bin_hz).round() as usize).is_some_and(|db| *db >= WEAK_OVER_DB_MIN);
+    let highest = (1..=multiples).rev().find(|k| {
+        let place = *k as f64 * mains_hz / bin_hz;
+        let is_in_place = |peak: PlacedPeak| (peak.place - place).abs() <= 2.0 * PEAK_ERROR_BINS;
+        is_line(*k as f64 * mains_hz) && peak_near(power, place).is_some_and(is_in_place)
+    })?;
+    let lines_hz = (1..=highest).map(|k| k as f64 * mains_hz).filter(|hz| is_line(*hz)).collect();
+    Some(SteadyLines { fundamental_hz: mains_hz, lines_hz })
+}
+
+/// Whether the series moves no more than a grid does, from row to row: by the median of where its clear lines are, weighted by their
+/// multiple, because the distance of a line from its multiple is measured to the same part of a bin for all.
+fn stands_still(fine: &Rows, mains_hz: f64) -> bool {
+    let heard: Vec<(f64, f64)> = fine.rows.iter().filter_map(|row| series_in_row(row, fine.bin_hz, mains_hz)).collect();
+    let Some(middle) = median(&heard.iter().map(|(ratio, _)| *ratio).collect::<Vec<_>>()) else { return true };
+    let still = heard.iter().filter(|(ratio, error)| (ratio - middle).abs() <= ROW_SHARE + error).count();
+    still as f64 >= ROWS_IN_PLACE_MIN * heard.len() as f64
+}
+
+/// In one row, the frequency of the series over `mains_hz`, and its error. `None` where no line of it is clear.
+fn series_in_row(row: &Row, bin_hz: f64, mains_hz: f64) -> Option<(f64, f64)> {
+    let over_db = whitened_db(&row.power);
+    let clear = (1..=PATTERN_MULTIPLES).filter_map(|multiple| {
+        let place = multiple as f64 * mains_hz / bin_hz;
+        let peak = peak_near(&row.power, place)?;
+        (*over_db.get(peak.bin)? >= OVER_DB_MIN).then_some((peak.place / place, multiple as f64))
     });
-    Some(MainsHum { mains_hz, lines_hz: in_place.collect() })
+    let mut clear: Vec<(f64, f64)> = clear.collect();
+    clear.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let half = clear.iter().map(|(_, multiple)| multiple).sum::<f64>() / 2.0;
+    let mut sum = 0.0;
+    let (ratio, multiple) = clear.into_iter().find(|(_, multiple)| {
+        sum += multiple;
+        sum >= half
+    })?;
+    Some((ratio, PEAK_ERROR_BINS * bin_hz / (multiple * mains_hz)))
 }
 
 /// The frequency whose multiples k = 1, 2, … fit the lines best: least squares, weighted by their power.

@@ -4,14 +4,14 @@ mod mains_hum;
 mod rows;
 mod span;
 
-pub(crate) use mains_hum::MainsHum;
 pub(crate) use rows::{Row, RowSettings, Rows, RowsBuilder};
 pub use span::SpanConfig;
 
 use hovertone_analysis::NoTone;
+use hovertone_signal::SteadyLines;
 use hovertone_signal::line_frequency::SILENT_DB;
 use hovertone_signal::spectrogram::Decimator;
-use mains_hum::mains_hum;
+pub(crate) use mains_hum::mains_hum;
 use rows::mean_power;
 
 /// The recording in rows of equal length.
@@ -22,13 +22,9 @@ pub(crate) struct Survey {
     /// Distance between bins of the coarse rows.
     pub(crate) bin_hz: f64,
     /// The coarse rows with hum, where there is hum.
-    rows_with_hum: Option<Vec<Row>>,
-    /// Fine rows of the low frequencies, with hum.
-    pub(crate) fine: Rows,
-    /// Highest frequency of the fine rows.
-    pub(crate) fine_hz_max: f64,
-    /// The mains hum of the recording.
-    pub(crate) hum: Option<MainsHum>,
+    pub(crate) rows_with_hum: Option<Vec<Row>>,
+    /// The mains hum that is left out of the coarse rows.
+    pub(crate) hum: Option<SteadyLines>,
 }
 
 impl Survey {
@@ -113,16 +109,10 @@ impl SurveyBuilder {
         self.fine.push(self.decimator.push(samples));
     }
 
-    pub(crate) fn finish(self, end_s: f64) -> Survey {
-        let Rows { mut rows, bin_hz } = self.coarse.finish(end_s);
-        let fine = self.fine.finish(end_s);
-        let fine_hz_max = self.decimator.hz_max();
-        let hum = mains_hum(&fine, fine_hz_max);
-        let rows_with_hum = hum.is_some().then(|| rows.clone());
-        if let Some(hum) = &hum {
-            rows.iter_mut().for_each(|row| hum.remove_from(&mut row.power, bin_hz));
-        }
-        Survey { rows, bin_hz, rows_with_hum, fine, fine_hz_max, hum }
+    /// The survey, and the mains hum in it.
+    pub(crate) fn finish(self, end_s: f64) -> (Survey, Option<SteadyLines>) {
+        let hum = mains_hum(&self.fine.finish(end_s), self.decimator.hz_max());
+        (Survey::of_rows(self.coarse.finish(end_s)), hum)
     }
 }
 
@@ -138,7 +128,7 @@ mod tests {
             let block: Vec<f32> = (0..1000).map(|n| level * ((n as f32) * 1.3).sin()).collect();
             block.chunks(100).for_each(|samples| builder.push(samples));
         }
-        builder.finish(2.0 + seconds as f64)
+        builder.finish(2.0 + seconds as f64).0
     }
 
     /// Rounded to 16 bits, a pure tone has lines at multiples of 20 Hz. Below the rounding noise they are no hum.
@@ -150,7 +140,7 @@ mod tests {
             let sine = |n: u32| ((4095.0 * (std::f64::consts::TAU * turns(n)).sin()).round() / 32_768.0) as f32;
             let samples: Vec<f32> = (0..10 * 44_100).map(sine).collect();
             samples.chunks(4096).for_each(|samples| builder.push(samples));
-            assert_eq!(builder.finish(10.0).hum, None, "{hz}");
+            assert_eq!(builder.finish(10.0).1, None, "{hz}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! Bands → those that can be trusted: a codec's cut and mains hum take some away.
+//! Bands → those that can be trusted: a codec's cut takes some away.
 
 use crate::survey::Survey;
 use hovertone_analysis::{Band, NoTone, Warning};
@@ -8,15 +8,6 @@ use std::ops::RangeInclusive;
 
 /// A band whose middle is nearer than this share to where the recording ends loses rotors on that side. *Decision.*
 const LIMIT_MARGIN_SHARE: f64 = 0.02;
-/// Hum this much weaker (as a ratio of power) than the strongest other line of a band does not pull its ridge. *Decision.*
-const HUM_POWER_SHARE_MAX: f64 = 0.1;
-/// A line of hum this far beyond the edge of a band still shows its side lobes inside: four cells of the longest frames. *Numeric.*
-const HUM_REACH_HZ: f64 = 10.0;
-/// One band that is left where hum took others is no witness. *Decision.*
-const BANDS_BESIDE_HUM_MIN: usize = 2;
-/// Bins on either side of a line of hum that are its own. *Numeric.*
-const HUM_HALF_BINS: f64 = 3.0;
-
 /// Range of frequencies below and above the middle of a band in which its noise is measured, as a share of the middle. *Decision.*
 const FLOOR_SHARE: f64 = 0.5;
 /// Smallest number of bins of such a range: the lines of four rotors then fill less than half of them. *Numeric.*
@@ -24,7 +15,7 @@ const FLOOR_BINS_MIN: usize = 20;
 /// The noise is the lowest of so many equal parts of the sorted bins. *Numeric.*
 const FLOOR_QUANTILE_PARTS: usize = 4;
 
-/// Leaves out bands that the recording does not hold or whose loudest line is mains hum, with a warning for each.
+/// Leaves out bands that the recording does not hold, with one warning for the first and one for each.
 ///
 /// # Errors
 /// The reason, where none remains.
@@ -34,48 +25,26 @@ pub(crate) fn bands_worth_following(
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Band>, NoTone> {
     let limit_hz = survey.mean_power().and_then(|power| band_limit_hz(&power, survey.bin_hz));
-    let fine_power = survey.fine.mean_power(|_| true).unwrap_or_default();
+    let Some(above_hz) = limit_hz else { return Ok(bands) };
     let middle_hz = |band: &Band| (band.band_hz_low + band.band_hz_high) / 2.0;
-    let mut reasons = Vec::new();
-    let mut kept = Vec::new();
-    let mut is_cut = false;
-    for band in bands {
-        let beyond_hz = limit_hz.filter(|limit_hz| middle_hz(&band) * (1.0 + LIMIT_MARGIN_SHARE) > *limit_hz);
-        let hum_hz = loud_hum_in(band.band_hz_low..=band.band_hz_high, survey, &fine_power);
-        match (beyond_hz, hum_hz) {
-            (Some(limit_hz), _) => {
-                if !is_cut {
-                    warnings.push(Warning::BandCutByCodec { above_hz: limit_hz });
-                    is_cut = true;
-                }
-                let reason = format!("it lies near {:.0} Hz, and the recording holds nothing there", middle_hz(&band));
-                warnings.push(Warning::HarmonicLeftOut { harmonic: band.harmonic, reason });
-                reasons.push(NoTone::BandCutByCodec { tone_hz: middle_hz(&band), above_hz: limit_hz });
-            }
-            (None, Some((line_hz, mains_hz))) => {
-                let reason = format!("the mains hum at {line_hz:.1} Hz is louder");
-                warnings.push(Warning::HarmonicLeftOut { harmonic: band.harmonic, reason });
-                reasons.push(NoTone::MainsHum { mains_hz });
-            }
-            (None, None) => kept.push(band),
-        }
-    }
-    let has_hum = reasons.iter().any(|reason| matches!(reason, NoTone::MainsHum { .. }));
-    match reasons.into_iter().next() {
-        Some(reason) if kept.is_empty() || has_hum && kept.len() < BANDS_BESIDE_HUM_MIN => Err(reason),
-        _ => Ok(kept),
-    }
+    let (kept, cut): (Vec<Band>, Vec<Band>) =
+        bands.into_iter().partition(|band| middle_hz(band) * (1.0 + LIMIT_MARGIN_SHARE) <= above_hz);
+    let Some(first) = cut.first() else { return Ok(kept) };
+    warnings.push(Warning::BandCutByCodec { above_hz });
+    warnings.extend(cut.iter().map(|band| {
+        let reason = format!("it lies near {:.0} Hz, and the recording holds nothing there", middle_hz(band));
+        Warning::HarmonicLeftOut { harmonic: band.harmonic, reason }
+    }));
+    if kept.is_empty() { Err(NoTone::BandCutByCodec { tone_hz: middle_hz(first), above_hz }) } else { Ok(kept) }
 }
 
-/// Leaves out lines for the same reasons, for which the bands have their warnings. The others learn how the noise falls within their bands.
+/// Leaves out lines for the same reason, for which the bands have their warnings. The others learn how the noise falls within their bands.
 pub(crate) fn lines_worth_hearing(lines: Vec<ChannelBand>, survey: &Survey) -> Vec<ChannelBand> {
     let power = survey.mean_power().unwrap_or_default();
     let limit_hz = band_limit_hz(&power, survey.bin_hz).unwrap_or(f64::INFINITY);
-    let fine_power = survey.fine.mean_power(|_| true).unwrap_or_default();
     lines
         .into_iter()
         .filter(|line| (line.band_hz_low + line.band_hz_high) / 2.0 * (1.0 + LIMIT_MARGIN_SHARE) <= limit_hz)
-        .filter(|line| loud_hum_in(line.band_hz_low..=line.band_hz_high, survey, &fine_power).is_none())
         .map(|line| ChannelBand {
             noise_fall_db: noise_fall_db(&power, survey.bin_hz, line.band_hz_low..=line.band_hz_high),
             ..line
@@ -101,26 +70,6 @@ fn noise_fall_db(power: &[f64], bin_hz: f64, band_hz: RangeInclusive<f64>) -> f6
         (Some(below_db), Some(above_db)) => (below_db - above_db) * (high_hz - low_hz) / range_hz,
         _ => 0.0,
     }
-}
-
-/// A line of hum in or beside a band that is not much weaker than what else is there, and the mains' frequency.
-fn loud_hum_in(band_hz: RangeInclusive<f64>, survey: &Survey, fine_power: &[f64]) -> Option<(f64, f64)> {
-    let hum = survey.hum.as_ref()?;
-    let line_hz = hum.line_in(band_hz.start() - HUM_REACH_HZ, band_hz.end() + HUM_REACH_HZ)?;
-    let loudest = loudest_without(fine_power, survey.fine.bin_hz, band_hz, &hum.lines_hz);
-    let place = (line_hz / survey.fine.bin_hz).round() as usize;
-    let is_loud = fine_power.get(place).is_some_and(|hum| *hum > HUM_POWER_SHARE_MAX * loudest);
-    is_loud.then_some((line_hz, hum.mains_hz))
-}
-
-/// Power of the loudest bin of a band that is not a line of hum.
-fn loudest_without(power: &[f64], bin_hz: f64, band_hz: RangeInclusive<f64>, lines_hz: &[f64]) -> f64 {
-    let (low_hz, high_hz) = band_hz.into_inner();
-    let bins = (low_hz / bin_hz).ceil() as usize..=(high_hz / bin_hz).floor() as usize;
-    bins.filter(|&bin| lines_hz.iter().all(|hz| (hz / bin_hz - bin as f64).abs() > HUM_HALF_BINS))
-        .filter_map(|bin| power.get(bin))
-        .copied()
-        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
