@@ -39,6 +39,7 @@ const LOW_MULTIPLES_DB: f64 = 15.0;
 const LOW_MULTIPLES: usize = 3;
 /// Number of multiples whose presence is examined. *Decision.*
 const PATTERN_MULTIPLES: usize = 8;
+
 /// A line of constant frequency.
 #[derive(Clone, Copy, Debug)]
 struct StillLine {
