@@ -108,6 +108,8 @@ pub enum NotTold {
         /// The offset.
         offset_s: f64,
     },
+    /// The hover begins with the recording, and no start is found in it.
+    NoStart,
     /// Rotors start at nearly the same time.
     StartedTogether {
         /// Shortest time between two starts.
@@ -188,6 +190,10 @@ impl NotTold {
                 "check that the log is of the same flight, that --log-offset-s holds its offset, and how its axes point"
             }
             Self::OffsetAtLimit { .. } => "widen --log-offset-s LOW:HIGH",
+            Self::NoStart => {
+                "--spin-up needs a recording that begins before the motors start, one after the other and a second or more apart; for this \
+                 recording, leave it out, or give a log of the flight with --log"
+            }
             Self::StartedTogether { .. } => "start one motor after the other, a second or more apart",
             Self::NotFollowed { .. } => {
                 "start the recording first; then bring one motor after the other straight to the speed of the hover, a second apart"
@@ -241,6 +247,9 @@ impl fmt::Display for NotTold {
             Self::OffsetAtLimit { offset_s } => {
                 write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of the tried offsets")
             }
+            Self::NoStart => f.write_str(
+                "--spin-up changes nothing: the hover begins with the recording, and no motor is heard to start",
+            ),
             Self::StartedTogether { apart_s } => {
                 write!(f, "two rotors start within {:.1} s of each other", apart_s.max(0.1))
             }

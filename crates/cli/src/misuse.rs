@@ -139,6 +139,9 @@ impl Misuse {
         if let Some(place) = place_of_log(name, words) {
             return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
         }
+        if let Some(what) = idle_here(name, words) {
+            return Self { what, hint: Some(format!("leave {name} out")) };
+        }
         if name.starts_with('-') {
             let meant = place_in_experiment(name, words).or_else(|| flag_meant(name, words));
             let hint = meant.or_else(|| nearest_flag(name, words));
@@ -171,6 +174,12 @@ impl Misuse {
         let what = format!("\"{name}\": listen takes a recording by its flag {flag}");
         Self { what, hint: Some(format!("write {flag} {name}")) }
     }
+}
+
+/// That a flag about the progress of a long analysis changes nothing in a command that shows none.
+fn idle_here(name: &str, words: &[OsString]) -> Option<String> {
+    let command = typed_command(words).filter(|_| name == "--no-progress")?;
+    Some(format!("{name} changes nothing: `hovertone {}` shows no progress", command.get_name()))
 }
 
 /// Where the log stands in commands that take it without a flag; others have `--log`.

@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let offsets_s = arguments.log_offset_s.map(|(low_s, high_s)| [low_s, high_s]);
     let verification = verification_from_log(&tracks_of(record), logged, offsets_s)
         .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
-    let is_right = verification.is_right();
+    let passes = verification.passes();
     let told = VerificationRecord { file: record.file.clone(), log: log.display().to_string(), verification };
     if arguments.json {
         terminal.data(&verification_json(&told).map_err(Failure::internal)?)?;
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
         outputs.write(place, kind.bytes(drawn, DOTS_PER_INCH)?)?;
         terminal.say(&written(place));
     }
-    Ok(if is_right && flight.notes.is_empty() { Ending::Done } else { Ending::Incomplete })
+    Ok(if passes && flight.notes.is_empty() { Ending::Done } else { Ending::Incomplete })
 }
 
 /// Where the figure goes.

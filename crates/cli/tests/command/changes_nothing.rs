@@ -47,6 +47,23 @@ fn a_mass_without_what_it_needs_is_said_to_change_nothing() {
     }
 }
 
+/// Commands that show no progress say so, and others take the flag.
+#[test]
+fn no_progress_is_refused_where_none_is_shown() {
+    for asked in [
+        &["listen", "--from-file", "a.wav", "--blades", "2"][..],
+        &["fit", "stand.csv"],
+        &["log", "flight.ulg"],
+        &["export", "results.json", "--to", "gazebo"],
+        &["vehicles"],
+    ] {
+        let what = format!("--no-progress changes nothing: `hovertone {}` shows no progress", asked[0]);
+        refused_with(&[asked, &["--no-progress"]].concat(), &[&what, "leave --no-progress out"]);
+    }
+    let run = hovertone(&["speed", "nowhere.wav", "--no-progress"]).ends_with(1);
+    assert!(run.stderr.contains("nowhere.wav"), "{}", run.stderr);
+}
+
 #[test]
 fn harmonics_of_a_generator_are_refused() {
     let asked = ["calibrate", "a.wav", "--true-hz", "1000", "--harmonics", "5"];

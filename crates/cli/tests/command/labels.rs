@@ -150,6 +150,7 @@ fn an_order_of_starts_names_every_rotor_once() {
     let (sound, ..) = flown(folder.path());
     let run = ["speed", "--vehicle", "ardrone", "--json", "--spin-up", "1,2,3,4", text(&sound)];
     let line = hovertone(&run).ends_with(3).json_lines().remove(0);
+    assert!(line["warnings"].to_string().contains("--spin-up changes nothing"), "{}", line["warnings"]);
     assert_eq!(line["labels"]["source"], "spin_up");
     assert!(line["labels"]["reason"].is_string() && line["rotors"][0]["label"].is_null(), "{}", line["labels"]);
 }
