@@ -11,7 +11,7 @@ pub struct ComparedPoint {
     pub time_s: f64,
     /// Heard speed.
     pub heard_rev_s: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of --constant-n-s2.
     pub std_uncertainty_rev_s: f64,
     /// Logged speed.
     pub logged_rev_s: f64,

@@ -122,7 +122,9 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
         return Ok(());
     }
     Err(Failure::Usage {
-        what: format!("channels of the recording: {channels}, microphones with a position: {microphones}"),
+        what: format!(
+            "channels of the recording: {channels}; microphones with a position: {microphones}. The two numbers must be equal"
+        ),
         hint: "give one [[microphone]] for each channel, in their order; --audio-track N chooses another track"
             .to_owned(),
         path: Some(job.path.clone()),

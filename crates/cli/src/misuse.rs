@@ -161,7 +161,7 @@ impl Misuse {
             }
             _ => {}
         }
-        Self { what: format!("\"{name}\" is one word too many"), hint: place_meant(name, words) }
+        Self { what: format!("\"{name}\" has no place in this command"), hint: place_meant(name, words) }
     }
 
     /// A word without a flag behind `listen`: most probably the name of a recording.
@@ -270,7 +270,7 @@ mod tests {
             ),
             (
                 "hovertone speed a.wav --window-s long",
-                "--window-s long: a number is needed, such as 0.25 (--window-s S: Length of a frame of the paper's methods, in seconds",
+                "--window-s long: a number is needed, such as 0.25 (--window-s S: Length of a frame (a short piece of sound) in s",
             ),
             (
                 "hovertone speed a.wav --mass-kg heavy",
@@ -298,11 +298,11 @@ mod tests {
             ("hovertone batch", "batch needs a folder for the results: -o OUT, and a folder with recordings (as in"),
             (
                 "hovertone demo extra",
-                "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",
+                "\"extra\" has no place in this command (as in `hovertone demo`; see `hovertone demo --help`)",
             ),
             (
                 "hovertone spectrogram a.wav b.wav -o x.png",
-                "\"b.wav\" is one word too many (give one recording at a time)",
+                "\"b.wav\" has no place in this command (give one recording at a time)",
             ),
             (
                 "hovertone init hover.mp4",

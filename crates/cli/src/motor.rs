@@ -151,9 +151,8 @@ impl Plan<'_> {
     /// That the steps of commands and sound agree at another offset than the given one.
     fn misaligned(&self, other_offset_s: Option<f64>) -> Option<Notice> {
         let (given_s, other_s) = self.arguments.offset.zip(other_offset_s)?;
-        let what = format!(
-            "with --offset {given_s} the steps of the commands are not where the speed steps, so the commands are not used"
-        );
+        let what =
+            format!("with --offset {given_s}, the commands do not step when the speed does, so they are not used");
         let hint = format!("the steps agree at an offset of about {other_s:.2} s: leave --offset out, or correct it");
         Some(Notice::new(what, hint))
     }

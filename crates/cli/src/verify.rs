@@ -22,7 +22,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let names = column_names(&arguments.column)?;
     let outputs = Outputs::beside([&arguments.recording, &arguments.log], arguments.replace.force);
     let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, &outputs)).transpose()?;
-    refuse_of_table(&arguments.analysis, "a check compares speeds at each time, without the ± of the mean")?;
+    refuse_of_table(&arguments.analysis, "the comparison uses the speed of each moment, without the ± of the mean")?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     if let Some(notice) = idle_mass(&arguments.known, &config.known) {
         terminal.tip(&notice);

@@ -248,7 +248,7 @@ fn rotors_of(
     }
     let rotor_count = said.map(|(said, _)| said).or(of_results);
     if rotor_count.is_none() && results.is_some() {
-        let what = "the constant is that of one rotor, and nothing says how many carry the vehicle";
+        let what = "the constant is that of one rotor, and the number of rotors is not given";
         return Err(Failure::usage(what, "give --rotors, or --vehicle"));
     }
     Ok(rotor_count)

@@ -31,7 +31,7 @@ pub enum LogError {
         tables: String,
     },
     /// A version of a format that is not read.
-    #[error("this {format} has version {version} of its format, and hovertone reads version {known}")]
+    #[error("this {format} has version {version} of its format, but hovertone reads version {known}")]
     OtherVersion {
         /// Format of the log.
         format: LogFormat,
@@ -111,7 +111,7 @@ pub enum LogError {
         name: String,
     },
     /// Names for the columns of a log that has none.
-    #[error("this {format} names its signals itself, and no column of it can have another name")]
+    #[error("this {format} has names for its signals, and its columns cannot have other names")]
     NoColumns {
         /// Format of the log.
         format: LogFormat,
@@ -125,7 +125,7 @@ pub enum LogError {
         tables: String,
     },
     /// Signals of several tables, which do not share their times.
-    #[error("\"{first}\" and \"{second}\" are signals of two tables, which have times of their own")]
+    #[error("\"{first}\" and \"{second}\" are signals of two tables with different times")]
     SeveralTables {
         /// A signal.
         first: String,
@@ -157,7 +157,7 @@ impl LogError {
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
-                "write thousands without a point, as 1000: in this table commas are decimal"
+                "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
             Self::NoTime { .. } => {

@@ -76,7 +76,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
     match (preferred_law(fit), fit.with_intercept, fit.power_law) {
         (None, ..) if fit.laws.len() > 1 => {
             format!(
-                "no law is preferred: none is clearly the most probable; C_f is that of {}\n",
+                "no law is clearly the most probable, so none is preferred; C_f is that of {}\n",
                 ForceLaw::Square.formula()
             )
         }

@@ -82,8 +82,7 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text +=
-            "too slow for a time constant: a motor reaches its speed within 300 ms, and 3 log rows must lie in that\n";
+        text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows must lie in this time\n";
     } else if !has_steps {
         text += "no step: the speed never goes from one steady speed to another\n";
     }
@@ -93,7 +92,10 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += &load_text(&record.constants());
     }
     if other_count > 0 {
-        text += &format!("left out: {} of the speed, not of first order\n", counted(other_count, "change"));
+        text += &format!(
+            "left out: {} of the speed that a first-order curve does not fit\n",
+            counted(other_count, "change")
+        );
     }
     text += &maps_text(record, width);
     text + &simulator_lines(&record.constants())
@@ -121,7 +123,8 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
             );
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);
-                format!("offset of the commands {offset_s} s, found from the steps, so that the dead time is not known: give --offset if you know it\n")
+                format!("offset of the commands {offset_s} s, found from the steps. So the dead time is not known; if you know the offset \
+                between the clocks, give --offset\n")
             });
             heard + &offset
         }
@@ -231,7 +234,8 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
                 "\nspeed of each command: not known, because no command in this log changes\n".to_owned()
             }
             MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
-                "\nspeed of each command: not known, because the commands do not step when the sound does; are they of this run?\n"
+                "\nspeed of each command: not known, because the commands do not step when the sound does; check that they are of the same \
+                run\n"
                     .to_owned()
             }
             MotorSource::Sound(_) => {

@@ -50,7 +50,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         format!("offset of the log {} s: time to be added to its clock\n", signed(found.offset_s, 3))
     } else {
         format!(
-            "offset of the log: not found, because other offsets fit nearly as well ({} s is used)\n",
+            "offset of the log: not known, because other offsets fit nearly as well ({} s is used)\n",
             signed(found.offset_s, 1)
         )
     };
@@ -121,7 +121,10 @@ pub(crate) fn undecided_check(found: &Verification) -> Option<Notice> {
     match found.better_offset_s.filter(|_| is_undecided) {
         _ if !is_undecided => None,
         Some(offset_s) => Some(Notice::new(
-            format!("the log fits better at an offset near {} s, outside of the limits of --log-offset-s", signed(offset_s, 2)),
+            format!(
+                "the log fits better at an offset near {} s, outside of the limits of --log-offset-s",
+                signed(offset_s, 2)
+            ),
             "give wider limits",
         )),
         None => Some(Notice::new(

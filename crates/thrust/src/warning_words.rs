@@ -16,7 +16,9 @@ pub(crate) fn differ_text([least, most]: [&String; 2], share: f64, stated_share:
     match 100.0 * stated_share {
         small if small < 0.5 => words,
         percent => {
-            format!("{words}; the stated uncertainties of their forces explain {percent:.0} % (k = {COVERAGE_FACTOR})")
+            format!(
+                "{words}; the stated uncertainties of their forces explain only {percent:.0} % (k = {COVERAGE_FACTOR})"
+            )
         }
     }
 }

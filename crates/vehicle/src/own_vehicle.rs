@@ -40,7 +40,7 @@ pub struct OwnVehicle {
 #[non_exhaustive]
 pub enum OwnVehicleError {
     /// A name that no flag could hold.
-    #[error("the name \"{id}\" has other signs than small letters, digits, - and _")]
+    #[error("the name \"{id}\" may have only small letters, digits, - and _")]
     Name {
         /// The name.
         id: String,

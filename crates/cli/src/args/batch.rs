@@ -39,7 +39,7 @@ pub(crate) struct BatchArguments {
     /// Recordings that are heard at the same time [default: one for each core]
     #[arg(long, value_name = "N", value_parser = whole_number(1usize..=1024), help_heading = "How it runs")]
     pub(crate) threads: Option<usize>,
-    /// Hear those again that could not be heard
+    /// Hear again the recordings that could not be heard
     #[arg(long, help_heading = "How it runs")]
     pub(crate) retry: bool,
     #[command(flatten)]

@@ -47,7 +47,7 @@ pub(crate) struct CalibrateArguments {
     /// Number of rotors that turn: 1, since the known speed is that of one rotor
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX), help_heading = "Which tone")]
     pub(crate) rotors: Option<u32>,
-    /// How far the recorder's clock may be off, in millionths
+    /// Largest allowed error of the recorder's clock, in millionths
     #[arg(long, value_name = "PPM", default_value_t = 50.0, help_heading = "How it is analysed")]
     pub(crate) clock_ppm: f64,
     /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away

@@ -18,9 +18,9 @@ Examples:
   hovertone greybox doublets.csv --vehicle ardrone --scenario identified.toml
   hovertone greybox doublets.wav doublets.csv --vehicle ardrone --check other.wav other.csv";
 
-/// The low-level model: gains of eq 1, time constant of eq 2 and C_τ, from a flight of doublets and its log
+/// Model of motors and controllers: gains (eq 1), time constant (eq 2) and C_τ, from the sound and the log of a flight of doublets
 ///
-/// Fits the paper's eqs 1 and 2 to the speeds of the rotors. The speeds are heard, with the model's predictions as a guide, or logged.
+/// Fits eqs 1 and 2 of the paper to the speeds of the rotors. The speeds are heard, guided by the predictions of the model, or logged.
 #[derive(Args, Debug)]
 #[command(after_help = GREYBOX_EXAMPLES)]
 pub(crate) struct GreyBoxArguments {
@@ -33,7 +33,7 @@ pub(crate) struct GreyBoxArguments {
     /// Mass as flown, in kg or as 413g [default: the vehicle's]
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Time to add to the log's clock to get that of the recording, in s, right to 10 s: the sound tells the rest [default: 0]
+    /// Time to add to the log's clock to get that of the recording, in s; an error of up to 10 s is found from the sound [default: 0]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = clock_offset_s)]
     pub(crate) log_offset_s: Option<f64>,
     /// Axes of the log: flu (x forward, y left, z up) or frd (y right, z down) [default: flu]

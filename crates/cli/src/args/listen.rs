@@ -32,7 +32,7 @@ pub(crate) struct ListenArguments {
     pub(crate) tone: ToneArguments,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
-    /// Only the mean speed: several rotors are not separated
+    /// Find only the mean speed, without separating the rotors
     #[arg(long, help_heading = "How it is analysed")]
     pub(crate) mean_only: bool,
     /// Channel to hear, counted from 1 [default: the mean of all]

@@ -16,7 +16,7 @@ Examples:
   hovertone log bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm
   hovertone log --json *.ulg | jq '.tables[].name'";
 
-/// What a log of a flight or of a thrust stand holds: its signals, their rates and spans
+/// Contents of a log of a flight or a thrust stand: its signals, their rates and times
 #[derive(Args, Debug)]
 #[command(after_help = LOG_EXAMPLES)]
 pub(crate) struct LogArguments {

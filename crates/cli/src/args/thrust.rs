@@ -66,7 +66,7 @@ pub(crate) struct IdentifyArguments {
     pub(crate) experiment: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) draft: DraftArguments,
-    /// Analyse nothing: only list what would be done, which files were found, and which are missing
+    /// Analyse nothing: only list the planned analysis, the files that were found, and the files that are missing
     #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
     /// Write report.html, results.json, tables and figures into this folder: a new or empty one, or that of an earlier run of this experiment
@@ -80,7 +80,7 @@ pub(crate) struct IdentifyArguments {
     /// Print the tables too
     #[arg(short, long, help_heading = "Output", conflicts_with = "json")]
     pub(crate) verbose: bool,
-    /// Folder that the names of the recordings start from [default: the folder of the experiment file]
+    /// Folder in which the recordings are [default: the folder of the experiment file]
     #[arg(long, value_name = "DIR", help_heading = "Reading files", value_parser = typed_path())]
     pub(crate) data_root: Option<PathBuf>,
     /// The method whose constant is reported; all are computed [default: separated if several rotors are heard, else harmonic]
@@ -160,7 +160,7 @@ pub(crate) struct AirArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Before flying")]
 pub(crate) struct PlanArguments {
-    /// Tell how many loads and trials, and how many seconds of hover, a wanted uncertainty needs
+    /// Plan a measurement: how many loads and trials, and how many seconds of hover, a wanted uncertainty needs
     #[arg(long, conflicts_with_all = ["tables", "temperature_c", "pressure_hpa", "humidity_percent"], requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
@@ -181,7 +181,7 @@ pub(crate) struct PlanArguments {
     /// Correlation time of the speed in a hover, in s
     #[arg(long, requires = "plan", value_name = "S", default_value_t = 0.3)]
     pub(crate) correlation_s: f64,
-    /// Plan for rotors that are separated or heard as a group, and not for one tone used for all rotors (docs/budget.md)
+    /// Plan with speeds of separated rotors or of their group, in place of one tone for all rotors (docs/budget.md)
     #[arg(long, requires = "plan")]
     pub(crate) rotors_separated: bool,
 }
@@ -209,7 +209,7 @@ pub(crate) struct WeighArguments {
     /// Thrust constant of the whole vehicle, N/(rad/s)²
     #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_n_s2: Option<f64>,
-    /// Its standard uncertainty
+    /// Standard uncertainty of --constant-n-s2
     #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_std_n_s2: Option<f64>,
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]

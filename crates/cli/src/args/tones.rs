@@ -15,7 +15,7 @@ Examples:
   hovertone tones --diameter-m 0.254 --mass-kg 1.2 --rotors 4 hover.mp4
   hovertone tones --json *.wav | jq '.families[0].readings[0]'";
 
-/// Tone families in recordings, and the shaft speed that each possible order would mean
+/// Tones in recordings, and the shaft speed that each possible meaning of the rotor's tone gives
 ///
 /// Lists every series of lines: its harmonics, their level over the noise, and when they are heard. For the series that was taken for
 /// the rotor's, it lists all readings: blades, gear, speed, and how plausible each is.

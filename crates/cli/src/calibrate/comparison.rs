@@ -227,7 +227,7 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
     };
     format!(
         "{known}  the order, {order}: it may be {fitting}. Then {without_vehicle}give --order {fitting}{as_blades}, or in an experiment file \
-         [tone] order = {fitting}\n  the tone that was heard: that of the known one lies in --band {}\n",
+         [tone] order = {fitting}\n  the tone that was heard: by the known speed, the tone lies in --band {}\n",
         comparison.band()
     )
 }

@@ -190,7 +190,7 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
     })?;
     let (order, rpm) = (record.order, record.speed()?.speed.rpm());
     let heard = format!(
-        "the tone of order {order} is not heard for {gap_percent:.0} % of the time, so nothing proves this order"
+        "the tone of order {order} is not heard for {gap_percent:.0} % of the time, so this order cannot be checked"
     );
     Some(match blades {
         Some(blades) if f64::from(blades) == order.lines_per_turn() => {

@@ -69,7 +69,7 @@ impl LiveSummary {
         if self.ambiguous_count > 0 {
             words += &format!("; for {} s several speeds are possible", part_s(self.ambiguous_count));
             if self.settled_count == 0 {
-                words += "; --blades or --diameter-m, whichever is not given, may tell which";
+                words += "; to find the right one, give --blades or --diameter-m too";
             }
         }
         Some(words + "\n")
@@ -124,8 +124,8 @@ mod tests {
         };
         use LiveStatus::{Ambiguous, Listening, Ok};
         assert_eq!(of_status(&[Listening; 2]), "2.0 s are too short for a first speed\n");
-        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; --blades or --diameter-m, \
-                    whichever is not given, may tell which\n";
+        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; to find the right one, give --blades or \
+        --diameter-m too\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ambiguous]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (k = 2), from 1.0 s of 3.0 s; for 1.0 s several speeds are possible\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ok]), some);

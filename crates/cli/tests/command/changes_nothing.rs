@@ -13,7 +13,7 @@ fn a_flag_that_changes_nothing_is_refused() {
     for flag in ["--temperature-c", "--pressure-hpa", "--humidity-percent"] {
         refused_with(&[&plan[..], &[flag, "20"]].concat(), &[flag, "a plan does not use the air"]);
     }
-    refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not tell gravity"]);
+    refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not give the gravity"]);
 }
 
 #[test]

@@ -61,7 +61,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     advice.extend(fit.information.correlations.iter().map(|pair| Advice {
         what: format!(
-            "{} and {} go together (correlation {})",
+            "{} and {} cannot be found separately (correlation {})",
             pair.first.in_words(),
             pair.second.in_words(),
             format!("{:.2}", pair.correlation).replace('-', "−")

@@ -90,9 +90,8 @@ mod tests {
     #[test]
     fn correlated_points_raise_no_false_alarm() {
         for correlation in [0.0, 0.5, 0.9] {
-            let doubted = (0..300).filter(|&seed| {
-                agreement_of(&[rotor(1.0, correlation, 150, seed)]) != Agreement::AsStated
-            });
+            let doubted =
+                (0..300).filter(|&seed| agreement_of(&[rotor(1.0, correlation, 150, seed)]) != Agreement::AsStated);
             // of 300, 3 are expected; 12 and more have a probability of 1e-4
             assert!(doubted.count() < 12, "{correlation}");
         }

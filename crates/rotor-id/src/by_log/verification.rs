@@ -49,10 +49,10 @@ pub struct LoggedSpeeds<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotVerified {
     /// No speed was heard.
-    #[error("no track of a rotor's speed was heard")]
+    #[error("no rotor was heard for long enough")]
     NoTrack,
     /// The log has fewer motors than rotors were heard.
-    #[error("{tracks} rotors were heard, and the log has {motors} motors that turn")]
+    #[error("{tracks} rotors were heard, but in the log only {motors} motors turn")]
     TooFewMotors {
         /// Heard rotors.
         tracks: usize,
@@ -63,7 +63,7 @@ pub enum NotVerified {
     #[error("log and recording share too little time")]
     NoOverlap,
     /// The range of offsets is too wide.
-    #[error("log and recording are too long to try all offsets of their clocks")]
+    #[error("log and recording are too long to try all offsets between their clocks")]
     TooLong,
 }
 
@@ -74,7 +74,7 @@ impl NotVerified {
             Self::NoTrack => "check the recording with `hovertone speed`",
             Self::TooFewMotors { .. } => "give the log of the same vehicle, or the number of rotors with --rotors",
             Self::NoOverlap => "give the log of the same flight, at least half as long as the hover",
-            Self::TooLong => "give the range of offsets: --log-offset-s LOW:HIGH",
+            Self::TooLong => "give limits of the offset in seconds: --log-offset-s LOW:HIGH",
         }
     }
 }

@@ -18,7 +18,9 @@ mod start_search;
 
 use crate::settings::LabelsConfig;
 use frames::FRAME_S;
-use hovertone_analysis::{Hover, LabelSource, NotTold, Outcome, RotorEstimate, RotorLabel, RotorLabels, Span, SpeedAnalysis};
+use hovertone_analysis::{
+    Hover, LabelSource, NotTold, Outcome, RotorEstimate, RotorLabel, RotorLabels, Span, SpeedAnalysis,
+};
 use hovertone_rotor_speed::{
     Config, Error, HoverPart, HoverRotors, ToneConfig, passes_of_speed, rotors_from_survey, speed_from_survey,
     survey_from_passes,
@@ -60,7 +62,9 @@ impl SpinUp {
         let begins_with = |segment: &Span| segment.from_s - analysis.heard.from_s < FRAME_S;
         let has_no_lead = analysis.hover.segments.first().is_some_and(begins_with);
         match self.not_told {
-            Some(NotTold::NotFollowed { .. }) if has_no_lead => Self::not_told(NotTold::NoStart),
+            Some(NotTold::NotFollowed { .. } | NotTold::RotorsTooClose { .. }) if has_no_lead => {
+                Self::not_told(NotTold::NoStart)
+            }
             _ if self.turn_from_first() => Self::not_told(NotTold::NoStart),
             _ => self,
         }

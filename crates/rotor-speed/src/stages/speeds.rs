@@ -60,6 +60,7 @@ pub(crate) fn speeds_from_decision(
         &speeds,
         if wants_rotors { config.rotors.count } else { 1 },
         !config.rotors.is_count_known,
+        config.budget.rotor_spread_share,
     ));
     let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;
     let track = match tracks.into_iter().find(|track| track.method == config.method) {

@@ -48,7 +48,7 @@ pub(crate) fn bands_worth_following(
                     warnings.push(Warning::BandCutByCodec { above_hz: limit_hz });
                     is_cut = true;
                 }
-                let reason = format!("it lies near {:.0} Hz, and the recording holds nothing there", middle_hz(&band));
+                let reason = format!("it lies near {:.0} Hz, and the recording has no sound there", middle_hz(&band));
                 warnings.push(Warning::HarmonicLeftOut { harmonic: band.harmonic, reason });
                 reasons.push(NoTone::BandCutByCodec { tone_hz: middle_hz(&band), above_hz: limit_hz });
             }

@@ -40,7 +40,7 @@ fn one_load_for_trials_of_three_masses_is_asked_about() {
     }
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].contains("the trials of load \"load 0\" lie in 3 groups of speeds"), "{said:?}");
+    assert!(said[0].contains("the recordings of load \"load 0\" form 3 groups of speeds"), "{said:?}");
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn a_mass_far_from_the_known_vehicle_is_named_with_both() {
         assert_eq!(said(usual_kg), None);
     }
     for (kg, words) in [
-        (4.13, ["4130 g, 10 times as much as the named vehicle, 413 g", "decimal point"]),
+        (4.13, ["4130 g, 10 times as much as the named vehicle (413 g)", "decimal point"]),
         (0.0413, ["41.3 g, 0.10 times", "decimal point"]),
         (0.3, ["300 g, 0.73 times", "name of the vehicle"]),
         (1.3, ["1300 g, 3.1 times", "name of the vehicle"]),
