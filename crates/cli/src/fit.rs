@@ -353,7 +353,7 @@ fn plan_campaign(
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match error {
             PlanError::OutOfReach { .. } => {
-                "ask for a larger --wanted-share, or make a contribution smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
+                "give a larger --wanted-share, or make an uncertainty smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
             }
             PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
             _ => "see `hovertone fit --help`",

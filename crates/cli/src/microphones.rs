@@ -93,7 +93,10 @@ pub(crate) fn resolve(
         refused(error.to_string(), hint)
     })?;
     if array.rotor_count() != rotors as usize {
-        let what = format!("rotors that turn: {rotors}, rotors with a place: {}", array.rotor_count());
+        let what = format!(
+            "rotors that turn: {rotors}; rotors with a place: {}. The two numbers must be equal",
+            array.rotor_count()
+        );
         return Err(refused(what, "give their number with --rotors, and the place of each"));
     }
     for job in jobs {

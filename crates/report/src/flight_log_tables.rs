@@ -154,6 +154,6 @@ fn no_time_constant(record: &MotorRecord) -> Option<&'static str> {
     let first = record.motors.first().filter(|_| !record.has_time_constant())?;
     Some(match first.model.is_too_slow {
         true => "a motor reaches its speed within 300 ms, and 3 log rows must lie in that",
-        false => "no step of the speed between two levels that are held",
+        false => "the speed makes no step from one steady value to another",
     })
 }

@@ -191,14 +191,14 @@ fn torque_line(constant: &TorqueConstant) -> String {
             let (digits, exponent) = (&scaled.digits, scaled.exponent);
             format!("C_τ of one rotor: ({digits}) 1e{exponent} N m s², if the vehicle's I_zz is right\n")
         }
-        other => format!("C_τ: not identifiable, because {}\n", other.reason().unwrap_or_default()),
+        other => format!("C_τ: not known, because {}\n", other.reason().unwrap_or_default()),
     }
 }
 
 fn rank_line(record: &GreyBoxRecord) -> String {
     let information = &record.fit.information;
     let told = record.fit.std_uncertainty.iter().flatten().count();
-    let of_all = format!("the flight tells {told} of the {} parameters", information.parameters);
+    let of_all = format!("the flight shows {told} of the {} parameters", information.parameters);
     let rank = match information.rank {
         rank if rank < information.parameters => format!("{of_all}, and only {rank} combinations of them can be found"),
         _ => of_all,

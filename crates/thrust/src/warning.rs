@@ -308,7 +308,7 @@ impl fmt::Display for ThrustWarning {
             Self::TrialFarFromOthers { load, recording, thrust_share } => {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
                 let percent = 100.0 * thrust_share.abs();
-                write!(f, "by its speed, {recording} of load \"{load}\" has {percent:.0} % {than} thrust than the others")
+                write!(f, "judged by its speed, {recording} of load \"{load}\" has {percent:.0} % {than} thrust than the others")
             }
             Self::TrialsInGroups { load, groups_rev_s } => {
                 write!(f, "the recordings of load \"{load}\" form {}", groups_text(groups_rev_s))
@@ -317,7 +317,7 @@ impl fmt::Display for ThrustWarning {
                 f.write_str(&differ_text([least, most], *share, *stated_share))
             }
             Self::TrialsDiffer { load, least, most, thrust_share } => {
-                write!(f, "by its speed, {most} of load \"{load}\" has {:.0} % more thrust than {least}", 100.0 * thrust_share)
+                write!(f, "judged by its speed, {most} of load \"{load}\" has {:.0} % more thrust than {least}", 100.0 * thrust_share)
             }
             Self::HeavierTurnedSlower { heavy, light } => {
                 write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")

@@ -25,8 +25,8 @@ pub(crate) fn differ_text([least, most]: [&String; 2], share: f64, stated_share:
 
 pub(crate) fn drift_text(drift: &Drift) -> String {
     let step = match drift.kind {
-        DriftKind::PerTrial => "from trial to trial",
-        DriftKind::PerSecond => "each second of a trial",
+        DriftKind::PerTrial => "from one recording to the next",
+        DriftKind::PerSecond => "with each second of a recording",
         DriftKind::PerRow => "from row to row of the table",
         DriftKind::PerVolt => "with each volt of the supply",
     };

@@ -191,7 +191,7 @@ fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
     } else {
         let blades = if tone.blades.is_none() { "count the blades and give --blades N too, or " } else { "" };
         format!(
-            "no tone of order {order} is heard. The recording has no sound above {half_rate_khz:.1} kHz, so this tone can be heard only up \
+            "the tone of order {order} ({order} times per turn of the shaft) is not heard. The recording has no sound above {half_rate_khz:.1} kHz, so this tone can be heard only up \
             to {:.0} rev/s; {blades}name the vehicle, or give --band LOW:HIGH around the tone",
             half_rate_hz / order.lines_per_turn()
         )

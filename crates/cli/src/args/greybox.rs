@@ -8,10 +8,10 @@ use clap::Args;
 use std::path::PathBuf;
 
 const GREYBOX_EXAMPLES: &str = "\
-The log is one of PX4 (ULog), ArduPilot (DataFlash), Betaflight or INAV (blackbox), or a CSV with the headers time_s; \
-command_roll, command_pitch, command_yaw_rate, command_climb (from −1 to 1); roll_deg, pitch_deg, yaw_rate_rad_s, \
-velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s make the result better. With speed_1_rad_s to speed_4_rad_s no \
-recording is needed. Fly doublets about all four axes, short and long, for a minute.
+The log may come from PX4 (ULog), ArduPilot (DataFlash), or Betaflight or INAV (blackbox). It may also be a CSV with the headers time_s; \
+command_roll, command_pitch, command_yaw_rate, command_climb (from −1 to 1); roll_deg, pitch_deg, yaw_rate_rad_s, velocity_z_m_s. With \
+roll_rate_rad_s and pitch_rate_rad_s the result is better. With speed_1_rad_s to speed_4_rad_s no recording is needed. For a minute, fly \
+doublets (a command to one side, then to the other), short and long, in roll, pitch, yaw and climb.
 
 Examples:
   hovertone greybox doublets.wav doublets.csv --vehicle ardrone

@@ -61,7 +61,7 @@ pub(crate) struct AnalysisArguments {
     /// Largest error of the recorder's clock, in millionths [default: 50]
     #[arg(long, value_name = "PPM")]
     pub(crate) clock_ppm: Option<f64>,
-    /// Show how strong the lines of each rotor's shaft are beside its blade pass: they may come from imbalance or unlike blades
+    /// Show how strong the tone of each rotor's shaft is beside the tone of its blades: it may come from imbalance or from unequal blades
     #[arg(long)]
     pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
@@ -70,19 +70,20 @@ pub(crate) struct AnalysisArguments {
     /// How much the distance to the microphone may change during a hover, in m or as 30cm; give 0 for a bench [default: 0.5]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) drift_m_max: Option<f64>,
-    /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
+    /// Use the recording from this time on, in seconds or as 1:02.5, and leave out nothing after it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) from: Option<f64>,
-    /// Use the recording up to here, and cut nothing away
+    /// Use the recording up to this time, and leave out nothing before it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) to: Option<f64>,
-    /// Length of a frame (a short piece of sound) in s, with --method maximum_trace or gaussian [default: from 0.0125 to 0.4, by the clearest tone]
+    /// Length of a frame (a short piece of sound) in s, with --method maximum_trace or gaussian [default: from 0.0125 to 0.4, by the
+    /// clearest tone]
     #[arg(long, value_name = "S")]
     pub(crate) window_s: Option<f64>,
     /// Step between frames as a share of their length, with --method maximum_trace or gaussian [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     pub(crate) hop_share: Option<f64>,
-    /// The Gaussian of --method gaussian is fitted to the part of a peak above this share of its height [default: 0.8]
+    /// With --method gaussian: the part of a peak that the Gaussian is fitted to, from this share of its height upwards [default: 0.8]
     #[arg(long, value_name = "SHARE")]
     pub(crate) gaussian_threshold_share: Option<f64>,
 }

@@ -13,7 +13,8 @@ pub(crate) struct LabelArguments {
     /// Log of the same flight (PX4, ArduPilot, Betaflight or CSV), with speeds or commands of the motors, or body rates
     #[arg(long, value_name = "FILE", value_parser = typed_path())]
     pub(crate) log: Option<PathBuf>,
-    /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default: none]
+    /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default:
+    /// none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     /// Axes of the body rates in a CSV; other logs define them

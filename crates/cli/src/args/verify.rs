@@ -29,7 +29,8 @@ pub(crate) struct VerifyArguments {
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default: none]
+    /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default:
+    /// none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true)]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     #[command(flatten)]

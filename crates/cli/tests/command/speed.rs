@@ -247,8 +247,11 @@ fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
     let noise = folder.path().join("noise.wav");
     write_noise(&noise, 4.0);
     let run = hovertone(&["speed", "--gear", "69", text(&noise)]).ends_with(3);
-    for words in ["no tone of order 69 is heard", " rev/s; count the blades and give --blades N too", "--band LOW:HIGH"]
-    {
+    for words in [
+        "the tone of order 69 (69 times per turn of the shaft) is not heard",
+        " rev/s; count the blades and give --blades N too",
+        "--band LOW:HIGH",
+    ] {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
     assert!(!run.stderr.contains("higher sample rate"), "{}", run.stderr);

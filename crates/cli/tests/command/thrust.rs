@@ -102,7 +102,7 @@ fn bad_tables_are_refused_or_flagged() {
         ("rpm,mass_g\n3600,413\n", &["at least 3 usable rows", "has 1", "mass_std_g"]),
         ("rpm,mass_g\n3600,413\n3700,1744\n", &["at least 3 usable rows", "has 2", "mass_std_g"]),
         // three rows that are one row
-        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "no ±"]),
+        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "these have none"]),
     ] {
         let refused = run(rows).ends_with(2);
         assert!(refused.stdout.is_empty());

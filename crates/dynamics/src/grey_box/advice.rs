@@ -21,7 +21,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         if !inputs.has_loop[axis as usize] {
             advice.push(Advice {
                 what: format!(
-                    "the flight does not show {}: the log has no command or no measurement of it",
+                    "the flight does not show {}: the log lacks its command or its measured value",
                     axis.in_words()
                 ),
                 hint: format!("log the command and the {} of the vehicle", measurement(axis)),

@@ -219,21 +219,26 @@ fn numbers_in(csv: &CsvText, column: &Column, records: &[StringRecord]) -> usize
     records.iter().filter(tells).count()
 }
 
-/// Notes about columns that could have been the speed or the force as well.
+/// Notes about columns that could have been the speed or the force as well: one for the speed, one for the force.
 fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&Column; 2]) -> Vec<String> {
     let [speed, force] = used;
-    let note = |column: &Column| {
-        let (what, chosen) = match column.quantity? {
-            Quantity::Speed => ("speed", speed),
-            Quantity::Thrust | Quantity::Mass => ("force", force),
-            _ => return None,
+    let note = |(what, chosen): (&str, &Column)| {
+        let is_rival = |column: &&Column| {
+            let is_of_kind = match column.quantity {
+                Some(Quantity::Speed) => what == "speed",
+                Some(Quantity::Thrust | Quantity::Mass) => what == "force",
+                _ => false,
+            };
+            is_of_kind && column.index != chosen.index && numbers_in(csv, column, records) > 0
         };
-        let is_rival = column.index != chosen.index && numbers_in(csv, column, records) > 0;
-        is_rival.then(|| {
-            format!("column \"{}\" is not used: the {what} comes from column \"{}\"", column.header, chosen.header)
-        })
+        let rivals: Vec<String> =
+            columns.iter().filter(is_rival).map(|column| format!("\"{}\"", column.header)).collect();
+        let (noun, verb) = if rivals.len() == 1 { ("column", "is") } else { ("columns", "are") };
+        let chosen = &chosen.header;
+        (!rivals.is_empty())
+            .then(|| format!("{noun} {} {verb} not used: the {what} comes from column \"{chosen}\"", rivals.join(", ")))
     };
-    columns.iter().filter_map(note).collect()
+    [("speed", speed), ("force", force)].into_iter().filter_map(note).collect()
 }
 
 struct RowReader<'a> {

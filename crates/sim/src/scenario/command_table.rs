@@ -29,7 +29,10 @@ impl CommandTable {
         let time_column =
             column_of("time_s").ok_or_else(|| fault(head_line, "the column time_s is missing".to_owned()))?;
         if of_axes.iter().all(Option::is_none) {
-            return Err(fault(head_line, "there is no command: roll, pitch, yaw_rate or climb".to_owned()));
+            return Err(fault(
+                head_line,
+                "there is no column with a command: roll, pitch, yaw_rate or climb".to_owned(),
+            ));
         }
         let mut table = Self { times_s: Vec::new(), rows: Vec::new() };
         for (number, line) in lines {

@@ -156,7 +156,7 @@ fn small_numbers_are_not_printed_as_zero() {
     let drift =
         Drift { kind: DriftKind::PerSecond, constant_share: -1.234e-6, std_uncertainty_share: 1e-7, p_value: 1e-9 };
     let text = ThrustWarning::ConstantDrifts(drift).to_string();
-    assert_eq!(text, "the constant drifts by −0.00012 % each second of a trial (p < 0.0001)");
+    assert_eq!(text, "the constant drifts by −0.00012 % with each second of a recording (p < 0.0001)");
 }
 
 #[test]

@@ -76,7 +76,7 @@ const SCATTER_POINTS_MIN: usize = 3;
 #[non_exhaustive]
 pub enum NoScatter {
     /// Too few points are left.
-    #[error("the ± comes from the scatter of the rows, and needs {SCATTER_POINTS_MIN} usable ones or more")]
+    #[error("the ± comes from the scatter of the rows: at least {SCATTER_POINTS_MIN} usable rows are needed")]
     TooFewPoints {
         /// Number of points that are not left out.
         count: usize,
