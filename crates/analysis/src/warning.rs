@@ -165,7 +165,7 @@ impl Warning {
                 cannot be separated"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all rotors, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
+                "the speed is the mean of all rotors, and its ± includes the rotors that were not separated; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
             Self::RotorCountUnknown { .. } => {
                 "give the number of rotors with --rotors: for one rotor alone, the ± is smaller"
@@ -236,26 +236,24 @@ impl fmt::Display for Warning {
                 )
             }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {
+                let assumed = if *is_assumed { " that hovertone assumes (no number was given)" } else { "" };
                 match (resolved, has_mean) {
-                    (0, true) => write!(f, "the {of} rotors could not be separated: they are heard as a group"),
+                    (0, true) => {
+                        write!(f, "the {of} rotors{assumed} could not be separated: they are heard as a group")
+                    }
                     (0, false) => write!(
                         f,
-                        "the {of} rotors could not be separated: one tone is used for all of them. It may be that of one rotor, so the ± assumes \
-                         that their speeds differ by {:.1} % (standard deviation)",
+                        "the {of} rotors{assumed} could not be separated, so one tone is used for all. It may come from one rotor alone, and the ± \
+                         assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
                         100.0 * spread_share
                     ),
-                    _ => write!(f, "only {resolved} of the {of} rotors could be separated"),
-                }?;
-                if *is_assumed {
-                    write!(f, "(hovertone assumes {of}, because no number of rotors was given)")
-                } else {
-                    Ok(())
+                    _ => write!(f, "only {resolved} of the {of} rotors{assumed} could be separated"),
                 }
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not given, and the tone may be that of one among several. So the ± assumes that their speeds \
-                differ by {:.1} % (standard deviation)",
+                "the number of rotors is not given, and the tone may come from one of several. So the ± assumes that the speeds of the \
+                rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
             Self::OtherRotorsHeard => {
@@ -273,6 +271,42 @@ impl fmt::Display for Warning {
                     100.0 * spread_share
                 )
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(resolved: usize, has_mean: bool, is_assumed: bool) -> String {
+        let warning = Warning::RotorsNotApart { resolved, of: 4, has_mean, is_assumed, spread_share: 0.0058 };
+        warning.to_string()
+    }
+
+    /// Four rotors are assumed where no number is given: two of them may be far apart, so the warning does not call their speeds close.
+    #[test]
+    fn rotors_that_are_not_separated_are_not_called_close() {
+        let all = [true, false]
+            .map(|is_assumed| [said(0, true, is_assumed), said(0, false, is_assumed), said(3, true, is_assumed)]);
+        assert!(all.iter().flatten().all(|said| said.contains("be separated") && !said.contains("close")), "{all:?}");
+        assert!(all[0].iter().all(|said| said.contains("that hovertone assumes (no number was given)")), "{all:?}");
+        assert!(all[1].iter().all(|said| !said.contains("assumes (no number")), "{all:?}");
+    }
+
+    /// The ± of one tone for several rotors assumes how much their speeds differ: the warning says how much, why, and what to do.
+    #[test]
+    fn an_assumed_spread_is_explained() {
+        let one_tone =
+            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: false, is_assumed: false, spread_share: 0.0058 };
+        let unknown = Warning::RotorCountUnknown { spread_share: 0.0058 };
+        for (warning, why, what_to_do) in [
+            (&one_tone, "may come from one rotor", "get a smaller ±"),
+            (&unknown, "may come from one of several", "--rotors"),
+        ] {
+            let text = warning.to_string();
+            assert!(text.contains("speeds of the rotors differ by 0.6 %") && text.contains(why), "{text}");
+            assert!(warning.hint().contains(what_to_do), "{}", warning.hint());
         }
     }
 }

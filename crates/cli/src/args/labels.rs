@@ -26,7 +26,7 @@ pub(crate) struct LabelArguments {
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
-    /// File with the place of each channel's microphone: levels and delays tell which rotor is which
+    /// File with the position of the microphone of each channel: loudness and delay of the sound show which rotor is which
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"], value_parser = typed_path())]
     pub(crate) microphones: Option<PathBuf>,
 }

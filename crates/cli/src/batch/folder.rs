@@ -125,12 +125,16 @@ impl BatchFolder {
     pub(crate) fn part(&self, recording: &Planned) -> Result<Part, Failure> {
         let place = self.place_of_part(recording);
         let bytes = fs::read(&place).map_err(|error| {
-            Failure::failed(format!("a finished recording cannot be read: {error}"), "check the disk", &place)
+            Failure::failed(
+                format!("the stored result of a finished recording cannot be read: {error}"),
+                "check the disk",
+                &place,
+            )
         })?;
         Part::from_bytes(&bytes).map_err(|error| {
             // where it cannot be removed, the next run says the same
             let _ = remove_written(&place);
-            let what = format!("a finished recording was damaged and is removed: {error}");
+            let what = format!("the stored result of a finished recording was damaged and is removed: {error}");
             Failure::failed(what, "run the same command again: it hears this recording again", &place)
         })
     }

@@ -53,7 +53,7 @@ impl LiveSummary {
             if fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s {
                 let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
                 return format!(
-                    "no mean: the speed changed between {slowest} and {fastest} rev/s, in {heard_s} s of {end_s} s"
+                    "no mean: the speed changed between {slowest} and {fastest} rev/s; it was heard in {heard_s} s of {end_s} s"
                 );
             }
             let count = self.settled_count as f64;

@@ -140,7 +140,7 @@ fn a_constant_belongs_to_its_vehicle() {
     fs::write(&results, written).unwrap();
     refused_with(
         &["weigh", "a.wav", "--constant", text(&results), "--vehicle", "crazyflie"],
-        &["measured with the vehicle \"ardrone\"", "--vehicle says \"crazyflie\"", "leave --vehicle out"],
+        &["measured with the vehicle \"ardrone\"", "--vehicle is \"crazyflie\"", "leave --vehicle out"],
     );
     let same = hovertone(&["weigh", "nowhere.wav", "--constant", text(&results), "--vehicle", "ardrone"]).ends_with(1);
     assert!(same.stderr.contains("nowhere.wav"), "{}", same.stderr);
@@ -279,7 +279,7 @@ fn a_weighed_mass_is_that_of_a_vehicle() {
     let ardrone = ["--vehicle", "ardrone"];
     refused(weigh("2.8", &ardrone), &["ten times the 413 g of the vehicle", "of the whole vehicle"]);
     // the constant of one rotor in place of four
-    refused(weigh("7.07e-6", &ardrone), &["carries 10", "alone weighs 413 g", "of the whole vehicle"]);
+    refused(weigh("7.07e-6", &ardrone), &["payload weighs 10", "alone weighs 413 g", "of the whole vehicle"]);
     // without a ± of the constant the mass has none, and says so
     let arguments = weigh("2.83e-5", &ardrone);
     let words = hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0).stdout;

@@ -126,7 +126,7 @@ fn bad_tables_are_refused_or_flagged() {
     }
     // half of the rows are four times too heavy, and nobody knows which half
     let halves = run("rpm,mass_g\n3600,413\n3610,416\n3700,1744\n3710,1755\n").ends_with(0).json_lines().remove(0);
-    assert!(halves["notices"].to_string().contains("nothing shows which half is right"), "{halves}");
+    assert!(halves["notices"].to_string().contains("nothing shows which of them are right"), "{halves}");
     // 300 % too heavy
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
     assert!(outlier["notices"].to_string().contains("line 4 of the table does not fit"), "{outlier}");

@@ -39,9 +39,10 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         }
         if fit.estimate(Parameter::Limit(axis)).is_none() {
             advice.push(Advice {
-                what: format!("the flight does not show the limit of {}: the commands were too small", axis.in_words()),
+                what: format!("the flight does not show the limit of {}, above which a command has no more effect: the commands were too \
+                small", axis.in_words()),
                 hint: format!(
-                    "fly {} with the largest command, or keep to commands as large as in this flight",
+                    "fly {} with the largest command, or use the model only for commands as large as in this flight",
                     axis.in_words()
                 ),
             });

@@ -95,7 +95,7 @@ mod tests {
             ("", 1, "empty"),
             ("time_s,rol\n0,0\n", 1, "rol"),
             ("roll\n0\n", 1, "time_s"),
-            ("time_s\n0\n", 1, "no command"),
+            ("time_s\n0\n", 1, "no column with a command"),
             ("time_s,roll\n", 1, "no row"),
             ("time_s,roll\n0,0\n1,x\n", 3, "x"),
             ("time_s,roll\n1,0\n\n1,0.1\n", 4, "not after"),

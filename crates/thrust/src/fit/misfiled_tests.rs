@@ -27,7 +27,11 @@ fn a_trial_under_the_wrong_load_is_named() {
     let table = fitted(&loads);
     let said = misfiled(&table);
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].starts_with("load 0/2.wav of load \"load 0\" needs 12 % more thrust than the others"), "{said:?}");
+    assert!(
+        said[0]
+            .starts_with("judged by its speed, load 0/2.wav of load \"load 0\" has 12 % more thrust than the others"),
+        "{said:?}"
+    );
     let is_about_range = |warning: &ThrustWarning| matches!(warning, ThrustWarning::NarrowLoadRange(_));
     assert!(!table.warnings.iter().any(is_about_range), "{:?}", table.warnings);
 }
@@ -49,7 +53,7 @@ fn of_two_trials_that_differ_both_are_named() {
     stretch(&mut loads[0].trials[1], 1.12);
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].contains("load 0/1.wav of load \"load 0\" needs 12 % more thrust than load 0/0.wav"), "{said:?}");
+    assert!(said[0].contains("load 0/1.wav of load \"load 0\" has 12 % more thrust than load 0/0.wav"), "{said:?}");
 }
 
 #[test]
