@@ -232,12 +232,7 @@ impl fmt::Display for NotTold {
                 write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                let separated = match tracks {
-                    0 => "no rotor is".to_owned(),
-                    1 => "one rotor is".to_owned(),
-                    count => format!("{count} rotors are"),
-                };
-                write!(f, "{separated} separated, and {needed} are needed")
+                write!(f, "{} separated, and {needed} are needed", rotors_are(*tracks))
             }
             Self::TooManyOffsets { low_s, high_s } => {
                 write!(
@@ -305,6 +300,14 @@ impl fmt::Display for NotTold {
                 write!(f, "for {tracks} of the rotors, the sound at the microphones fits several places")
             }
         }
+    }
+}
+
+fn rotors_are(count: usize) -> String {
+    match count {
+        0 => "no rotor is".to_owned(),
+        1 => "one rotor is".to_owned(),
+        count => format!("{count} rotors are"),
     }
 }
 

@@ -237,18 +237,7 @@ impl fmt::Display for Warning {
             }
             Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {
                 let assumed = if *is_assumed { " that hovertone assumes (no number was given)" } else { "" };
-                match (resolved, has_mean) {
-                    (0, true) => {
-                        write!(f, "the {of} rotors{assumed} could not be separated: they are heard as a group")
-                    }
-                    (0, false) => write!(
-                        f,
-                        "the {of} rotors{assumed} could not be separated, so one tone is used for all. It may come from one rotor alone, and the ± \
-                         assumes that the speeds of the rotors differ by {:.1} % (standard deviation)",
-                        100.0 * spread_share
-                    ),
-                    _ => write!(f, "only {resolved} of the {of} rotors{assumed} could be separated"),
-                }
+                f.write_str(&not_apart_text(*resolved, &format!("{of} rotors{assumed}"), *has_mean, *spread_share))
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
@@ -272,6 +261,19 @@ impl fmt::Display for Warning {
                 )
             }
         }
+    }
+}
+
+/// How many rotors were separated, and what their speed is then. `rotors` are all.
+fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f64) -> String {
+    match (resolved, has_mean) {
+        (0, true) => format!("the {rotors} could not be separated: they are heard as a group"),
+        (0, false) => format!(
+            "the {rotors} could not be separated, so one tone is used for all. It may come from one rotor alone, and the ± assumes that the \
+             speeds of the rotors differ by {:.1} % (standard deviation)",
+            100.0 * spread_share
+        ),
+        _ => format!("only {resolved} of the {rotors} could be separated"),
     }
 }
 

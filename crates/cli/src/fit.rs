@@ -221,7 +221,7 @@ fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<No
     let text = match several {
         _ if plan.is_count_given => return None,
         Some(count) => {
-            format!("the table names {count} rotors, but its forces are used as those of one rotor")
+            format!("the table names {count} rotors, but its forces are used as the forces of one rotor")
         }
         None if is_weighed => "the masses are used as if one rotor carried them".to_owned(),
         None => return None,

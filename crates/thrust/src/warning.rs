@@ -217,8 +217,7 @@ impl ThrustWarning {
                 "do not use this constant: check the name of the vehicle, or give the blades and the gear instead of the name; if the vehicle is right, record it again from nearer"
             }
             Self::RowsDoNotFit { .. } => {
-                "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another \
-                propeller"
+                "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"
             }
             Self::TrialLeftOut { .. } => {
                 "check it with `hovertone speed`: another harmonic or another machine may have been followed"
@@ -231,23 +230,19 @@ impl ThrustWarning {
                 "a rotor alone on a bench has another thrust than in flight: put bench runs and hovers into two experiment files"
             }
             Self::SingleLoad => "measure a second load",
-            Self::OneRecordingEach { .. } => {
-                "record each load several times, five if possible: land and start again between"
-            }
+            Self::OneRecordingEach { .. } => "record each load five times if possible: land and start again between",
             Self::EqualLoads { .. } => "measure masses as far apart as is safe: equal masses cannot test the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
                 "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
             }
             Self::NarrowLoadRange(_) => {
-                "C_f is still valid near these forces; to test the law, measure a wider range of forces; `hovertone fit --plan` plans such \
-                hovers"
+                "C_f is still valid near these forces; to test the law, measure a wider range of forces; `hovertone fit --plan` plans such hovers"
             }
             Self::OtherLawPreferred { .. } => {
                 "C_f is the factor in F = C_f ω², which simulators use: use it only near the measured speeds"
             }
             Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
-                "time and voltage do not change the thrust at a given speed, so the stand drifts: zero it between runs, let it warm up, \
-                and measure in a random sequence"
+                "time and voltage do not change the thrust at a given speed, so the stand drifts: zero it between runs, let it warm up, and measure in a random sequence"
             }
             Self::ConstantDrifts(_) => {
                 "keep height and place, fly the loads in a random sequence, each with an equally full battery"
@@ -260,12 +255,10 @@ impl ThrustWarning {
             }
             Self::UncertaintiesIncomplete { .. } => "give an uncertainty in every row, or in none",
             Self::MassNotWeighed { .. } => {
-                "weigh the vehicle ready to fly, and write mass_kg under [vehicle]: 1 % of error in the mass is 1 % in C_f, and the ± does \
-                not include it"
+                "weigh the vehicle ready to fly, and write mass_kg under [vehicle]: 1 % of error in the mass is 1 % in C_f, and the ± does not include it"
             }
             Self::LoudestRotor => {
-                "where their speeds differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the \
-                rotors, place the microphone nearer and record without compression"
+                "where their speeds differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
             }
         }
     }

@@ -241,7 +241,7 @@ fn page(
     tables.extend(grey_box_tables(record));
     let lead = [
         "An AR.Drone flies a minute of doublets in the open. One microphone hears its four rotors. The model of eqs 1 and 2 predicts where \
-        their tones are, and is fitted to what is heard there. The fit starts at the numbers of the preset; the true gains differ from \
+        their tones are, and is fitted to the tones there. The fit starts at the numbers of the preset; the true gains differ from \
         these by 15 to 25 %."
             .to_owned(),
         flown_beside.to_owned(),
