@@ -230,7 +230,7 @@ impl ThrustWarning {
                 "a rotor alone on a bench has another thrust than in flight: put bench runs and hovers into two experiment files"
             }
             Self::SingleLoad => "measure a second load",
-            Self::OneRecordingEach { .. } => "record each load five times if possible: land and start again between",
+            Self::OneRecordingEach { .. } => "record each load five times, if possible: land and start again between",
             Self::EqualLoads { .. } => "measure masses as far apart as is safe: equal masses cannot test the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
                 "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"

@@ -99,7 +99,7 @@ mod tests {
     fn the_mean_is_over_the_time_that_had_one_speed() {
         let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words().unwrap();
         assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), from 0.2 s of 0.4 s\n");
-        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s, in 0.3 s of 0.3 s\n";
+        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s; it was heard in 0.3 s of 0.3 s\n";
         assert_eq!(summary_of(&[Some(52.8), Some(91.8), Some(70.0)]).in_words().unwrap(), changed);
         assert_eq!(summary_of(&[None; 20]).in_words().unwrap(), "no speed was heard in 2.0 s\n");
         assert_eq!(summary_of(&[]).in_words(), None);

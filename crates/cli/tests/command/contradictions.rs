@@ -86,8 +86,8 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     for (more, words) in [
         (&["--rotors", "8"][..], ["with 4 rotors", "--rotors means 8", "leave --rotors out"]),
         (&["--rotors", "2"], ["with 4 rotors", "--rotors means 2", "leave --rotors out"]),
-        (&["--order", "46"], ["tone of order 69", "say 46", "leave --order"]),
-        (&["--blades", "3"], ["tone of order 69", "say 3", "leave --order"]),
+        (&["--order", "46"], ["tone of order 69", "mean 46", "leave --order"]),
+        (&["--blades", "3"], ["tone of order 69", "mean 3", "leave --order"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }
