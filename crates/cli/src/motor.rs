@@ -240,8 +240,9 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
     let speeds = flight.speeds_rev_s.iter().flat_map(|speeds| speeds.values.iter().flatten());
     let fastest_rev_s = speeds.copied().fold(0.0, f64::max);
     if fastest_rev_s > SPEED_REV_S_MAX {
-        let what =
-            format!("a motor of this log has {fastest_rev_s:.3e} rev/s, and none exceeds {SPEED_REV_S_MAX} rev/s");
+        let what = format!(
+            "a motor of this log turns at {fastest_rev_s:.3e} rev/s, but no motor exceeds {SPEED_REV_S_MAX} rev/s"
+        );
         let hint = "check the unit in the header of the speed, or name it: --column HEADER=rotor1_rpm".to_owned();
         return Err(Failure::Usage { what, hint, path: Some(file.to_owned()) });
     }

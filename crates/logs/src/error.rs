@@ -103,7 +103,7 @@ pub enum LogError {
         columns: String,
     },
     /// A name for a column that has no meaning.
-    #[error("\"{name}\" is no known column name, so the column \"{header}\" cannot have it")]
+    #[error("\"{name}\" is no column name that hovertone knows, so the column \"{header}\" cannot have it")]
     NameWithoutMeaning {
         /// The header of the user.
         header: String,

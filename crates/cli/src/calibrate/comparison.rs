@@ -103,7 +103,7 @@ impl Comparison {
             Reference::Speed { rpm, .. } => {
                 let gear = gear_of(arguments).filter(|gear| is_ratio(1.0 / gear.ratio()))?;
                 Some(format!(
-                    "Was the known speed that of the motor? Behind the gear {}:{} the rotor turns at --tachometer-rpm {}",
+                    "Was the known speed that of the motor? Then give the speed of the rotor behind the gear {}:{}: --tachometer-rpm {}",
                     gear.pinion,
                     gear.wheel,
                     to_tenths(rpm / gear.ratio())

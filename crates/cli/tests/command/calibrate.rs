@@ -135,7 +135,9 @@ fn a_known_number_of_another_part_is_asked_for() {
     let motor =
         hovertone(&["calibrate", text(&geared), "--vehicle", "ardrone", "--tachometer-rpm", "29653"]).ends_with(3);
     assert!(
-        motor.stdout.contains("that of the motor? Behind the gear 8:69 the rotor turns at --tachometer-rpm 3438"),
+        motor.stdout.contains(
+            "that of the motor? Then give the speed of the rotor behind the gear 8:69: --tachometer-rpm 3438"
+        ),
         "{}",
         motor.stdout
     );
