@@ -160,6 +160,10 @@ impl Warning {
                 "choose a longer part with --from and --to, or record a longer hover"
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
+            Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
+                "give the number of rotors with --rotors: for one rotor alone, the ± is smaller; to separate several, place the microphone \
+                nearer and record without compression"
+            }
             Self::RotorsNotApart { has_mean: false, .. } => {
                 "to separate them and get a smaller ±, place the microphone nearer and record without compression; rotors at equal speeds \
                 cannot be separated"
