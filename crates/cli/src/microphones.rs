@@ -62,7 +62,7 @@ pub(crate) fn resolve(
     let Some(path) = &arguments.microphones else { return Ok(None) };
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
     if rotors < 2 {
-        let what = "microphones give names to several rotors, and hovertone needs their number, 2 or more";
+        let what = "to name rotors by microphones, hovertone needs the number of rotors, 2 or more";
         return Err(refused(what.to_owned(), "give their number, as in --rotors 4"));
     }
     let file: MicrophonesFile =

@@ -288,7 +288,7 @@ fn results_contradict(said: &Vehicle, error: &WeighError) -> Failure {
         return Failure::usage(error.to_string(), error.hint());
     };
     let what = format!(
-        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, and the rotors of \"{}\" turn \
+        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, but the rotors of \"{}\" turn \
          at no more than {fastest_rev_s:.0} rev/s",
         said.id, said.id
     );

@@ -33,7 +33,7 @@ pub(crate) struct BatchArguments {
     /// Folder of the results
     #[arg(short, long, value_name = "OUT", value_parser = typed_path(), help_heading = "Output")]
     pub(crate) output: PathBuf,
-    /// Hear only a part of the recordings: job I of N, which share OUT; the last one that ends writes the tables
+    /// Hear only part I of N of the recordings: all N jobs share OUT, and the last job that ends writes the tables
     #[arg(long, value_name = "I/N", help_heading = "How it runs")]
     pub(crate) shard: Option<Shard>,
     /// Recordings that are heard at the same time [default: one for each core]

@@ -101,7 +101,7 @@ fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
     let rates = "time_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s\n0,0,0,0\n1,0,0,0\n";
     refused(rates, &["--vehicle", "ardrone"], &["direction of their axes", "--log-axes"]);
     refused(rates, &["--rotors", "4", "--blades", "2", "--log-axes", "flu"], &["places of the rotors", "--layout"]);
-    refused(rates, &["--blades", "2"], &["needs their number", "--rotors 4"]);
+    refused(rates, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(rates, &["b.wav", "--vehicle", "ardrone"], &["2 recordings", "the same flight"]);
     refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["time with its unit", "log.csv"]);
     refused("time_s,motor1_pwm\n0,x\n", &["--vehicle", "ardrone"], &["line 2", "\"x\""]);

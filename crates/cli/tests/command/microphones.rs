@@ -69,7 +69,7 @@ fn a_file_that_cannot_be_used_is_refused_with_what_to_do() {
         refused_with(&[&["speed", "a.wav", "--microphones", text(&file)], more].concat(), words);
     };
     let vehicle = ["--vehicle", "ardrone"];
-    refused(STANDS, &["--blades", "2"], &["needs their number", "--rotors 4"]);
+    refused(STANDS, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(STANDS, &["--blades", "2", "--rotors", "4"], &["places of the rotors", "[[rotor]]"]);
     refused("[[microphone]]\nposition_m = [1.0, 0.0, 0.0]\n", &vehicle, &["microphones: 1", "[[microphone]]"]);
     refused("position_std = 0.1\n", &vehicle, &["unknown key \"position_std\"", "position_std_m"]);
