@@ -30,7 +30,7 @@ impl LabelSource {
             Self::MotorSpeeds => "the speeds of the motors",
             Self::MotorCommands => "the commands of the motors",
             Self::BodyRates => "the body's rates",
-            Self::Microphones => "levels and delays at the microphones",
+            Self::Microphones => "loudness and delay of the sound at the microphones",
             Self::SpinUp => "the order in which the motors were started",
         }
     }
@@ -108,6 +108,8 @@ pub enum NotTold {
         /// The offset.
         offset_s: f64,
     },
+    /// The hover begins with the recording, and no start is found in it.
+    NoStart,
     /// Rotors start at nearly the same time.
     StartedTogether {
         /// Shortest time between two starts.
@@ -174,43 +176,47 @@ impl NotTold {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::OtherCount { .. } => {
-                "give the log of the same flight; where that is right, the number of rotors is that of another vehicle (--vehicle, --rotors)"
+                "give the log of the same flight; if it is, correct the number of rotors with --vehicle or --rotors"
             }
-            Self::TooManyRotors { .. } => "they keep their numbers by speed",
+            Self::TooManyRotors { .. } => "rotors have numbers in place of names, the fastest first",
             Self::TooFewTracks { .. } => {
-                "place the microphone nearer and keep the high frequencies: then more rotors can be separated"
+                "to separate more rotors, place the microphone nearer and record without compression"
             }
-            Self::TooManyOffsets { .. } => "narrow its limits with --log-offset-s LOW:HIGH",
+            Self::TooManyOffsets { .. } => "give narrower limits in seconds: --log-offset-s LOW:HIGH",
             Self::NoOverlap => {
-                "give the log of the same flight, and limits with --log-offset-s LOW:HIGH that hold its offset"
+                "give the log of the same flight; if it is, give limits that contain the offset of its clock: --log-offset-s LOW:HIGH"
             }
             Self::NothingInCommon { .. } => {
-                "check that the log is of the same flight, that --log-offset-s holds its offset, and how its axes point"
+                "check that the log is of the same flight, that --log-offset-s contains the offset of its clock, and the direction of its \
+                axes (--log-axes)"
             }
-            Self::OffsetAtLimit { .. } => "widen --log-offset-s LOW:HIGH",
+            Self::OffsetAtLimit { .. } => "give wider limits in seconds: --log-offset-s LOW:HIGH",
+            Self::NoStart => {
+                "--spin-up needs a recording that begins before the motors start, one after the other and a second or more apart; for this \
+                 recording, leave it out, or give a log of the flight with --log"
+            }
             Self::StartedTogether { .. } => "start one motor after the other, a second or more apart",
             Self::NotFollowed { .. } => {
                 "start the recording first; then bring one motor after the other straight to the speed of the hover, a second apart"
             }
-            Self::OtherSpeedBefore { .. } => {
-                "bring each motor straight to the speed of the hover: idling is not followed"
-            }
+            Self::OtherSpeedBefore { .. } => "bring each motor straight to the speed of the hover, without idling",
             Self::RotorsTooClose { .. } => "give a log of the flight with --log",
-            Self::SpinUpTooLong { .. } => "cut the recording to the start of the motors and the hover, with --from",
+            Self::SpinUpTooLong { .. } => "leave out with --from what comes before the motors start",
             Self::SeveralFit { .. } => {
-                "record a longer hover with small rolls and pitches: then rotors with equal motions differ"
+                "record a longer hover with small rolls and pitches: they make the speeds of the rotors differ"
             }
             Self::OtherChannels { .. } => {
                 "give the position of each channel's microphone, in the order of the channels"
             }
             Self::OtherPlaces { .. } => "give the place of each rotor",
-            Self::NothingHeard { .. } => "check that the channel is not silent; a longer hover shows fainter lines",
+            Self::NothingHeard { .. } => "check that this channel is not silent, or record a longer hover",
             Self::OtherArray { .. } => {
-                "check positions, their order and their axes (x forward, y left, z up), and how well they are known (position_std_m)"
+                "check the positions, their sequence, the axes (x forward, y left, z up), and the uncertainty of the positions \
+                (position_std_m)"
             }
             Self::SeveralPlacesFit { .. } => {
-                "place the microphones nearer, and not on the vehicle's planes of symmetry; or add microphones, or measure their places \
-                 better (position_std_m)"
+                "place the microphones nearer, and not symmetrically to the vehicle; or add microphones; or measure their positions better \
+                (position_std_m)"
             }
         }
     }
@@ -219,33 +225,40 @@ impl NotTold {
 impl fmt::Display for NotTold {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OtherCount { rotors, of_log } => write!(f, "{rotors} rotors turn, and the log is of {of_log}"),
+            Self::OtherCount { rotors, of_log } => {
+                write!(f, "the vehicle has {rotors} rotors, but the log has {of_log} motors")
+            }
             Self::TooManyRotors { rotors } => {
-                write!(f, "{rotors} rotors are too many to be named; the limit is {}", LABELLED_ROTORS_MAX)
+                write!(f, "{rotors} rotors are too many to name: the limit is {}", LABELLED_ROTORS_MAX)
             }
             Self::TooFewTracks { tracks, needed } => {
-                let separated = match tracks {
-                    0 => "no rotor is".to_owned(),
-                    1 => "one rotor is".to_owned(),
-                    count => format!("{count} rotors are"),
-                };
-                write!(f, "{separated} separated, and {needed} are needed")
+                write!(f, "{} separated, and {needed} are needed", rotors_are(*tracks))
             }
             Self::TooManyOffsets { low_s, high_s } => {
-                write!(f, "the offset of the log can be anything from {low_s:.0} to {high_s:.0} s")
+                write!(
+                    f,
+                    "the offset between the clocks of log and recording may be anything from {low_s:.0} to {high_s:.0} s: these are \
+                too many to try"
+                )
             }
             Self::NoOverlap => f.write_str("the log and the hover share too little time"),
             Self::NothingInCommon { probability } => {
-                write!(f, "nothing in the log changes as the speeds of the rotors do (probability {probability:.2})")
+                write!(
+                    f,
+                    "the log does not fit the speeds of the rotors (probability that it belongs to them: {probability:.2})"
+                )
             }
             Self::OffsetAtLimit { offset_s } => {
-                write!(f, "the log fits best at an offset of {offset_s:.2} s, the limit of the tried offsets")
+                write!(f, "the log fits best at an offset of {offset_s:.2} s, which is a limit of the search")
             }
+            Self::NoStart => f.write_str(
+                "--spin-up changes nothing: the hover begins with the recording, and no motor is heard to start",
+            ),
             Self::StartedTogether { apart_s } => {
                 write!(f, "two rotors start within {:.1} s of each other", apart_s.max(0.1))
             }
             Self::NotFollowed { tracks } => {
-                write!(f, "{tracks} of the rotors cannot be followed from the hover back to their start")
+                write!(f, "for {tracks} of the rotors, the sound cannot be followed back from the hover to the start")
             }
             Self::OtherSpeedBefore { speed_rev_s } => {
                 write!(f, "before a rotor reaches the speed of the hover, something turns at {speed_rev_s:.1} rev/s")
@@ -253,32 +266,48 @@ impl fmt::Display for NotTold {
             Self::RotorsTooClose { apart_rev_s } => {
                 write!(
                     f,
-                    "two rotors turn within {apart_rev_s:.2} rev/s of each other, too close to hear when each starts"
+                    "two rotors differ by only {apart_rev_s:.2} rev/s: this is too little to hear which of them starts"
                 )
             }
             Self::SpinUpTooLong { before_hover_s } => {
                 write!(
                     f,
-                    "the hover begins {before_hover_s:.0} s after the start of the recording; this is too late to follow the rotors back to their starts"
+                    "the hover begins {before_hover_s:.0} s after the start of the recording: over so long a time, the rotors cannot be \
+                    followed back to their starts"
                 )
             }
             Self::SeveralFit { tracks } => write!(f, "for {tracks} of the rotors, several names fit the log"),
             Self::OtherChannels { channels, microphones } => {
-                write!(f, "channels of the recording: {channels}, microphones with a position: {microphones}")
+                write!(
+                    f,
+                    "channels of the recording: {channels}; microphones with a position: {microphones}. The two numbers must be \
+                equal"
+                )
             }
             Self::OtherPlaces { tracks, places } => {
-                write!(f, "separated rotors: {tracks}, rotors with a place: {places}")
+                write!(f, "rotors that were separated: {tracks}; rotors with a position: {places}")
             }
             Self::NothingHeard { microphone } => {
-                write!(f, "microphone {microphone} hears no line of the rotors for long enough")
+                write!(f, "microphone {microphone} does not hear the rotors for long enough")
             }
             Self::OtherArray { probability } => {
-                write!(f, "levels and delays do not fit these positions (probability {probability:.2})")
+                write!(
+                    f,
+                    "the sound at the microphones does not fit the given positions (probability {probability:.2})"
+                )
             }
             Self::SeveralPlacesFit { tracks } => {
-                write!(f, "for {tracks} of the rotors, levels and delays fit several places")
+                write!(f, "for {tracks} of the rotors, the sound at the microphones fits several places")
             }
         }
+    }
+}
+
+fn rotors_are(count: usize) -> String {
+    match count {
+        0 => "no rotor is".to_owned(),
+        1 => "one rotor is".to_owned(),
+        count => format!("{count} rotors are"),
     }
 }
 

@@ -63,61 +63,64 @@ impl fmt::Display for NoTone {
         match self {
             Self::OutsideRecording { end_s } => write!(
                 f,
-                "the recording ends at {end_s:.1} s, and the chosen times begin later; choose others with --from and --to"
+                "the recording ends at {end_s:.1} s, before the chosen part begins; choose another part with --from and --to"
             ),
             Self::TooShort { heard_s } => {
                 write!(f, "{heard_s:.2} s of sound are too short to hear a rotor; choose a longer part, or record a longer hover")
             }
             Self::Silence => f.write_str(
-                "the recording is silent; check the microphone, or choose another audio track or one channel (channels of opposite sign cancel each other)",
+                "the recording is silent; check the microphone, or choose another audio track or a single channel: two channels of \
+                opposite sign cancel each other",
             ),
             Self::NoSeries { only_rev_s, instead: Some(OtherRotor { blades, speed_rev_s }) } => {
                 match only_rev_s {
                     Some((low, high)) if (*low..=*high).contains(speed_rev_s) => {
                         return write!(
                             f,
-                            "the tone that was given is not heard, but a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s; \
+                            "the given tone is not heard, but a rotor with {blades} blades may turn at {speed_rev_s:.1} rev/s; \
                              give --blades {blades} alone, in place of the vehicle, the gear or the order"
                         );
                     }
-                    Some((low, high)) => write!(f, "no such rotor is heard at {low:.0} to {high:.0} rev/s")?,
+                    Some((low, high)) => write!(f, "no such rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it")?,
                     None => f.write_str("no such rotor is heard")?,
                 }
                 write!(
                     f,
-                    ", but one with {blades} blades may turn at {speed_rev_s:.1} rev/s; if it has {blades} blades, give --blades {blades} \
-                     alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass; if not, check these facts"
+                    ". But one with {blades} blades may turn at {speed_rev_s:.1} rev/s: if the rotor has {blades} blades, give --blades \
+                    {blades} alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass; if not, check these \
+                    facts"
                 )
             }
             Self::NoSeries { only_rev_s: None, .. } => {
-                f.write_str("nothing sounds like a rotor; go nearer, or choose a steady part with --from and --to")
+                f.write_str("nothing sounds like a rotor; move the microphone nearer, or choose a steady part with --from and --to")
             }
             Self::NoSeries { only_rev_s: Some((low, high)), .. } => {
-                write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s; check the given facts: the vehicle or the band; else go nearer")
+                write!(f, "no rotor is heard at {low:.0} to {high:.0} rev/s, where the given facts expect it; check these facts, such as \
+                the vehicle or the band, or move the microphone nearer")
             }
             Self::NoHover => {
-                f.write_str("no tone is steady for long enough; hover for ten seconds or longer, hands off")
+                f.write_str("no tone is steady for long enough; hover for ten seconds or longer without moving the sticks")
             }
             Self::NoFrame { window_s, hover_s } => {
                 write!(
                     f,
-                    "in {hover_s:.1} s of hover no line of the tone stands out for {window_s} s; choose a longer or steadier part with --from and --to"
+                    "in {hover_s:.1} s of hover, the tone is never clear for {window_s} s at a time; choose a longer or steadier part with --from and --to"
                 )
             }
             Self::MainsHum { mains_hz } => write!(
                 f,
-                "lines at multiples of {mains_hz:.2} Hz do not move: they are mains hum, or a rotor that turns as steadily, and no other is heard; \
-                 if a rotor may turn at such a speed, record it at another throttle; if not, place the microphone nearer to the rotors"
+                "only tones at multiples of {mains_hz:.2} Hz are heard, and they never change: they are mains hum, or a rotor that turns \
+                as steadily; if it may be a rotor, record it at another throttle; if not, place the microphone nearer to the rotors"
             ),
             Self::NotHeld { tone_hz, held_s } => write!(
                 f,
-                "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most, and others sound for longer; \
-                 if a rotor is among them, choose its part with --from and --to"
+                "tones come and go: the one near {tone_hz:.0} Hz is held for {held_s:.1} s at most; if a rotor is among them, choose its \
+                part with --from and --to"
             ),
             Self::BandCutByCodec { tone_hz, above_hz } => write!(
                 f,
-                "the tone would be near {tone_hz:.0} Hz, and the recording has nothing above {above_hz:.0} Hz: a codec or the recorder cut it; \
-                 record without compression, or follow a tone of lower order"
+                "the tone should be near {tone_hz:.0} Hz, but the recording has no sound above {above_hz:.0} Hz: the recorder or its \
+                compression removed it; record without compression, or follow a lower tone (give --blades N for the blade pass)"
             ),
         }
     }
@@ -142,8 +145,13 @@ mod tests {
         };
         assert!(said(Some((13.0, 120.0))).contains("give --blades 2 alone, in place of the vehicle"));
         let other = said(Some((200.0, 400.0)));
-        assert!(other.starts_with("no such rotor is heard at 200 to 400 rev/s, but one with 2 blades"), "{other}");
-        assert!(said(None).starts_with("no such rotor is heard, but one with 2 blades may turn at 60.2 rev/s"));
+        assert!(
+            other.starts_with(
+                "no such rotor is heard at 200 to 400 rev/s, where the given facts expect it. But one with 2 blades"
+            ),
+            "{other}"
+        );
+        assert!(said(None).starts_with("no such rotor is heard. But one with 2 blades may turn at 60.2 rev/s"));
         assert!(
             other.contains(
                 "give --blades 2 alone, in place of the vehicle, the gear, the order, the band, the diameter or the mass"

@@ -11,7 +11,7 @@ pub struct ComparedPoint {
     pub time_s: f64,
     /// Heard speed.
     pub heard_rev_s: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of --constant-n-s2.
     pub std_uncertainty_rev_s: f64,
     /// Logged speed.
     pub logged_rev_s: f64,
@@ -40,6 +40,17 @@ pub struct VerifiedRotor {
     pub points: Vec<ComparedPoint>,
 }
 
+/// How well the points lie within their ±, as a share of the points against 95 %.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Agreement {
+    /// The share may be 95 %.
+    AsStated,
+    /// The share is below 95 %, but the ± is no less than half as large as it should be.
+    PlusMinusTooSmall,
+    /// The scatter is more than twice the stated: sound and log do not follow the same speeds.
+    Scattered,
+}
+
 /// Sound against telemetry.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verification {
@@ -47,6 +58,10 @@ pub struct Verification {
     pub offset_s: f64,
     /// Whether another offset would be clearly worse; else the speeds are too steady to tell it.
     pub is_offset_told: bool,
+    /// An offset outside of the given limits at which the log fits clearly better.
+    pub better_offset_s: Option<f64>,
+    /// How well the points lie within their ±.
+    pub agreement: Agreement,
     /// Rate of the log's clock over the recording's, less 1; absent in short comparisons.
     pub clock_rate_share: Option<f64>,
     /// The rotors, in the sequence of the tracks.
@@ -61,5 +76,17 @@ impl Verification {
     /// Whether the recording's order and clock are right: heard and logged speeds are equal.
     pub fn is_right(&self) -> bool {
         (self.speed_ratio - 1.0).abs() <= RIGHT_SHARE
+    }
+
+    /// Whether nothing speaks against the recording or the log: the means are equal, the offset is within its limits, and the points agree.
+    pub fn passes(&self) -> bool {
+        self.is_right() && self.better_offset_s.is_none() && self.agreement != Agreement::Scattered
+    }
+
+    /// Share of the points of all rotors within their ±.
+    pub fn coverage(&self) -> f64 {
+        let count: usize = self.rotors.iter().map(|rotor| rotor.point_count).sum();
+        let within: f64 = self.rotors.iter().map(|rotor| rotor.coverage * rotor.point_count as f64).sum();
+        within / count.max(1) as f64
     }
 }

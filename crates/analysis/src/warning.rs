@@ -82,6 +82,8 @@ pub enum Warning {
         has_mean: bool,
         /// Whether their number was not given.
         is_assumed: bool,
+        /// Standard deviation of the speeds of the rotors about their mean, as a share, that the ± contains where one tone is used for all.
+        spread_share: f64,
     },
     /// The number of rotors is not known, so that the line of one may stand for several.
     RotorCountUnknown {
@@ -131,23 +133,24 @@ impl Warning {
     /// Advice to the user.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::RidgeOnBandEdge { .. } => "widen --band, or check the blades or the gear",
+            Self::RidgeOnBandEdge { .. } => "give a wider --band, or check the blades or the gear",
             Self::HarmonicLeftOut { harmonic: 1, .. } => {
-                "the speed comes from the other harmonics; --band narrows the search"
+                "the speed comes from the other harmonics; to search more narrowly, give --band LOW:HIGH"
             }
             Self::HarmonicLeftOut { .. } => "the speed comes from the other harmonics",
             Self::BandCutByCodec { .. } => {
-                "record without compression, or at a higher bit rate, to use the harmonics above"
+                "to use the higher harmonics too, record without compression or at a higher bit rate"
             }
             Self::FewHarmonicsAgree { .. } => {
-                "another sound may lie in these bands: check the blades or the gear, narrow --band, or compare --harmonics 1"
+                "another sound may be mixed in: check the blades or the gear, give a narrower --band, or use the tone alone with \
+                --harmonics 1"
             }
             Self::OtherSteadySpeed { .. } | Self::HoversDiffer { .. } => {
                 "choose the part you mean with --from and --to"
             }
-            Self::HoverShorterThanSample { .. } => "record a longer hover, or lower length_s in [samples]",
+            Self::HoverShorterThanSample { .. } => "record a longer hover, or write a smaller length_s under [samples]",
             _ if self.is_hardly_heard() => {
-                "do not use this speed before you have checked the vehicle, the blades and the gear; if they are right, move the microphone nearer, \
+                "do not use this speed yet; first check the vehicle, the blades and the gear; if they are right, move the microphone nearer, \
                  or choose the clear part with --from and --to; if you gave --band, leave it out"
             }
             Self::ManyGaps { .. } => {
@@ -157,20 +160,27 @@ impl Warning {
                 "choose a longer part with --from and --to, or record a longer hover"
             }
             Self::FewFrames { .. } => "choose the clear part with --from and --to",
+            Self::RotorsNotApart { has_mean: false, is_assumed: true, .. } => {
+                "give the number of rotors with --rotors: for one rotor alone, the ± is smaller; to separate several, place the microphone \
+                nearer and record without compression"
+            }
             Self::RotorsNotApart { has_mean: false, .. } => {
-                "if their speeds are equal, nothing can separate them; if not, place the microphone nearer and record without compression"
+                "to separate them and get a smaller ±, place the microphone nearer and record without compression; rotors at equal speeds \
+                cannot be separated"
             }
             Self::RotorsNotApart { .. } => {
-                "the speed is the mean of all, and its ± allows for this; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
+                "the speed is the mean of all rotors, and its ± includes the rotors that were not separated; if fewer rotors turn, give their number with --rotors; to separate more, place the microphone nearer"
             }
-            Self::RotorCountUnknown { .. } => "give the number of rotors with --rotors",
+            Self::RotorCountUnknown { .. } => {
+                "give the number of rotors with --rotors: for one rotor alone, the ± is smaller"
+            }
             Self::OtherRotorsHeard => {
                 "if several rotors turn, leave --rotors 1 out; if not, record away from other machines"
             }
-            Self::FitsElsewhere(_) => {
-                "check the given facts: the vehicle, the blades, the diameter, the mass or the band"
+            Self::FitsElsewhere(_) => "check these facts: the vehicle, the blades, the diameter, the mass or the band",
+            Self::SeveralLines { .. } => {
+                "the result follows the loudest rotor of each moment; to follow one rotor, give a narrower --band"
             }
-            Self::SeveralLines { .. } => "the result follows the loudest rotor; a narrower --band follows one rotor",
         }
     }
 }
@@ -181,19 +191,23 @@ impl fmt::Display for Warning {
             Self::RidgeOnBandEdge { harmonic, frames_share } => {
                 write!(
                     f,
-                    "harmonic {harmonic} is at the edge of its band in {:.0} % of the frames",
+                    "harmonic {harmonic} of the tone is at the edge of the searched band for {:.0} % of the time",
                     100.0 * frames_share
                 )
             }
             Self::HarmonicLeftOut { harmonic, reason } => write!(f, "harmonic {harmonic} is not used: {reason}"),
             Self::BandCutByCodec { above_hz } => {
-                write!(f, "the recording holds nothing above {:.1} kHz: a codec or the recorder cut it", above_hz / 1e3)
+                write!(
+                    f,
+                    "the recording has no sound above {:.1} kHz: the recorder or its compression removed it",
+                    above_hz / 1e3
+                )
             }
             Self::FewHarmonicsAgree { used, of } => {
                 if 2 * used < *of {
                     write!(f, "only {used} of {of} harmonics show the same speed")
                 } else {
-                    f.write_str("the first harmonic shows another speed than the others")
+                    f.write_str("the tone itself shows another speed than its harmonics")
                 }
             }
             Self::OtherSteadySpeed { speed_rev_s, from_s, to_s } => {
@@ -202,53 +216,103 @@ impl fmt::Display for Warning {
             Self::HoversDiffer { slowest_rev_s, fastest_rev_s } => {
                 write!(
                     f,
-                    "parts of the hover turn at different speeds, {slowest_rev_s:.1} to {fastest_rev_s:.1} rev/s: the result is their mean"
+                    "the rotors turn at different speeds in different parts of the hover, {slowest_rev_s:.1} to {fastest_rev_s:.1} rev/s: \
+                    the result is the mean"
                 )
             }
             Self::HoverShorterThanSample { hover_s, length_s } => {
                 write!(
                     f,
-                    "the hover of {hover_s:.1} s is shorter than a sample ({length_s:.1} s) and is used as one sample"
+                    "the hover ({hover_s:.1} s) is shorter than one sample ({length_s:.1} s), and is used as one sample"
                 )
             }
             Self::ManyGaps { gap_share } => {
                 write!(f, "the tone is not heard for {:.0} % of the time", 100.0 * gap_share)?;
-                if self.is_hardly_heard() { f.write_str(": another rotor may have told this speed") } else { Ok(()) }
+                if self.is_hardly_heard() { f.write_str(": the speed may come from another sound") } else { Ok(()) }
             }
             Self::FewFrames { sample_s, needed_s: Some(needed_s), .. } => {
-                write!(f, "only {sample_s:.1} s are used, and hovertone needs {needed_s:.1} s or more")
+                write!(f, "only {sample_s:.1} s of the sound are used, and hovertone needs {needed_s:.1} s or more")
             }
             Self::FewFrames { frame_count, sample_s, .. } => {
-                write!(f, "in a part of {sample_s:.1} s, only {frame_count} frames have a tone")
+                write!(
+                    f,
+                    "in a part of {sample_s:.1} s, the tone is heard in only {frame_count} frames (short pieces of sound)"
+                )
             }
-            Self::RotorsNotApart { resolved, of, has_mean, is_assumed } => {
-                match (resolved, has_mean) {
-                    (0, true) => write!(
-                        f,
-                        "the speeds of the {of} rotors are too close to separate them: they are heard as a group"
-                    ),
-                    (0, false) => write!(f, "the {of} rotors could not be separated: one tone is used for all of them"),
-                    _ => write!(f, "only {resolved} of the {of} rotors could be separated"),
-                }?;
-                if *is_assumed { write!(f, " (no number of rotors was given: {of} are assumed)") } else { Ok(()) }
+            Self::RotorsNotApart { resolved, of, has_mean, is_assumed, spread_share } => {
+                let assumed = if *is_assumed { " that hovertone assumes (no number was given)" } else { "" };
+                f.write_str(&not_apart_text(*resolved, &format!("{of} rotors{assumed}"), *has_mean, *spread_share))
             }
             Self::RotorCountUnknown { spread_share } => write!(
                 f,
-                "the number of rotors is not known; for the ±, hovertone assumes that their speeds differ by {:.1} % (standard deviation)",
+                "the number of rotors is not given, and the tone may come from one of several. So the ± assumes that the speeds of the \
+                rotors differ by {:.1} % (standard deviation)",
                 100.0 * spread_share
             ),
-            Self::OtherRotorsHeard => f.write_str("other rotors are heard beside the one that is said to turn alone"),
+            Self::OtherRotorsHeard => {
+                f.write_str("one rotor alone should turn, as you said, but other rotors are heard too")
+            }
             Self::FitsElsewhere(OtherRotor { blades, speed_rev_s }) => write!(
                 f,
-                "by its lines alone, the rotor more probably has {blades} blades and turns at {speed_rev_s:.1} rev/s (odds of more than 99 to 1)"
+                "the sound contradicts the given facts: by the sound alone, the rotor has {blades} blades and turns at {speed_rev_s:.1} \
+                rev/s (odds of more than 99 to 1)"
             ),
             Self::SeveralLines { spread_share } => {
                 write!(
                     f,
-                    "the speed that is followed varies by {:.1} % (standard deviation): it may jump from rotor to rotor",
+                    "the followed speed varies by {:.1} % (standard deviation): it may jump from one rotor to another",
                     100.0 * spread_share
                 )
             }
+        }
+    }
+}
+
+/// How many rotors were separated, and what their speed is then. `rotors` are all.
+fn not_apart_text(resolved: usize, rotors: &str, has_mean: bool, spread_share: f64) -> String {
+    match (resolved, has_mean) {
+        (0, true) => format!("the {rotors} could not be separated: they are heard as a group"),
+        (0, false) => format!(
+            "the {rotors} could not be separated, so one tone is used for all. It may come from one rotor alone, and the ± assumes that the \
+             speeds of the rotors differ by {:.1} % (standard deviation)",
+            100.0 * spread_share
+        ),
+        _ => format!("only {resolved} of the {rotors} could be separated"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(resolved: usize, has_mean: bool, is_assumed: bool) -> String {
+        let warning = Warning::RotorsNotApart { resolved, of: 4, has_mean, is_assumed, spread_share: 0.0058 };
+        warning.to_string()
+    }
+
+    /// Four rotors are assumed where no number is given: two of them may be far apart, so the warning does not call their speeds close.
+    #[test]
+    fn rotors_that_are_not_separated_are_not_called_close() {
+        let all = [true, false]
+            .map(|is_assumed| [said(0, true, is_assumed), said(0, false, is_assumed), said(3, true, is_assumed)]);
+        assert!(all.iter().flatten().all(|said| said.contains("be separated") && !said.contains("close")), "{all:?}");
+        assert!(all[0].iter().all(|said| said.contains("that hovertone assumes (no number was given)")), "{all:?}");
+        assert!(all[1].iter().all(|said| !said.contains("assumes (no number")), "{all:?}");
+    }
+
+    /// The ± of one tone for several rotors assumes how much their speeds differ: the warning says how much, why, and what to do.
+    #[test]
+    fn an_assumed_spread_is_explained() {
+        let one_tone =
+            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: false, is_assumed: false, spread_share: 0.0058 };
+        let unknown = Warning::RotorCountUnknown { spread_share: 0.0058 };
+        for (warning, why, what_to_do) in [
+            (&one_tone, "may come from one rotor", "get a smaller ±"),
+            (&unknown, "may come from one of several", "--rotors"),
+        ] {
+            let text = warning.to_string();
+            assert!(text.contains("speeds of the rotors differ by 0.6 %") && text.contains(why), "{text}");
+            assert!(warning.hint().contains(what_to_do), "{}", warning.hint());
         }
     }
 }

@@ -72,9 +72,9 @@ pub(crate) fn run(options: &[&str]) -> Result<(), String> {
     let separated = heard.iter().filter(|flight| flight.rotor_count > 1).count();
     println!("{count} flights, {} with a rotor tone, {separated} of them with separated rotors\n", heard.len());
     println!(
-        "| rotors | log | compared | order check right | offset within 50 ms | names right | bias, median | within ± |"
+        "| rotors | log | compared | order check right | not decided | offset within 50 ms | names right | bias, median | within ± |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|");
     for (rotors, is_separated) in [("separated", true), ("one tone", false)] {
         for telemetry in TELEMETRY {
             let of_kind = heard.iter().zip(1..).filter(|(flight, _)| (flight.rotor_count > 1) == is_separated);
@@ -171,6 +171,7 @@ fn nearest_rotor(flight: &Heard, track: &[TrackPoint]) -> usize {
 fn row_of(telemetry: &Telemetry, all: &[Option<Compared>]) -> String {
     let told: Vec<&Compared> = all.iter().flatten().collect();
     let right = told.iter().filter(|compared| compared.found.is_right() == telemetry.is_right).count();
+    let undecided = told.iter().filter(|compared| compared.found.is_right() && !compared.found.passes()).count();
     let offsets = told.iter().filter(|compared| compared.found.is_offset_told);
     let (mut offset_count, mut offset_right) = (0, 0);
     for compared in offsets {
@@ -192,7 +193,7 @@ fn row_of(telemetry: &Telemetry, all: &[Option<Compared>]) -> String {
         false => (dash(), dash()),
     };
     format!(
-        "| {} | {} of {} | {right} of {} | {offset_right} of {offset_count} | {} of {} | {bias} | {coverage} |",
+        "| {} | {} of {} | {right} of {} | {undecided} | {offset_right} of {offset_count} | {} of {} | {bias} | {coverage} |",
         telemetry.name,
         told.len(),
         all.len(),

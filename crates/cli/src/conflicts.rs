@@ -13,7 +13,10 @@ const PRINTED: &str = "--json prints the answer as JSON, and nothing else: leave
 const KNOWN: [([&str; 2], &str); 18] = [
     (["--gravity-m-s2", "--latitude-deg"], "both give the local gravity: leave one of them out"),
     (["--constant", "--constant-n-s2"], "both give the thrust constant: leave one of them out"),
-    (["--constant", "--constant-std-n-s2"], "the results have an uncertainty of their own: leave one of them out"),
+    (
+        ["--constant", "--constant-std-n-s2"],
+        "the results of --constant have an uncertainty already: leave --constant-std-n-s2 out",
+    ),
     (["--tachometer-rpm", "--true-hz"], "both give the known speed: leave one of them out"),
     (["--to", "--into"], "--to writes a new model, --into changes one that you have: leave one of them out"),
     (["--mean-only", "--method"], "both say how the speed is read from the sound: leave one of them out"),

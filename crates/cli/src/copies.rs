@@ -28,9 +28,9 @@ pub(crate) fn refuse_copies<'a>(
             job.sha256 = Some(sha256.clone());
             if let Some(first) = known.insert(sha256, job.name.clone()) {
                 let what = match first == job.name {
-                    true => format!("{first} is given twice: as two trials it would make the ± too small"),
+                    true => format!("{first} is given twice: counted twice, it would make the ± too small"),
                     false => format!(
-                        "{first} and {} are the same recording: as two trials they would make the ± too small",
+                        "{first} and {} are the same recording: counted twice, it would make the ± too small",
                         job.name
                     ),
                 };

@@ -284,6 +284,6 @@ fn refuse_number(path: &Path) -> Result<(), Failure> {
         let hint = format!(
             "`hovertone weigh --constant-n-s2 {number} --vehicle NAME` weighs with a number: the constant of the whole vehicle"
         );
-        Err(Failure::usage(format!("{number} is a number, and the file results.json is needed here"), hint))
+        Err(Failure::usage(format!("{number} is a number, but the file results.json is needed here"), hint))
     })
 }

@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &FitArguments, terminal: &mut Terminal) -> Result<E
     match (arguments.plan.mass_kg, arguments.plan.plan) {
         (Some(mass_kg), true) => return plan_campaign(arguments, mass_kg, gravity, terminal),
         (Some(mass_kg), false) => {
-            let what = format!("mass_kg = {mass_kg} belongs to --plan, and a table has its own forces");
+            let what = format!("mass_kg = {mass_kg} is only for --plan: a table has its own forces");
             return Err(Failure::usage(what, "leave it out, or give --plan without a table"));
         }
         (None, _) => {}
@@ -221,9 +221,9 @@ fn rotors_notice(table: &StandTable, is_weighed: bool, plan: &Plan) -> Option<No
     let text = match several {
         _ if plan.is_count_given => return None,
         Some(count) => {
-            format!("the table names {count} rotors, and its forces count as the forces of one")
+            format!("the table names {count} rotors, but its forces are used as the forces of one rotor")
         }
-        None if is_weighed => "the masses count as if one rotor carried them".to_owned(),
+        None if is_weighed => "the masses are used as if one rotor carried them".to_owned(),
         None => return None,
     };
     let count = several.map_or_else(|| "N".to_owned(), |count| count.to_string());
@@ -282,7 +282,7 @@ fn without_scatter(reason: NoScatter, group: &StandGroup, table: &StandTable, pa
             };
             (format!(", and the {of} has {count}"), together + "measure more rows")
         }
-        _ => (String::new(), "give the measured rows".to_owned()),
+        _ => (String::new(), "give the rows as they were measured".to_owned()),
     };
     let group = if group.name.is_empty() { String::new() } else { format!("group \"{}\": ", group.name) };
     let notes: String = table.notes.iter().map(|note| format!("; {note}")).collect();
@@ -353,7 +353,7 @@ fn plan_campaign(
     let plan = flight_plan(&wish).map_err(|error| {
         let hint = match error {
             PlanError::OutOfReach { .. } => {
-                "ask for a larger --wanted-share, or make a contribution smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
+                "give a larger --wanted-share, or make an uncertainty smaller (--latitude-deg, --mass-std-kg, --rotors-separated)"
             }
             PlanError::Quantity(QuantityError { name: "wanted_share", .. }) => "for 2 % give --wanted-share 0.02",
             _ => "see `hovertone fit --help`",

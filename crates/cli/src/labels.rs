@@ -36,18 +36,21 @@ pub(crate) fn resolve(
     recordings: usize,
     rotors: u32,
 ) -> Result<Option<LabelPlan>, Failure> {
-    let (what, told) = match (&arguments.log, &arguments.spin_up) {
+    let (what, flag) = match (&arguments.log, &arguments.spin_up) {
         (None, None) => return Ok(None),
-        (Some(_), _) => ("a log", "a log tells"),
-        (None, Some(_)) => ("an order of starts", "the order of starts tells"),
+        (Some(_), _) => ("a log", "--log"),
+        (None, Some(_)) => ("an order of starts", "--spin-up"),
     };
     if recordings != 1 {
-        let what = format!("{what} is of one flight, and {recordings} recordings are given");
+        let what = format!("{what} is of one flight, but {recordings} recordings are given");
         return Err(Failure::usage(what, "give the one recording that was made in the same flight"));
     }
     if rotors < 2 {
-        let what = format!("{told} rotors apart, and needs their number, 2 or more");
-        return Err(Failure::usage(what, "give it, as in --rotors 4; a rotor that turns alone needs no name"));
+        let what = format!("to name rotors by {flag}, hovertone needs the number of rotors, 2 or more");
+        return Err(Failure::usage(
+            what,
+            "give their number, as in --rotors 4; a rotor that turns alone needs no name",
+        ));
     }
     let Some(path) = &arguments.log else {
         let typed = arguments.spin_up.as_deref().unwrap_or_default();

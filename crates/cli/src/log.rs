@@ -97,7 +97,9 @@ fn example_of_columns(columns: &str) -> String {
     let mut headers = columns.split(", ");
     let command = typed_words().get(1).and_then(|word| word.to_str().map(str::to_owned)).unwrap_or_default();
     let (Some(time), Some(other)) = (headers.next(), headers.next()) else { return String::new() };
-    if !WITH_COLUMNS.contains(&command.as_str()) {
+    // a speed is no time
+    let is_speed = ["rpm", "rad_s", "rev_s"].iter().any(|unit| time.ends_with(unit));
+    if is_speed || !WITH_COLUMNS.contains(&command.as_str()) {
         return String::new();
     }
     let column = |header: &str, name: &str| format!("--column {}", quoted(&format!("{header}={name}")));

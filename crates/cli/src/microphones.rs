@@ -62,7 +62,7 @@ pub(crate) fn resolve(
     let Some(path) = &arguments.microphones else { return Ok(None) };
     let refused = |what: String, hint: &str| Failure::Usage { what, hint: hint.to_owned(), path: Some(path.clone()) };
     if rotors < 2 {
-        let what = "microphones give names to several rotors, and hovertone needs their number, 2 or more";
+        let what = "to name rotors by microphones, hovertone needs the number of rotors, 2 or more";
         return Err(refused(what.to_owned(), "give their number, as in --rotors 4"));
     }
     let file: MicrophonesFile =
@@ -93,7 +93,10 @@ pub(crate) fn resolve(
         refused(error.to_string(), hint)
     })?;
     if array.rotor_count() != rotors as usize {
-        let what = format!("rotors that turn: {rotors}, rotors with a place: {}", array.rotor_count());
+        let what = format!(
+            "rotors that turn: {rotors}; rotors with a place: {}. The two numbers must be equal",
+            array.rotor_count()
+        );
         return Err(refused(what, "give their number with --rotors, and the place of each"));
     }
     for job in jobs {
@@ -122,7 +125,9 @@ fn check_channels(job: &Job, hearing: Hearing, array: &MicrophoneArray) -> Resul
         return Ok(());
     }
     Err(Failure::Usage {
-        what: format!("channels of the recording: {channels}, microphones with a position: {microphones}"),
+        what: format!(
+            "channels of the recording: {channels}; microphones with a position: {microphones}. The two numbers must be equal"
+        ),
         hint: "give one [[microphone]] for each channel, in their order; --audio-track N chooses another track"
             .to_owned(),
         path: Some(job.path.clone()),

@@ -139,6 +139,9 @@ impl Misuse {
         if let Some(place) = place_of_log(name, words) {
             return Self { what: format!("there is no flag {name}"), hint: Some(place.to_owned()) };
         }
+        if let Some(what) = idle_here(name, words) {
+            return Self { what, hint: Some(format!("leave {name} out")) };
+        }
         if name.starts_with('-') {
             let meant = place_in_experiment(name, words).or_else(|| flag_meant(name, words));
             let hint = meant.or_else(|| nearest_flag(name, words));
@@ -158,7 +161,7 @@ impl Misuse {
             }
             _ => {}
         }
-        Self { what: format!("\"{name}\" is one word too many"), hint: place_meant(name, words) }
+        Self { what: format!("\"{name}\" has no place in this command"), hint: place_meant(name, words) }
     }
 
     /// A word without a flag behind `listen`: most probably the name of a recording.
@@ -171,6 +174,12 @@ impl Misuse {
         let what = format!("\"{name}\": listen takes a recording by its flag {flag}");
         Self { what, hint: Some(format!("write {flag} {name}")) }
     }
+}
+
+/// That a flag about the progress of a long analysis changes nothing in a command that shows none.
+fn idle_here(name: &str, words: &[OsString]) -> Option<String> {
+    let command = typed_command(words).filter(|_| name == "--no-progress")?;
+    Some(format!("{name} changes nothing: `hovertone {}` shows no progress", command.get_name()))
 }
 
 /// Where the log stands in commands that take it without a flag; others have `--log`.
@@ -261,7 +270,7 @@ mod tests {
             ),
             (
                 "hovertone speed a.wav --window-s long",
-                "--window-s long: a number is needed, such as 0.25 (--window-s S: Length of a frame of the paper's methods, in seconds",
+                "--window-s long: a number is needed, such as 0.25 (--window-s S: Length of a frame (a short piece of sound) in s",
             ),
             (
                 "hovertone speed a.wav --mass-kg heavy",
@@ -289,11 +298,11 @@ mod tests {
             ("hovertone batch", "batch needs a folder for the results: -o OUT, and a folder with recordings (as in"),
             (
                 "hovertone demo extra",
-                "\"extra\" is one word too many (as in `hovertone demo`; see `hovertone demo --help`)",
+                "\"extra\" has no place in this command (as in `hovertone demo`; see `hovertone demo --help`)",
             ),
             (
                 "hovertone spectrogram a.wav b.wav -o x.png",
-                "\"b.wav\" is one word too many (give one recording at a time)",
+                "\"b.wav\" has no place in this command (give one recording at a time)",
             ),
             (
                 "hovertone init hover.mp4",

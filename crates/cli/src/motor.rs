@@ -151,9 +151,8 @@ impl Plan<'_> {
     /// That the steps of commands and sound agree at another offset than the given one.
     fn misaligned(&self, other_offset_s: Option<f64>) -> Option<Notice> {
         let (given_s, other_s) = self.arguments.offset.zip(other_offset_s)?;
-        let what = format!(
-            "with --offset {given_s} the steps of the commands are not where the speed steps, so the commands are not used"
-        );
+        let what =
+            format!("with --offset {given_s}, the commands do not step when the speed does, so they are not used");
         let hint = format!("the steps agree at an offset of about {other_s:.2} s: leave --offset out, or correct it");
         Some(Notice::new(what, hint))
     }
@@ -241,8 +240,9 @@ pub(crate) fn flight_of(file: &Path, names: &ColumnNames) -> Result<Option<Logge
     let speeds = flight.speeds_rev_s.iter().flat_map(|speeds| speeds.values.iter().flatten());
     let fastest_rev_s = speeds.copied().fold(0.0, f64::max);
     if fastest_rev_s > SPEED_REV_S_MAX {
-        let what =
-            format!("a motor of this log has {fastest_rev_s:.3e} rev/s, and none exceeds {SPEED_REV_S_MAX} rev/s");
+        let what = format!(
+            "a motor of this log turns at {fastest_rev_s:.3e} rev/s, but no motor exceeds {SPEED_REV_S_MAX} rev/s"
+        );
         let hint = "check the unit in the header of the speed, or name it: --column HEADER=rotor1_rpm".to_owned();
         return Err(Failure::Usage { what, hint, path: Some(file.to_owned()) });
     }

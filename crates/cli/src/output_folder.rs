@@ -47,7 +47,7 @@ impl OutputFolder {
         if !folder.is_empty()? && !folder.outputs.may_replace() && !folder.list.is_of_same_run() {
             if let Some(input) = folder.outputs.input_in(path) {
                 let what = format!(
-                    "this folder holds {}, which is read: nothing was written",
+                    "this folder holds {}, which is an input: nothing was written",
                     printable(&input.display().to_string())
                 );
                 return Err(refused(&what, "choose another folder for the results, as in -o results", path));

@@ -26,7 +26,7 @@ pub(crate) fn gravity_of(place: &PlaceArguments) -> Result<Gravity, Failure> {
 pub(crate) fn refuse_height_alone(place: &PlaceArguments) -> Result<(), Failure> {
     match (place.height_m, place.latitude_deg) {
         (Some(height_m), None) => {
-            let what = format!("--height-m {height_m} alone does not tell gravity");
+            let what = format!("--height-m {height_m} alone does not give the gravity");
             Err(Failure::usage(what, "also give --latitude-deg, or leave --height-m out"))
         }
         _ => Ok(()),

@@ -80,7 +80,7 @@ pub(crate) fn line_in_band(
     let mut recording = opened_or_not(job, hearing).map_err(|failure| failure.reason)?;
     let highest_hz = recording.info().sample_rate_hz / 2.0;
     if band_hz.end >= highest_hz {
-        return Err(format!("this recording has no sound above {highest_hz:.0} Hz; choose a tone below that"));
+        return Err(format!("this recording has no sound above {highest_hz:.0} Hz; choose a lower tone"));
     }
     let span_s = job.config.span.from_s.unwrap_or(f64::MIN)..job.config.span.to_s.unwrap_or(f64::INFINITY);
     let mut share = progress.recording();
@@ -146,7 +146,7 @@ fn motor_of_passes(
 fn guess_in_words(meaning: Meaning) -> Option<Notice> {
     let blades = meaning.blades().filter(|_| meaning.gear().is_none())?;
     let what = format!(
-        "the number of blades is not known: the speeds belong to a propeller with {blades} blades, which the sound suggests"
+        "the number of blades is not known: the speeds are for propellers with {blades} blades, as the sound suggests"
     );
     Some(Notice::new(what, "count the blades and give --blades N; the time constants are the same for any number"))
 }

@@ -62,7 +62,7 @@ fn say_assumed_number(arguments: &SpeedArguments, records: &[SpeedRecord], termi
     let is_said = arguments.known.rotors.is_some() || arguments.tone.vehicle.is_some();
     let count = records.iter().map(|record| record.rotors().len()).max().unwrap_or_default();
     if !is_said && !arguments.json && count >= RotorsConfig::SEVERAL as usize {
-        let what = format!("nobody said how many rotors turn; several are heard, and {count} were separated");
+        let what = format!("the number of rotors is not given; several are heard, and {count} were separated");
         terminal.tip(&Notice::new(what, "give their number, such as --rotors 4; on a bench, --rotors 1"));
     }
 }

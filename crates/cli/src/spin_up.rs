@@ -33,7 +33,7 @@ pub(crate) fn names_of(
                 let is_unknown = |name: &&String| layouts.iter().all(|layout| number_in(layout, name).is_none());
                 let unknown = typed.iter().find(is_unknown).map_or_else(|| typed.join(","), String::clone);
                 return Err(refused(format!(
-                    "--spin-up names \"{unknown}\", and no frame has this rotor beside the others"
+                    "--spin-up names \"{unknown}\", and no frame has such a rotor together with the others"
                 )));
             };
             (places(layout).iter().map(|place| place.replace('-', " ")).collect::<Vec<String>>(), numbers)

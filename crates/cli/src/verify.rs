@@ -22,7 +22,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let names = column_names(&arguments.column)?;
     let outputs = Outputs::beside([&arguments.recording, &arguments.log], arguments.replace.force);
     let figure = arguments.figure.as_deref().map(|place| FigureFile::of(place, &outputs)).transpose()?;
-    refuse_of_table(&arguments.analysis, "a check compares speeds at each time, without the ± of the mean")?;
+    refuse_of_table(&arguments.analysis, "the comparison uses the speed of each moment, without the ± of the mean")?;
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;
     if let Some(notice) = idle_mass(&arguments.known, &config.known) {
         terminal.tip(&notice);
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
     let offsets_s = arguments.log_offset_s.map(|(low_s, high_s)| [low_s, high_s]);
     let verification = verification_from_log(&tracks_of(record), logged, offsets_s)
         .map_err(|reason| Failure::failed(reason.to_string(), reason.hint(), log))?;
-    let is_right = verification.is_right();
+    let passes = verification.passes();
     let told = VerificationRecord { file: record.file.clone(), log: log.display().to_string(), verification };
     if arguments.json {
         terminal.data(&verification_json(&told).map_err(Failure::internal)?)?;
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &VerifyArguments, terminal: &mut Terminal) -> Resul
         outputs.write(place, kind.bytes(drawn, DOTS_PER_INCH)?)?;
         terminal.say(&written(place));
     }
-    Ok(if is_right && flight.notes.is_empty() { Ending::Done } else { Ending::Incomplete })
+    Ok(if passes && flight.notes.is_empty() { Ending::Done } else { Ending::Incomplete })
 }
 
 /// Where the figure goes.

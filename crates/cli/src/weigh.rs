@@ -243,12 +243,12 @@ fn rotors_of(
     if let (Some((said, flag)), Some(known)) = (said, of_results)
         && said != known
     {
-        let what = format!("the constant is that of a vehicle with {known} rotors, and {flag} means {said}");
+        let what = format!("the constant is that of a vehicle with {known} rotors, but {flag} means {said}");
         return Err(Failure::usage(what, format!("leave {flag} out, or give the results of this vehicle")));
     }
     let rotor_count = said.map(|(said, _)| said).or(of_results);
     if rotor_count.is_none() && results.is_some() {
-        let what = "the constant is that of one rotor, and nothing says how many carry the vehicle";
+        let what = "the constant is that of one rotor, and the number of rotors is not given";
         return Err(Failure::usage(what, "give --rotors, or --vehicle"));
     }
     Ok(rotor_count)
@@ -273,7 +273,7 @@ fn check_vehicle(said: &Vehicle, arguments: &WeighArguments, results: Option<&Id
     match measured.filter(|measured| measured.id != said.id) {
         Some(measured) => {
             let what = format!(
-                "the constant was measured with the vehicle \"{}\", and --vehicle says \"{}\"",
+                "the constant was measured with the vehicle \"{}\", but --vehicle is \"{}\"",
                 measured.id, said.id
             );
             Err(Failure::usage(what, "leave --vehicle out, or give the results of this vehicle"))
@@ -288,7 +288,7 @@ fn results_contradict(said: &Vehicle, error: &WeighError) -> Failure {
         return Failure::usage(error.to_string(), error.hint());
     };
     let what = format!(
-        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, and the rotors of \"{}\" turn \
+        "--vehicle {} contradicts the results: their vehicle, {vehicle_kg} kg, hovers at {rev_s:.0} rev/s or more, but the rotors of \"{}\" turn \
          at no more than {fastest_rev_s:.0} rev/s",
         said.id, said.id
     );
@@ -322,7 +322,7 @@ fn check_stds(scale: &AcousticScale) -> Result<(), Failure> {
     let refuse = |name: &str, estimate: Estimate, hint: &str| {
         let std = estimate.std_uncertainty.unwrap_or(0.0);
         let what = format!(
-            "{name} = {std}, and the number itself is {}: its ± (k = 2) is not smaller than the number",
+            "{name} = {std} is too large: the number itself is {}, and its ± (k = 2) must be smaller",
             estimate.value
         );
         Err(Failure::usage(what, hint))
@@ -371,6 +371,6 @@ fn check_order(said: Order, heard: &HeardTone) -> Result<(), Failure> {
         return Ok(());
     }
     let what =
-        format!("the constant was measured with the tone of order {}, and the arguments say {said}", heard.order);
+        format!("the constant was measured with the tone of order {}, but the arguments mean {said}", heard.order);
     Err(Failure::usage(what, "leave --order, --blades and --gear out: the results have them"))
 }

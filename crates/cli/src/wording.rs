@@ -22,7 +22,8 @@ mod tests {
     /// Each advice about a recording that names a flag.
     fn advice() -> Vec<String> {
         let other = OtherRotor { blades: 3, speed_rev_s: 80.0 };
-        let apart = Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false };
+        let apart =
+            Warning::RotorsNotApart { resolved: 0, of: 4, has_mean: true, is_assumed: false, spread_share: 0.006 };
         let warnings = [
             Warning::RidgeOnBandEdge { harmonic: 1, frames_share: 0.5 },
             Warning::HarmonicLeftOut { harmonic: 1, reason: String::new() },

@@ -21,7 +21,7 @@ pub struct MapPoint {
     pub command: f64,
     /// Settled speed.
     pub speed_rev_s: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of --constant-n-s2.
     pub speed_std_rev_s: f64,
     /// Whether the speed follows no longer: left out of the gain.
     pub is_saturated: bool,

@@ -42,10 +42,10 @@ impl CsvError {
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::RaggedRow { .. } => {
-                "complete or remove the row; a decimal comma needs semicolons or quotes: 3,5 is two cells"
+                "complete or remove the row; where commas are decimal, separate the cells by semicolons: 3,5 is two cells"
             }
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
-                "write thousands without a point, as 1000: in this table commas are decimal"
+                "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }
             Self::NotANumber { .. } => "correct the cell, or remove the row",
         }

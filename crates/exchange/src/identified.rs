@@ -252,7 +252,7 @@ fn doubts(results: &Value) -> Vec<Doubt> {
 }
 
 /// What happens to rotors that cannot be separated.
-const GROUP: &str = "the rotors were too close in speed to separate and were heard as a group";
+const GROUP: &str = "the rotors could not be separated and were heard as a group";
 
 /// The recordings in which the rotors were heard as a group, for the comment; empty without one.
 fn heard_as_a_group(results: &Value) -> String {

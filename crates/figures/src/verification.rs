@@ -110,7 +110,7 @@ fn lines_of(points: &[ComparedPoint]) -> Vec<Vec<ComparedPoint>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hovertone_analysis::VerifiedRotor;
+    use hovertone_analysis::{Agreement, VerifiedRotor};
 
     #[test]
     fn each_rotor_has_a_curve_above_and_its_difference_below() {
@@ -134,6 +134,8 @@ mod tests {
         let found = Verification {
             offset_s: 0.0,
             is_offset_told: true,
+            better_offset_s: None,
+            agreement: Agreement::AsStated,
             clock_rate_share: None,
             rotors: vec![rotor(1), rotor(2)],
             speed_ratio: 1.0,

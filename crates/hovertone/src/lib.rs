@@ -241,7 +241,7 @@ pub mod live {
 /// # Ok::<(), hovertone::rotors::LogError>(())
 /// ```
 pub mod rotors {
-    pub use hovertone_analysis::{ComparedPoint, Verification, VerifiedRotor};
+    pub use hovertone_analysis::{Agreement, ComparedPoint, Verification, VerifiedRotor};
     pub use hovertone_analysis::{
         LABELLED_ROTORS_MAX, LabelSource, NotTold, RotorCondition, RotorLabel, RotorLabels, ShaftLine,
     };

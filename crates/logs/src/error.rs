@@ -31,7 +31,7 @@ pub enum LogError {
         tables: String,
     },
     /// A version of a format that is not read.
-    #[error("this {format} has version {version} of its format, and hovertone reads version {known}")]
+    #[error("this {format} has version {version} of its format, but hovertone reads version {known}")]
     OtherVersion {
         /// Format of the log.
         format: LogFormat,
@@ -103,7 +103,7 @@ pub enum LogError {
         columns: String,
     },
     /// A name for a column that has no meaning.
-    #[error("\"{name}\" is no known column name, so the column \"{header}\" cannot have it")]
+    #[error("\"{name}\" is no column name that hovertone knows, so the column \"{header}\" cannot have it")]
     NameWithoutMeaning {
         /// The header of the user.
         header: String,
@@ -111,7 +111,7 @@ pub enum LogError {
         name: String,
     },
     /// Names for the columns of a log that has none.
-    #[error("this {format} names its signals itself, and no column of it can have another name")]
+    #[error("this {format} has names for its signals, and its columns cannot have other names")]
     NoColumns {
         /// Format of the log.
         format: LogFormat,
@@ -125,7 +125,7 @@ pub enum LogError {
         tables: String,
     },
     /// Signals of several tables, which do not share their times.
-    #[error("\"{first}\" and \"{second}\" are signals of two tables, which have times of their own")]
+    #[error("\"{first}\" and \"{second}\" are signals of two tables with different times")]
     SeveralTables {
         /// A signal.
         first: String,
@@ -157,11 +157,11 @@ impl LogError {
             Self::NoTable(what) => what.hint(),
             Self::NotCsv(_) => NoTable::Empty.hint(),
             Self::NotANumber { cell, .. } if has_thousands_point(cell.as_bytes()) => {
-                "write thousands without a point, as 1000: in this table commas are decimal"
+                "in this table the decimal sign is a comma: write thousands without a point, as 1000"
             }
             Self::NotANumber { .. } => "correct the cell, or leave it empty: that is a gap",
             Self::NoTime { .. } => {
-                "rename the header of the times, as in time_s or timestamp_us; or where the command has --column: --column OLD=time_s"
+                "rename the header of the times, as in time_s or timestamp_us, or give --column OLD=time_s where the command has this flag"
             }
             Self::NoSignal { .. } => {
                 "name columns as motor1_pwm, rotor1_speed_rad_s or gyro_x_rad_s, with their units (docs/logs.md)"

@@ -37,9 +37,10 @@ pub(crate) fn decoder_for(
     has_gapless_packets: bool,
 ) -> Result<(Decoder, u32, usize), SymphoniaError> {
     if parameters.codec == CODEC_ID_OPUS {
-        let head = opus_head(parameters).ok_or(SymphoniaError::DecodeError("opus: no identification header"))?;
-        let decoder =
-            OpusPackets::new(head).map_err(|_| SymphoniaError::DecodeError("opus: bad identification header"))?;
+        let head =
+            opus_head(parameters).ok_or(SymphoniaError::DecodeError("the header of the Opus sound is missing"))?;
+        let decoder = OpusPackets::new(head)
+            .map_err(|_| SymphoniaError::DecodeError("the header of the Opus sound is damaged"))?;
         let channel_count = decoder.channel_count();
         return Ok((Decoder::Opus(decoder), OPUS_RATE_HZ, channel_count));
     }

@@ -84,7 +84,7 @@ impl NativeFrames {
         has_gapless_packets: bool,
     ) -> Result<Self, SymphoniaError> {
         let track = reader.tracks().iter().find(|track| track.id == track_id);
-        let track = track.ok_or(SymphoniaError::Unsupported("the demuxer does not know the track"))?;
+        let track = track.ok_or(SymphoniaError::Unsupported("the decoder does not find the audio track"))?;
         let parameters = audio_parameters(track).ok_or(SymphoniaError::Unsupported("unsupported audio codec"))?;
         let time_base = track.time_base;
         let (decoder, sample_rate_hz, channel_count) = decoder_for(parameters, has_gapless_packets)?;

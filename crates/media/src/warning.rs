@@ -96,15 +96,17 @@ impl MediaWarning {
             Self::WrongExtension { .. } => "rename the file, or leave it: the extension is not used",
             Self::Truncated { .. } => "copy the file again from the camera or recorder to have all of it",
             Self::WrongDataSize { .. } => {
-                "the recorder was probably stopped hard, or wrote to a pipe; nothing was lost"
+                "the recorder probably stopped without closing the file, or wrote to a pipe; nothing was lost"
             }
             Self::CorruptPackets { .. } => "leave the damaged part out, or copy the file again",
-            Self::NonFiniteSamples { .. } => "look at the program that wrote the file; a hover needs a clean stretch",
+            Self::NonFiniteSamples { .. } => {
+                "check the program that wrote the file; the hover needs a part without such errors"
+            }
             Self::Overdriven { .. } => "record again with less gain, or from further away",
             Self::ChannelsCancel { .. } => "use one channel: --channel 1",
             Self::SeveralAudioTracks { .. } => "choose another with --audio-track N",
             Self::HalfRateAac { .. } => {
-                "tones above half the rate are missing; record as AAC-LC or PCM if you need them"
+                "tones above half of this sample rate are missing; if you need them, record as AAC-LC or PCM"
             }
             Self::FormatChange { .. } => "split the file there, or convert it to WAV",
             Self::Ffmpeg { .. } => "check that the file plays to its end",
@@ -116,10 +118,7 @@ impl fmt::Display for MediaWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::WrongExtension { extension, container } => {
-                write!(
-                    f,
-                    "the file's name ends in .{extension}, and its content is that of another format: {container}"
-                )
+                write!(f, "the file's name ends in .{extension}, but its content has another format: {container}")
             }
             Self::Truncated { decoded_s, declared_s: Some(declared_s) } => {
                 write!(f, "the file ends early: {decoded_s:.3} s of {declared_s:.3} s could be decoded")
@@ -155,10 +154,16 @@ impl fmt::Display for MediaWarning {
                 Ok(())
             }
             Self::HalfRateAac { core_rate_hz, is_certain: true } => {
-                write!(f, "the sound is HE-AAC: only its core at {core_rate_hz} Hz was decoded")
+                write!(
+                    f,
+                    "the sound is HE-AAC: only its lower frequencies (sample rate {core_rate_hz} Hz) were decoded"
+                )
             }
             Self::HalfRateAac { core_rate_hz, is_certain: false } => {
-                write!(f, "the sound may be HE-AAC, of which only the core at {core_rate_hz} Hz was decoded")
+                write!(
+                    f,
+                    "the sound may be HE-AAC, of which only the lower frequencies (sample rate {core_rate_hz} Hz) were decoded"
+                )
             }
             Self::FormatChange { at_s } => {
                 write!(f, "the sample rate or the channels change after {at_s:.3} s; the rest was left out")

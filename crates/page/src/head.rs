@@ -106,13 +106,11 @@ mod tests {
     #[test]
     fn names_are_shortened_before_words_are_left_out() {
         let recording = format!("{}.wav", "recording_of_a_long_day_".repeat(5));
-        let text =
-            format!("{recording} of load \"{}\" needs 12 % more thrust than the others", "a long load ".repeat(9));
+        let text = format!("{recording} of load \"{}\" has 12 % more thrust than the others", "a long load ".repeat(9));
         let head = head_of("", &text, "");
         assert!(head.contains("long_day_.wav of load \"a long load"), "{head}");
-        assert!(head.contains(" needs 12 % more"), "{head}");
-        let reason =
-            "several speeds explain this sound, and more than one of them can carry the vehicle; check the diameter";
+        assert!(head.contains(" has 12 % more"), "{head}");
+        let reason = "several rotor speeds explain this sound, and the vehicle could fly at more than one of them; check the diameter";
         let head = head_of("load 1 · trial_1.wav: ", reason, " (in 3 of 4 recordings)");
         assert!(head.ends_with("… (in 3 of 4 recordings)") && !head.contains("check"), "{head}");
         assert_eq!(head_of("a: ", "short; do it", ""), "a: short; do it");

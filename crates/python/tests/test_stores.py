@@ -137,7 +137,7 @@ def test_what_is_not_there_is_one_clear_line(bucket, program):
         (["az://container/archive"], 1, "the variables of the store cannot be used: Account must be specified"),
         (["ftp://host/archive"], 2, "this is no address in a store"),
         (["s3://"], 2, "names no bucket"),
-        (["https://name:word@host/a.wav"], 2, "a name with a password may not stand in an address"),
+        (["https://name:word@host/a.wav"], 2, "an address may not contain a password"),
         (["https://host/a.wav?key=1"], 2, "may have no query"),
     ]:
         run = program("batch", *words, "-o", "out", *FLAGS)

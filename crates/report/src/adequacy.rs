@@ -76,7 +76,7 @@ pub fn preferred_text(fit: &SquareLawFit) -> String {
     match (preferred_law(fit), fit.with_intercept, fit.power_law) {
         (None, ..) if fit.laws.len() > 1 => {
             format!(
-                "no law is preferred: none is clearly the most probable; C_f is that of {}\n",
+                "no law is clearly the most probable, so none is preferred; C_f is that of {}\n",
                 ForceLaw::Square.formula()
             )
         }
@@ -161,7 +161,8 @@ pub fn budget_table(budget: &UncertaintyBudget, constant_n_s2: f64) -> TextTable
 fn cross_check(bootstrap: Option<TrialBootstrap>, constant_n_s2: f64) -> String {
     bootstrap.map_or(String::new(), |drawn| {
         format!(
-            "check: trials resampled {} times (bootstrap, seed {}) give u = {} %; the rows \"{}\" and \"{}\" together should give about as much\n",
+            "check: {} random repetitions of the recordings (bootstrap, seed {}) give a standard uncertainty of {} %; the rows \"{}\" and \
+            \"{}\" together should give about the same\n",
             drawn.draws,
             drawn.seed,
             significant(100.0 * drawn.std_uncertainty_n_s2 / constant_n_s2, 2),

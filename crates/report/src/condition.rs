@@ -20,7 +20,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
     wanted().next()?;
     for record in wanted() {
         let why_none = if record.rotors().is_empty() {
-            "none: only the lines of separated rotors, two or more, are compared"
+            "none: lines are compared only where two or more rotors could be separated"
         } else {
             ""
         };
@@ -30,7 +30,7 @@ pub fn condition_table(records: &[SpeedRecord], width: Option<usize>) -> Option<
             let Some(condition) = &rotor.condition else {
                 table.push_words(
                     name,
-                    "the blades are not known, or their pass is not separated from another rotor's".to_owned(),
+                    "the number of blades is not known, or the tone of the blades is not separated from that of another rotor".to_owned(),
                 );
                 continue;
             };

@@ -3,7 +3,7 @@
 use crate::motor::{LoggedMotor, MotorRecord};
 use crate::motor_json::{CombinedLine, combined_line};
 use crate::notice::Notice;
-use crate::verification::failed_check;
+use crate::verification::{failed_check, status_of, undecided_check};
 use hovertone_analysis::{LabelSource, RotorLabels, Verification, VerifiedRotor};
 use hovertone_dynamics::constants_of;
 use serde::Serialize;
@@ -31,15 +31,18 @@ impl FlightLogRecord {
         self.verification.as_ref().is_some_and(|found| !found.is_right())
     }
 
-    /// The warnings that follow: a failed order check, or a log that cannot be compared.
+    /// The warnings that follow: an order check that failed or is not decided, or a log that cannot be compared.
     pub fn notices(&self) -> Vec<Notice> {
         let failed = self.verification.as_ref().and_then(failed_check).map(|Notice { text, hint }| {
             Notice::new(format!("the order check against {} failed: {text}", self.file), hint)
         });
+        let undecided = self.verification.as_ref().and_then(undecided_check).map(|Notice { text, hint }| {
+            Notice::new(format!("the order check against {} is not decided: {text}", self.file), hint)
+        });
         let not_compared = self.not_verified.as_ref().map(|Notice { text, hint }| {
             Notice::new(format!("no order check against {}: {text}", self.file), hint.clone())
         });
-        failed.into_iter().chain(not_compared).collect()
+        failed.into_iter().chain(undecided).chain(not_compared).collect()
     }
 
     /// The heard rotors, each with what the log tells of it.
@@ -124,7 +127,7 @@ impl<'a> FlightLogLine<'a> {
         Self {
             file: &log.file,
             sha256: log.sha256.as_deref(),
-            order_check: found.map(|found| if found.is_right() { "passed" } else { "failed" }),
+            order_check: found.map(status_of),
             reason: log.not_verified.as_ref().map(|notice| notice.text.as_str()),
             offset_s: found.map(|found| found.offset_s),
             is_offset_told: found.map(|found| found.is_offset_told),

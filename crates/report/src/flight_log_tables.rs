@@ -6,7 +6,7 @@ use crate::number::{DASH, fixed, signed, significant, with_uncertainty};
 use crate::results::InputRecord;
 use crate::text_table::{Column, TextTable};
 use crate::typeset::TitledTable;
-use crate::verification::{PPM, failed_check};
+use crate::verification::{PPM, failed_check, undecided_check};
 use hovertone_analysis::{Verification, VerifiedRotor, percent_in_words};
 use hovertone_dynamics::constants_of;
 
@@ -51,7 +51,9 @@ fn checks_table(logged: &[Logged<'_>]) -> TextTable {
         let digits = |found: &Verification| if found.is_offset_told { 3 } else { 1 };
         let verdict = match (found, &log.not_verified) {
             (Some(found), _) => {
-                failed_check(found).map_or("passed".to_owned(), |notice| format!("failed: {}", notice.text))
+                let failed = failed_check(found).map(|notice| format!("failed: {}", notice.text));
+                let undecided = || undecided_check(found).map(|notice| format!("not decided: {}", notice.text));
+                failed.or_else(undecided).unwrap_or_else(|| "passed".to_owned())
             }
             (None, Some(reason)) => format!("none: {}", reason.text),
             (None, None) => "none: no speeds in the log, or no rotor tone".to_owned(),
@@ -152,6 +154,6 @@ fn no_time_constant(record: &MotorRecord) -> Option<&'static str> {
     let first = record.motors.first().filter(|_| !record.has_time_constant())?;
     Some(match first.model.is_too_slow {
         true => "a motor reaches its speed within 300 ms, and 3 log rows must lie in that",
-        false => "no step of the speed between two levels that are held",
+        false => "the speed makes no step from one steady value to another",
     })
 }

@@ -13,7 +13,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
     let range = wish.added_mass_kg_max / wish.vehicle_mass_kg + 1.0;
     let intercept = match plan.force_ratio_for_intercept {
         Some(ratio) if ratio <= range => {
-            "These loads also test F = C_f ω²: they show an intercept of 2 % of the force.".to_owned()
+            "These loads also test F = C_f ω²: they show a force at ω = 0 (intercept) of 2 % of the largest.".to_owned()
         }
         Some(ratio) => {
             // rounded up, so that the named mass is enough
@@ -25,7 +25,7 @@ pub fn flight_plan_text(plan: &FlightPlan, wish: &PlanWish) -> String {
                 added_g / 1e3
             )
         }
-        None => "With these few trials, no range of loads tests F = C_f ω² to 2 % of the force.".to_owned(),
+        None => "With only these recordings, no range of loads can test F = C_f ω² to 2 % of the force.".to_owned(),
     };
     let separated = match plan.largest {
         BudgetInput::LoudestRotor => {

@@ -117,7 +117,7 @@ pub fn grey_box_warnings(record: &GreyBoxRecord) -> Vec<Notice> {
     let axes: Vec<&str> = Axis::ALL.into_iter().filter(is_negative).map(Axis::in_words).collect();
     let gains = (!axes.is_empty()).then(|| {
         let (gains, are) = if axes.len() > 1 { ("gains", "are") } else { ("gain", "is") };
-        let what = format!("the {gains} k_p of {} {are} negative, and no controller flies so", axes.join(" and "));
+        let what = format!("the {gains} k_p of {} {are} negative, and no vehicle can fly so", axes.join(" and "));
         Notice::new(what, "check --log-axes, and the signs of the log's columns")
     });
     let better = record.better.map(Warning::FitsElsewhere);
@@ -129,7 +129,7 @@ fn moved_in_words(log: &str, moved_s: f64) -> Option<String> {
     let by = if moved_s < 0.0 { "earlier" } else { "later" };
     let is_moved = moved_s != 0.0;
     is_moved.then(|| {
-        format!("the clock of {} was set {:.2} s {by}: there the sound follows it", printable(log), moved_s.abs())
+        format!("the clock of {} was set {:.2} s {by}, where the sound follows the log", printable(log), moved_s.abs())
     })
 }
 
@@ -191,16 +191,16 @@ fn torque_line(constant: &TorqueConstant) -> String {
             let (digits, exponent) = (&scaled.digits, scaled.exponent);
             format!("C_τ of one rotor: ({digits}) 1e{exponent} N m s², if the vehicle's I_zz is right\n")
         }
-        other => format!("C_τ: not identifiable, because {}\n", other.reason().unwrap_or_default()),
+        other => format!("C_τ: not known, because {}\n", other.reason().unwrap_or_default()),
     }
 }
 
 fn rank_line(record: &GreyBoxRecord) -> String {
     let information = &record.fit.information;
     let told = record.fit.std_uncertainty.iter().flatten().count();
-    let of_all = format!("the flight tells {told} of the {} parameters", information.parameters);
+    let of_all = format!("the flight shows {told} of the {} parameters", information.parameters);
     let rank = match information.rank {
-        rank if rank < information.parameters => format!("{of_all}; its information holds only {rank} combinations"),
+        rank if rank < information.parameters => format!("{of_all}, and only {rank} combinations of them can be found"),
         _ => of_all,
     };
     let names = match record.names_nats {
@@ -227,7 +227,7 @@ fn check_lines(record: &GreyBoxRecord) -> String {
         let name = printable(other.recording.as_deref().unwrap_or(&other.log));
         text += &match &other.result {
             Some(result) => format!("on {name}, not used for the fit: {}\n", line(result)),
-            None => format!("on {name}: no rotor could be heard by itself, so that nothing is compared\n"),
+            None => format!("on {name}: no rotor could be separated, so nothing is compared\n"),
         };
     }
     text

@@ -82,10 +82,9 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
     let has_steps = shown_steps(record).next().is_some();
     let other_count = record.motors.iter().flat_map(|motor| &motor.model.steps).count() - shown_steps(record).count();
     if first.model.is_too_slow {
-        text +=
-            "too slow for a time constant: a motor reaches its speed within 300 ms, and 3 log rows must lie in that\n";
+        text += "the log has too few rows for a time constant: a motor reaches its speed within 300 ms, and 3 rows must lie in this time\n";
     } else if !has_steps {
-        text += "no step: the speed never goes from one steady speed to another\n";
+        text += "no step: the speed never changes from one steady value to another\n";
     }
     if has_steps {
         text += &format!("\n{}", table_text(&steps_table(record), width));
@@ -93,7 +92,10 @@ pub fn motor_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += &load_text(&record.constants());
     }
     if other_count > 0 {
-        text += &format!("left out: {} of the speed, not of first order\n", counted(other_count, "change"));
+        text += &format!(
+            "left out: {} of the speed that a first-order curve does not fit\n",
+            counted(other_count, "change")
+        );
     }
     text += &maps_text(record, width);
     text + &simulator_lines(&record.constants())
@@ -117,11 +119,12 @@ fn source_in_words(record: &MotorRecord, first: &LoggedMotor) -> String {
         MotorSource::Sound(sound) => {
             let frame_ms = significant(sound.frame_s * MS_PER_S, 3);
             let heard = format!(
-                "from the sound, in frames of {frame_ms} ms; in a reverberant room a time constant can be far off\n"
+                "found from the sound, in pieces of {frame_ms} ms; in a room with echo, a time constant can be far off\n"
             );
             let offset = sound.offset_s.map_or(String::new(), |offset_s| {
                 let offset_s = fixed(offset_s, 3);
-                format!("offset of the commands {offset_s} s, found from the steps, so that the dead time is not known: give --offset if you know it\n")
+                format!("offset of the commands {offset_s} s, found from the steps. So the dead time is not known; if you know the offset \
+                between the clocks, give --offset\n")
             });
             heard + &offset
         }
@@ -231,7 +234,8 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
                 "\nspeed of each command: not known, because no command in this log changes\n".to_owned()
             }
             MotorSource::Sound(MotorSound { has_commands: true, .. }) => {
-                "\nspeed of each command: not known, because the commands do not step when the sound does; are they of this run?\n"
+                "\nspeed of each command: not known, because the commands do not step when the sound does; check that they are of the same \
+                run\n"
                     .to_owned()
             }
             MotorSource::Sound(_) => {
@@ -245,7 +249,7 @@ fn maps_text(record: &MotorRecord, width: Option<usize>) -> String {
         text += "gain: slope of the straight line through the settled speeds; the line holds only between the smallest and the largest of these commands\n";
     }
     if maps().any(|map| map.origin == MapOrigin::Rows) {
-        text += "from all log rows, since no command is held: the lag of the motor makes the gain too small\n";
+        text += "from all log rows, because no command is held: the motor follows late, so this gain is too small\n";
     }
     if maps().any(|map| !map.points.is_empty()) {
         text += &format!("\n{}", table_text(&plateaus_table(record), width));
@@ -268,7 +272,7 @@ fn gains_table(record: &MotorRecord) -> TextTable {
         match (&motor.command, told) {
             (None, _) => shown.push_words(motor.name.clone(), "no command in this log".to_owned()),
             (Some(command), None) => {
-                shown.push_words(motor.name.clone(), format!("the speed does not follow the command {command}"));
+                shown.push_words(motor.name.clone(), format!("the speed does not follow the command \"{command}\""));
             }
             (Some(command), Some((gain, offset_rev_s))) => shown.push(vec![
                 motor.name.clone(),

@@ -1,12 +1,13 @@
 //! The record of one recording: its facts and its result.
 
 use crate::notice::Notice;
+use crate::number::significant;
 use crate::wording::Wording;
 use hovertone_analysis::{
     Method, NoTone, Outcome, Reading, RotorEstimate, RotorLabel, RotorLabels, RotorTone, RotorsHeard, Span,
     SpeedAnalysis, SpeedEstimate, ToneFamily,
 };
-use hovertone_vehicle::{BLADES_MAX, Order};
+use hovertone_vehicle::{BLADES_MAX, Order, THRUST_COEFFICIENT};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -212,7 +213,8 @@ impl SpeedRecord {
                 .to_owned(),
             ),
             Outcome::Ok(_) if self.is_setting_missing("/tone/blades") => Some(
-                "several rotor speeds explain this sound; count the blades, and give --blades N too: the blade pass shows the speed"
+                "several rotor speeds explain this sound; count the blades, and give --blades N too: the tone of the blades shows the \
+                speed"
                     .to_owned(),
             ),
             Outcome::Ok(_) if !self.has_thrust_coefficients() && self.is_one_rotor() => Some(format!(
@@ -223,12 +225,28 @@ impl SpeedRecord {
                 "several rotor speeds explain this sound; give {}",
                 self.missing_facts()
             )),
-            Outcome::Ok(_) => Some(
-                "several rotor speeds explain this sound, and more than one of them can carry the vehicle; check the diameter of the \
-                 propellers and the vehicle, or place the microphone nearer"
-                    .to_owned(),
-            ),
+            Outcome::Ok(_) => Some(self.facts_that_do_not_fit().unwrap_or_else(|| {
+                "several rotor speeds explain this sound, and the vehicle could fly at more than one of them; check the diameter of the \
+                 propellers, the mass and the number of rotors, or place the microphone nearer"
+                    .to_owned()
+            })),
         }
+    }
+
+    /// That the given facts exclude a speed that the sound does not, and what to check: either may be wrong.
+    fn facts_that_do_not_fit(&self) -> Option<String> {
+        let coefficient = |reading: &Reading| {
+            reading.thrust_coefficient.filter(|coefficient| !THRUST_COEFFICIENT.contains(coefficient))
+        };
+        let (rev_s, coefficient) =
+            self.alternatives().iter().find_map(|reading| Some((reading.speed.rev_s(), coefficient(reading)?)))?;
+        let (low, high) = (THRUST_COEFFICIENT.start(), THRUST_COEFFICIENT.end());
+        Some(format!(
+            "several rotor speeds explain this sound, and the given facts contradict one of them: at {rev_s:.1} rev/s, diameter, mass and number \
+             of rotors mean a thrust coefficient of {}, and propellers have {low} to {high}; check the diameter (--diameter-m), the mass \
+             (--mass-kg) and the number of rotors (--rotors)",
+            significant(coefficient, 2)
+        ))
     }
 
     /// That no gear mesh is heard, where that is the tone to follow and nothing else sounds like a rotor.
@@ -240,7 +258,7 @@ impl SpeedRecord {
         });
         (order > BLADES_MAX).then(|| {
             format!(
-                "no gear mesh of order {order} is heard{range}; if the rotors have no gear, give --blades N alone, in place of the vehicle, \
+                "the tone of the gear (order {order}) is not heard{range}; if the rotors have no gear, give --blades N alone, in place of the vehicle, \
                  the gear or the order; if they have one, check these facts, or go nearer"
             )
         })

@@ -6,7 +6,7 @@ use crate::printable::printable;
 use crate::table_lines::table_text;
 use crate::text_table::{Column, TextTable};
 use crate::version::VERSION;
-use hovertone_analysis::{Verification, percent_in_words};
+use hovertone_analysis::{Agreement, Verification, percent_in_words};
 use serde::Serialize;
 
 /// Millionths of a share.
@@ -50,7 +50,7 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
         format!("offset of the log {} s: time to be added to its clock\n", signed(found.offset_s, 3))
     } else {
         format!(
-            "offset of the log: not found, because other offsets fit nearly as well ({} s is used)\n",
+            "offset of the log: not known, because other offsets fit nearly as well ({} s is used)\n",
             signed(found.offset_s, 1)
         )
     };
@@ -67,31 +67,74 @@ pub fn verification_text(record: &VerificationRecord, width: Option<usize>) -> S
 }
 
 fn verdict_in_words(found: &Verification) -> String {
-    match failed_check(found) {
-        None => {
-            let percent = percent_of(found);
-            match found.is_offset_told {
-                true => format!("passed: order and clock are right; heard speeds differ by {percent} %"),
-                false => format!(
-                    "passed: the order is right; heard speeds differ by {percent} %; the clocks are not compared, so the log may be of another flight"
-                ),
-            }
-        }
-        Some(Notice { text, hint }) => format!("failed: {text}; {hint}"),
+    if let Some(Notice { text, hint }) = failed_check(found) {
+        return format!("failed: {text}; {hint}");
+    }
+    if let Some(Notice { text, hint }) = undecided_check(found) {
+        return format!("not decided: {text}; {hint}");
+    }
+    let percent = percent_of(found);
+    let small = match found.agreement {
+        Agreement::PlusMinusTooSmall => format!(
+            ". The ± of the heard speeds is too small: {} of the points lie within it, and 95 % should",
+            percent_in_words(found.coverage())
+        ),
+        _ => String::new(),
+    };
+    if found.is_offset_told {
+        format!("passed: order and clock are right; the mean of the heard speeds differs by {percent} %{small}")
+    } else {
+        format!(
+            "passed: the order is right; the mean of the heard speeds differs by {percent} %{small}. The speeds change too little to compare \
+             the clocks, so the log may be of another flight"
+        )
     }
 }
 
-/// What is wrong, and what to check, where heard and logged speeds are not equal.
+/// The verdict for programs.
+pub(crate) fn status_of(found: &Verification) -> &'static str {
+    match found.is_right() {
+        false => "failed",
+        true if found.passes() => "passed",
+        true => "not_decided",
+    }
+}
+
+/// What is wrong, and what to check, where the means of heard and logged speeds differ.
 pub(crate) fn failed_check(found: &Verification) -> Option<Notice> {
     match found.near_ratio {
         _ if found.is_right() => None,
         Some(ratio) => Some(Notice::new(
             format!("heard speeds are {} times the logged ones", significant(ratio, 3)),
-            "check the blades or the order, and the pole pairs of the log; or the log is of another flight",
+            "check the number of blades or the order of the tone, and the number of pole pairs in the log; or the log is of another flight",
         )),
         None => Some(Notice::new(
-            format!("heard speeds differ by {} %", percent_of(found)),
-            "check the order, the clock of the recorder, or the log",
+            format!("the mean of the heard speeds differs by {} % from the log", percent_of(found)),
+            "check the order of the tone, the clock of the recorder, and whether the log is of this flight",
+        )),
+    }
+}
+
+/// Why equal means prove nothing, and what to check.
+pub(crate) fn undecided_check(found: &Verification) -> Option<Notice> {
+    let is_undecided = found.is_right() && !found.passes();
+    match found.better_offset_s.filter(|_| is_undecided) {
+        _ if !is_undecided => None,
+        Some(offset_s) => Some(Notice::new(
+            format!(
+                "the log fits better at an offset near {} s, outside of the limits of --log-offset-s",
+                signed(offset_s, 2)
+            ),
+            "give wider limits",
+        )),
+        None => Some(Notice::new(
+            format!(
+                "the means are equal within {} %, but only {} of the points of the heard speeds lie within ± of the log, and 95 % should",
+                fixed(100.0 * (found.speed_ratio - 1.0).abs(), 2),
+                percent_in_words(found.coverage())
+            ),
+            "check that the log is of this flight, and that the offset of the clocks is right; where rotors were not separated, place the \
+             microphone nearer",
         )),
     }
 }
@@ -111,6 +154,8 @@ struct VerificationLine<'a> {
     clock_rate_share: Option<f64>,
     speed_ratio: f64,
     near_ratio: Option<f64>,
+    better_offset_s: Option<f64>,
+    coverage: f64,
     rotors: Vec<RotorLine<'a>>,
     version: &'static str,
 }
@@ -142,12 +187,14 @@ pub fn verification_json(record: &VerificationRecord) -> Result<String, serde_js
     let line = VerificationLine {
         file: &record.file,
         log: &record.log,
-        status: if found.is_right() { "passed" } else { "failed" },
+        status: status_of(found),
         offset_s: found.offset_s,
         is_offset_told: found.is_offset_told,
         clock_rate_share: found.clock_rate_share,
         speed_ratio: found.speed_ratio,
         near_ratio: found.near_ratio,
+        better_offset_s: found.better_offset_s,
+        coverage: found.coverage(),
         rotors: rotors.collect(),
         version: VERSION,
     };

@@ -104,6 +104,7 @@ pub(crate) fn warning_of_rotors(
     speeds: &[SpeedEstimate],
     count: u32,
     is_assumed: bool,
+    spread_share: f64,
 ) -> Option<Warning> {
     let resolved = rotors.len();
     let has_mean = speeds.iter().any(|speed| speed.method == Method::Separated);
@@ -112,6 +113,7 @@ pub(crate) fn warning_of_rotors(
         of: count,
         has_mean,
         is_assumed,
+        spread_share,
     })
 }
 

@@ -18,8 +18,8 @@ pub enum Error {
     Signal(#[from] SignalError),
     /// A band above what the recording can hold.
     #[error(
-        "the band {low_hz:.0} to {high_hz:.0} Hz cannot be heard: sound sampled at {sample_rate_hz:.0} Hz holds nothing \
-         above {:.0} Hz; record at a higher rate, or follow a tone of lower order",
+        "the band {low_hz:.0} to {high_hz:.0} Hz cannot be heard: a recording with a sample rate of {sample_rate_hz:.0} Hz has no sound \
+        above {:.0} Hz; record at a higher sample rate, or follow a lower tone",
         sample_rate_hz / 2.0
     )]
     BandAboveNyquist {
@@ -32,8 +32,8 @@ pub enum Error {
     },
     /// A tone that no rotor could make low enough for the recording.
     #[error(
-        "a tone of order {order} cannot be heard: sound sampled at {sample_rate_hz:.0} Hz holds nothing above {:.0} Hz; \
-         record at a higher rate, or follow a tone of lower order",
+        "a tone of order {order} cannot be heard: a recording with a sample rate of {sample_rate_hz:.0} Hz has no sound above {:.0} Hz; \
+        record at a higher sample rate, or follow a lower tone",
         sample_rate_hz / 2.0
     )]
     ToneAboveNyquist {

@@ -53,12 +53,10 @@ impl Address {
             return Err(bad("this address names no bucket or server"));
         }
         if bucket.contains('@') {
-            return Err(bad(
-                "a name with a password may not stand in an address, since addresses stand in the results",
-            ));
+            return Err(bad("an address may not contain a password, because addresses are written into the results"));
         }
         if service == Service::Web && name.contains(['?', '#']) {
-            return Err(bad("the address of a web server may have no query behind its name"));
+            return Err(bad("the address of a web server may have no query (? and more) after the name"));
         }
         let is_folder = name.is_empty() || name.ends_with('/');
         let name = name.strip_suffix('/').unwrap_or(name);

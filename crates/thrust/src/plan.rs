@@ -41,7 +41,7 @@ pub struct PlanWish {
     pub mass_std_kg: f64,
     /// Gravity at the place of the flights.
     pub gravity_m_s2: f64,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of --constant-n-s2.
     pub gravity_std_m_s2: f64,
     /// Relative standard deviation σ of the speed in a hover (in the paper's tables STD over speed is 0.0123) …
     pub speed_spread_share: f64,
@@ -80,7 +80,7 @@ pub enum PlanError {
     Quantity(#[from] QuantityError),
     /// No number of flights reaches the wanted uncertainty.
     #[error(
-        "no number of flights brings the uncertainty below {:.2} % (k = 2); the largest contribution that remains: {}",
+        "even many flights do not bring the uncertainty below {:.2} % (k = 2); most of what remains: {}",
         100.0 * .best_share, .largest.title()
     )]
     OutOfReach {

@@ -186,80 +186,79 @@ impl ThrustWarning {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::LoadDoesNotFit { is_row: true, .. } => {
-                "check this row: the unit, the offset of the scale, the propeller"
+                "check the unit, the offset of the scale and the propeller of this row"
             }
             Self::LoadDoesNotFit { mass_that_fits_kg: Some(_), is_left_out: false, .. } => {
-                "weigh that load again, and check that it does not disturb the rotors' air"
+                "weigh that load again, and check that it does not block the air of the rotors"
             }
             Self::LoadDoesNotFit { mass_that_fits_kg: None, is_left_out: false, .. } => {
                 "check the thrust and the recordings of that load"
             }
             Self::LoadsDisagree { are_rows: true, .. } => "check the units, the offset of the scale, the propellers",
             Self::LoadsDisagree { are_rows: false, .. } | Self::HeavierTurnedSlower { .. } => {
-                "are masses exchanged? Check them, and which recording belongs to which load"
+                "check whether two masses are exchanged, and which recording belongs to which load"
             }
-            Self::TrialsInGroups { .. } => "were they flown with different masses? Give each mass a load of its own",
+            Self::TrialsInGroups { .. } => {
+                "if they were flown with different masses, give each mass a [[load]] of its own"
+            }
             Self::ConstantsDiffer { .. } => {
                 "do not use this constant: check masses, units and tone of both loads, and which recording belongs to which load"
             }
             Self::TrialFarFromOthers { .. } | Self::TrialsDiffer { .. } => {
-                "is it filed under the right load? If it is, check it with `hovertone speed`"
+                "check that it is under the right [[load]]; if it is, look at it with `hovertone speed`"
             }
             Self::MassFarFromKnown { mass_kg, known_kg, .. } if is_shifted_point(mass_kg / known_kg) => {
-                "is the decimal point in the right place, or is it another vehicle? An error of the mass is an error of C_f"
+                "check the decimal point of the mass, and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
             }
             Self::MassFarFromKnown { .. } => {
-                "check the mass, its unit and the name of the vehicle: an error of the mass is an error of C_f"
+                "check the mass, its unit and the name of the vehicle: 1 % of error in the mass is 1 % in C_f"
             }
             Self::VehicleDoesNotFit { .. } => {
-                "do not use this constant: check the name of the vehicle, or give the blades and the gear that you count in its place; if the vehicle is right, record it again from nearer"
+                "do not use this constant: check the name of the vehicle, or give the blades and the gear instead of the name; if the vehicle is right, record it again from nearer"
             }
             Self::RowsDoNotFit { .. } => {
-                "check these rows: a rotor that spins up or down, an offset of the scale, another unit, another propeller"
+                "look for a mistake in these rows: a rotor whose speed still changed, an offset of the scale, another unit or another propeller"
             }
             Self::TrialLeftOut { .. } => {
                 "check it with `hovertone speed`: another harmonic or another machine may have been followed"
             }
             Self::LoadDoesNotFit { is_left_out: true, .. } => "check its mass, its unit and its recordings",
             Self::ConstantsSplit => {
-                "do not use this constant: check masses, units, rotors and the order of the tone, and add a load that decides"
+                "do not use this constant: check the masses, units, rotors and the order of the tone, and measure one more load"
             }
             Self::MixedBenchAndHover => {
-                "on a bench a rotor stands alone and the air around it is still; fit bench runs and hovers apart to compare them"
+                "a rotor alone on a bench has another thrust than in flight: put bench runs and hovers into two experiment files"
             }
             Self::SingleLoad => "measure a second load",
-            Self::OneRecordingEach { .. } => {
-                "record each load several times, five if possible: land and start again between"
-            }
-            Self::EqualLoads { .. } => "measure loads as far apart as is safe: equal ones show nothing of the law",
+            Self::OneRecordingEach { .. } => "record each load five times, if possible: land and start again between",
+            Self::EqualLoads { .. } => "measure masses as far apart as is safe: equal masses cannot test the law",
             Self::NarrowLoadRange(LoadRange { force_ratio_needed: None, .. }) => {
                 "check the masses or thrusts, the uncertainties that you stated, and which recording belongs to which load"
             }
             Self::NarrowLoadRange(_) => {
-                "C_f is still valid near these forces; a wider range of forces tests the law, and for hovers `hovertone fit --plan` plans it"
+                "C_f is still valid near these forces; to test the law, measure a wider range of forces; `hovertone fit --plan` plans such hovers"
             }
             Self::OtherLawPreferred { .. } => {
-                "C_f belongs to the square law, which simulators use: use it near the measured speeds"
+                "C_f is the factor in F = C_f ω², which simulators use: use it only near the measured speeds"
             }
             Self::ConstantDrifts(Drift { kind: DriftKind::PerRow | DriftKind::PerVolt, .. }) => {
-                "at a given speed neither time nor voltage changes thrust: zero the stand between runs, let it warm up, and take \
-                 rows in a random sequence"
+                "time and voltage do not change the thrust at a given speed, so the stand drifts: zero it between runs, let it warm up, and measure in a random sequence"
             }
             Self::ConstantDrifts(_) => {
                 "keep height and place, fly the loads in a random sequence, each with an equally full battery"
             }
             Self::ImplausibleThrustCoefficient { .. } => {
-                "the range is 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
+                "propellers have 0.03 to 0.25: check the diameter, the number of rotors, and the order of the tone"
             }
             Self::ImplausibleFigureOfMerit { .. } => {
-                "the range is 0.05 to 0.85: check the power (all running rotors together), its unit, and the diameter"
+                "rotors have 0.05 to 0.85: check the power (of all running rotors together), its unit, and the diameter"
             }
-            Self::UncertaintiesIncomplete { .. } => "state one in every row, or in none",
+            Self::UncertaintiesIncomplete { .. } => "give an uncertainty in every row, or in none",
             Self::MassNotWeighed { .. } => {
-                "weigh the vehicle ready to fly and write vehicle.mass_kg: 1 % of mass is 1 % of C_f, and the ± does not contain it"
+                "weigh the vehicle ready to fly, and write mass_kg under [vehicle]: 1 % of error in the mass is 1 % in C_f, and the ± does not include it"
             }
             Self::LoudestRotor => {
-                "if the speeds of the rotors differ by 1 to 2 %, the constant can be off by 2 to 4 %; its ± contains that"
+                "where their speeds differ by 1 to 2 %, the constant can be off by 2 to 4 %, and its ± includes this; to separate the rotors, place the microphone nearer and record without compression"
             }
         }
     }
@@ -292,7 +291,8 @@ impl fmt::Display for ThrustWarning {
         match self {
             Self::LoadDoesNotFit { name, is_row, mass_that_fits_kg, mass_that_fits_std_kg, is_left_out } => {
                 f.write_str(&misfit_text(name, *is_row, mass_that_fits_kg.map(|mass_kg| (mass_kg, *mass_that_fits_std_kg))))?;
-                if *is_left_out { f.write_str("; it is left out: its constant is more than twice or less than half that of the others") } else { Ok(()) }
+                if *is_left_out { f.write_str("; it is left out, because its constant is more than twice or less than half that of the \
+                others") } else { Ok(()) }
             }
             Self::LoadsDisagree { names, are_rows } => {
                 let noun = if *are_rows { "rows" } else { "loads" };
@@ -301,23 +301,23 @@ impl fmt::Display for ThrustWarning {
             Self::TrialFarFromOthers { load, recording, thrust_share } => {
                 let than = if *thrust_share > 0.0 { "more" } else { "less" };
                 let percent = 100.0 * thrust_share.abs();
-                write!(f, "{recording} of load \"{load}\" needs {percent:.0} % {than} thrust than the others")
+                write!(f, "judged by its speed, {recording} of load \"{load}\" has {percent:.0} % {than} thrust than the others")
             }
             Self::TrialsInGroups { load, groups_rev_s } => {
-                write!(f, "the trials of load \"{load}\" lie in {}", groups_text(groups_rev_s))
+                write!(f, "the recordings of load \"{load}\" form {}", groups_text(groups_rev_s))
             }
             Self::ConstantsDiffer { least, most, share, stated_share } => {
                 f.write_str(&differ_text([least, most], *share, *stated_share))
             }
             Self::TrialsDiffer { load, least, most, thrust_share } => {
-                write!(f, "{most} of load \"{load}\" needs {:.0} % more thrust than {least}", 100.0 * thrust_share)
+                write!(f, "judged by its speed, {most} of load \"{load}\" has {:.0} % more thrust than {least}", 100.0 * thrust_share)
             }
             Self::HeavierTurnedSlower { heavy, light } => {
                 write!(f, "the rotors turned slower under the heavier load \"{heavy}\" than under the lighter \"{light}\"")
             }
             Self::MassFarFromKnown { load, mass_kg, known_kg } => write!(
                 f,
-                "load \"{load}\" weighs {}, {} times as much as the named vehicle, {}",
+                "load \"{load}\" weighs {}, {} times as much as the named vehicle ({})",
                 mass_text(*mass_kg),
                 ratio_text(mass_kg / known_kg),
                 mass_text(*known_kg)
@@ -327,23 +327,25 @@ impl fmt::Display for ThrustWarning {
             }
             Self::RowsDoNotFit { names, are_left_out } => {
                 write!(f, "{} rows do not fit the others: {}", names.len(), first_names(names))?;
-                if *are_left_out { f.write_str("; they are left out: their constants are more than twice or less than half that of the others") } else { f.write_str("; they are used too") }
+                if *are_left_out { f.write_str("; they are left out, because their constants are more than twice or less than half that of \
+                the others") } else { f.write_str("; they are used too") }
             }
             Self::TrialLeftOut { load, recording } => {
-                write!(f, "{recording} of load \"{load}\" is left out: its constant is more than twice or less than half that of the other trials")
+                write!(f, "{recording} of load \"{load}\" is left out, because its constant is more than twice or less than half that of \
+                the other recordings")
             }
             Self::ConstantsSplit => f.write_str(
-                "half of the constants are more than twice or less than half the others, and nothing shows which half is right",
+                "half of the constants are more than twice or less than half of the others, and nothing shows which of them are right",
             ),
             Self::MixedBenchAndHover => f.write_str("bench runs and hovers are fitted together"),
             Self::SingleLoad => f.write_str("only one load can be used, so the law cannot be tested"),
             Self::OneRecordingEach { load_count: 1 } => {
-                f.write_str("there is one usable recording: the ± does not contain how much the speed differs from flight to flight")
+                f.write_str("only one recording can be used, so the ± does not include how much the speed differs from flight to flight")
             }
             Self::OneRecordingEach { .. } => f.write_str(
                 "each load has one recording, so the law cannot be tested; the ± comes from the scatter of the loads",
             ),
-            Self::EqualLoads { count } => write!(f, "all {count} loads are equal, or nearly so"),
+            Self::EqualLoads { count } => write!(f, "all {count} loads have the same force, or nearly so"),
             Self::NarrowLoadRange(range) => f.write_str(&range_text(range)),
             Self::OtherLawPreferred { law, probability } => {
                 write!(f, "{} describes the forces better than F = C_f ω² (probability {:.0} %)", law.formula(), 100.0 * probability)
@@ -359,9 +361,10 @@ impl fmt::Display for ThrustWarning {
                 write!(f, "only {stated} of {of} rows have an uncertainty above 0: the ± comes from the scatter of all rows")
             }
             Self::MassNotWeighed { mass_kg } => {
-                write!(f, "the vehicle's mass, {:.1} g, is that of a preset or a model: nobody weighed this one", 1e3 * mass_kg)
+                write!(f, "the mass of the vehicle, {:.1} g, comes from a preset or a model: this vehicle was not weighed", 1e3 * mass_kg)
             }
-            Self::LoudestRotor => f.write_str("one tone is used for all rotors: that of the loudest, or a mean by loudness"),
+            Self::LoudestRotor => f.write_str("the rotors could not be separated: one tone is used for all, that of the loudest or a \
+            mixture of several"),
         }
     }
 }

@@ -16,15 +16,17 @@ pub(crate) fn differ_text([least, most]: [&String; 2], share: f64, stated_share:
     match 100.0 * stated_share {
         small if small < 0.5 => words,
         percent => {
-            format!("{words}; the stated uncertainties of their forces explain {percent:.0} % (k = {COVERAGE_FACTOR})")
+            format!(
+                "{words}; the stated uncertainties of their forces explain only {percent:.0} % (k = {COVERAGE_FACTOR})"
+            )
         }
     }
 }
 
 pub(crate) fn drift_text(drift: &Drift) -> String {
     let step = match drift.kind {
-        DriftKind::PerTrial => "from trial to trial",
-        DriftKind::PerSecond => "each second of a trial",
+        DriftKind::PerTrial => "from one recording to the next",
+        DriftKind::PerSecond => "with each second of a recording",
         DriftKind::PerRow => "from row to row of the table",
         DriftKind::PerVolt => "with each volt of the supply",
     };

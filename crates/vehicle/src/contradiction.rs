@@ -14,7 +14,7 @@ pub(crate) const HOVER_REV_S_MIN: f64 = 10.0;
 #[non_exhaustive]
 pub enum Contradiction {
     /// Blades that the vehicle does not have.
-    #[error("blades = {said}, and the propellers of the vehicle \"{vehicle}\" have {known} blades")]
+    #[error("blades = {said}, but the propellers of the vehicle \"{vehicle}\" have {known} blades")]
     Blades {
         /// Name of the vehicle in files and flags.
         vehicle: &'static str,
@@ -25,7 +25,7 @@ pub enum Contradiction {
     },
     /// A gear that the vehicle does not have.
     #[error(
-        "gear = {}:{}, and the gear of the vehicle \"{vehicle}\" is {}:{}",
+        "gear = {}:{}, but the gear of the vehicle \"{vehicle}\" is {}:{}",
         .said.pinion, .said.wheel, .known.pinion, .known.wheel
     )]
     Gear {
@@ -37,7 +37,7 @@ pub enum Contradiction {
         said: Gear,
     },
     /// A tone that the vehicle does not have.
-    #[error("order = {said}, and the rotors of the vehicle \"{vehicle}\" have tones of order {known}")]
+    #[error("order = {said}, but the rotors of the vehicle \"{vehicle}\" have tones of order {known}")]
     Order {
         /// Name of the vehicle in files and flags.
         vehicle: &'static str,
@@ -48,8 +48,8 @@ pub enum Contradiction {
     },
     /// A band in which the tone cannot lie.
     #[error(
-        "band = {low_hz}:{high_hz} Hz: a tone of order {order} lies there at {:.1} to {:.1} rev/s, and the rotor is searched for from \
-         {rev_s_min:.1} to {rev_s_max:.1} rev/s",
+        "band = {low_hz}:{high_hz} Hz: a tone of order {order} in this band means {:.1} to {:.1} rev/s, but the rotor is searched for from \
+        {rev_s_min:.1} to {rev_s_max:.1} rev/s",
         .low_hz / .order.lines_per_turn(), .high_hz / .order.lines_per_turn()
     )]
     Band {
@@ -75,7 +75,7 @@ pub enum Contradiction {
         blades: u32,
     },
     /// Another number of rotors than the vehicle has.
-    #[error("rotors = {said}, and the vehicle \"{vehicle}\" has {known} rotors")]
+    #[error("rotors = {said}, but the vehicle \"{vehicle}\" has {known} rotors")]
     Rotors {
         /// Name of the vehicle in files and flags.
         vehicle: &'static str,
@@ -85,14 +85,12 @@ pub enum Contradiction {
         said: u32,
     },
     /// A mass of hundreds of kilograms, and nothing else that would bear it out.
-    #[error(
-        "mass_kg = {0} is heavier than most multirotors, and no diameter of propellers is given that could carry it"
-    )]
+    #[error("mass_kg = {0} is more than most multirotors weigh, and no diameter of its propellers is given")]
     HeavyWithoutDiameter(f64),
     /// Propellers that are too small for the mass.
     #[error(
-        "diameter_m = {diameter_m} and mass_kg = {mass_kg}: to carry this mass the blade tips would move at Mach {mach:.2}, and no \
-         multirotor passes Mach {TIP_MACH_MAX}"
+        "diameter_m = {diameter_m} and mass_kg = {mass_kg}: to carry this mass, the blade tips would need Mach {mach:.2}, and no \
+        multirotor exceeds Mach {TIP_MACH_MAX}"
     )]
     TooSmallToCarry {
         /// Diameter of the propellers.
@@ -116,7 +114,7 @@ pub enum Contradiction {
         rev_s: f64,
     },
     /// A mass that is far from the vehicle's.
-    #[error("mass_kg = {said_kg}, and the vehicle \"{vehicle}\" weighs {known_kg} kg")]
+    #[error("mass_kg = {said_kg}, but the vehicle \"{vehicle}\" weighs {known_kg} kg")]
     Mass {
         /// Name of the vehicle in files and flags.
         vehicle: &'static str,
@@ -130,7 +128,8 @@ pub enum Contradiction {
     GearSwapped(Gear),
     /// A propeller whose tips would be too fast.
     #[error(
-        "diameter_m = {diameter_m}: at {rev_s:.1} rev/s the blade tips would move at Mach {mach:.2}, and no multirotor passes Mach {TIP_MACH_MAX}"
+        "diameter_m = {diameter_m}: at {rev_s:.1} rev/s the blade tips would move at Mach {mach:.2}, and no multirotor exceeds Mach \
+        {TIP_MACH_MAX}"
     )]
     TipsTooFast {
         /// The given diameter.
@@ -146,25 +145,26 @@ impl Contradiction {
     /// Advice to the user.
     pub fn hint(&self) -> String {
         match self {
-            Self::Blades { .. } => "leave out one of the two; with another propeller than the usual one give the blades \
-                                    without the name of the vehicle"
+            Self::Blades { .. } => "leave out one of the two; if your vehicle has other propellers than usual, give the blades without the \
+            name of the vehicle"
                 .to_owned(),
-            Self::Gear { .. } => "leave out one of the two; with another gear than the usual one give the gear without \
-                                  the name of the vehicle"
+            Self::Gear { .. } => "leave out one of the two; if your vehicle has another gear than usual, give the gear without the name of \
+            the vehicle"
                 .to_owned(),
-            Self::Order { .. } => "leave the order out; the multiples of a tone are its harmonics".to_owned(),
-            Self::OrderOfBlades { blades, .. } => format!("leave out one of the two: blades = {blades} alone mean the order {blades}"),
+            Self::Order { .. } => "leave the order out: hovertone follows the multiples of the tone (its harmonics) by itself".to_owned(),
+            Self::OrderOfBlades { blades, .. } => format!("leave out one of the two: blades = {blades} alone means order = {blades}"),
             Self::Band { order, rev_s_min, rev_s_max, .. } => {
                 let edge_hz = |rev_s: f64| rev_s * order.lines_per_turn();
                 format!(
-                    "leave the band out, or give the frequencies between which you expect the tone, within {:.0} to {:.0} Hz; for another tone also give its order",
+                    "leave the band out, or give one within {:.0} to {:.0} Hz, where this tone can be; for another tone, also give its \
+                    order",
                     edge_hz(*rev_s_min),
                     edge_hz(*rev_s_max)
                 )
             }
-            Self::Rotors { .. } => "leave out one of the two: of a known vehicle, all of them turn in a hover".to_owned(),
+            Self::Rotors { .. } => "leave out one of the two: in a hover, all rotors of the vehicle turn".to_owned(),
             Self::HeavyWithoutDiameter(mass_kg) => format!(
-                "masses are in kilograms: {mass_kg} g are {}; if it is this heavy, also give the diameter of its propellers",
+                "masses are in kilograms: {mass_kg} g are {}; if the vehicle is this heavy, also give the diameter of its propellers",
                 mass_kg / 1e3
             ),
             Self::TooSmallToCarry { .. } | Self::TooLargeToCarry { .. } => {

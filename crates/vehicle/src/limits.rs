@@ -88,7 +88,7 @@ pub enum ConfigError {
         high_hz: f64,
     },
     /// A span whose end is not after its start.
-    #[error("the end of the span, {to_s} s, is not after its start, {from_s} s")]
+    #[error("the end of the part, {to_s} s, is not after its start, {from_s} s")]
     EmptySpan {
         /// Start.
         from_s: f64,

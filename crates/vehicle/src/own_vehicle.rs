@@ -40,7 +40,7 @@ pub struct OwnVehicle {
 #[non_exhaustive]
 pub enum OwnVehicleError {
     /// A name that no flag could hold.
-    #[error("the name \"{id}\" has other signs than small letters, digits, - and _")]
+    #[error("the name \"{id}\" may have only small letters, digits, - and _")]
     Name {
         /// The name.
         id: String,
@@ -165,7 +165,10 @@ mod tests {
             (OwnVehicle { shaft_speed_rev_s: Some((3600.0, 9000.0)), ..own() }, "3600 rpm are 60"),
             (OwnVehicle { gear: Some(Gear { pinion: 69, wheel: 8 }), ..own() }, "swapped"),
             (OwnVehicle { mass_kg: Some(250.0), ..own() }, "Mach"),
-            (OwnVehicle { mass_kg: Some(250.0), propeller_diameter_m: None, ..own() }, "heavier than most"),
+            (
+                OwnVehicle { mass_kg: Some(250.0), propeller_diameter_m: None, ..own() },
+                "more than most multirotors weigh",
+            ),
             (OwnVehicle { propeller_diameter_m: Some(2.0), mass_kg: None, ..own() }, "Mach 3.66"),
             (OwnVehicle { propeller_diameter_m: Some(0.02), shaft_speed_rev_s: None, ..own() }, "Mach"),
         ] {

@@ -179,7 +179,7 @@ mod tests {
             let error = outside.check().unwrap_err();
             assert!(error.hint().contains("1380 to 5520 Hz"), "{}", error.hint());
         }
-        assert!(of(100.0, 130.0).check().unwrap_err().to_string().contains("at 1.4 to 1.9 rev/s"));
+        assert!(of(100.0, 130.0).check().unwrap_err().to_string().contains("means 1.4 to 1.9 rev/s"));
     }
 
     #[test]

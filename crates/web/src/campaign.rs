@@ -97,7 +97,7 @@ fn refuse_copies(files_heard: &mut HeardFiles, trials: &[PageTrial]) -> Result<(
         let Ok(sha256) = files_heard.sha256(trial.number) else { continue };
         if let Some(first) = known.insert(sha256, &trial.name) {
             let what = format!("{first} and {} are the same recording", trial.name);
-            return Err(format!("{what}: as two trials they would make the ± too small; take one of them out"));
+            return Err(format!("{what}: counted twice, it would make the ± too small; take one of them out"));
         }
     }
     Ok(())

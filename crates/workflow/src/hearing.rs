@@ -158,7 +158,7 @@ fn why_no_tone(recording: &Recording, analysed: &Analysed) -> Option<String> {
     let warnings = recording.warnings();
     let is_silent = matches!(reason, NoTone::Silence);
     if is_silent && warnings.iter().any(|warning| matches!(warning, MediaWarning::NonFiniteSamples { .. })) {
-        let why = "the audio samples are NaN or infinite, which are no sound; look at the program that wrote the file";
+        let why = "the audio samples are no numbers (NaN or infinite); check the program that wrote the file";
         return Some(why.to_owned());
     }
     let explains = |warning: &&MediaWarning| {
@@ -184,15 +184,15 @@ fn why_rate_is_low(tone: &ToneConfig, half_rate_hz: f64) -> Option<String> {
     let are_speeds_known = tone.speed_max != ToneConfig::of_order(order).speed_max;
     Some(if are_speeds_known {
         format!(
-            "the sample rate is too low: nothing above {half_rate_khz:.1} kHz is recorded, and the tone of order {order} may lie up to {:.1} kHz; \
-             record at a higher rate, or follow a tone of lower order",
+            "the sample rate is too low: no sound above {half_rate_khz:.1} kHz is recorded, and the tone of order {order} may be as high \
+            as {:.1} kHz; record at a higher sample rate, or follow a lower tone",
             tone_hz / 1e3
         )
     } else {
         let blades = if tone.blades.is_none() { "count the blades and give --blades N too, or " } else { "" };
         format!(
-            "no tone of order {order} is heard. Nothing above {half_rate_khz:.1} kHz is recorded, so that this tone can be heard up to {:.0} rev/s \
-             only; {blades}name the vehicle, or give --band LOW:HIGH around the tone",
+            "the tone of order {order} ({order} times per turn of the shaft) is not heard. The recording has no sound above {half_rate_khz:.1} kHz, so this tone can be heard only up \
+            to {:.0} rev/s; {blades}name the vehicle, or give --band LOW:HIGH around the tone",
             half_rate_hz / order.lines_per_turn()
         )
     })

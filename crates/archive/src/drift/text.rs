@@ -84,8 +84,8 @@ fn not_known_text(drift: &Drift) -> &'static str {
     match drift.rotors.iter().all(|row| row.change.is_rotor_known) {
         true => "",
         false => {
-            "\"cannot tell which rotor\": the order of the speeds may have changed. Another pairing of the rotors leaves at least as many of them \
-             unchanged, and the sound does not say which pairing is right. The mean of all rotors is tested\n"
+            "\"cannot tell which rotor\": rotors are numbered by their speeds, and these numbers may have changed. The sound does not show \
+            which rotor is which, so only the mean of all rotors is tested\n"
         }
     }
 }

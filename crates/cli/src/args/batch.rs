@@ -8,19 +8,19 @@ use hovertone_archive::Shard;
 use std::path::PathBuf;
 
 const BATCH_EXAMPLES: &str = "\
-Each finished recording is kept at once: a run that was stopped goes on where it was, and recordings that are new or
-changed are heard when the same command runs again. A file that cannot be heard is a row with its error.
+Each finished recording is kept at once, so a run that was stopped can go on: give the same command again. It hears only
+recordings that are new or changed. A file that cannot be heard gets a row with its error.
 OUT holds recordings.parquet (a row for each recording), tracks/ (its speed over time) and overview.html.
 
-Put a pattern into quotes: then hovertone reads it, and a later run finds new recordings too. Without quotes the shell
-replaces it by the names of today.
+Put a pattern into quotes: then a later run finds new recordings too. Without quotes, the shell replaces the pattern by
+the names of today.
 
 Examples:
   hovertone batch archive -o speeds --blades 2
   hovertone batch archive -o speeds --blades 2 --shard 3/8     one of eight jobs that share a folder
   hovertone batch list.txt -o listed --vehicle ardrone";
 
-/// Rotor speeds of an archive of recordings, as Parquet: on all cores, resumable
+/// Rotor speeds of an archive of recordings, as Parquet files: on all cores, and a stopped run can go on
 ///
 /// Hears each recording as `hovertone speed` does, with the same flags.
 #[derive(Args, Debug)]
@@ -33,13 +33,13 @@ pub(crate) struct BatchArguments {
     /// Folder of the results
     #[arg(short, long, value_name = "OUT", value_parser = typed_path(), help_heading = "Output")]
     pub(crate) output: PathBuf,
-    /// Hear only a part of the recordings: job I of N, which share OUT; the last one that ends writes the tables
+    /// Hear only part I of N of the recordings: all N jobs share OUT, and the last job that ends writes the tables
     #[arg(long, value_name = "I/N", help_heading = "How it runs")]
     pub(crate) shard: Option<Shard>,
     /// Recordings that are heard at the same time [default: one for each core]
     #[arg(long, value_name = "N", value_parser = whole_number(1usize..=1024), help_heading = "How it runs")]
     pub(crate) threads: Option<usize>,
-    /// Hear those again that could not be heard
+    /// Hear again the recordings that could not be heard
     #[arg(long, help_heading = "How it runs")]
     pub(crate) retry: bool,
     #[command(flatten)]
@@ -58,9 +58,9 @@ pub(crate) struct BatchArguments {
 }
 
 const COMPARE_EXAMPLES: &str = "\
-Recordings of the same name below the two folders that were heard are compared one by one, and each rotor by the
-weighted mean of its changes. Where no name is in both, the means of all recordings are compared (Welch's test).
-All reported uncertainties count, and p is that of all tests together (Holm).
+Recordings that have the same name in both archives are compared one by one; the change of a rotor is the weighted mean
+of these changes. Where no name is in both, the means of all recordings are compared (Welch's test). All stated
+uncertainties are used. p is corrected for the number of tests (Holm).
 
 Examples:
   hovertone batch-compare january february

@@ -10,7 +10,7 @@ Record one rotor on a bench while a tachometer shows its speed: this checks the 
 clock. Or record a tone of known frequency: this checks the clock alone, by the strongest line within 2.5 % of that \
 frequency, or within --band.
 
-The clock passes if its error, with the whole of its ±, is within --clock-ppm. It fails if no part of the ± is. Otherwise \
+The clock passes if the whole interval, error ± uncertainty, lies within --clock-ppm. It fails if no part of it does. Otherwise \
 it is not decided. A tachometer that shows whole revolutions per minute leaves ±80 millionths at 7200 rpm (k = 2): this \
 decides the order, but a clock only if --clock-ppm is above 80.
 
@@ -18,9 +18,9 @@ Examples:
   hovertone calibrate --vehicle crazyflie --rotors 1 --tachometer-rpm 20850 bench.wav
   hovertone calibrate --true-hz 1000 tone.wav";
 
-/// The recorder's clock and the order of the tone, checked against one known speed: pass, fail or not decided, with the correction
+/// Checks the recorder's clock and the order of the tone against one known speed: pass, fail or not decided, with the correction
 ///
-/// Hears the rotor as `hovertone speed` does, and compares the result with the known speed. The exit code is 3 if the check does not pass.
+/// Hears the rotor as `hovertone speed` does, and compares the result with the known speed. If the check does not pass, the exit code is 3.
 #[derive(Args, Debug)]
 #[command(after_help = CALIBRATE_EXAMPLES)]
 pub(crate) struct CalibrateArguments {
@@ -47,13 +47,13 @@ pub(crate) struct CalibrateArguments {
     /// Number of rotors that turn: 1, since the known speed is that of one rotor
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX), help_heading = "Which tone")]
     pub(crate) rotors: Option<u32>,
-    /// How far the recorder's clock may be off, in millionths
+    /// Largest allowed error of the recorder's clock, in millionths
     #[arg(long, value_name = "PPM", default_value_t = 50.0, help_heading = "How it is analysed")]
     pub(crate) clock_ppm: f64,
-    /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
+    /// Use the recording from this time on, in seconds or as 1:02.5, and leave out nothing after it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) from: Option<f64>,
-    /// Use the recording up to here, and cut nothing away
+    /// Use the recording up to this time, and leave out nothing before it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) to: Option<f64>,
     #[command(flatten)]

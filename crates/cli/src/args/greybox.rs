@@ -8,19 +8,19 @@ use clap::Args;
 use std::path::PathBuf;
 
 const GREYBOX_EXAMPLES: &str = "\
-The log is one of PX4 (ULog), ArduPilot (DataFlash), Betaflight or INAV (blackbox), or a CSV with the headers time_s; \
-command_roll, command_pitch, command_yaw_rate, command_climb (from −1 to 1); roll_deg, pitch_deg, yaw_rate_rad_s, \
-velocity_z_m_s. roll_rate_rad_s and pitch_rate_rad_s make the result better. With speed_1_rad_s to speed_4_rad_s no \
-recording is needed. Fly doublets about all four axes, short and long, for a minute.
+The log may come from PX4 (ULog), ArduPilot (DataFlash), or Betaflight or INAV (blackbox). It may also be a CSV with the headers time_s; \
+command_roll, command_pitch, command_yaw_rate, command_climb (from −1 to 1); roll_deg, pitch_deg, yaw_rate_rad_s, velocity_z_m_s. With \
+roll_rate_rad_s and pitch_rate_rad_s the result is better. With speed_1_rad_s to speed_4_rad_s no recording is needed. For a minute, fly \
+doublets (a command to one side, then to the other), short and long, in roll, pitch, yaw and climb.
 
 Examples:
   hovertone greybox doublets.wav doublets.csv --vehicle ardrone
   hovertone greybox doublets.csv --vehicle ardrone --scenario identified.toml
   hovertone greybox doublets.wav doublets.csv --vehicle ardrone --check other.wav other.csv";
 
-/// The low-level model: gains of eq 1, time constant of eq 2 and C_τ, from a flight of doublets and its log
+/// Model of motors and controllers: gains (eq 1), time constant (eq 2) and C_τ, from the sound and the log of a flight of doublets
 ///
-/// Fits the paper's eqs 1 and 2 to the speeds of the rotors. The speeds are heard, with the model's predictions as a guide, or logged.
+/// Fits eqs 1 and 2 of the paper to the speeds of the rotors. The speeds are heard, guided by the predictions of the model, or logged.
 #[derive(Args, Debug)]
 #[command(after_help = GREYBOX_EXAMPLES)]
 pub(crate) struct GreyBoxArguments {
@@ -33,7 +33,7 @@ pub(crate) struct GreyBoxArguments {
     /// Mass as flown, in kg or as 413g [default: the vehicle's]
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
-    /// Time to add to the log's clock to get that of the recording, in s, right to 10 s: the sound tells the rest [default: 0]
+    /// Time to add to the log's clock to get that of the recording, in s; an error of up to 10 s is found from the sound [default: 0]
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = clock_offset_s)]
     pub(crate) log_offset_s: Option<f64>,
     /// Axes of the log: flu (x forward, y left, z up) or frd (y right, z down) [default: flu]

@@ -15,22 +15,22 @@ use std::str::FromStr;
 #[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Which tone")]
 pub(crate) struct ToneArguments {
-    /// Blades of each propeller: without a gear, the tone is the blade pass
+    /// Number of blades of each propeller: without --gear, hovertone follows the tone of the blades (blade pass)
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=20))]
     pub(crate) blades: Option<u32>,
-    /// Teeth of the motor's pinion and of the rotor's wheel, or of the wheel alone: the tone is the gear mesh
+    /// Teeth of the motor's pinion and of the rotor's wheel, or of the wheel alone: hovertone follows the tone of the gear
     #[arg(long, value_name = "P:W", value_parser = gear)]
     pub(crate) gear: Option<Gear>,
-    /// Order of the tone: its lines per turn of the shaft
+    /// Order of the tone: its frequency over the turns of the shaft per second, such as 2 for two blades
     #[arg(long, value_name = "X")]
     pub(crate) order: Option<f64>,
-    /// A known vehicle: its gear mesh or blade pass (see `hovertone vehicles`)
+    /// Name of a known vehicle: it tells blades, gear and rotors (see `hovertone vehicles`)
     #[arg(long, value_name = "NAME")]
     pub(crate) vehicle: Option<String>,
     /// Band in which the tone lies, in Hz [default: found in the sound]
     #[arg(long, value_name = "LOW:HIGH", value_parser = band)]
     pub(crate) band: Option<(f64, f64)>,
-    /// Number of harmonics to follow; the tone is the first [default: 3]
+    /// Number of harmonics (multiples of the tone) to follow; the tone itself is the first [default: 3]
     #[arg(long, value_name = "N", value_parser = whole)]
     pub(crate) harmonics: Option<u32>,
 }
@@ -41,7 +41,7 @@ pub(crate) struct KnownArguments {
     /// Diameter of a propeller, in m or as 8in: it rules out speeds at which the tips are faster than Mach 0.6
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
-    /// Mass as flown, in kg or as 413g: with --diameter-m and --rotors it rules out thrust coefficients outside 0.03 to 0.25
+    /// Mass as flown, in kg or as 413g: with --diameter-m and --rotors it rules out speeds that cannot carry the vehicle
     #[arg(long, value_name = "KG", value_parser = mass_kg)]
     pub(crate) mass_kg: Option<f64>,
     /// Number of rotors that carry the vehicle; two or more are separated [default: one, or four if several are heard]
@@ -52,16 +52,16 @@ pub(crate) struct KnownArguments {
 #[derive(Args, Debug, Default)]
 #[command(next_help_heading = "How it is analysed")]
 pub(crate) struct AnalysisArguments {
-    /// Tell only the mean speed, and do not separate rotors: this takes less time and gives a larger ±
+    /// Find only the mean speed, without separating the rotors: this takes less time and gives a larger ±
     #[arg(long, conflicts_with = "method")]
     pub(crate) mean_only: bool,
     /// How the speed is read from the sound [default: separated for several rotors, else harmonic]
     #[arg(long, value_parser = method_parser())]
     pub(crate) method: Option<Method>,
-    /// How far the recorder's clock may be off, in millionths [default: 50]
+    /// Largest error of the recorder's clock, in millionths [default: 50]
     #[arg(long, value_name = "PPM")]
     pub(crate) clock_ppm: Option<f64>,
-    /// Show how strong the lines of each rotor's shaft are beside its blade pass: they may come from imbalance or unlike blades
+    /// Show how strong the tone of each rotor's shaft is beside the tone of its blades: it may come from imbalance or from unequal blades
     #[arg(long)]
     pub(crate) condition: bool,
     /// How fast the vehicle may move towards or away from the microphone, in m/s [default: 0]
@@ -70,19 +70,20 @@ pub(crate) struct AnalysisArguments {
     /// How much the distance to the microphone may change during a hover, in m or as 30cm; give 0 for a bench [default: 0.5]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) drift_m_max: Option<f64>,
-    /// Use the recording from here, in seconds or as 1:02.5, and cut nothing away
+    /// Use the recording from this time on, in seconds or as 1:02.5, and leave out nothing after it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) from: Option<f64>,
-    /// Use the recording up to here, and cut nothing away
+    /// Use the recording up to this time, and leave out nothing before it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s)]
     pub(crate) to: Option<f64>,
-    /// Length of a frame of the paper's methods, in seconds [default: the length from 0.0125 to 0.4 with the clearest tone]
+    /// Length of a frame (a short piece of sound) in s, with --method maximum_trace or gaussian [default: from 0.0125 to 0.4, by the
+    /// clearest tone]
     #[arg(long, value_name = "S")]
     pub(crate) window_s: Option<f64>,
     /// Step between frames as a share of their length, with --method maximum_trace or gaussian [default: 0.5]
     #[arg(long, value_name = "SHARE")]
     pub(crate) hop_share: Option<f64>,
-    /// The Gaussian of --method gaussian is fitted to the part of a peak above this share of its height [default: 0.8]
+    /// With --method gaussian: the part of a peak that the Gaussian is fitted to, from this share of its height upwards [default: 0.8]
     #[arg(long, value_name = "SHARE")]
     pub(crate) gaussian_threshold_share: Option<f64>,
 }

@@ -13,7 +13,7 @@ Examples:
 
 /// Writes an experiment file: it asks for the vehicle, the masses and the recordings, or takes them as flags
 ///
-/// On a terminal it asks for what the flags leave out, and offers the recordings of the current folder and of the folders in it.
+/// On a terminal, it asks for what no flag gives, and lists the recordings of the current folder and of the folders in it.
 /// The file has comments, and `hovertone identify` reads it.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{MASS_HELP}\n\n{INIT_EXAMPLES}"))]

@@ -13,19 +13,20 @@ pub(crate) struct LabelArguments {
     /// Log of the same flight (PX4, ArduPilot, Betaflight or CSV), with speeds or commands of the motors, or body rates
     #[arg(long, value_name = "FILE", value_parser = typed_path())]
     pub(crate) log: Option<PathBuf>,
-    /// Limits of the time to add to the log's clock to get that of the recording: -5:5 in seconds, or -0:05..0:05 [default: none]
+    /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default:
+    /// none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true, requires = "log")]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     /// Axes of the body rates in a CSV; other logs define them
     #[arg(long, value_name = "AXES", requires = "log")]
     pub(crate) log_axes: Option<BodyAxes>,
-    /// Order in which the motors start, one by one, at the beginning: front-left,…; or 1,2,…. Each goes up to about the hover's speed
+    /// Sequence in which the motors start, one by one, at the beginning of the recording: front-left,…; or 1,2,…
     #[arg(long, value_name = "ROTOR,ROTOR,…", value_delimiter = ',', conflicts_with = "log")]
     pub(crate) spin_up: Option<Vec<String>>,
     /// Where the four rotors stand [default: the vehicle's]
     #[arg(long, value_name = "LAYOUT", requires = "log")]
     pub(crate) layout: Option<FrameLayout>,
-    /// File with the place of each channel's microphone: levels and delays tell which rotor is which
+    /// File with the position of the microphone of each channel: loudness and delay of the sound show which rotor is which
     #[arg(long, value_name = "FILE.toml", conflicts_with_all = ["log", "spin_up"], value_parser = typed_path())]
     pub(crate) microphones: Option<PathBuf>,
 }

@@ -32,13 +32,13 @@ pub(crate) struct ListenArguments {
     pub(crate) tone: ToneArguments,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
-    /// Only the mean speed: several rotors are not separated
+    /// Find only the mean speed, without separating the rotors
     #[arg(long, help_heading = "How it is analysed")]
     pub(crate) mean_only: bool,
     /// Channel to hear, counted from 1 [default: the mean of all]
     #[arg(long, value_name = "N", help_heading = "Reading files")]
     pub(crate) channel: Option<usize>,
-    /// Print a line every second instead of drawing a screen (so it is anyway when stdout is not a terminal)
+    /// Print a line every second instead of drawing a screen; this is the default where stdout is no terminal
     #[arg(long, help_heading = "Output", conflicts_with = "json")]
     pub(crate) plain: bool,
     /// Print one JSON object per line, ten for each second of sound

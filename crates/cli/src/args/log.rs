@@ -5,9 +5,9 @@ use clap::Args;
 use std::path::PathBuf;
 
 const LOG_EXAMPLES: &str = "\
-A log may be of PX4 (.ulg), ArduPilot (.bin), Betaflight or INAV (.bbl, .bfl), RCbenchmark (.csv), or any CSV whose \
-headers name the time and the quantities with their units, as in time_s, rotor1_rpm, motor1_pwm, gyro_x_rad_s. From a \
-log that is damaged or breaks off, hovertone reads the whole parts. Speeds are in rev/s.
+A log may come from PX4 (.ulg), ArduPilot (.bin), Betaflight or INAV (.bbl, .bfl), or RCbenchmark (.csv). It may also be any CSV whose \
+headers name the time and the quantities with their units, as in time_s, rotor1_rpm, motor1_pwm, gyro_x_rad_s. From a damaged log, \
+hovertone reads the undamaged parts. Speeds are printed in rev/s (turns per second).
 
 Examples:
   hovertone log flight.ulg
@@ -16,7 +16,7 @@ Examples:
   hovertone log bench.csv --column Zeit=time_ms --column Drehzahl=rotor1_rpm
   hovertone log --json *.ulg | jq '.tables[].name'";
 
-/// What a log of a flight or of a thrust stand holds: its signals, their rates and spans
+/// Contents of a log of a flight or a thrust stand: its signals, their rates and times
 #[derive(Args, Debug)]
 #[command(after_help = LOG_EXAMPLES)]
 pub(crate) struct LogArguments {

@@ -91,8 +91,8 @@ Results go to stdout and to files, all messages to stderr.
 #[command(name = "hovertone", version, after_help = EXAMPLES, max_term_width = 100)]
 #[command(long_about = "hovertone hears a multirotor hover and tells its rotor speeds and its thrust constant.
 
-From ordinary video or audio of hovering flights with known masses it finds the rotor tones, turns them into rotor \
-speeds, and identifies C_f in F = C_f ω², with its uncertainty.")]
+It needs ordinary video or audio of hovering flights with known masses. It finds the tones of the rotors, and from them the rotor speeds. \
+From speeds and masses follows C_f, the thrust constant in F = C_f ω², with its uncertainty.")]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -7,10 +7,10 @@ use clap::Args;
 use std::path::PathBuf;
 
 const MOTOR_EXAMPLES: &str = "\
-A file is a log of PX4 (.ulg), ArduPilot (.bin), Betaflight or INAV (.bbl, .bfl), RCbenchmark (.csv), or any CSV with \
-the speeds of the rotors; or it is a recording of a bench. A step is one change of the speed between two speeds that are \
-held; in a recording each must be held for about a second. With commands, in the same log or by --commands, the gain is \
-found too; the dead time only if commands and speeds have one clock.
+A file is a log of PX4 (.ulg), ArduPilot (.bin), Betaflight or INAV (.bbl, .bfl) or RCbenchmark (.csv), any CSV with the speeds of the \
+rotors, or a recording of a bench. A step is a change from one steady speed to another; in a recording, each speed must be held for about \
+a second. If the commands are known, from the same log or from --commands, the gain is found too. The dead time is found only if commands \
+and speeds have the same clock.
 
 Examples:
   hovertone motor steps.csv
@@ -33,17 +33,18 @@ pub(crate) struct MotorArguments {
     /// Log with the commands of the motors that are recorded
     #[arg(long, value_name = "LOG", value_parser = typed_path())]
     pub(crate) commands: Option<PathBuf>,
-    /// Time to add to the clock of the commands to get that of the recording, in s [default: found from the steps; then the dead time is not]
+    /// Time to add to the clock of the commands to get that of the recording, in s [default: found from the steps; then the dead time is
+    /// not]
     #[arg(long, value_name = "S", requires = "commands", value_parser = clock_offset_s)]
     pub(crate) offset: Option<f64>,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
-    /// Hear the recording from here, in seconds or as 1:02.5
+    /// Hear the recording from this time on, in seconds or as 1:02.5
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) from: Option<f64>,
-    /// Hear the recording up to here
+    /// Hear the recording up to this time
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) to: Option<f64>,
     #[command(flatten)]

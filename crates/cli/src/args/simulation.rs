@@ -13,7 +13,8 @@ Examples:
 
 /// The paper's experiment in simulated flight: three loads with five trials each, heard and identified
 ///
-/// An AR.Drone hovers in the laboratory of the paper's figure 1. The demo writes the recordings, the experiment file, and the truth about every
+/// An AR.Drone hovers in the laboratory of the paper's figure 1. The demo writes the recordings, the experiment file, and the truth about
+/// every
 /// rotor. It identifies the recordings, prints the paper's two tables beside the paper's own numbers and the truth, and writes report.html.
 #[derive(Args, Debug)]
 #[command(after_help = DEMO_EXAMPLES)]

@@ -7,8 +7,8 @@ use clap::Args;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
-Axes are in Hz and, where the order of the tone is known, in turns of the shaft per second. The bands of the tone \
-and of its harmonics are marked, parts without hover are pale, and the ridge or the tracks of the rotors are drawn over them.
+The axis is in Hz; where the order of the tone is known, a second axis shows turns of the shaft per second. The bands of the tone and of \
+its harmonics are marked, and parts without hover are pale. The speeds that were found are drawn as lines.
 
 Examples:
   hovertone spectrogram hover.mp4 -o hover.png

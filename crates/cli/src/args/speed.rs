@@ -6,9 +6,9 @@ use clap::Args;
 use std::path::PathBuf;
 
 const SPEED_EXAMPLES: &str = "\
-The tone that is heard is that of --order; without it the gear mesh of --gear; without it the blade pass of --blades. \
---vehicle knows its gear and its blades. Without any of them, hovertone searches for the tone. If the number of blades \
-stays open, all readings are shown, and the exit code is 3.
+hovertone follows the tone of --order; without --order, the tone of the gear (--gear); without a gear, the tone of the blades (--blades). \
+A known --vehicle gives its gear and its blades. Without any of these flags, hovertone searches for the tone. Where the number of blades \
+stays unclear, all possible speeds are shown, and the exit code is 3.
 
 Examples:
   hovertone speed --blades 2 hover.mp4
@@ -20,10 +20,11 @@ Examples:
   hovertone speed --vehicle ardrone --spin-up front-left,rear-right,rear-left,front-right bench.wav
   hovertone speed --vehicle crazyflie --json *.wav | jq .speed_rpm";
 
-/// Rotor speed of recordings: mean, uncertainty and spread
+/// Rotor speed in recordings: mean, uncertainty, and spread over time
 ///
-/// Any video or audio file will do. hovertone cuts away silence, handling noise, take-off and landing, and names what it cut on stderr.
-/// With --from or --to it cuts nothing.
+/// Any video or audio file will do. hovertone leaves out silence, handling noise, take-off and landing, and says on stderr what it left
+/// out.
+/// With --from or --to, it leaves out nothing between these times.
 #[derive(Args, Debug)]
 #[command(after_help = SPEED_EXAMPLES)]
 pub(crate) struct SpeedArguments {

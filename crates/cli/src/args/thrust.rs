@@ -56,8 +56,8 @@ Examples:
 
 /// Thrust constant from recordings of hovers with known masses, or of bench runs
 ///
-/// Prints warnings, the constant of one rotor and of the whole vehicle with its ±, the verdict on the loads, and where the page is.
-/// With -v it also prints tables like the paper's: by the harmonic likelihood, and by the paper's two methods.
+/// Prints warnings; the constant of one rotor and of the whole vehicle, with its ±; whether the loads agree; and where the page is.
+/// With -v it also prints tables as in the paper: by the method of hovertone (harmonic), and by the two methods of the paper.
 #[derive(Args, Debug)]
 #[command(after_help = format!("{MASS_HELP}\n\n{IDENTIFY_EXAMPLES}"))]
 pub(crate) struct IdentifyArguments {
@@ -66,10 +66,11 @@ pub(crate) struct IdentifyArguments {
     pub(crate) experiment: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) draft: DraftArguments,
-    /// Analyse nothing: only list what would be done, which files were found, and which are missing
+    /// Analyse nothing: only list the planned analysis, the files that were found, and the files that are missing
     #[arg(long, conflicts_with_all = ["json", "verbose"], help_heading = "How it is analysed")]
     pub(crate) check: bool,
-    /// Write report.html, results.json, tables and figures into this folder: a new or empty one, or that of an earlier run of this experiment
+    /// Write report.html, results.json, tables and figures into this folder: a new or empty one, or that of an earlier run of this
+    /// experiment
     #[arg(short, long, value_name = "DIR", help_heading = "Output", value_parser = typed_path())]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
@@ -80,7 +81,7 @@ pub(crate) struct IdentifyArguments {
     /// Print the tables too
     #[arg(short, long, help_heading = "Output", conflicts_with = "json")]
     pub(crate) verbose: bool,
-    /// Folder that the names of the recordings start from [default: the folder of the experiment file]
+    /// Folder in which the recordings are [default: the folder of the experiment file]
     #[arg(long, value_name = "DIR", help_heading = "Reading files", value_parser = typed_path())]
     pub(crate) data_root: Option<PathBuf>,
     /// The method whose constant is reported; all are computed [default: separated if several rotors are heard, else harmonic]
@@ -93,8 +94,8 @@ pub(crate) struct IdentifyArguments {
 const FIT_EXAMPLES: &str = "\
 The headers name the columns: a speed (rpm, rad/s, rev/s), and a thrust (N, g, gf, kg, lbf) or a mass that hovers \
 (mass_g, mass_kg). There may also be standard uncertainties (speed_std_rpm, thrust_std_n, mass_std_g), power and torque. \
-Columns of words (motor, propeller) make groups, each with a fit of its own. Without uncertainties, all thrusts are \
-equally uncertain, in newtons or as a share, whichever fits the scatter of the residuals better.
+Columns of words (motor, propeller) make groups, each with a fit of its own. Where a table has no uncertainties, all thrusts get the same \
+one, in newtons or in percent: the one that fits the scatter of the rows better.
 
 Examples:
   hovertone fit stand.csv
@@ -104,8 +105,8 @@ Examples:
 
 /// Thrust constant from tables of speed and thrust; or, with --plan, how many flights a wanted uncertainty needs
 ///
-/// Fits F = C_f ω² with uncertainties in F and in ω, and also the law with an intercept and the power law, with the evidence for each.
-/// Rows that do not fit are named.
+/// Fits F = C_f ω² with uncertainties in F and in ω. Also fits F = F₀ + C ω² and F = C ω^p, and says how probable each law is. Rows that do
+/// not fit are named.
 #[derive(Args, Debug)]
 #[command(after_help = FIT_EXAMPLES)]
 pub(crate) struct FitArguments {
@@ -160,7 +161,7 @@ pub(crate) struct AirArguments {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Before flying")]
 pub(crate) struct PlanArguments {
-    /// Tell how many loads and trials, and how many seconds of hover, a wanted uncertainty needs
+    /// Plan a measurement: how many loads and trials, and how many seconds of hover, a wanted uncertainty needs
     #[arg(long, conflicts_with_all = ["tables", "temperature_c", "pressure_hpa", "humidity_percent"], requires = "mass_kg")]
     pub(crate) plan: bool,
     /// Wanted expanded uncertainty (k = 2) of the constant, as a share
@@ -175,20 +176,20 @@ pub(crate) struct PlanArguments {
     /// Standard uncertainty of a weighing
     #[arg(long, requires = "plan", value_name = "KG", default_value = "0.0005", value_parser = mass_kg)]
     pub(crate) mass_std_kg: f64,
-    /// Spread of the speed in a hover, as a share of its mean; the paper's flights have 0.0123
+    /// Standard deviation of the speed in a hover, as a share of its mean; the flights of the paper have 0.0123
     #[arg(long, requires = "plan", value_name = "SHARE", default_value_t = 0.0123)]
     pub(crate) speed_spread_share: f64,
-    /// Correlation time of the speed in a hover, in s
+    /// Time over which the speed of a hover changes (its correlation time), in s
     #[arg(long, requires = "plan", value_name = "S", default_value_t = 0.3)]
     pub(crate) correlation_s: f64,
-    /// Plan for rotors that are separated or heard as a group, and not for one tone used for all rotors (docs/budget.md)
+    /// Plan with speeds of separated rotors or of their group, in place of one tone for all rotors (docs/budget.md)
     #[arg(long, requires = "plan")]
     pub(crate) rotors_separated: bool,
 }
 
 const WEIGH_EXAMPLES: &str = "\
-Use a constant of the same vehicle, best from the same phone at the same place: then errors that both have (by the \
-loudest rotor, the air, the hull) cancel. If the air is 1 % thinner than it was then, the mass is 1 % too large.
+Use a constant of the same vehicle, if possible from the same phone at the same place: then the errors that both flights have cancel. If \
+the air is 1 % thinner than in the flights of the constant, the mass is 1 % too large.
 
 Examples:
   hovertone weigh loaded.mov --constant out/results.json
@@ -209,13 +210,14 @@ pub(crate) struct WeighArguments {
     /// Thrust constant of the whole vehicle, N/(rad/s)²
     #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_n_s2: Option<f64>,
-    /// Its standard uncertainty
+    /// Standard uncertainty of --constant-n-s2
     #[arg(long, value_name = "N_S2", conflicts_with = "constant")]
     pub(crate) constant_std_n_s2: Option<f64>,
     /// Number of rotors that carry the vehicle [default: from the results, or from --vehicle]
     #[arg(long, value_name = "N", value_parser = whole_number(1u32..=ROTORS_MAX))]
     pub(crate) rotors: Option<u32>,
-    /// Diameter of a propeller, in m or as 8in: with it, half and double the speed can be ruled out [default: that of the results, or of --vehicle]
+    /// Diameter of a propeller, in m or as 8in: with it, half and double the speed can be ruled out [default: that of the results, or of
+    /// --vehicle]
     #[arg(long, value_name = "M", value_parser = length_m)]
     pub(crate) diameter_m: Option<f64>,
     /// Mass of the vehicle without payload [default: that of the results]
@@ -228,10 +230,10 @@ pub(crate) struct WeighArguments {
     pub(crate) place: PlaceArguments,
     #[command(flatten)]
     pub(crate) tone: ToneArguments,
-    /// Use the recordings from here, in seconds or as 1:02.5, and cut nothing away
+    /// Use the recordings from this time on, in seconds or as 1:02.5, and leave out nothing after it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) from: Option<f64>,
-    /// Use the recordings up to here, and cut nothing away
+    /// Use the recordings up to this time, and leave out nothing before it
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) to: Option<f64>,
     #[command(flatten)]
@@ -270,7 +272,7 @@ pub(crate) struct ExportArguments {
     /// results.json of `hovertone identify`, or the output of `hovertone fit --json`
     #[arg(value_name = "RESULTS.json", value_parser = typed_path())]
     pub(crate) results: PathBuf,
-    /// Program that reads the export
+    /// Simulator that will read the file
     #[arg(long, value_name = "FORMAT", value_parser = format_parser(), required_unless_present = "into", conflicts_with = "into")]
     pub(crate) to: Option<SimulatorFormat>,
     /// Change the constant in this model of a simulator, or in a copy of it with -o, and print the difference

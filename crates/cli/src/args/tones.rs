@@ -5,8 +5,8 @@ use clap::Args;
 use std::path::PathBuf;
 
 const TONES_EXAMPLES: &str = "\
-A blade pass alone does not tell the number of blades: lines of the shaft between its harmonics do, the mesh of a known \
-gear does, and diameter, mass and rotors rule out what cannot fly.
+The tone of the blades alone does not show how many blades there are. Faint tones of the shaft show it, and so does the tone of a known \
+gear. Diameter, mass and number of rotors rule out speeds that cannot carry the vehicle.
 
 Examples:
   hovertone tones hover.mp4
@@ -15,10 +15,10 @@ Examples:
   hovertone tones --diameter-m 0.254 --mass-kg 1.2 --rotors 4 hover.mp4
   hovertone tones --json *.wav | jq '.families[0].readings[0]'";
 
-/// Tone families in recordings, and the shaft speed that each possible order would mean
+/// Tones in recordings, and the shaft speed that each possible meaning of the rotor's tone gives
 ///
-/// Lists every series of lines: its harmonics, their level over the noise, and when they are heard. For the series that was taken for
-/// the rotor's, it lists all readings: blades, gear, speed, and how plausible each is.
+/// Lists every tone: its harmonics (multiples of its frequency), their level over the noise, and when it is heard. For the tone of the
+/// rotor, it lists all possible meanings: blades, gear, speed, and how plausible each is.
 #[derive(Args, Debug)]
 #[command(after_help = TONES_EXAMPLES)]
 pub(crate) struct TonesArguments {
@@ -30,13 +30,13 @@ pub(crate) struct TonesArguments {
     pub(crate) blades: Option<u32>,
     #[command(flatten)]
     pub(crate) known: KnownArguments,
-    /// A known vehicle: its numbers rule out readings (see `hovertone vehicles`)
+    /// Name of a known vehicle: its numbers rule out speeds (see `hovertone vehicles`)
     #[arg(long, value_name = "NAME", help_heading = "Known facts about the vehicle")]
     pub(crate) vehicle: Option<String>,
-    /// Listen from here, in seconds or as 1:02.5
+    /// Listen from this time on, in seconds or as 1:02.5
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) from: Option<f64>,
-    /// Listen up to here
+    /// Listen up to this time
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = time_s, help_heading = "How it is analysed")]
     pub(crate) to: Option<f64>,
     #[command(flatten)]

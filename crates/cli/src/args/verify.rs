@@ -16,7 +16,7 @@ Examples:
   hovertone verify hover.mp4 flight.csv --vehicle ardrone --figure check.svg
   hovertone verify hover.mp4 flight.csv --vehicle ardrone --log-offset-s -5:5";
 
-/// Sound against telemetry: bias, scatter and coverage of heard speeds, and whether order and clock are right
+/// Compares heard speeds with the logged ones: whether the order of the tone and the clock are right, and whether the ± holds
 #[derive(Args, Debug)]
 #[command(after_help = VERIFY_EXAMPLES)]
 pub(crate) struct VerifyArguments {
@@ -29,7 +29,8 @@ pub(crate) struct VerifyArguments {
     /// Read the column HEADER of a CSV as if its header were NAME; can be given several times
     #[arg(long, value_name = "HEADER=NAME", value_parser = column_name)]
     pub(crate) column: Vec<ColumnName>,
-    /// Limits of the time to add to the log's clock to get that of the recording: -5:5 in seconds, or -0:05..0:05 [default: none]
+    /// Limits of the offset: the time to add to the log's clock to get that of the recording, -5:5 in seconds or -0:05..0:05 [default:
+    /// none]
     #[arg(long, value_name = "LOW:HIGH", value_parser = offsets, allow_hyphen_values = true)]
     pub(crate) log_offset_s: Option<(f64, f64)>,
     #[command(flatten)]

@@ -53,8 +53,8 @@ impl Results {
             io::ErrorKind::NotFound if !folder.exists() => is_none("there is no such folder"),
             _ => is_none("this is not a folder that `hovertone batch -o` wrote"),
         })?;
-        let identity: BatchIdentity =
-            serde_json::from_str(&text).map_err(|_| is_none("this folder does not say what its results are of"))?;
+        let identity: BatchIdentity = serde_json::from_str(&text)
+            .map_err(|_| is_none("this folder does not say which recordings its results belong to"))?;
         let place = folder.join(RECORDINGS);
         let file = File::open(&place).map_err(|_| is_none("this folder has no recordings.parquet"))?;
         let read = summaries_of_parquet(file);
@@ -75,7 +75,9 @@ impl Results {
         };
         let places = folders.map(|folder| format!("in {}", printable(&folder.to_string_lossy())));
         let shown = there.differences(&later.identity, places.each_ref().map(String::as_str))?;
-        let text = format!("the two archives were heard with other settings: a change may come from them ({shown})");
+        let text = format!(
+            "the two archives were heard with different settings ({shown}): a change may come from these alone"
+        );
         Some(Notice::new(text, "hear both with the same settings"))
     }
 }

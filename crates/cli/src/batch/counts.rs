@@ -51,7 +51,7 @@ impl fmt::Display for Counts {
             write!(f, ", {} with several possible speeds", self.ambiguous)?;
         }
         if self.cut_short > 0 {
-            write!(f, "; {} of them cut short", self.cut_short)?;
+            write!(f, "; {} of them end too early", self.cut_short)?;
         }
         Ok(())
     }

@@ -125,12 +125,16 @@ impl BatchFolder {
     pub(crate) fn part(&self, recording: &Planned) -> Result<Part, Failure> {
         let place = self.place_of_part(recording);
         let bytes = fs::read(&place).map_err(|error| {
-            Failure::failed(format!("a finished recording cannot be read: {error}"), "check the disk", &place)
+            Failure::failed(
+                format!("the stored result of a finished recording cannot be read: {error}"),
+                "check the disk",
+                &place,
+            )
         })?;
         Part::from_bytes(&bytes).map_err(|error| {
             // where it cannot be removed, the next run says the same
             let _ = remove_written(&place);
-            let what = format!("a finished recording was damaged and is removed: {error}");
+            let what = format!("the stored result of a finished recording was damaged and is removed: {error}");
             Failure::failed(what, "run the same command again: it hears this recording again", &place)
         })
     }
@@ -156,10 +160,10 @@ fn is_part(path: &Path) -> bool {
 fn refuse_other(path: &Path, identity: &BatchIdentity) -> Result<(), Failure> {
     let place = path.join(IDENTITY);
     let Ok(text) = fs::read_to_string(&place) else { return Ok(()) };
-    let hint = "choose a new folder with -o DIR, or use --force to begin anew";
+    let hint = "choose a new folder with -o DIR, or use --force to start again";
     let Ok(there) = serde_json::from_str::<BatchIdentity>(&text) else {
         return Err(refused(
-            "this file does not say what the results in its folder are of: nothing was written",
+            "this file does not say which recordings the results in its folder belong to: nothing was written",
             hint,
             &place,
         ));
@@ -173,13 +177,13 @@ fn refuse_other(path: &Path, identity: &BatchIdentity) -> Result<(), Failure> {
 fn lock_of_run(path: &Path, shard: Shard) -> Result<File, Failure> {
     let (file, place) = lock_file(path, "run")?;
     let locked = if shard.is_whole() { file.try_lock() } else { file.try_lock_shared() };
-    taken(locked, file, &place, "another run of hovertone hears for this folder")
+    taken(locked, file, &place, "another run of hovertone is writing into this folder")
 }
 
 fn lock_of_shard(path: &Path, shard: Shard) -> Result<File, Failure> {
     let (file, place) = lock_file(path, &format!("job-{shard}").replace('/', "-of-"))?;
     let locked = file.try_lock();
-    taken(locked, file, &place, "another run of hovertone is the same job for this folder")
+    taken(locked, file, &place, "another run of hovertone does the same job in this folder")
 }
 
 fn taken(locked: Result<(), TryLockError>, file: File, place: &Path, other: &str) -> Result<File, Failure> {

@@ -101,15 +101,17 @@ pub(crate) fn recordings_of(typed: &[PathBuf]) -> Result<Recordings, Failure> {
         let of_input = recordings_of_one(input)?;
         if of_input.is_empty() {
             let (what, hint) = match input {
-                input if input.is_dir() => {
-                    ("no recording is in this folder", "recordings are known by their endings, such as .wav or .mp4")
-                }
+                input if input.is_dir() => (
+                    "no recording is in this folder",
+                    "recordings are recognised by their endings, such as .wav or .mp4",
+                ),
                 input if is_list(input) => {
                     ("this list names no recording", "write the name of a recording on each line")
                 }
-                input if is_address(input) => {
-                    ("no recording is at this address", "recordings are known by their endings, such as .wav or .mp4")
-                }
+                input if is_address(input) => (
+                    "no recording is at this address",
+                    "recordings are recognised by their endings, such as .wav or .mp4",
+                ),
                 _ => ("no file matches this pattern", "check the folder and the ending of its files"),
             };
             return Err(Failure::failed(what, hint, input));

@@ -27,7 +27,7 @@ use tables::write_tables;
 /// Hears what is missing, and writes the tables where nothing is missing any more.
 pub(crate) fn run(arguments: &BatchArguments, terminal: &mut Terminal) -> Result<Ending, Failure> {
     if arguments.replace.force && arguments.shard.is_some() {
-        let what = "--force begins anew, and would remove what the other jobs have heard";
+        let what = "--force starts again, and would remove the results of the other jobs";
         return Err(Failure::usage(what, "leave --force out, or remove the folder before the jobs start"));
     }
     let (config, discovery) = config_of(&arguments.tone, &arguments.known, &arguments.analysis)?;

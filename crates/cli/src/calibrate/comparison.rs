@@ -103,7 +103,7 @@ impl Comparison {
             Reference::Speed { rpm, .. } => {
                 let gear = gear_of(arguments).filter(|gear| is_ratio(1.0 / gear.ratio()))?;
                 Some(format!(
-                    "Was the known speed that of the motor? Behind the gear {}:{} the rotor turns at --tachometer-rpm {}",
+                    "Was the known speed that of the motor? Then give the speed of the rotor behind the gear {}:{}: --tachometer-rpm {}",
                     gear.pinion,
                     gear.wheel,
                     to_tenths(rpm / gear.ratio())
@@ -227,7 +227,7 @@ fn other_order_in_words(comparison: &Comparison, fitting: Order, arguments: &Cal
     };
     format!(
         "{known}  the order, {order}: it may be {fitting}. Then {without_vehicle}give --order {fitting}{as_blades}, or in an experiment file \
-         [tone] order = {fitting}\n  the tone that was heard: that of the known one lies in --band {}\n",
+         [tone] order = {fitting}\n  the tone that was heard: by the known speed, the tone lies in --band {}\n",
         comparison.band()
     )
 }

@@ -37,8 +37,8 @@ const OTHER_ROTOR: &str = "other_rotor";
 const HARDLY_HEARD: &str = "tone_hardly_heard";
 /// Largest difference from the known speed at which a rotor with other blades has that speed.
 const SAME_SPEED_SHARE: f64 = 0.02;
-const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, and the known speed is that of one; record one \
-                                rotor that runs alone";
+const SEVERAL_IN_WORDS: &str = "several rotors are heard, each at its own speed, but the known speed is that of one; record one rotor that \
+runs alone";
 const SEE_HELP: &str = "as in `hovertone calibrate --true-hz 1000 tone.wav`; see `hovertone calibrate --help`";
 
 /// The meaning of the arguments.
@@ -190,7 +190,7 @@ fn hardly_heard_in_words(record: &SpeedRecord, blades: Option<u32>) -> Option<St
     })?;
     let (order, rpm) = (record.order, record.speed()?.speed.rpm());
     let heard = format!(
-        "the tone of order {order} is not heard for {gap_percent:.0} % of the time, so nothing proves this order"
+        "the tone of order {order} is not heard for {gap_percent:.0} % of the time, so this order cannot be checked"
     );
     Some(match blades {
         Some(blades) if f64::from(blades) == order.lines_per_turn() => {
@@ -287,7 +287,7 @@ fn assumed_rotors(arguments: &CalibrateArguments) -> Result<Option<Notice>, Fail
     let count = vehicle.map_or(1, |vehicle| vehicle.rotor_count.value);
     let is_assumed = arguments.rotors.is_none() && count > 1;
     let text = format!(
-        "the vehicle has {count} rotors, and the known speed is that of one: it is assumed that only one rotor runs in this recording"
+        "the vehicle has {count} rotors, but the known speed is that of one: hovertone assumes that only one rotor runs in this recording"
     );
     Ok(is_assumed
         .then(|| Notice::new(text, "if only one rotor runs, add --rotors 1; if not, record one rotor that runs alone")))

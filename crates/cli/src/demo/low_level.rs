@@ -240,8 +240,9 @@ fn page(
     let mut tables = vec![against_truth.clone()];
     tables.extend(grey_box_tables(record));
     let lead = [
-        "An AR.Drone flies a minute of doublets in the open. Its four rotors are heard by one microphone along the predictions of the model of \
-         eqs 1 and 2, which is fitted to them. The fit starts at the numbers of the preset; the true gains differ by 15 to 25 %."
+        "An AR.Drone flies a minute of doublets in the open. One microphone hears its four rotors. The model of eqs 1 and 2 predicts where \
+        their tones are, and is fitted to the tones there. The fit starts at the numbers of the preset; the true gains differ from \
+        these by 15 to 25 %."
             .to_owned(),
         flown_beside.to_owned(),
     ];

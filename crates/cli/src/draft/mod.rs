@@ -82,7 +82,7 @@ impl Draft {
             format!(", and the vehicle \"{id}\" weighs {}", mass_words(mass_kg))
         });
         let what = format!(
-            "--mass {} and --mass {}: the loads of one vehicle differ by no more than {MASS_FACTOR_MAX} times{weighs}",
+            "--mass {} and --mass {}: the masses of one vehicle differ by a factor of {MASS_FACTOR_MAX} at most{weighs}",
             mass_words(heavy_kg),
             mass_words(lightest_kg)
         );

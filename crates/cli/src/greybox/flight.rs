@@ -153,7 +153,7 @@ impl FlownLog {
 
 fn left_out(missing: &MissingControl) -> Notice {
     let MissingControl { control_loop, what, hint } = missing;
-    Notice::new(format!("the loop of {} is left out: the log lacks {what}", control_loop.name()), *hint)
+    Notice::new(format!("{} is left out of the model: the log lacks {what}", control_loop.name()), *hint)
 }
 
 /// The failure of a log in which every loop lacks something.
@@ -162,7 +162,7 @@ fn without_loops(missing: &[MissingControl], path: &Path) -> Failure {
     hints.dedup();
     let lacks: Vec<String> =
         missing.iter().map(|missing| format!("{} lacks {}", missing.control_loop.name(), missing.what)).collect();
-    let what = format!("this log has no command beside the angle or rate that answers it: {}", lacks.join(", "));
+    let what = format!("this log has no command together with the angle or rate that follows it: {}", lacks.join(", "));
     Failure::failed(what, hints.join("; "), path)
 }
 
@@ -266,7 +266,7 @@ pub(crate) fn fit_of(
 
 /// The failure of a log that the sound does not follow.
 fn not_followed(log: &Path) -> Failure {
-    let what = "the sound does not follow this log: the speeds that the model predicts fit it at no shift of the clock within 10 s";
+    let what = "the sound does not follow this log: the predicted speeds do not fit it, even where its clock is shifted by up to 10 s";
     let hint = "give the recording and the log of one flight of doublets; check --vehicle; where the clocks differ by more, give --log-offset-s";
     Failure::failed(what, hint, log)
 }

@@ -53,7 +53,7 @@ impl LiveSummary {
             if fastest_rev_s > ONE_HOVER_FACTOR * slowest_rev_s {
                 let (slowest, fastest) = (fixed(slowest_rev_s, 1), fixed(fastest_rev_s, 1));
                 return format!(
-                    "no mean: the speed changed between {slowest} and {fastest} rev/s, in {heard_s} s of {end_s} s"
+                    "no mean: the speed changed between {slowest} and {fastest} rev/s; it was heard in {heard_s} s of {end_s} s"
                 );
             }
             let count = self.settled_count as f64;
@@ -69,7 +69,7 @@ impl LiveSummary {
         if self.ambiguous_count > 0 {
             words += &format!("; for {} s several speeds are possible", part_s(self.ambiguous_count));
             if self.settled_count == 0 {
-                words += "; --blades or --diameter-m, whichever is not given, may tell which";
+                words += "; to find the right one, give --blades or --diameter-m too";
             }
         }
         Some(words + "\n")
@@ -99,7 +99,7 @@ mod tests {
     fn the_mean_is_over_the_time_that_had_one_speed() {
         let sentence = summary_of(&[None, Some(60.0), Some(61.0), None]).in_words().unwrap();
         assert_eq!(sentence, "mean: 60.50 ± 0.20 rev/s (k = 2), from 0.2 s of 0.4 s\n");
-        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s, in 0.3 s of 0.3 s\n";
+        let changed = "no mean: the speed changed between 52.8 and 91.8 rev/s; it was heard in 0.3 s of 0.3 s\n";
         assert_eq!(summary_of(&[Some(52.8), Some(91.8), Some(70.0)]).in_words().unwrap(), changed);
         assert_eq!(summary_of(&[None; 20]).in_words().unwrap(), "no speed was heard in 2.0 s\n");
         assert_eq!(summary_of(&[]).in_words(), None);
@@ -124,8 +124,8 @@ mod tests {
         };
         use LiveStatus::{Ambiguous, Listening, Ok};
         assert_eq!(of_status(&[Listening; 2]), "2.0 s are too short for a first speed\n");
-        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; --blades or --diameter-m, \
-                    whichever is not given, may tell which\n";
+        let none = "no single speed was heard in 3.0 s; for 2.0 s several speeds are possible; to find the right one, give --blades or \
+        --diameter-m too\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ambiguous]), none);
         let some = "mean: 60.00 ± 0.20 rev/s (k = 2), from 1.0 s of 3.0 s; for 1.0 s several speeds are possible\n";
         assert_eq!(of_status(&[Listening, Ambiguous, Ok]), some);

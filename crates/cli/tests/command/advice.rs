@@ -150,7 +150,10 @@ fn a_rotor_without_a_gear_is_told_that_no_mesh_is_heard() {
     let sound = folder.path().join("a.wav");
     write_noise(&sound, 4.0);
     let said = hovertone(&["speed", text(&sound), "--vehicle", "ardrone"]).ends_with(3).stderr;
-    assert!(said.contains("no gear mesh of order 69 is heard at 920 to 8280 Hz, as of 13 to 120 rev/s"), "{said}");
+    assert!(
+        said.contains("the tone of the gear (order 69) is not heard at 920 to 8280 Hz, as of 13 to 120 rev/s"),
+        "{said}"
+    );
     assert!(said.contains("if the rotors have no gear, give --blades N alone"), "{said}");
 }
 
@@ -171,7 +174,11 @@ fn weigh_takes_the_part_and_the_diameter_that_its_advice_asks_for() {
     write_noise(&sound, 3.0);
     let of = ["weigh", text(&sound), "--vehicle", "ardrone", "--constant-n-s2", "2.83e-5"];
     let run = hovertone(&[&of[..], &["--from", "4"]].concat()).ends_with(3);
-    assert!(run.stderr.contains("the chosen times begin later; choose others with --from and --to"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("before the chosen part begins; choose another part with --from and --to"),
+        "{}",
+        run.stderr
+    );
     refused_with(&[&of[..], &["--from", "2", "--to", "1"]].concat(), &["hovertone weigh --help"]);
     refused_with(&[&of[..], &["--diameter-m", "4"]].concat(), &["diameter_m = 4"]);
 }

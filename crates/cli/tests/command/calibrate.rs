@@ -135,7 +135,9 @@ fn a_known_number_of_another_part_is_asked_for() {
     let motor =
         hovertone(&["calibrate", text(&geared), "--vehicle", "ardrone", "--tachometer-rpm", "29653"]).ends_with(3);
     assert!(
-        motor.stdout.contains("that of the motor? Behind the gear 8:69 the rotor turns at --tachometer-rpm 3438"),
+        motor.stdout.contains(
+            "that of the motor? Then give the speed of the rotor behind the gear 8:69: --tachometer-rpm 3438"
+        ),
         "{}",
         motor.stdout
     );
@@ -239,7 +241,7 @@ fn several_rotors_are_refused_and_one_is_not_assumed_in_silence() {
     write_bench(&sound, 21_000.0, 0.0);
     let assumed = calibrated(&sound, &["--vehicle", "crazyflie"]).ends_with(0);
     assert!(
-        assumed.stderr.contains("the vehicle has 4 rotors, and the known speed is that of one"),
+        assumed.stderr.contains("the vehicle has 4 rotors, but the known speed is that of one"),
         "{}",
         assumed.stderr
     );

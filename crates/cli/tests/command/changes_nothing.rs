@@ -13,7 +13,7 @@ fn a_flag_that_changes_nothing_is_refused() {
     for flag in ["--temperature-c", "--pressure-hpa", "--humidity-percent"] {
         refused_with(&[&plan[..], &[flag, "20"]].concat(), &[flag, "a plan does not use the air"]);
     }
-    refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not tell gravity"]);
+    refused_with(&[&plan[..], &["--height-m", "20"]].concat(), &["--height-m 20 alone does not give the gravity"]);
 }
 
 #[test]
@@ -45,6 +45,23 @@ fn a_mass_without_what_it_needs_is_said_to_change_nothing() {
         assert!(said(&["--rotors", "4"]).contains("without --diameter-m:"));
         assert!(!said(&["--rotors", "4", "--diameter-m", "0.2"]).contains("changes nothing"));
     }
+}
+
+/// Commands that show no progress say so, and others take the flag.
+#[test]
+fn no_progress_is_refused_where_none_is_shown() {
+    for asked in [
+        &["listen", "--from-file", "a.wav", "--blades", "2"][..],
+        &["fit", "stand.csv"],
+        &["log", "flight.ulg"],
+        &["export", "results.json", "--to", "gazebo"],
+        &["vehicles"],
+    ] {
+        let what = format!("--no-progress changes nothing: `hovertone {}` shows no progress", asked[0]);
+        refused_with(&[asked, &["--no-progress"]].concat(), &[&what, "leave --no-progress out"]);
+    }
+    let run = hovertone(&["speed", "nowhere.wav", "--no-progress"]).ends_with(1);
+    assert!(run.stderr.contains("nowhere.wav"), "{}", run.stderr);
 }
 
 #[test]

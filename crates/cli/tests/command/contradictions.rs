@@ -15,7 +15,7 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
         (&["--gear", "8:68"], "gear = { pinion = 8, wheel = 68 }", "", ["gear = 8:68", "is 8:69"]),
         (&["--order", "46"], "", "order = 46", ["order = 46", "tones of order 69"]),
         (&["--order", "4"], "", "order = 4", ["order = 4", "harmonics"]),
-        (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["at 1.4 to 1.9 rev/s", "920 to 8280 Hz"]),
+        (&["--band", "100:130"], "", "band_hz = [100.0, 130.0]", ["means 1.4 to 1.9 rev/s", "920 to 8280 Hz"]),
         (&["--rotors", "6"], "rotors = 6", "", ["rotors = 6", "has 4 rotors"]),
         (&["--diameter-m", "0.02"], "propeller_diameter_m = 0.02", "", ["diameter_m = 0.02", "Mach 0.84"]),
         (&["--diameter-m", "4"], "propeller_diameter_m = 4.0", "", ["diameter_m = 4", "at 0.3 rev/s"]),
@@ -27,7 +27,7 @@ fn a_vehicle_contradicts_the_same_by_flags_and_in_a_file() {
     }
     for command in ["identify", "init"] {
         let flown = [command, "--vehicle", "ardrone", "--mass", "413g=a.wav"];
-        refused_with(&[&flown[..], &["--rotors", "2"]].concat(), &["rotors = 2", "all of them turn in a hover"]);
+        refused_with(&[&flown[..], &["--rotors", "2"]].concat(), &["rotors = 2", "all rotors of the vehicle turn"]);
         refused_with(&[&flown[..], &["--diameter-m", "0.02"]].concat(), &["diameter_m = 0.02", "Mach 0.84"]);
     }
 }
@@ -55,6 +55,27 @@ pub(crate) fn results_of_four_rotors(folder: &Path) -> PathBuf {
     path
 }
 
+/// A mass that the sound contradicts makes a sure speed ambiguous: the answer says which facts to check, and why.
+#[test]
+fn facts_that_make_a_sure_speed_ambiguous_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let sound = folder.path().join("hover.wav");
+    write_hover(&sound, steady_hover("ardrone", RotorSpeed::from_rev_s(60.5), 6.0));
+    let asked = ["speed", text(&sound), "--blades", "2", "--rotors", "4"];
+    let sure = hovertone(&asked).ends_with(0);
+    assert!(!sure.stderr.contains("ambiguous"), "{}", sure.stderr);
+    let mut named = 0;
+    for mass_kg in ["0.08", "0.1", "0.12"] {
+        let run = hovertone(&[&asked[..], &["--diameter-m", "0.1", "--mass-kg", mass_kg]].concat());
+        if run.stderr.contains("ambiguous:") {
+            let words = ["the given facts contradict one of them: at 60.", "--diameter-m", "--mass-kg", "0.03 to 0.25"];
+            words.iter().for_each(|word| assert!(run.stderr.contains(word), "{word}: {}", run.stderr));
+            named += 1;
+        }
+    }
+    assert!(named > 0);
+}
+
 #[test]
 fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     let folder = tempfile::tempdir().unwrap();
@@ -65,8 +86,8 @@ fn a_mass_is_not_scaled_by_other_rotors_or_another_order() {
     for (more, words) in [
         (&["--rotors", "8"][..], ["with 4 rotors", "--rotors means 8", "leave --rotors out"]),
         (&["--rotors", "2"], ["with 4 rotors", "--rotors means 2", "leave --rotors out"]),
-        (&["--order", "46"], ["tone of order 69", "say 46", "leave --order"]),
-        (&["--blades", "3"], ["tone of order 69", "say 3", "leave --order"]),
+        (&["--order", "46"], ["tone of order 69", "mean 46", "leave --order"]),
+        (&["--blades", "3"], ["tone of order 69", "mean 3", "leave --order"]),
     ] {
         refused_with(&[&weigh[..], more].concat(), &words);
     }

@@ -73,9 +73,9 @@ const CASES: [(&str, i32, &str); 65] = [
     // what was typed, or stands in a file, has no meaning
     ("speed a.wav --blades 0", 2, "--blades"),
     ("identify broken.toml", 2, "mas_kg"),
-    ("log a.wav --column Zeit=speed", 2, "no known column name"),
+    ("log a.wav --column Zeit=speed", 2, "no column name that hovertone knows"),
     ("motor a.wav --figure full/notes.png", 2, "exists already"),
-    ("motor a.wav --column Zeit=speed", 2, "no known column name"),
+    ("motor a.wav --column Zeit=speed", 2, "no column name that hovertone knows"),
 ];
 
 const RESULTS: &str = "{\"thrust_constant_per_rotor_n_s2\": {\"value\": 1e-6}, \"rotor_count\": 1, \"methods\": {}}";

@@ -5,7 +5,7 @@ use crate::testkit::{Run, hovertone, text, write_wav};
 use std::fs;
 use std::path::Path;
 
-const SHORT: &str = "is shorter than a sample";
+const SHORT: &str = "is shorter than one sample";
 /// A hover that holds samples of 2 s, and one that does not.
 const LONG_S: f64 = 2.8;
 const SHORT_S: f64 = 1.5;

@@ -101,7 +101,7 @@ fn a_log_that_cannot_be_used_is_refused_with_what_to_do() {
     let rates = "time_s,gyro_x_rad_s,gyro_y_rad_s,gyro_z_rad_s\n0,0,0,0\n1,0,0,0\n";
     refused(rates, &["--vehicle", "ardrone"], &["direction of their axes", "--log-axes"]);
     refused(rates, &["--rotors", "4", "--blades", "2", "--log-axes", "flu"], &["places of the rotors", "--layout"]);
-    refused(rates, &["--blades", "2"], &["needs their number", "--rotors 4"]);
+    refused(rates, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(rates, &["b.wav", "--vehicle", "ardrone"], &["2 recordings", "the same flight"]);
     refused("time,motor1_pwm\n", &["--vehicle", "ardrone"], &["time with its unit", "log.csv"]);
     refused("time_s,motor1_pwm\n0,x\n", &["--vehicle", "ardrone"], &["line 2", "\"x\""]);
@@ -150,6 +150,7 @@ fn an_order_of_starts_names_every_rotor_once() {
     let (sound, ..) = flown(folder.path());
     let run = ["speed", "--vehicle", "ardrone", "--json", "--spin-up", "1,2,3,4", text(&sound)];
     let line = hovertone(&run).ends_with(3).json_lines().remove(0);
+    assert!(line["warnings"].to_string().contains("--spin-up changes nothing"), "{}", line["warnings"]);
     assert_eq!(line["labels"]["source"], "spin_up");
     assert!(line["labels"]["reason"].is_string() && line["rotors"][0]["label"].is_null(), "{}", line["labels"]);
 }

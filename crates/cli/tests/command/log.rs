@@ -69,7 +69,7 @@ fn what_has_no_meaning_is_refused_with_what_to_do() {
     let columns = ["log", &log, "--column"];
     for (more, words) in [
         ("Zeit=time_s", ["there is no column \"Zeit\"", "time_s, rotor1_rpm"]),
-        ("time_s=speed", ["\"speed\" is no known column name", "rotor1_rpm"]),
+        ("time_s=speed", ["\"speed\" is no column name that hovertone knows", "rotor1_rpm"]),
         ("time_s", ["--column", "Drehzahl=rotor1_rpm"]),
     ] {
         refused_with(&[&columns[..], &[more]].concat(), &words);

@@ -367,7 +367,10 @@ fn a_law_without_most_of_the_probability_is_not_preferred() {
     fs::write(&table, "rpm,thrust_g\n1000,5\n2000,21\n3000,52\n4000,90\n5000,140\n").unwrap();
     let said = hovertone(&["fit", text(&table)]).ends_with(0).stdout;
     assert!(!said.contains("(preferred)"), "{said}");
-    assert!(said.contains("no law is preferred: none is clearly the most probable; C_f is that of F = C ω²"), "{said}");
+    assert!(
+        said.contains("no law is clearly the most probable, so none is preferred; C_f is that of F = C ω²"),
+        "{said}"
+    );
 }
 
 /// A name that is no text is shown as well as it can be.

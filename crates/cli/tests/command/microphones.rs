@@ -69,14 +69,14 @@ fn a_file_that_cannot_be_used_is_refused_with_what_to_do() {
         refused_with(&[&["speed", "a.wav", "--microphones", text(&file)], more].concat(), words);
     };
     let vehicle = ["--vehicle", "ardrone"];
-    refused(STANDS, &["--blades", "2"], &["needs their number", "--rotors 4"]);
+    refused(STANDS, &["--blades", "2"], &["needs the number of rotors", "--rotors 4"]);
     refused(STANDS, &["--blades", "2", "--rotors", "4"], &["places of the rotors", "[[rotor]]"]);
     refused("[[microphone]]\nposition_m = [1.0, 0.0, 0.0]\n", &vehicle, &["microphones: 1", "[[microphone]]"]);
     refused("position_std = 0.1\n", &vehicle, &["unknown key \"position_std\"", "position_std_m"]);
     refused(&format!("position_std_m = 0.0\n{STANDS}"), &vehicle, &["position_std_m", "0.001"]);
     refused("[[microphone]]\nposition_m = [1.0, 2.0]\n", &vehicle, &["stands.toml:2"]);
     refused(&format!("{STANDS}[[microphone]]\nposition_m = [nan, 0, 0]\n"), &vehicle, &["microphone 4", "metres"]);
-    refused(STANDS, &["--vehicle", "ardrone", "--rotors", "3"], &["rotors that turn: 3, rotors with a place: 4"]);
+    refused(STANDS, &["--vehicle", "ardrone", "--rotors", "3"], &["rotors that turn: 3; rotors with a place: 4"]);
     let both = hovertone(&["speed", "a.wav", "--microphones", "b.toml", "--log", "c.csv"]).ends_with(2);
     assert!(both.stderr.contains("cannot be used with"), "{}", both.stderr);
     let missing = hovertone(&["speed", "a.wav", "--vehicle", "ardrone", "--microphones", "missing.toml"]).ends_with(1);

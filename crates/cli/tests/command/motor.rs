@@ -145,7 +145,7 @@ fn a_log_without_a_time_constant_says_why() {
     let slow = written(folder.path(), "slow.csv", slow.join("\n"));
     let run = hovertone(&["motor", &slow]).ends_with(3);
     assert!(
-        run.stdout.contains("too slow for a time constant") && run.stdout.contains("speed of each command\n"),
+        run.stdout.contains("too few rows for a time constant") && run.stdout.contains("speed of each command\n"),
         "{}",
         run.stdout
     );
@@ -202,7 +202,7 @@ fn slow_telemetry_of_a_flight_tells_the_static_map_alone() {
     let Some(logs) = recordings("logs") else { return };
     let run = hovertone(&["motor", text(&logs.join("px4_esc_status.ulg"))]).ends_with(3);
     for words in
-        ["4 motors", "too slow for a time constant", "speed of each command\n", "output 4", "no command is held"]
+        ["4 motors", "too few rows for a time constant", "speed of each command\n", "output 4", "no command is held"]
     {
         assert!(run.stdout.contains(words), "{words}\n{}", run.stdout);
     }
@@ -233,7 +233,7 @@ fn a_recording_of_a_bench_tells_time_constants_and_its_beeps_are_no_rotor() {
     near(&line["motors"][0]["static_map"]["gain_rev_s"], 0.195, 0.01);
     // a guess is said, and what was said is no guess
     let guess = |said: &[&str]| hovertone(&[&["motor", &wav], said].concat()).ends_with(0).stderr;
-    assert!(guess(&[]).contains("the speeds belong to a propeller with 2 blades, which the sound suggests"));
+    assert!(guess(&[]).contains("the speeds are for propellers with 2 blades, as the sound suggests"));
     assert!(!guess(&["--blades", "2"]).contains("suggests"));
     let on_clock = ["motor", "--json", &wav, "--blades", "2", "--commands", &commands, "--offset", "0"];
     let dead_time_s = &hovertone(&on_clock).ends_with(0).json_lines()[0]["dead_time_s"]["value"];

@@ -26,8 +26,8 @@ fn a_mass_in_grams_is_a_slip_that_is_named() {
     // before anything is heard: the recording is not there
     let absent = ["weigh", "absent.wav", "--constant-n-s2", "2.83e-5", "--gear", "8:69", "--rotors", "4"];
     refused_with(&[&absent[..], &["--mass-kg", "413"]].concat(), &heavy);
-    refused_with(&[&weigh[..], &["50"]].concat(), &["carries 41", "alone weighs 50000 g", "--mass-kg 0.05"]);
-    refused_with(&[&weigh[..], &["0.01"]].concat(), &["more than ten times the vehicle's 10 g", "check the mass"]);
+    refused_with(&[&weigh[..], &["50"]].concat(), &["payload weighs 41", "alone weighs 50000 g", "--mass-kg 0.05"]);
+    refused_with(&[&weigh[..], &["0.01"]].concat(), &["more than ten times the 10 g of the vehicle", "check the mass"]);
     refused_with(&[&weigh[..], &["-0.413"]].concat(), &["mass_kg = -0.413", "above 0"]);
     hovertone(&[&weigh[..], &["0.413"]].concat()).ends_with(0);
     for command in [&["speed"][..], &["tones"], &["weigh", "--constant-n-s2", "2.83e-5"]] {
@@ -140,7 +140,7 @@ fn a_constant_belongs_to_its_vehicle() {
     fs::write(&results, written).unwrap();
     refused_with(
         &["weigh", "a.wav", "--constant", text(&results), "--vehicle", "crazyflie"],
-        &["measured with the vehicle \"ardrone\"", "--vehicle says \"crazyflie\"", "leave --vehicle out"],
+        &["measured with the vehicle \"ardrone\"", "--vehicle is \"crazyflie\"", "leave --vehicle out"],
     );
     let same = hovertone(&["weigh", "nowhere.wav", "--constant", text(&results), "--vehicle", "ardrone"]).ends_with(1);
     assert!(same.stderr.contains("nowhere.wav"), "{}", same.stderr);
@@ -212,7 +212,7 @@ fn rows_have_the_cells_of_the_header() {
     ] {
         let arguments = fit(row);
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        refused_with(&arguments, &[words, "decimal comma", "stand.csv"]);
+        refused_with(&arguments, &[words, "commas are decimal", "stand.csv"]);
     }
     let arguments = fit("3500,1.36,");
     hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0);
@@ -253,7 +253,7 @@ fn rows_that_were_computed_are_no_measurement() {
     };
     for digits in [17, 6, 4] {
         fs::write(&table, format!("rpm,thrust_n\n{}", rows(digits, ""))).unwrap();
-        refused_with(&["fit", text(&table)], &["exactly on F = C ω²", "no ±", "thrust_std_n", "stand.csv"]);
+        refused_with(&["fit", text(&table)], &["exactly on F = C ω²", "these have none", "thrust_std_n", "stand.csv"]);
     }
     // with a stated uncertainty they have one, and nothing is said not to fit
     fs::write(&table, format!("rpm,thrust_n,thrust_std_n\n{}", rows(17, ",0.001"))).unwrap();
@@ -277,9 +277,9 @@ fn a_weighed_mass_is_that_of_a_vehicle() {
         refused_with(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), words);
     };
     let ardrone = ["--vehicle", "ardrone"];
-    refused(weigh("2.8", &ardrone), &["ten times the vehicle's 413 g", "of the whole vehicle"]);
+    refused(weigh("2.8", &ardrone), &["ten times the 413 g of the vehicle", "of the whole vehicle"]);
     // the constant of one rotor in place of four
-    refused(weigh("7.07e-6", &ardrone), &["carries 10", "alone weighs 413 g", "of the whole vehicle"]);
+    refused(weigh("7.07e-6", &ardrone), &["payload weighs 10", "alone weighs 413 g", "of the whole vehicle"]);
     // without a ± of the constant the mass has none, and says so
     let arguments = weigh("2.83e-5", &ardrone);
     let words = hovertone(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).ends_with(0).stdout;

@@ -184,7 +184,7 @@ fn results_go_into_a_new_folder_or_one_of_results() {
     assert_eq!(fs::read_dir(&thesis).unwrap().count(), 1);
     // the folder of the experiment itself is no place for results
     let own = ["identify", text(&experiment), "-o", text(folder.path())];
-    refused_with(&own, &["this folder holds ", "which is read", "-o results"]);
+    refused_with(&own, &["this folder holds ", "which is an input", "-o results"]);
     let out = folder.path().join("out");
     hovertone(&["identify", text(&experiment), "-o", text(&out)]).ends_with(3);
     let listed = checked_list(&out);
@@ -329,7 +329,7 @@ fn a_recording_counts_once() {
         fs::write(&experiment, format!("{vehicle}{loads}")).unwrap();
         refused_with(
             &["identify", text(&experiment)],
-            &["a.wav is given twice: as two trials it would make the ± too small"],
+            &["a.wav is given twice: counted twice, it would make the ± too small"],
         );
     }
     // a pattern may hold a file that is named as well

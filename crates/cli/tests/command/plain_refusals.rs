@@ -95,5 +95,8 @@ fn rows_without_scatter_say_that_their_sign_was_turned() {
     let folder = tempfile::tempdir().unwrap();
     let table = folder.path().join("negative.csv");
     fs::write(&table, "rpm,thrust_g\n1000,-10\n2000,-40\n3000,-90\n").unwrap();
-    refused_with(&["fit", text(&table)], &["lie exactly on F = C ω²", "thrust is negative: taken with the other sign"]);
+    refused_with(
+        &["fit", text(&table)],
+        &["lie exactly on F = C ω²", "the thrusts are negative and are used as positive"],
+    );
 }

@@ -37,7 +37,7 @@ fn a_missing_right_names_what_it_is_missing_for() {
             if is_root { command.uid(NOBODY).gid(NOBODY) } else { command }
         })
     };
-    let (file, open) = ("you have no right to read", "you have no right to open this folder (hint: let its owner");
+    let (file, open) = ("you have no right to read", "you have no right to open this folder (hint: ask its owner");
     for (arguments, words) in [
         (
             "speed secret.wav --blades 2",

@@ -134,7 +134,7 @@ fn a_folder_of_something_else_is_left_alone() {
     let file = scenario(folder.path(), STILL_HOVER);
     let run = hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(2);
     // the folder of the scenario is no place for its results
-    assert!(run.stderr.contains("which is read") && run.stderr.contains("-o results"), "{}", run.stderr);
+    assert!(run.stderr.contains("which is an input") && run.stderr.contains("-o results"), "{}", run.stderr);
     fs::write(folder.path().join("truth.json"), "{}").unwrap();
     hovertone(&["simulate", text(&file), "-o", text(folder.path())]).ends_with(2);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);

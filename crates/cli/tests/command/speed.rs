@@ -107,14 +107,17 @@ fn noise_has_no_rotor_tone_and_ends_with_3() {
     assert!(table.stderr.contains("no rotor tone: nothing sounds like a rotor"), "{}", table.stderr);
     // where something said leaves speeds out, the answer is of the others only
     for (said, heard) in [
-        (&["--vehicle", "ardrone"][..], "no gear mesh of order 69 is heard at 920 to 8280 Hz, as of 13 to 120 rev/s"),
+        (
+            &["--vehicle", "ardrone"][..],
+            "the tone of the gear (order 69) is not heard at 920 to 8280 Hz, as of 13 to 120 rev/s",
+        ),
         (
             &["--vehicle", "crazyflie"],
-            "no rotor is heard at 136 to 626 rev/s; check the given facts: the vehicle or the band",
+            "no rotor is heard at 136 to 626 rev/s, where the given facts expect it; check these facts, such as the vehicle or the band",
         ),
         (
             &["--blades", "2", "--band", "200:300"],
-            "no rotor is heard at 100 to 150 rev/s; check the given facts: the vehicle or the band",
+            "no rotor is heard at 100 to 150 rev/s, where the given facts expect it; check these facts, such as the vehicle or the band",
         ),
     ] {
         let run = hovertone(&[&["speed", text(&path)], said].concat()).ends_with(3);
@@ -230,7 +233,7 @@ fn a_short_part_is_told_the_length_that_is_needed_and_that_length_is_enough() {
         hovertone(&[&words[..], &[text(&sound)]].concat())
     };
     let short = part("3.2").ends_with(0);
-    let needed = short.stderr.split_once("only 0.2 s are used, and hovertone needs ").unwrap().1;
+    let needed = short.stderr.split_once("only 0.2 s of the sound are used, and hovertone needs ").unwrap().1;
     assert!(needed.contains("choose a longer part") && !needed.contains("--window-s"), "{}", short.stderr);
     let needed_s: f64 = needed.split_once(" s or more").unwrap().0.parse().unwrap();
     let long = part(&format!("{}", 3.0 + needed_s)).ends_with(0);
@@ -244,10 +247,12 @@ fn a_mesh_above_the_sample_rate_is_told_what_else_tells_the_speed() {
     let noise = folder.path().join("noise.wav");
     write_noise(&noise, 4.0);
     let run = hovertone(&["speed", "--gear", "69", text(&noise)]).ends_with(3);
-    for words in
-        ["no tone of order 69 is heard", " rev/s only; count the blades and give --blades N too", "--band LOW:HIGH"]
-    {
+    for words in [
+        "the tone of order 69 (69 times per turn of the shaft) is not heard",
+        " rev/s; count the blades and give --blades N too",
+        "--band LOW:HIGH",
+    ] {
         assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
     }
-    assert!(!run.stderr.contains("higher rate"), "{}", run.stderr);
+    assert!(!run.stderr.contains("higher sample rate"), "{}", run.stderr);
 }

@@ -34,8 +34,8 @@ fn a_missing_tone_is_explained_by_the_fault_of_the_recording() {
     write_hover(&at("low.wav"), HoverSettings { sample_rate_hz: 8_000, ..hover });
     for (name, reason) in [
         ("loud.wav", "no rotor tone: the recording is overdriven: "),
-        ("nan.wav", "no rotor tone: the audio samples are NaN or infinite"),
-        ("low.wav", "no rotor tone: the sample rate is too low: nothing above 4.0 kHz is recorded"),
+        ("nan.wav", "no rotor tone: the audio samples are no numbers (NaN or infinite)"),
+        ("low.wav", "no rotor tone: the sample rate is too low: no sound above 4.0 kHz is recorded"),
     ] {
         let run = hovertone(&["speed", "--vehicle", "ardrone", text(&at(name))]).ends_with(3);
         assert!(run.stderr.contains(reason) && !run.stderr.contains("microphone nearer"), "{name}: {}", run.stderr);

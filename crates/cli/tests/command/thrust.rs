@@ -78,7 +78,7 @@ fn thrust_stands_as_their_readme_says() {
         assert!((1.95..2.25).contains(&exponent), "{exponent}: 2.0 to 2.2");
     }
     let m8_11 = fits.iter().find(|fit| fit["file"].as_str().unwrap().contains("m8_11")).unwrap();
-    assert!(m8_11["notices"].to_string().contains("other sign"), "{m8_11}");
+    assert!(m8_11["notices"].to_string().contains("used as positive ones"), "{m8_11}");
     let bitcraze = recordings("crazyflie-propeller").unwrap().join("pwm_to_thrust.csv");
     let fit = hovertone(&["fit", text(&bitcraze), "--rotors", "4", "--json"]).ends_with(0).json_lines().remove(0);
     assert!((number(&fit, "/thrust_constant_per_rotor_n_s2/value") - 2.218e-8).abs() < 5e-12);
@@ -102,7 +102,7 @@ fn bad_tables_are_refused_or_flagged() {
         ("rpm,mass_g\n3600,413\n", &["at least 3 usable rows", "has 1", "mass_std_g"]),
         ("rpm,mass_g\n3600,413\n3700,1744\n", &["at least 3 usable rows", "has 2", "mass_std_g"]),
         // three rows that are one row
-        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "no ±"]),
+        ("rpm,mass_g\n3600,413\n3600,413\n3600,413\n", &["exactly on F = C ω²", "these have none"]),
     ] {
         let refused = run(rows).ends_with(2);
         assert!(refused.stdout.is_empty());
@@ -111,7 +111,7 @@ fn bad_tables_are_refused_or_flagged() {
     let one = run("rpm,mass_g,mass_std_g\n3600,413,1\n").ends_with(0).json_lines().remove(0);
     assert!(one["notices"].to_string().contains("only one load"), "{one}");
     let equal = run("rpm,mass_g\n3600,413\n3610,413\n3605,413\n").ends_with(0).json_lines().remove(0);
-    assert!(equal["notices"].to_string().contains("all 3 loads are equal"), "{equal}");
+    assert!(equal["notices"].to_string().contains("all 3 loads have the same force"), "{equal}");
     assert!(equal["fit"]["with_intercept"].is_null() && equal["fit"]["power_law"].is_null(), "{equal}");
     // three rows that are nearly one
     for rows in ["rpm,thrust_n\n3600,1.00\n3601,1.002\n3602,0.999\n", "rpm,thrust_n\n3600,1\n3620,1.012\n3640,1.021\n"]
@@ -120,12 +120,12 @@ fn bad_tables_are_refused_or_flagged() {
         assert!(near["fit"]["with_intercept"].is_null() && near["fit"]["power_law"].is_null(), "{near}");
         let said = hovertone(&["fit", text(&path)]).ends_with(0);
         assert!(said.stdout.contains("no other law is compared") && !said.stdout.contains("F₀ + C"), "{}", said.stdout);
-        let is_said = ["loads are equal", "forces are too alike"].iter().any(|words| said.stderr.contains(words));
+        let is_said = ["have the same force", "forces are too alike"].iter().any(|words| said.stderr.contains(words));
         assert!(is_said && said.stderr.contains("hint: "), "{}", said.stderr);
     }
     // half of the rows are four times too heavy, and nobody knows which half
     let halves = run("rpm,mass_g\n3600,413\n3610,416\n3700,1744\n3710,1755\n").ends_with(0).json_lines().remove(0);
-    assert!(halves["notices"].to_string().contains("nothing shows which half is right"), "{halves}");
+    assert!(halves["notices"].to_string().contains("nothing shows which of them are right"), "{halves}");
     // 300 % too heavy
     let outlier = run("rpm,mass_g\n3600,400\n3818,450\n4025,2000\n4221,550\n").ends_with(0).json_lines().remove(0);
     assert!(outlier["notices"].to_string().contains("line 4 of the table does not fit"), "{outlier}");
@@ -345,7 +345,7 @@ fn a_model_is_the_vehicle_of_an_experiment() {
     assert!((number(&found, "/vehicle_model/over_heard") - 1.0).abs() < 2e-3, "{}", found["vehicle_model"]);
     assert_eq!(found["vehicle_model"]["agrees"], true);
     assert!((number(&found, "/settings/experiment/propeller_diameter_m") - 0.2).abs() < 1e-12);
-    assert!(run.stderr.contains("nobody weighed this one"), "{}", run.stderr);
+    assert!(run.stderr.contains("this vehicle was not weighed"), "{}", run.stderr);
     let wrong = results(&right.replace("7.075e-6", "8.54858e-6"), "mass_kg = 0.413\n").ends_with(0);
     let found: Value = serde_json::from_str(&wrong.stdout).unwrap();
     assert!((number(&found, "/vehicle_model/over_heard") - 8.54858 / 7.075).abs() < 2e-3);

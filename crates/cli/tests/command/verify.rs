@@ -59,6 +59,28 @@ fn a_flight_agrees_with_its_log_and_a_wrong_order_does_not() {
     assert!(wrong.stdout.contains("failed: heard speeds are 2.00 times the logged ones"), "{}", wrong.stdout);
 }
 
+/// Equal means are no pass where the clock is wrong, or where the log is of another flight.
+#[test]
+fn a_wrong_offset_and_another_flight_do_not_pass() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, _) = flown_hover(folder.path(), 5, 12.0, 0.02);
+    let vehicle = file.vehicle.preset.as_str();
+    let flown = folder.path().join("flown");
+    let log = folder.path().join("log.csv");
+    write_log(&flown, &log, 10, 1.0);
+    let sound = flown.join("sound.wav");
+    let asked = ["verify", text(&sound), text(&log), "--vehicle", vehicle];
+    let limits = format!("--log-offset-s={}:{}", OFFSET_S + 0.09, OFFSET_S + 2.0);
+    let run = hovertone(&[&asked[..], &[&limits]].concat()).ends_with(3);
+    assert!(run.stdout.contains("not decided: the log fits better at an offset near −12.3"), "{}", run.stdout);
+    assert!(run.stdout.contains("give wider limits"), "{}", run.stdout);
+    // far from the right offset, the log is as good as that of another flight
+    let limits = format!("--log-offset-s={}:{}", OFFSET_S + 3.0, OFFSET_S + 3.2);
+    let run = hovertone(&[&asked[..], &[&limits, "--json"]].concat()).ends_with(3);
+    let line = run.json_lines().remove(0);
+    assert!(line["status"] == "not_decided" && line["coverage"].as_f64().unwrap() < 0.68, "{line}");
+}
+
 #[test]
 fn nothing_to_compare_ends_with_a_sentence() {
     let folder = tempfile::tempdir().unwrap();

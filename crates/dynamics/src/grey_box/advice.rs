@@ -21,7 +21,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         if !inputs.has_loop[axis as usize] {
             advice.push(Advice {
                 what: format!(
-                    "the flight does not show {}: the log has no command or no measurement of it",
+                    "the flight does not show {}: the log lacks its command or its measured value",
                     axis.in_words()
                 ),
                 hint: format!("log the command and the {} of the vehicle", measurement(axis)),
@@ -39,9 +39,10 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
         }
         if fit.estimate(Parameter::Limit(axis)).is_none() {
             advice.push(Advice {
-                what: format!("the flight does not show the limit of {}: the commands were too small", axis.in_words()),
+                what: format!("the flight does not show the limit of {}, above which a command has no more effect: the commands were too \
+                small", axis.in_words()),
                 hint: format!(
-                    "fly {} with the largest command, or keep to commands as large as in this flight",
+                    "fly {} with the largest command, or use the model only for commands as large as in this flight",
                     axis.in_words()
                 ),
             });
@@ -61,7 +62,7 @@ pub fn advice_of(fit: &GreyBoxFit, inputs: &LoopInputs) -> Vec<Advice> {
     }
     advice.extend(fit.information.correlations.iter().map(|pair| Advice {
         what: format!(
-            "{} and {} go together (correlation {})",
+            "{} and {} cannot be found separately (correlation {})",
             pair.first.in_words(),
             pair.second.in_words(),
             format!("{:.2}", pair.correlation).replace('-', "−")

@@ -54,7 +54,7 @@ impl Default for GreyBoxConfig {
 #[non_exhaustive]
 pub enum GreyBoxStop {
     /// No loop has both its command and its measurement.
-    #[error("the log has no loop of eq 1 with its command and its measurement")]
+    #[error("the log has no axis (roll, pitch, yaw or climb) with both a command and its measured value")]
     NoLoop,
     /// Too few observations within the log.
     #[error("only {found} speeds lie within the log, and {needed} are needed")]

@@ -173,7 +173,7 @@ pub fn table_from_csv(text: &str) -> Result<StandTable, TableError> {
     plausible::check(&rows, MeasuredColumns { speed, force })?;
     let unit_missing = columns.iter().filter(|column| column.lacks_unit);
     let mut notes: Vec<String> = unit_missing
-        .map(|column| format!("column \"{}\" is not used: it names no unit that is known", column.header))
+        .map(|column| format!("column \"{}\" is not used: its name has no unit that hovertone knows", column.header))
         .collect();
     notes.extend(rivals(&csv, &columns, &records, [speed, force]));
     turn_round(&mut rows, &mut notes);
@@ -219,21 +219,26 @@ fn numbers_in(csv: &CsvText, column: &Column, records: &[StringRecord]) -> usize
     records.iter().filter(tells).count()
 }
 
-/// Notes about columns that could have been the speed or the force as well.
+/// Notes about columns that could have been the speed or the force as well: one for the speed, one for the force.
 fn rivals(csv: &CsvText, columns: &[Column], records: &[StringRecord], used: [&Column; 2]) -> Vec<String> {
     let [speed, force] = used;
-    let note = |column: &Column| {
-        let (what, chosen) = match column.quantity? {
-            Quantity::Speed => ("speed", speed),
-            Quantity::Thrust | Quantity::Mass => ("force", force),
-            _ => return None,
+    let note = |(what, chosen): (&str, &Column)| {
+        let is_rival = |column: &&Column| {
+            let is_of_kind = match column.quantity {
+                Some(Quantity::Speed) => what == "speed",
+                Some(Quantity::Thrust | Quantity::Mass) => what == "force",
+                _ => false,
+            };
+            is_of_kind && column.index != chosen.index && numbers_in(csv, column, records) > 0
         };
-        let is_rival = column.index != chosen.index && numbers_in(csv, column, records) > 0;
-        is_rival.then(|| {
-            format!("column \"{}\" is not used: the {what} is that of column \"{}\"", column.header, chosen.header)
-        })
+        let rivals: Vec<String> =
+            columns.iter().filter(is_rival).map(|column| format!("\"{}\"", column.header)).collect();
+        let (noun, verb) = if rivals.len() == 1 { ("column", "is") } else { ("columns", "are") };
+        let chosen = &chosen.header;
+        (!rivals.is_empty())
+            .then(|| format!("{noun} {} {verb} not used: the {what} comes from column \"{chosen}\"", rivals.join(", ")))
     };
-    columns.iter().filter_map(note).collect()
+    [("speed", speed), ("force", force)].into_iter().filter_map(note).collect()
 }
 
 struct RowReader<'a> {
@@ -317,7 +322,10 @@ fn turn_round(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
     let turning = rows.iter().map(|of| &of.row).filter(|row| row.speed_rad_s.abs() >= AT_REST_SHARE * fastest);
     let sum: f64 = turning.map(thrust).sum();
     if sum < 0.0 {
-        notes.push("thrust is negative: taken with the other sign (a matter of mounting)".to_owned());
+        notes.push(
+            "the thrusts are negative and are used as positive ones: the sign depends on how the stand is mounted"
+                .to_owned(),
+        );
         for GroupedRow { row, .. } in rows.iter_mut() {
             if let StandForce::Thrust { thrust_n } = &mut row.force {
                 *thrust_n = -*thrust_n;
@@ -341,7 +349,9 @@ fn leave_out_resting(rows: &mut Vec<GroupedRow>, notes: &mut Vec<String>) {
         let share = 100.0 * AT_REST_SHARE;
         let count = before - rows.len();
         let rpm = AT_REST_SHARE * fastest * 60.0 / TAU;
-        notes.push(format!("rows left out, slower than {rpm:.0} rpm ({share:.0} % of the fastest speed): {count}"));
+        notes.push(format!(
+            "rows left out because they are slower than {rpm:.0} rpm ({share:.0} % of the fastest speed): {count}"
+        ));
     }
 }
 

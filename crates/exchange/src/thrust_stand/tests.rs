@@ -45,8 +45,8 @@ fn of_two_speeds_the_rotors_is_fitted_and_what_is_not_used_is_named() {
     let table = table_from_csv(text).unwrap();
     assert_eq!((table.speed_column.as_str(), table.force_column.as_str()), ("rotor_rpm", "thrust_g"));
     let notes = [
-        "column \"motor_rpm\" is not used: the speed is that of column \"rotor_rpm\"",
-        "column \"mass_g\" is not used: the force is that of column \"thrust_g\"",
+        "column \"motor_rpm\" is not used: the speed comes from column \"rotor_rpm\"",
+        "column \"mass_g\" is not used: the force comes from column \"thrust_g\"",
     ];
     assert_eq!(table.notes, notes);
 }

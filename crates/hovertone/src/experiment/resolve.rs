@@ -206,7 +206,7 @@ impl ExperimentFile {
             (Some(_), Some(_)) => {
                 return Err(ExperimentError::Contradiction {
                     what: format!("load {:?} has both thrust_n and added_mass_kg", load.name),
-                    hint: "a bench run has a thrust, a hover an added mass",
+                    hint: "write thrust_n for a bench run, or added_mass_kg for a hover",
                 });
             }
             (Some(thrust_n), None) => Force::Thrust {
@@ -269,12 +269,12 @@ impl ExperimentFile {
             (None, None, None) => Gravity::UNKNOWN,
             (Some(_), _, _) => {
                 return Err(ExperimentError::Contradiction {
-                    what: "vehicle has both gravity_m_s2 and a place".to_owned(),
+                    what: "[vehicle] has both gravity_m_s2 and a place (latitude_deg, height_m)".to_owned(),
                     hint: "write either gravity_m_s2, or latitude_deg and height_m",
                 });
             }
             (None, None, Some(_)) => {
-                return Err(missing("vehicle.latitude_deg", "height_m alone does not tell gravity"));
+                return Err(missing("vehicle.latitude_deg", "height_m alone does not give the gravity"));
             }
         };
         check_gravity("vehicle.gravity_m_s2", gravity.m_s2)?;
@@ -328,7 +328,7 @@ impl ExperimentFile {
             let what = match before {
                 _ if load.name.trim().is_empty() => format!("load number {number} has no name"),
                 Some(before) => {
-                    format!("load number {number} is named {:?}, as load number {} is", load.name, before + 1)
+                    format!("load number {number} has the same name, {:?}, as load number {}", load.name, before + 1)
                 }
                 None => continue,
             };

@@ -69,7 +69,7 @@ fn a_bench_run_has_the_scales_uncertainty_unless_it_says_better() {
     let text = GOOD.replace("added_mass_kg = 0.031", "thrust_n = 1.5\nrotors_running = 1");
     let load = &resolve(&text).expect("a good file").loads[1];
     assert_eq!(load.rotors_running, 1);
-    let Force::Thrust { thrust_n, thrust_std_n } = load.force else { panic!("a bench run has a thrust") };
+    let Force::Thrust { thrust_n, thrust_std_n } = load.force else { panic!("write thrust_n for a bench run") };
     assert_eq!(thrust_n, 1.5);
     assert!((thrust_std_n - 0.0005 * GRAVITY_STANDARD_M_S2).abs() < 1e-12);
 }

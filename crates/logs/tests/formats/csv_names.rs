@@ -27,11 +27,14 @@ fn names_that_fit_nothing_are_refused_with_what_to_do() {
     let mut without_meaning = ColumnNames::default();
     for name in ["speed", "time", "Drehzahl"] {
         let error = without_meaning.add("Drehzahl", name).unwrap_err();
-        assert!(error.to_string().contains("no known column name") && error.hint().contains("rotor1_rpm"), "{error}");
+        assert!(
+            error.to_string().contains("no column name that hovertone knows") && error.hint().contains("rotor1_rpm"),
+            "{error}"
+        );
     }
     let error = log_summary(TEXT.as_bytes(), &names(&[("Zeit", "time_ms"), ("zeit", "time_s")])).unwrap_err();
     assert!(matches!(&error, LogError::NoSuchColumn { columns, .. } if columns == "Zeit, Drehzahl, Stellgröße, Notiz"));
     let bytes = crate::writers::dataflash::flight(1);
     let error = log_summary(&bytes[..], &names(&[("Zeit", "time_ms")])).unwrap_err();
-    assert!(error.to_string().contains("names its signals itself"), "{error}");
+    assert!(error.to_string().contains("has names for its signals"), "{error}");
 }

@@ -11,6 +11,7 @@
 //! Both models are linear regressions (`bayes_factor`) of series with drifting noise, which a filter makes white (`noise_model`). Series
 //! that carry no information about single rotors are projected out first (`nuisance`).
 
+mod agreement;
 mod bayes_factor;
 mod body_rate_model;
 mod differences;

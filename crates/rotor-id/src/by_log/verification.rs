@@ -6,6 +6,7 @@
 #[cfg(test)]
 mod tests;
 
+use super::agreement::agreement_of;
 use super::differences::{Difference, POINTS_MIN, compared_point, near_rows, rounding_std};
 use hovertone_analysis::{TrackPoint, Verification, VerifiedRotor};
 
@@ -48,10 +49,10 @@ pub struct LoggedSpeeds<'a> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotVerified {
     /// No speed was heard.
-    #[error("no track of a rotor's speed was heard")]
+    #[error("no rotor was heard for long enough")]
     NoTrack,
     /// The log has fewer motors than rotors were heard.
-    #[error("{tracks} rotors were heard, and the log has {motors} motors that turn")]
+    #[error("{tracks} rotors were heard, but in the log only {motors} motors turn")]
     TooFewMotors {
         /// Heard rotors.
         tracks: usize,
@@ -62,7 +63,7 @@ pub enum NotVerified {
     #[error("log and recording share too little time")]
     NoOverlap,
     /// The range of offsets is too wide.
-    #[error("log and recording are too long to try all offsets of their clocks")]
+    #[error("log and recording are too long to try all offsets between their clocks")]
     TooLong,
 }
 
@@ -73,7 +74,7 @@ impl NotVerified {
             Self::NoTrack => "check the recording with `hovertone speed`",
             Self::TooFewMotors { .. } => "give the log of the same vehicle, or the number of rotors with --rotors",
             Self::NoOverlap => "give the log of the same flight, at least half as long as the hover",
-            Self::TooLong => "give the range of offsets: --log-offset-s LOW:HIGH",
+            Self::TooLong => "give limits of the offset in seconds: --log-offset-s LOW:HIGH",
         }
     }
 }
@@ -115,6 +116,10 @@ pub fn verification_from_log(
     let is_offset_told = is_worse(elsewhere) && is_worse(comparison.cost_of_constants(offsets[best], COARSE_POINTS));
     let fine_s = comparison.fine_offset(offsets[best]);
     let offset_s = offsets_s.map_or(fine_s, |[low_s, high_s]| fine_s.min(high_s).max(low_s));
+    // a fit that is hardly better outside of the limits tells nothing
+    let is_better_outside =
+        || comparison.cost(offset_s, COARSE_POINTS) > ELSEWHERE_FACTOR * comparison.cost(fine_s, COARSE_POINTS);
+    let better_offset_s = (fine_s != offset_s && is_better_outside()).then_some(fine_s);
     let mut rotors = comparison.rotors(offset_s);
     rotors.iter_mut().for_each(|rotor| rotor.track = indices[rotor.track]);
     let heard: f64 = rotors.iter().map(|rotor| rotor.speed_rev_s).sum();
@@ -122,6 +127,8 @@ pub fn verification_from_log(
     Ok(Verification {
         offset_s,
         is_offset_told,
+        better_offset_s,
+        agreement: agreement_of(&rotors),
         clock_rate_share: comparison.clock_rate_share(offset_s),
         rotors,
         speed_ratio: heard / logged,

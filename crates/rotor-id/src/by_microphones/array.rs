@@ -34,7 +34,7 @@ pub enum ArrayError {
         count: usize,
     },
     /// Fewer than two rotors, or more than can be labelled.
-    #[error("rotors: {count}; 2 to {LABELLED_ROTORS_MAX} can be named")]
+    #[error("number of rotors: {count}; only 2 to {LABELLED_ROTORS_MAX} rotors can be named")]
     WrongRotorCount {
         /// Number of rotors.
         count: usize,

@@ -18,7 +18,9 @@ mod start_search;
 
 use crate::settings::LabelsConfig;
 use frames::FRAME_S;
-use hovertone_analysis::{Hover, LabelSource, NotTold, Outcome, RotorEstimate, RotorLabel, RotorLabels, SpeedAnalysis};
+use hovertone_analysis::{
+    Hover, LabelSource, NotTold, Outcome, RotorEstimate, RotorLabel, RotorLabels, Span, SpeedAnalysis,
+};
 use hovertone_rotor_speed::{
     Config, Error, HoverPart, HoverRotors, ToneConfig, passes_of_speed, rotors_from_survey, speed_from_survey,
     survey_from_passes,
@@ -53,6 +55,24 @@ pub struct RotorStart {
 impl SpinUp {
     fn not_told(reason: NotTold) -> Self {
         Self { starts: Vec::new(), not_told: Some(reason) }
+    }
+
+    /// The same, where the hover begins with the recording: starts that are not found are not there.
+    fn of_hover(self, analysis: &SpeedAnalysis) -> Self {
+        let begins_with = |segment: &Span| segment.from_s - analysis.heard.from_s < FRAME_S;
+        let has_no_lead = analysis.hover.segments.first().is_some_and(begins_with);
+        match self.not_told {
+            Some(NotTold::NotFollowed { .. } | NotTold::RotorsTooClose { .. }) if has_no_lead => {
+                Self::not_told(NotTold::NoStart)
+            }
+            _ if self.turn_from_first() => Self::not_told(NotTold::NoStart),
+            _ => self,
+        }
+    }
+
+    /// Whether all rotors turn already where the recording begins: such a start has no uncertainty.
+    fn turn_from_first(&self) -> bool {
+        !self.starts.is_empty() && self.starts.iter().all(|start| start.std_uncertainty_s == 0.0)
     }
 
     /// Time from which on all rotors turn steadily.
@@ -170,8 +190,10 @@ pub fn speed_after_spin_up(passes: &mut Passes<'_>, config: &Config) -> Result<(
         tone: &config.tone,
     };
     let first = spin_up_of_rotors(passes, &request, &hover, &rotors)?;
-    if first.not_told.is_some() {
-        return Ok((speed_from_survey(passes, &surveyed, config)?, first));
+    if first.not_told.is_some() || first.turn_from_first() {
+        let analysis = speed_from_survey(passes, &surveyed, config)?;
+        let spin_up = first.of_hover(&analysis);
+        return Ok((analysis, spin_up));
     }
     let settled = in_part(HoverPart::After { time_s: first.settled_s() });
     let analysis = speed_from_survey(passes, &surveyed, &settled)?;
@@ -195,6 +217,27 @@ mod tests {
         let numbers: Vec<usize> = labels.rotors.iter().flatten().map(|label| label.number).collect();
         assert_eq!((numbers, labels.not_told), (vec![2, 3, 1], None));
         assert!(labels.probability.unwrap() > 0.9999 && labels.offset_s.is_none());
+    }
+
+    /// A recording that begins in the hover has no starts, and is said to have none.
+    #[test]
+    fn a_hover_from_the_first_moment_on_has_no_starts() {
+        let begins_at = |from_s: f64| SpeedAnalysis {
+            heard: Span { from_s: 0.0, to_s: 20.0 },
+            hover: Hover::whole(Span { from_s, to_s: 20.0 }),
+            outcome: Outcome::NoRotorTone { reason: hovertone_analysis::NoTone::NoHover },
+            warnings: Vec::new(),
+        };
+        let lost = || SpinUp::not_told(NotTold::NotFollowed { tracks: 4 });
+        assert_eq!(lost().of_hover(&begins_at(0.0)).not_told, Some(NotTold::NoStart));
+        assert_eq!(lost().of_hover(&begins_at(8.0)).not_told, Some(NotTold::NotFollowed { tracks: 4 }));
+        let turning = RotorStart { time_s: 0.0, std_uncertainty_s: 0.0 };
+        let found = SpinUp { starts: vec![turning; 4], not_told: None };
+        assert_eq!(found.of_hover(&begins_at(0.0)).not_told, Some(NotTold::NoStart));
+        // the first motor turned already, the others start
+        let starts = vec![turning, RotorStart { time_s: 3.0, std_uncertainty_s: 0.1 }];
+        let found = SpinUp { starts, not_told: None };
+        assert_eq!(found.clone().of_hover(&begins_at(0.0)), found);
     }
 
     #[test]

@@ -88,7 +88,7 @@ impl<'a> HarmonicWeights<'a> {
         for (ridge, speed) in ridges.iter().zip(&speeds) {
             let reason = match (speed, reference) {
                 _ if !has_points(ridge) => {
-                    format!("it is heard for {} of the time", percent_in_words(ridge.point_share()))
+                    format!("it is heard for only {} of the time", percent_in_words(ridge.point_share()))
                 }
                 (Some(speed), Some((_, reference))) if !agree(*speed, reference) => {
                     let share = speed / reference - 1.0;

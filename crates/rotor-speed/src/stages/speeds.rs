@@ -45,7 +45,10 @@ pub(crate) fn speeds_from_decision(
     warnings.extend(warnings_of_hover(&hover));
     warnings.extend(warnings_of_speed(&lines.ridges, &speeds));
     let is_of_all = speeds.first().is_some_and(|speed| speed.method == Method::Separated);
-    if !is_of_all && one_line_count > config.rotors.count {
+    let wants_rotors = config.methods().any(|method| method == Method::Separated);
+    // where rotors were to be separated, another warning says it
+    let stands_for_unknown = !config.rotors.is_count_known && one_line_count > 1;
+    if !is_of_all && stands_for_unknown && (config.rotors.count == 1 || !wants_rotors) {
         warnings.push(Warning::RotorCountUnknown { spread_share: config.budget.rotor_spread_share });
     }
     warnings.extend(warning_of_samples(&samples, config.samples.length_s));
@@ -54,12 +57,12 @@ pub(crate) fn speeds_from_decision(
         // the result is the mean of all rotors: it follows neither the loudest nor any harmonic of all together
         warnings.retain(|warning| !matches!(warning, Warning::SeveralLines { .. } | Warning::HarmonicLeftOut { .. }));
     }
-    let wants_rotors = config.methods().any(|method| method == Method::Separated);
     warnings.extend(warning_of_rotors(
         &rotors,
         &speeds,
         if wants_rotors { config.rotors.count } else { 1 },
         !config.rotors.is_count_known,
+        config.budget.rotor_spread_share,
     ));
     let are_all_apart = config.method == Method::Separated && rotors.len() == config.rotors.count as usize;
     let track = match tracks.into_iter().find(|track| track.method == config.method) {

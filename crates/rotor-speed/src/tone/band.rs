@@ -48,8 +48,10 @@ pub(crate) fn bands_around(
         } else if harmonic == 1 {
             return Err(Error::BandAboveNyquist { low_hz, high_hz, sample_rate_hz });
         } else {
-            let reason =
-                format!("it reaches up to {:.0} Hz, and the recording ends at {hz_max:.0} Hz", times * high_hz);
+            let reason = format!(
+                "it may lie up to {:.0} Hz, and the recording has no sound above {hz_max:.0} Hz",
+                times * high_hz
+            );
             warnings.push(Warning::HarmonicLeftOut { harmonic, reason });
         }
     }

@@ -76,7 +76,7 @@ pub(crate) fn rule_out(reading: &mut Reading, known: &KnownRotor, config: &Disco
         let mach = PI * diameter_m * rev_s / config.sound_speed_m_s;
         reading.tip_mach = Some(mach);
         if mach > config.tip_mach_max {
-            against.push(format!("too fast: the tips would pass Mach {}", config.tip_mach_max));
+            against.push(format!("too fast: the blade tips would be faster than Mach {}", config.tip_mach_max));
         }
         if let Some(thrust_coefficient) = known.hover_thrust_coefficient(rev_s, config.air_density_kg_m3) {
             reading.thrust_coefficient = Some(thrust_coefficient);

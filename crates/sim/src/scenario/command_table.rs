@@ -29,7 +29,10 @@ impl CommandTable {
         let time_column =
             column_of("time_s").ok_or_else(|| fault(head_line, "the column time_s is missing".to_owned()))?;
         if of_axes.iter().all(Option::is_none) {
-            return Err(fault(head_line, "there is no command: roll, pitch, yaw_rate or climb".to_owned()));
+            return Err(fault(
+                head_line,
+                "there is no column with a command: roll, pitch, yaw_rate or climb".to_owned(),
+            ));
         }
         let mut table = Self { times_s: Vec::new(), rows: Vec::new() };
         for (number, line) in lines {
@@ -92,7 +95,7 @@ mod tests {
             ("", 1, "empty"),
             ("time_s,rol\n0,0\n", 1, "rol"),
             ("roll\n0\n", 1, "time_s"),
-            ("time_s\n0\n", 1, "no command"),
+            ("time_s\n0\n", 1, "no column with a command"),
             ("time_s,roll\n", 1, "no row"),
             ("time_s,roll\n0,0\n1,x\n", 3, "x"),
             ("time_s,roll\n1,0\n\n1,0.1\n", 4, "not after"),

@@ -133,7 +133,7 @@ impl ScenarioFile {
             return Err(ScenarioError::Contradiction {
                 what: "the maneuvers name places, and with holds_place = false the vehicle does not fly to them"
                     .to_owned(),
-                hint: "leave holds_place out, or keep to hover, step, doublet and csv",
+                hint: "leave holds_place out, or use only hover, step, doublet and csv",
             });
         }
         if let Some(jitter) = &self.pilot.jitter {

@@ -27,7 +27,11 @@ fn a_trial_under_the_wrong_load_is_named() {
     let table = fitted(&loads);
     let said = misfiled(&table);
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].starts_with("load 0/2.wav of load \"load 0\" needs 12 % more thrust than the others"), "{said:?}");
+    assert!(
+        said[0]
+            .starts_with("judged by its speed, load 0/2.wav of load \"load 0\" has 12 % more thrust than the others"),
+        "{said:?}"
+    );
     let is_about_range = |warning: &ThrustWarning| matches!(warning, ThrustWarning::NarrowLoadRange(_));
     assert!(!table.warnings.iter().any(is_about_range), "{:?}", table.warnings);
 }
@@ -40,7 +44,7 @@ fn one_load_for_trials_of_three_masses_is_asked_about() {
     }
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].contains("the trials of load \"load 0\" lie in 3 groups of speeds"), "{said:?}");
+    assert!(said[0].contains("the recordings of load \"load 0\" form 3 groups of speeds"), "{said:?}");
 }
 
 #[test]
@@ -49,7 +53,7 @@ fn of_two_trials_that_differ_both_are_named() {
     stretch(&mut loads[0].trials[1], 1.12);
     let said = misfiled(&fitted(&loads));
     assert_eq!(said.len(), 1, "{said:?}");
-    assert!(said[0].contains("load 0/1.wav of load \"load 0\" needs 12 % more thrust than load 0/0.wav"), "{said:?}");
+    assert!(said[0].contains("load 0/1.wav of load \"load 0\" has 12 % more thrust than load 0/0.wav"), "{said:?}");
 }
 
 #[test]
@@ -81,7 +85,7 @@ fn a_mass_far_from_the_known_vehicle_is_named_with_both() {
         assert_eq!(said(usual_kg), None);
     }
     for (kg, words) in [
-        (4.13, ["4130 g, 10 times as much as the named vehicle, 413 g", "decimal point"]),
+        (4.13, ["4130 g, 10 times as much as the named vehicle (413 g)", "decimal point"]),
         (0.0413, ["41.3 g, 0.10 times", "decimal point"]),
         (0.3, ["300 g, 0.73 times", "name of the vehicle"]),
         (1.3, ["1300 g, 3.1 times", "name of the vehicle"]),

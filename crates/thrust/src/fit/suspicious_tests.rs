@@ -156,7 +156,7 @@ fn small_numbers_are_not_printed_as_zero() {
     let drift =
         Drift { kind: DriftKind::PerSecond, constant_share: -1.234e-6, std_uncertainty_share: 1e-7, p_value: 1e-9 };
     let text = ThrustWarning::ConstantDrifts(drift).to_string();
-    assert_eq!(text, "the constant drifts by −0.00012 % each second of a trial (p < 0.0001)");
+    assert_eq!(text, "the constant drifts by −0.00012 % with each second of a recording (p < 0.0001)");
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn constants_that_differ_within_the_stated_uncertainty_are_no_contradiction() {
     assert!(differing(0.0, 0.14).is_some());
     assert_eq!(differing(0.1, 0.14), None, "twice the root of two tenths squared is 28 %");
     let told = differing(0.1, 0.4).unwrap().to_string();
-    assert!(told.ends_with("; the stated uncertainties of their forces explain 28 % (k = 2)"), "{told}");
+    assert!(told.ends_with("; the stated uncertainties of their forces explain only 28 % (k = 2)"), "{told}");
     assert!(!differing(0.0, 0.14).unwrap().to_string().contains("explain"));
 }
 

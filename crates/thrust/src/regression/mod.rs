@@ -61,7 +61,7 @@ impl FitPoint {
 #[non_exhaustive]
 pub enum FitError {
     /// Not enough points.
-    #[error("{given} points, this law needs at least {needed}")]
+    #[error("there are {given} points, and this law needs {needed} or more")]
     TooFewPoints {
         /// Number of given points.
         given: usize,
@@ -75,10 +75,10 @@ pub enum FitError {
         number: usize,
     },
     /// All points have the same x.
-    #[error("all points have the same x: they leave the slope open")]
+    #[error("all points have the same x, so the slope cannot be found")]
     NoSpread,
     /// The iteration did not converge.
-    #[error("the points fit no line well enough for its slope to settle")]
+    #[error("the points fit no straight line: the fit finds no slope")]
     NotSettled,
 }
 

@@ -76,13 +76,13 @@ const SCATTER_POINTS_MIN: usize = 3;
 #[non_exhaustive]
 pub enum NoScatter {
     /// Too few points are left.
-    #[error("the ± comes from the scatter of at least {SCATTER_POINTS_MIN} usable rows")]
+    #[error("the ± comes from the scatter of the rows: at least {SCATTER_POINTS_MIN} usable rows are needed")]
     TooFewPoints {
         /// Number of points that are not left out.
         count: usize,
     },
     /// All points lie on the law but for rounding.
-    #[error("{} lie exactly on F = C ω², as measured rows never do: without scatter there is no ±", rows_but(*left_out))]
+    #[error("{} lie exactly on F = C ω²; the ± comes from the scatter of measured rows, and these have none", rows_but(*left_out))]
     Computed {
         /// Number of points that are left out, because they do not fit.
         left_out: usize,

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 #[non_exhaustive]
 pub enum WeighError {
     /// The vehicle alone is heavier than what hovers.
-    #[error("the hover carries {:.0} g, but the vehicle alone weighs {:.0} g", 1e3 * .hover_kg, 1e3 * .vehicle_kg)]
+    #[error("by the sound, the vehicle with its payload weighs {:.0} g, but the vehicle alone weighs {:.0} g", 1e3 * .hover_kg, 1e3 * .vehicle_kg)]
     LighterThanVehicle {
         /// Mass by the sound.
         hover_kg: f64,
@@ -18,8 +18,8 @@ pub enum WeighError {
     },
     /// The vehicle alone would turn its rotors faster than they are searched for.
     #[error(
-        "mass_kg = {vehicle_kg}: with this constant the vehicle alone would hover at {rev_s:.0} rev/s, and its rotors turn at no more than \
-         {fastest_rev_s:.0} rev/s"
+        "mass_kg = {vehicle_kg}: with this constant the vehicle alone would hover at {rev_s:.0} rev/s, but its rotors turn at no more than \
+        {fastest_rev_s:.0} rev/s"
     )]
     TooHeavyToHover {
         /// Mass of the vehicle, as given.
@@ -31,7 +31,7 @@ pub enum WeighError {
     },
     /// No vehicle carries so much.
     #[error(
-        "the hover carries {:.0} g, which is more than ten times the vehicle's {:.0} g",
+        "by the sound, the vehicle with its payload weighs {:.0} g, more than ten times the {:.0} g of the vehicle alone",
         1e3 * .hover_kg, 1e3 * .vehicle_kg
     )]
     FarHeavier {
@@ -80,8 +80,8 @@ impl WeighError {
     }
 }
 
-const CHECK: &str = "check the mass of the vehicle (in kilograms), the thrust constant (of the whole vehicle, in \
-                     N/(rad/s)²), and which tone is the rotor's";
+const CHECK: &str = "check the mass of the vehicle (in kilograms), the thrust constant (of the whole vehicle, in N/(rad/s)²), and the \
+blades or the gear";
 
 fn grams_hint(mass_kg: f64) -> String {
     format!("masses are in kilograms: {mass_kg} g are --mass-kg {}", mass_kg / 1e3)

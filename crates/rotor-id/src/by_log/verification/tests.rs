@@ -1,6 +1,7 @@
 //! Tracks against logs: offsets, motors, wrong orders and clocks.
 
 use super::*;
+use hovertone_analysis::Agreement;
 
 fn speed_rev_s(motor: usize, time_s: f64) -> f64 {
     let phase = motor as f64;
@@ -33,7 +34,7 @@ fn verified(factor: f64, rate: f64) -> Verification {
 #[test]
 fn offset_motors_and_coverage_are_found() {
     let found = verified(1.0, 0.0);
-    assert!((found.offset_s + 37.3).abs() < 0.01 && found.is_offset_told && found.is_right(), "{found:?}");
+    assert!((found.offset_s + 37.3).abs() < 0.01 && found.is_offset_told && found.passes(), "{found:?}");
     assert_eq!(found.rotors.iter().map(|rotor| rotor.motor).collect::<Vec<_>>(), [2, 0, 3, 1]);
     for rotor in &found.rotors {
         assert!(rotor.bias_rev_s.abs() < 0.01 && (rotor.scatter_rev_s - 0.05).abs() < 0.02, "{rotor:?}");
@@ -66,6 +67,34 @@ fn an_offset_stays_within_its_limits() {
         let found = verification_from_log(&[&track(0, 1.0)], log, Some([low_s, high_s])).unwrap();
         assert!((low_s..=high_s).contains(&found.offset_s), "{}", found.offset_s);
     }
+}
+
+/// The limits leave the right offset out by 0.09 s: equal means do not pass, and the better offset is named.
+#[test]
+fn an_offset_that_is_forced_to_be_wrong_does_not_pass() {
+    let time_s: Vec<f64> = (0..1000).map(|row| 0.1 * f64::from(row)).collect();
+    let speeds_rev_s = [time_s.iter().map(|&row_s| speed_rev_s(0, row_s)).collect()];
+    let names = ["motor 1".to_owned()];
+    let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+    let found = verification_from_log(&[&track(0, 1.0)], log, Some([0.09, 0.5])).unwrap();
+    assert!(found.is_right() && !found.passes(), "{found:?}");
+    assert!(found.better_offset_s.unwrap() < 0.05, "{:?}", found.better_offset_s);
+    // limits that hold the right offset
+    let found = verification_from_log(&[&track(0, 1.0)], log, Some([-0.5, 0.5])).unwrap();
+    assert!(found.passes() && found.better_offset_s.is_none(), "{found:?}");
+}
+
+/// Another flight of the same vehicle: the means are equal, and the points are not.
+#[test]
+fn a_log_of_another_flight_with_the_same_mean_does_not_pass() {
+    let time_s: Vec<f64> = (0..800).map(|row| 0.1 * f64::from(row)).collect();
+    let other = |time_s: &f64| 80.0 + 2.0 * (0.7 * time_s).cos() + 1.2 * (1.9 * time_s).sin();
+    let speeds_rev_s = [time_s.iter().map(other).collect()];
+    let names = ["motor 1".to_owned()];
+    let log = LoggedSpeeds { time_s: &time_s, names: &names, speeds_rev_s: &speeds_rev_s };
+    let found = verification_from_log(&[&track(0, 1.0)], log, None).unwrap();
+    assert!(found.is_right() && found.coverage() < 0.3, "{} {}", found.speed_ratio, found.coverage());
+    assert_eq!((found.agreement, found.passes()), (Agreement::Scattered, false));
 }
 
 /// A log that never changes: the offset at which it covers the calm part of the recording fits best, and tells nothing.
