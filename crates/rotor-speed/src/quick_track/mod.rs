@@ -16,6 +16,7 @@ mod lines;
 mod offsets;
 mod path;
 mod piece;
+mod turn_frames;
 
 use crate::error::Error;
 use crate::tone::ToneConfig;
@@ -23,6 +24,7 @@ use coarse::CoarseListener;
 use hovertone_signal::passes::Passes;
 use lines::TrackedLines;
 pub use path::SpeedPath;
+pub use turn_frames::{PathWindow, TurnFrame, TurnFrames, turn_frames_from_passes};
 use piece::{Approach, PieceListener};
 use std::ops::Range;
 

@@ -1,0 +1,16 @@
+//! Spectra of a step along its curve → time constant and start, in a room.
+//!
+//! A microphone hears a rotor as it is now, by the direct way, and as it was a little earlier, by the walls. Echoes have random phases, so that
+//! powers add: `P(x, t) = Σ A ∫ q(v) K(x − order · ω(t − v)/ω_path(t)) dv + noise`, with the echogram q(v), power over the delay v. A tail that is
+//! as loud as the direct sound shifts no line, then: it is a second one.
+
+mod evaluation;
+mod expected;
+mod fit;
+mod kernel;
+mod parameters;
+mod spectra;
+
+pub use fit::{PlaceValue, RoomStep, any_place, place_of, step_in_room};
+pub use parameters::PLACE;
+pub use spectra::{PLACES, StepSpectra, TurnFrame};
